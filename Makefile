@@ -29,7 +29,7 @@ long: build
 
 # The same of campaigns alone: rare failures, worst cases beside a hundred thousand random trials, what drives metrics,
 # verdicts, campaigns that end early and go on; a quarter of an hour to an hour on two cores.
-CAMPAIGNS := tests/campaigns tests/studies/worst tests/studies/rare tests/studies/sensitivity tests/campaigns/verdicts
+CAMPAIGNS := tests/campaigns tests/studies
 
 long-campaigns: build
 	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $(CAMPAIGNS)

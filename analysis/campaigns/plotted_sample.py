@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .rows import Part, TrialColumns, TrialRows
+from .trials import Part, TrialColumns, TrialRows
 
 FIRST = 100_000  # trials of a variant
 FAILURES = 20_000  # behind those

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .rows import TrialRows, blocks
 from .spec.requirements import SUCCESS, Requirement
+from .trials import TrialRows, blocks
 from .verdicts.acceptance import FURTHER, FixedSize, Verdict
+from .verdicts.order_statistics import tolerance_bound
 from .verdicts.stopping import StoppingRule, stopping_rule
-from .verdicts.tolerance import tolerance_bound
 
 FIXED_SIZE, UNTIL_DECIDED = "fixed size", "until decided"
 

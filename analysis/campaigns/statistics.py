@@ -9,8 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .verdicts.order_statistics import Blocks
-from .verdicts.quantiles import column_quantiles
+from .verdicts.order_statistics import Blocks, column_quantiles
 
 QUANTILES = {"p5": 5, "p50": 50, "p95": 95, "p99": 99}  # %
 STATISTICS = ("mean", "std", "rms", "min", *QUANTILES, "max")  # as tables show them

@@ -12,11 +12,10 @@ import scipy
 
 from ..common.to_json import optional, to_json
 from .requirement_verdicts import RequirementVerdict, requirement_verdict
-from .rows import Part, TrialRows, blocks, has_all_in_memory
-from .spec.campaign import Metric
-from .spec.groups import Group
+from .spec.campaign import Group, Metric
 from .spec.requirements import Requirement
 from .statistics import IN_MEMORY, QUANTILES, MetricStatistics, statistics
+from .trials import Part, TrialRows, blocks, has_all_in_memory
 
 CONFIDENCE = 0.95
 Interval = tuple[float, float]

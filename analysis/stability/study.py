@@ -12,7 +12,7 @@ from typing import Any
 from loky import ProcessPoolExecutor
 from loky.backend.queues import SimpleQueue
 
-from ..campaigns.fly.workers.workers import worker_count
+from ..campaigns.fly.workers import worker_count
 from ..common.errors import InputError
 from ..runtime.system.options import Layer
 from ..runtime.system.prepared import PreparedSystem

@@ -13,10 +13,10 @@ from ..campaigns.fly import results
 from ..campaigns.fly.campaign import open_campaign
 from ..campaigns.fly.cluster.connection import cluster
 from ..campaigns.fly.runner import fly_campaign
-from ..campaigns.rows import whole_column
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.summary import CONFIDENCE, summary_rows
 from ..campaigns.tables import requirement_rows, who_cells, who_heads
+from ..campaigns.trials import whole_column
 from ..common.errors import InputError, suggestion
 from ..common.percent import short_percent
 from ..common.targets import check_folder
@@ -24,7 +24,7 @@ from ..reports.campaign.batch_report import write_batch_report
 from ..reports.campaign.distributions import metric_plot, sort_metrics
 from ..reports.common.notebook import Grid, metric_grid, notebook_view
 from ..runtime.flight.results import require_pandas
-from ..studies.sensitivity.ranks import rank_correlations
+from ..studies.sobol import rank_correlations
 from .common.campaign_text import campaign_problems, campaign_requirements, status_meanings
 from .common.plans import read_campaign, resume_hint
 from .options.campaigns import BATCH, BatchOptions

@@ -13,9 +13,9 @@ from matplotlib.figure import Figure as Plot
 from ..campaigns.fly.results import BatchResult
 from ..campaigns.folder.folder import read_folder
 from ..campaigns.folder.opened import OpenedResults
-from ..campaigns.rows import whole_column
 from ..campaigns.spec.campaign import Metric
 from ..campaigns.spec.expressions import Expression
+from ..campaigns.trials import whole_column
 from ..common.errors import InputError, suggestion
 from ..reports.campaign.distributions import distribution_plot
 from ..reports.common.style import look

@@ -14,7 +14,7 @@ from ..common.errors import suggestion
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.studies.plots import sensitivity_plot
 from ..reports.studies.sensitivity_page import driver_table, rank_table, write_sensitivity_page
-from ..studies.sensitivity import outcome, study
+from ..studies import sensitivity as study
 from .common.plans import commands_of, read_campaign
 from .common.studies import condition_lines, conditions, extend_result, results_folder, write_results
 from .options.option import FilePath
@@ -25,7 +25,7 @@ MOST_PLOTTED = 4  # metrics, in a notebook
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SensitivityResult(outcome.SensitivityResult):
+class SensitivityResult(study.SensitivityResult):
     """Sobol' indices of metrics and success: `of` gives those of one, ``ranks`` the rank correlations."""
 
     folder: Path | None = None

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Unpack, overload
 from fmpy.validation import validate_fmu
 
 from ..campaigns.spec.file import SYNTHESIS, read_campaign
-from ..campaigns.spec.toml.source import read_source_file
+from ..campaigns.spec.source import read_source_file
 from ..common.errors import InputError
 from ..common.exit_status import ExitStatus
 from ..design.laws.law import read_law

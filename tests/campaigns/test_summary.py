@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 from perilune.analysis.campaigns import summary as summaries
-from perilune.analysis.campaigns.rows import TrialColumns
-from perilune.analysis.campaigns.spec.campaign import Metric
+from perilune.analysis.campaigns.spec.campaign import Group, Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
-from perilune.analysis.campaigns.spec.groups import Group
 from perilune.analysis.campaigns.summary import requirement_values, success_interval, summarise
+from perilune.analysis.campaigns.trials import TrialColumns
 from perilune.analysis.common.to_json import to_json
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]

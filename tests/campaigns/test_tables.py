@@ -6,12 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perilune.analysis.campaigns.rows import TrialColumns
-from perilune.analysis.campaigns.spec.campaign import Metric
+from perilune.analysis.campaigns.spec.campaign import Group, Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
-from perilune.analysis.campaigns.spec.groups import Group
 from perilune.analysis.campaigns.summary import summarise
 from perilune.analysis.campaigns.tables import summary_text
+from perilune.analysis.campaigns.trials import TrialColumns
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
 GOOD = TrialColumns(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})

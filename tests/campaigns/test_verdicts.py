@@ -18,13 +18,13 @@ from perilune.analysis.campaigns.requirement_verdicts import (
     satisfies,
     trials_to_decision,
 )
-from perilune.analysis.campaigns.rows import TrialColumns
 from perilune.analysis.campaigns.spec.campaign import Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.metrics import successes
 from perilune.analysis.campaigns.spec.requirements import Requirement
 from perilune.analysis.campaigns.summary import requirement_values, summarise
 from perilune.analysis.campaigns.tables import ordinal, summary_text, unmet_lines
+from perilune.analysis.campaigns.trials import TrialColumns
 from perilune.analysis.campaigns.verdicts.stopping import stopping_rule
 from perilune.analysis.common.to_json import to_json
 

@@ -12,7 +12,7 @@ import pytest
 import perilune
 from perilune.analysis.authoring.describe.campaign import toml_value
 from perilune.analysis.campaigns.spec.file import parse_campaign, read_campaign
-from perilune.analysis.campaigns.spec.toml.table import Table
+from perilune.analysis.campaigns.spec.table import Table
 from perilune.analysis.cli import main
 from perilune.fmus_src.paths import SYSTEMS
 

@@ -10,8 +10,8 @@ from typing import Any
 
 from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 from ...campaigns.spec.file import parse_campaign
-from ...campaigns.spec.toml.source import read_source
-from ...campaigns.spec.toml.table import Table
+from ...campaigns.spec.source import read_source
+from ...campaigns.spec.table import Table
 from ...runtime.ssp.archive import open_system
 
 EXTRA = posixpath.dirname(CAMPAIGN_FOLDER)  # of an archive, where all that is not SSP's own is stored

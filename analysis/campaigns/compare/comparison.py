@@ -13,12 +13,10 @@ import numpy as np
 from ...common.percent import percent
 from ...common.to_json import to_json
 from ..folder.stored import StoredBatch
-from ..rows import TrialColumns
-from ..spec.campaign import Metric
-from ..spec.groups import Group
+from ..spec.campaign import Group, Metric
 from ..summary import CONFIDENCE, Rate, Summary, VariantSummary, success_rate, summarise, summary_rows
 from ..tables import align_columns, faults_line, metric_lines, who_cells, who_heads
-from ..trials import Trials
+from ..trials import TrialColumns, Trials
 from .paired import PairedRates, PairedValues, compare_rates, compare_values
 
 SUCCESS = "success"

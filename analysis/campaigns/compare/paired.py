@@ -8,7 +8,7 @@ import numpy as np
 from scipy.stats import binomtest, norm, quantile_test
 
 from ..summary import CONFIDENCE
-from ..verdicts.quantiles import quantiles
+from ..verdicts.order_statistics import quantiles
 
 Interval = tuple[float, float]
 

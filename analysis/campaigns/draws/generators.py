@@ -1,11 +1,13 @@
-"""Counter-based random generators: a stream of its own for each draw, independent of all others."""
+"""Counter-based random generators, a stream of its own for each draw; random streams of components with noise."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
+from ...common.errors import InputError
 from .declared import Columns, Draw, Independent
 
 TAIL = 3.6541528853610088  # from here on numpy's ziggurat (Marsaglia and Tsang 2000) computes by the C library's log1p
@@ -49,3 +51,29 @@ def independent_draws(draws: Sequence[Draw]) -> list[tuple[Draw, Independent]]:
 def sample_columns(draw: Draw, distribution: Independent, trials: int, source: np.random.Generator) -> Columns:
     """The next ``trials`` values of a draw from its stream, an array (trials,) for each name."""
     return dict(zip(draw.names, distribution.sample(trials, source), strict=True))
+
+
+INTEGER_RANGE = 2**31  # FMI Integers have 32 bits
+
+
+class StreamNumbers(NamedTuple):
+    """Values of a component's Integer parameters ``seed`` and ``stream``."""
+
+    seed: int
+    stream: int
+
+
+def stream_numbers(
+    seed: int, trial: int, component_names: Iterable[str], where: str = "campaign"
+) -> dict[str, StreamNumbers]:
+    """The random stream of every component in one trial, the same for every variant.
+
+    No two pairs (trial, component) share a stream. ``component_names`` are all components that
+    take part, in any order; ``where`` is the file that an error names. Raises InputError when
+    the stream number exceeds an FMI Integer.
+    """
+    names = sorted(set(component_names))
+    if (trial + 1) * len(names) > INTEGER_RANGE:
+        problem = f"trial {trial} with {len(names)} components needs a stream number above 2^31 - 1"
+        raise InputError(where, "trials", problem, f"use at most {INTEGER_RANGE // len(names)} trials")
+    return {name: StreamNumbers(seed % INTEGER_RANGE, trial * len(names) + index) for index, name in enumerate(names)}

@@ -1,8 +1,12 @@
-"""The table of draws: a row per trial, made from the root seed in order of trial.
+"""The draws of all trials, from the root seed: as one table, or counted.
 
-Each draw has a random stream of its own, keyed by the seed and the name it fills, of which trial k uses
+In a table each draw has a random stream of its own, keyed by the seed and the name it fills, of which trial k uses
 the k-th portion: a trial's values depend neither on how many trials there are nor on what else
 is drawn. Grids, Latin hypercubes and Sobol sequences are designs of the whole table instead.
+
+Counted draws need no table. Trials are divided into blocks of 1024, whatever shards there are. The values of a draw in
+a block come from Philox (Salmon et al. 2011) with the key of the draw's name and a counter that begins with the block's
+number: no two blocks and no two names share a number. The values differ from those of a table.
 """
 
 from __future__ import annotations
@@ -14,8 +18,8 @@ from typing import Protocol
 import numpy as np
 
 from ...common.errors import InputError
-from .declared import Columns, Declared, designs_of, input_names
-from .generators import generator, independent_draws, sample_columns, stream_of
+from .declared import Columns, Declared, Design, designs_of, input_names
+from .generators import generator, generator_at, independent_draws, sample_columns, stream_of
 from .given import stream_component
 
 MOST = 10**6  # trials of a table
@@ -110,3 +114,47 @@ def table_of(campaign: Declared, drawn: Mapping[str, np.ndarray], trials: range 
             problem = f"{formula.text!r} is {columns[name][wrong[0]]} in trial {numbers[wrong[0]]}"
             raise InputError(*formula.where, problem, "keep the expression finite over the range of the draws")
     return DrawTable(len(numbers), columns)
+
+
+BLOCK = 1024  # trials
+
+
+class CountedDraws:
+    """The draws of a campaign with draw_scheme = "counter". Raises InputError for designs that need a table."""
+
+    def __init__(self, campaign: Declared) -> None:
+        for draw in campaign.draws:
+            if isinstance(draw.distribution, Design) and not draw.distribution.is_periodic:
+                problem = (
+                    f"a {draw.distribution.keyword} is a design of all trials, which a counter does not have at once"
+                )
+                remedy = 'use "uniform", or draw_scheme = "table"'
+                raise InputError(campaign.file, f"draw.{draw.name}", problem, remedy)
+        self._campaign = campaign
+        ordered = sorted(campaign.draws, key=lambda draw: draw.names)
+        self._designs = [
+            kind.design(draws, campaign.trials, campaign.seed, campaign.file)
+            for kind, draws in designs_of(ordered).items()
+        ]
+        self._independent = independent_draws(ordered)
+
+    def of_first(self, trials: int) -> CountedDraws:
+        """Those of the first ``trials`` trials, which are the same in every campaign of as many or more."""
+        return self
+
+    def of_part(self, trials: range) -> DrawTable:
+        """Those of trials in a row, which are counted from 0 then. Raises InputError where one is not finite."""
+        first = trials.start // BLOCK
+        blocks = [self._block(block) for block in range(first, -(-trials.stop // BLOCK))]
+        rows = slice(trials.start - first * BLOCK, trials.stop - first * BLOCK)
+        columns = {name: np.concatenate([block[name] for block in blocks])[rows] for name in blocks[0]}
+        for design in self._designs:
+            columns |= design(trials)
+        return table_of(self._campaign, columns, trials)
+
+    def _block(self, block: int) -> Columns:
+        columns: Columns = {}
+        for draw, distribution in self._independent:
+            source = generator_at(self._campaign.seed, stream_of(draw), block)
+            columns |= sample_columns(draw, distribution, BLOCK, source)
+        return columns

@@ -13,15 +13,14 @@ from ...common.errors import InputError
 from ...runtime.system.prepared import PreparedSystem
 from ..spec.checks import check_plan, prepare_variants
 from ..spec.plan import BatchPlan
-from .manifest.folder import begin, cut, resume_folder
-from .manifest.gather import gather
-from .manifest.manifest import FILE, Manifest, read_manifest
-from .manifest.restore import restore
+from .folder import begin, cut, resume_folder
+from .manifest import FILE, Manifest, read_manifest
 from .metadata import batch_digest, provenance
+from .plan_manifest import gather, restore
 from .shards.files import is_flown
 from .shards.numbering import Numbering
 from .store import FlownRows, HeldShards, StoredShards
-from .workers.workers import in_threads, worker_count
+from .workers import in_threads, worker_count
 
 
 @dataclass(frozen=True)

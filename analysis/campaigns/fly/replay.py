@@ -13,11 +13,11 @@ from ..spec.campaign import Variant
 from ..spec.checks import check_plan
 from ..spec.plan import BatchPlan
 from .campaign import Campaign, open_folder
-from .manifest.manifest import read_manifest
-from .manifest.restore import restore
+from .flyer import Flyer, TrialResult
+from .manifest import read_manifest
+from .plan_manifest import restore
 from .shards.files import is_flown
-from .shards.rows import ShardRows
-from .workers.flyer import Flyer, TrialResult
+from .store import ShardRows
 
 CUT_OFF = ("interrupted", TIMED_OUT)
 

@@ -19,7 +19,7 @@ from ..summary import Summary, summarise
 from ..tables import assumption_lines, faults_line, summary_text
 from ..trials import Trials
 from .campaign import Campaign
-from .manifest.folder import tidy
+from .folder import tidy
 from .metadata import batch_digest
 from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
 from .shards.numbering import Numbering, shard_size

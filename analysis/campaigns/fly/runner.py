@@ -7,17 +7,19 @@ from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from ...common.errors import InputError
+from ...common.progress import progress_bar
+from ..requirement_verdicts import satisfies, trials_to_decision
 from ..spec.plan import BatchPlan
-from ..trials import Trials
+from ..trials import TrialRows, Trials
 from .campaign import Campaign, open_campaign
-from .decision import Decision
 from .results import BatchResult
 from .shards.flights import fly_shards, task_size
 from .shards.numbering import spans
 from .store import FlownRows, HeldShards, StoredShards
-from .workers.progress import flight_progress
-from .workers.workers import FlyerPool, in_threads, worker_count
+from .workers import FlyerPool, in_threads, worker_count
 
 # What flies shards of a campaign: each one's trials by variant, as soon as all are there, in any order of shards.
 Elsewhere = Callable[[Campaign, Sequence[int]], Generator[tuple[int, dict[str, Trials]]]]
@@ -75,11 +77,14 @@ def fly_campaign(
         flying = elsewhere(campaign, shards)
     else:
         flying = _fly_here(campaign, shards, workers, engine)
-    with flight_progress(flights) as progress, closing(flying) as flown:
+    failed = 0
+    with progress_bar(total=flights, unit="flight") as bar, closing(flying) as flown:
         for shard, trials in () if decision.is_made else flown:
             store.add(shard, trials)
             decision.add(shard, trials)
-            progress.add(trials)
+            failed += sum(len(rows.messages) for rows in trials.values())
+            bar.set_postfix_str(f"{failed} failed", refresh=False)
+            bar.update(sum(map(len, trials.values())))
             if decision.is_made:
                 break
     return _rows(campaign, store, decision)
@@ -116,3 +121,40 @@ def _fly_here(
         closing(fly_shards(campaign.numbering, shards, pool, size)) as flown,
     ):
         yield from flown
+
+
+class Decision:
+    """Looks at the shards of a campaign in order of number, whatever the order in which they come.
+
+    ``shards`` is how many of the first ones decide the campaign, None as long as they do not: so it depends neither on
+    workers nor on what else has flown. A campaign that is not to end early is never decided.
+    """
+
+    def __init__(self, plan: BatchPlan) -> None:
+        self._plan = plan
+        self._ahead: dict[int, dict[str, list[np.ndarray]]] = {}  # of shards behind one that is missing
+        self._kept: dict[str, list[np.ndarray]] = {}  # by variant, for each requirement
+        self._looked = 0
+        self.shards: int | None = None
+
+    @property
+    def is_made(self) -> bool:
+        return self.shards is not None
+
+    def add(self, shard: int, variants: Mapping[str, TrialRows]) -> None:
+        """Look at the trials of a shard by variant, as soon as all before it are there."""
+        if not self._plan.until_decided:
+            return
+        requirements = self._plan.campaign.requirements
+        self._ahead[shard] = {
+            name: [satisfies(requirement, trials) for requirement in requirements] for name, trials in variants.items()
+        }
+        while not self.is_made and self._looked in self._ahead:
+            for name, rows in self._ahead.pop(self._looked).items():
+                before = self._kept.get(name)
+                self._kept[name] = (
+                    rows if before is None else [np.concatenate(both) for both in zip(before, rows, strict=True)]
+                )
+            self._looked += 1
+            if trials_to_decision(requirements, self._kept) is not None:
+                self.shards = self._looked

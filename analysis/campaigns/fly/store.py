@@ -1,18 +1,77 @@
-"""Where flown shards go: into a campaign's folder, or into memory where it has none."""
+"""Where flown shards go, into a campaign's folder or into memory, and the trials of a variant in them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
-from ..rows import TrialRows
+import pyarrow
+import pyarrow.parquet
+
 from ..spec.plan import BatchPlan
-from ..trials import Trials, join_trials
-from .shards.files import write_shard
+from ..trials import Part, TrialRows, Trials, join_trials
+from .shards.arrow import numpy_of
+from .shards.files import (
+    describe_columns,
+    numbers,
+    read_table,
+    shard_path,
+    trace_path,
+    trials_of,
+    unreadable,
+    write_shard,
+)
 from .shards.numbering import Numbering
-from .shards.rows import ShardRows
+
+
+@dataclass(frozen=True)
+class ShardRows:
+    """The trials of one variant in ``shards`` that all lie in a folder, read anew whenever they are asked for.
+
+    ``batch`` is the digest that tells the campaign from others.
+    """
+
+    folder: Path
+    batch: str
+    plan: BatchPlan
+    variant: str
+    numbering: Numbering
+    shards: range
+
+    def __len__(self) -> int:
+        return sum(len(self.numbering.of(shard)) for shard in self.shards)
+
+    def parts(self, *names: str) -> Iterator[Part]:
+        """Some columns, a shard at a time. Raises InputError for a shard that is damaged."""
+        for shard in self.shards:
+            table = self._table(shard, list(names))
+            yield {name: numpy_of(table[name]) for name in names}
+
+    def whole(self) -> Trials:
+        """All of them in memory, with their traces. Raises InputError."""
+        return join_trials(self._trials(shard) for shard in self.shards)
+
+    def _table(self, shard: int, names: list[str] | None = None) -> pyarrow.Table:
+        path = shard_path(self.folder, shard)
+        place = [variant.name for variant in self.plan.campaign.variants()].index(self.variant)
+        try:
+            with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
+                return file.read_row_group(place, names)
+        except (OSError, pyarrow.ArrowException) as error:
+            raise unreadable(path, error) from error
+
+    def _trials(self, shard: int) -> Trials:
+        path = shard_path(self.folder, shard)
+        metrics = [metric.name for metric in self.plan.campaign.metrics]
+        trials = trials_of(self._table(shard), metrics, path)[self.variant]
+        for trial in trials.trial.tolist():
+            place = trace_path(self.folder, self.variant, trial)
+            if describe_columns(place) == {"batch": self.batch, "variant": self.variant, "trial": trial}:
+                table = read_table(place)
+                trials.traces[trial] = {name: numbers(table, name, place) for name in table.column_names}
+        return trials
 
 
 class FlownRows(TrialRows, Protocol):

@@ -9,11 +9,10 @@ from typing import Any
 
 from ...common.errors import InputError
 from ..fly.campaign import open_folder
-from ..fly.manifest.manifest import FILE as MANIFEST
-from ..fly.manifest.manifest import WRITE
+from ..fly.manifest import FILE as MANIFEST
+from ..fly.manifest import WRITE
 from ..fly.metadata import batch_digest
-from ..fly.shards.files import FOLDER, SUMMARY, describe_columns
-from ..fly.shards.reading import AGAIN, trials_in
+from ..fly.shards.files import AGAIN, FOLDER, SUMMARY, describe_columns, trials_in
 from .stored import read_summary
 
 

@@ -16,14 +16,25 @@ import pyarrow.compute
 
 from ...common.errors import InputError
 from ...runtime.system.names import split_name
-from ..fly.manifest.manifest import FILE as MANIFEST
-from ..fly.manifest.manifest import WRITE
+from ..fly.manifest import FILE as MANIFEST
+from ..fly.manifest import WRITE
 from ..fly.metadata import batch_digest
-from ..fly.shards.files import DRAWS, FOLDER, SUMMARY, about_of, describe_columns, shard_path, trace_path
-from ..fly.shards.reading import AGAIN, numbers, read_table, trials_in, trials_of
-from ..spec.campaign import Metric
+from ..fly.shards.files import (
+    AGAIN,
+    DRAWS,
+    FOLDER,
+    SUMMARY,
+    about_of,
+    describe_columns,
+    numbers,
+    read_table,
+    shard_path,
+    trace_path,
+    trials_in,
+    trials_of,
+)
+from ..spec.campaign import Group, Metric, groups_of
 from ..spec.expressions import Expression
-from ..spec.groups import Group, groups_of
 from ..trials import Trials, join_trials
 
 FACTS = (

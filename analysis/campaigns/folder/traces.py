@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...common.errors import InputError, suggestion
-from ..fly.shards.files import describe_columns, trace_path
-from ..fly.shards.reading import AGAIN, numbers, read_table
+from ..fly.shards.files import AGAIN, describe_columns, numbers, read_table, trace_path
 from .folder import ResultFolder
 
 TIME = "time"

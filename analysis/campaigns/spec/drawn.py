@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from ...runtime.system.fault import Fault
 from ...runtime.system.prepared import PreparedSystem
+from ..draws.generators import stream_numbers
 from ..draws.given import GivenDraws
-from ..draws.streams import stream_numbers
 from ..draws.table import DrawTable
 from .campaign import Campaign
 from .faults import DrawnFault

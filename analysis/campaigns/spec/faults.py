@@ -14,7 +14,7 @@ from ...runtime.system.fault import KINDS, Fault
 from ...runtime.system.faults import check_value, connector_type
 from ...runtime.system.network import Network
 from .expressions import Expression
-from .toml.table import REQUIRED, Table, choice_of, expression, text
+from .table import REQUIRED, Table, choice_of, expression, text
 
 KEYS = ("connector", "kind", "value", "start", "end", "when")
 

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 from ...common.errors import InputError, suggestion
 from ..draws.declared import Draw
 from ..draws.given import stream_component
-from .campaign import REDUCTIONS, SCHEMES, TRACES, Campaign, Metric, Record, Scatter
-from .configurations import read_compare, read_configurations, read_settings
-from .distributions.reading import read_draw
+from .campaign import REDUCTIONS, SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting, Variant
+from .distributions import read_draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
 from .requirements import read_requirements
-from .toml.source import read_source_file
-from .toml.table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, sequence, text
+from .source import read_source_file
+from .table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, sequence, text
 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
 # of records, of the results' table and of files of draws
@@ -224,3 +223,50 @@ def parse_campaign(table: Table) -> Campaign:
 def read_campaign(path: Path) -> Campaign:
     """The campaign in a TOML file. Raises InputError."""
     return parse_campaign(read_source_file(path).table())
+
+
+KEYS = ("use", "parameters", "set")
+
+
+def read_settings(table: Table, dispersed: Sequence[str]) -> dict[str, Setting]:
+    """The values of [set]. Raises InputError."""
+    settings: dict[str, Setting] = {}
+    for name, value in table.flat():
+        numbers = isinstance(value, list) and value and all(isinstance(item, float | int) for item in value)
+        if not numbers and not isinstance(value, float | int | bool | str):
+            remedy = "give a number, true, false or a text; of a vector a list of numbers"
+            raise table.error(name, f"{value!r} is no value", remedy)
+        if "." not in name:
+            raise table.error(name, "names no component", "write component.variable = value")
+        if name in dispersed:
+            raise table.error(name, "also dispersed or derived", "keep one of the two")
+        settings[name] = value
+    return settings
+
+
+def read_compare(table: Table) -> dict[str, tuple[str, ...]]:
+    """The FMUs of [compare], by slot. Raises InputError."""
+    return {slot: names(table, slot, value) for slot, value in table.flat()}
+
+
+def read_configurations(campaign: Table, dispersed: Sequence[str]) -> tuple[Variant, ...]:
+    """The configurations of a campaign, in the order of its file. Raises InputError."""
+    declared = campaign.table("configuration")
+    if declared.content and campaign.table("compare").content:
+        remedy = "write the compared FMUs as configurations, or leave the configurations out"
+        raise declared.error("", "given together with [compare]", remedy)
+    for name in declared.content:
+        if not name.replace("-", "_").isidentifier():
+            raise declared.error(name, f"{name!r} is not a plain name", "use letters, digits, - and _")
+    return tuple(_configuration(name, declared.table(name), dispersed) for name in declared.content)
+
+
+def _configuration(name: str, table: Table, dispersed: Sequence[str]) -> Variant:
+    table.only(KEYS)
+    use = table.table("use")
+    return Variant(
+        name,
+        use={slot: text(use, slot, fmu) for slot, fmu in use.flat()},
+        parameters=table.get("parameters", names, ()),
+        settings=read_settings(table.table("set"), dispersed),
+    )

@@ -14,17 +14,15 @@ from ...runtime.system.in_flight.series import InputSeries
 from ...runtime.system.in_flight.watch import UNWATCHED, Watch
 from ...runtime.system.options import SystemOptions
 from ...runtime.system.prepared import PreparedSystem, prepare_system
-from ..draws.counted import CountedDraws
+from ..draws.generators import StreamNumbers
 from ..draws.given import GivenDraws, read_given
-from ..draws.streams import StreamNumbers
-from ..draws.table import Draws, DrawTable, draw_parts, draw_table, split_trials, table_of
-from .campaign import Campaign, Variant
+from ..draws.table import CountedDraws, Draws, DrawTable, draw_parts, draw_table, split_trials, table_of
+from .campaign import Campaign, Group, Variant, groups_of
 from .drawn import DrawnTrials, with_streams
 from .faults import fault_of_trials
 from .file import parse_campaign
-from .groups import Group, groups_of
+from .source import CampaignSource, read_source
 from .sweeps import with_sweeps
-from .toml.source import CampaignSource, read_source
 
 PART = 32768  # trials whose draws are looked at together; so few that their number costs no memory
 

@@ -9,7 +9,7 @@ from typing import Any
 from ...common.errors import suggestion
 from ..draws.declared import Design, Draw
 from .expressions import Expression
-from .toml.table import REQUIRED, Table, choice_of, expression, number, text
+from .table import REQUIRED, Table, choice_of, expression, number, text
 
 KEYS = ("expression", "share", "confidence", "metric", "bound", "description")
 SIDES = ("upper", "lower")

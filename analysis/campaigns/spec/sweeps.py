@@ -10,9 +10,9 @@ from ...common.errors import InputError
 from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import SystemOptions
 from ..draws.declared import Draw
+from .campaign import MOST as MOST_GROUPS
 from .campaign import Campaign
-from .distributions.discrete import Grid
-from .groups import MOST as MOST_GROUPS
+from .distributions import Grid
 
 MOST = 10_000  # points of a sweep
 ROUNDING = 1e-9  # of a step, within which the last value is the high end

@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ...campaigns.fly.workers.flyer import Flyer, TrialResult
-from ...campaigns.fly.workers.workers import FlyerPool
+from ...campaigns.fly.flyer import Flyer, TrialResult
+from ...campaigns.fly.workers import FlyerPool
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError

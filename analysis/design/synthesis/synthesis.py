@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ...campaigns.fly.flyer import Flyer
 from ...campaigns.fly.shards.files import write_draws
-from ...campaigns.fly.workers.flyer import Flyer
-from ...campaigns.fly.workers.workers import worker_count
+from ...campaigns.fly.workers import worker_count
 from ...campaigns.spec.checks import check_plan
 from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError, suggestion

@@ -13,8 +13,8 @@ from ...campaigns.spec.campaign import Campaign
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.file import SYNTHESIS, parse_campaign
 from ...campaigns.spec.plan import BatchPlan
-from ...campaigns.spec.toml.source import read_source_file
-from ...campaigns.spec.toml.table import Table, expression, integer, number, text
+from ...campaigns.spec.source import read_source_file
+from ...campaigns.spec.table import Table, expression, integer, number, text
 from ...common.errors import InputError
 from ...runtime.system.options import SystemOptions
 from ..laws.law import Law, find_law, law_parameters, read_law

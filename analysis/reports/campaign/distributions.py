@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.spec.campaign import Metric
-from ...campaigns.verdicts.quantiles import quantiles
+from ...campaigns.verdicts.order_statistics import quantiles
 from ..common.panels import Panel, panel, swatch
 from ..common.quantities import display_factor, label_with_unit
 from ..common.style import WIDTH, Look, house_style, log_ticks_x, look, new_figure, plain_ticks

@@ -10,8 +10,8 @@ from markupsafe import Markup
 
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.replay_command import replay_command, replay_of_folder
-from ...campaigns.rows import TrialRows
 from ...campaigns.spec.campaign import Variant
+from ...campaigns.trials import TrialRows
 from ..common.page import exact
 from ..common.quantities import display_unit
 

@@ -7,14 +7,14 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from ...campaigns.draws.declared import input_names
+from ...campaigns.fly.evaluation import worst_statuses
 from ...campaigns.fly.results import BatchResult
-from ...campaigns.fly.workers.status_texts import worst_statuses
 from ...campaigns.requirement_verdicts import RequirementVerdict
 from ...campaigns.spec.campaign import Campaign
 from ...campaigns.statistics import QUANTILES, STATISTICS
 from ...campaigns.summary import Summary, SummaryRow, summary_rows
 from ...campaigns.tables import bound_text, requirement_rows
-from ...studies.sensitivity.ranks import rank_correlations
+from ...studies.sobol import rank_correlations
 from ..common.quantities import display_unit, in_shown_unit, number
 
 HEADINGS = {name: f"{QUANTILES[name]} %" if name in QUANTILES else name for name in STATISTICS}

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from scipy.stats import chi2, norm
 
-from ...campaigns.verdicts.quantiles import quantiles
+from ...campaigns.verdicts.order_statistics import quantiles
 from ..common.panels import Panel, far, panel
 from ..common.quantities import display_factor, display_unit, number
 from ..common.style import FAILED, FAINT, Look, plain_ticks

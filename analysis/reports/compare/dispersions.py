@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ...campaigns.compare.comparison import Contender
-from ...campaigns.verdicts.quantiles import quantiles
+from ...campaigns.verdicts.order_statistics import quantiles
 from ..common.panels import Panel, far, panel
 from ..common.style import FAINT, INK, Look, plain_ticks
 from .recorded import ALL, find_vector, vectors

@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from ...campaigns.compare.comparison import Comparison, name_of
 from ...campaigns.compare.paired import PairedRates, PairedValues
-from ...campaigns.fly.manifest.manifest import FILE as MANIFEST
+from ...campaigns.fly.manifest import FILE as MANIFEST
 from ...campaigns.replay_command import replay_of_folder
 from ...campaigns.spec.campaign import Metric
 from ..campaign.replays import FAILURES, Replay

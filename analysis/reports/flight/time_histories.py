@@ -10,7 +10,7 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...campaigns.verdicts.quantiles import quantiles
+from ...campaigns.verdicts.order_statistics import quantiles
 from ...runtime.flight.results import Result
 from ...runtime.system.names import elements
 from ..common.panels import Panel, panel, swatch

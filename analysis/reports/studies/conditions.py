@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import Any
 
-from ...studies.evaluation.noise import Noise
+from ...studies.noise import Noise
 from ...studies.rare.outcome import RareResult
-from ...studies.sensitivity.outcome import SensitivityResult
+from ...studies.sensitivity import SensitivityResult
 from ...studies.worst.outcome import WorstResult
 from ..campaign.tables import draw_rows, fmu_rows
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from ...studies.rare.outcome import RareResult
-from ...studies.sensitivity.outcome import SensitivityResult
+from ...studies.sensitivity import SensitivityResult
 from ...studies.worst.outcome import WorstResult
 from ..common.style import WIDTH, house_style, new_figure
 from .rare_figures import draw_design_points, draw_exceedance, draw_limit_state, influence

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from ...campaigns.summary import success_interval
-from ...campaigns.verdicts.quantiles import quantiles
+from ...campaigns.verdicts.order_statistics import quantiles
 from ...studies.rare.outcome import RareResult
 from ...studies.rare.uncertainty import CONFIDENCE
 from ..common.panels import Panel, Widths, both_widths, is_slim, panel

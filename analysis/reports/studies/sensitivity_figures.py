@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from matplotlib.axes import Axes
 
-from ...studies.sensitivity.outcome import SensitivityResult
+from ...studies.sensitivity import SensitivityResult
 from ..common.panels import HALF_WIDTH, Panel, panel
 from ..common.style import BLUE, INK, SKY, plain_ticks
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...studies.sensitivity.outcome import SensitivityResult
-from ...studies.sensitivity.sobol import CONFIDENCE
+from ...studies.sensitivity import SensitivityResult
+from ...studies.sobol import CONFIDENCE
 from ..common.page import write_page
 from ..common.tables import Table, fraction, fractions
 from .conditions import conditions_of

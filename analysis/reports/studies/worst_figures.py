@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...campaigns.verdicts.quantiles import quantiles
-from ...studies.worst.margin import MOST
+from ...campaigns.verdicts.order_statistics import quantiles
+from ...studies.worst.objective import MOST
 from ...studies.worst.outcome import WorstResult
 from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel
 from ..common.quantities import display_factor, label_with_unit, number

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ...campaigns.draws.declared import input_names
 from ...campaigns.draws.given import GivenDraws, part_streams, stream_component
-from ...campaigns.fly.workers.flyer import Flyer
+from ...campaigns.fly.flyer import Flyer
 from ...campaigns.spec.campaign import Record
 from ...campaigns.spec.plan import BatchPlan
 from ...runtime.flight.results import Result

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from ...campaigns.verdicts.quantiles import quantile_rank
+from ...campaigns.verdicts.order_statistics import quantile_rank
 from .readings import Classical, Robust, decibel_size, degree_size
 
 UNSTABLE = -math.inf

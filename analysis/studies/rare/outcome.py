@@ -14,17 +14,15 @@ import numpy as np
 
 from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.shards.files import write_parquet
-from ...campaigns.spec.draw_space import DrawSpace
-from ...campaigns.spec.failure import Failure
 from ...campaigns.tables import align_columns, assumption_lines
 from ...common.atomic import write_atomically
 from ...common.percent import short_percent
-from ..evaluation.commands import Commands
-from ..evaluation.flown import Flown, strict
-from ..evaluation.noise import Noise, conditions, noise_line
-from ..evaluation.units import unit_of_expression, with_unit
+from ..draw_space import DrawSpace
+from ..failure import Failure
+from ..flown import Commands, Flown, strict
+from ..noise import Noise, conditions, noise_line
+from ..units import unit_of_expression, with_unit
 from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
-from .text import cost_text, estimate_text, level_rows
 from .uncertainty import CONFIDENCE
 
 TOLD = 5  # failures
@@ -235,3 +233,47 @@ class RareResult:
         write_parquet(self.flown.table("margin"), folder / "flights.parquet")
         text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
         write_atomically(folder / "rare.json", text.encode())
+
+
+LEVEL_HEADS = [
+    "level", "threshold", "samples", "probability", "accepted: draws", "noise", "lowest source", "gamma", "c.o.v.",
+]  # fmt: skip
+
+
+def estimate_text(simulation: SubsetSimulation) -> str:
+    """What is known of the probability."""
+    interval, percent = simulation.interval, f"{100 * CONFIDENCE:g} %"
+    if simulation.probability is None:
+        return f"not reached; probability below {interval.high:.3g}, {percent}"
+    return f"probability {simulation.probability:.3g}, {percent} interval {interval.low:.3g} to {interval.high:.3g}"
+
+
+def cost_text(simulation: SubsetSimulation, conditions: str) -> str:
+    """How many flights it took, and how many plain Monte Carlo takes for as much under the same ``conditions``."""
+    levels = len(simulation.levels)
+    text = f"{simulation.evaluations} flights in {levels} level{'s' if levels > 1 else ''}"
+    trials = simulation.equivalent_trials
+    return text if trials is None else f"{text}; equivalent Monte Carlo sample size: {trials:.2g}{conditions}"
+
+
+def level_rows(simulation: SubsetSimulation) -> list[list[str]]:
+    """The table of levels, its heading first."""
+    return [LEVEL_HEADS, *(_level_cells(number, level) for number, level in enumerate(simulation.levels, 1))]
+
+
+def _level_cells(number: int, level: Level) -> list[str]:
+    return [
+        str(number),
+        _cell(level.threshold, ".4g"),
+        str(level.samples),
+        _cell(level.probability, ".4f"),
+        _cell(level.draw_acceptance, ".2f"),
+        _cell(level.noise_acceptance, ".3f"),
+        _cell(level.least_acceptance, ".3f"),
+        f"{level.correlation:.2f}",
+        _cell(level.deviation, ".3f"),
+    ]
+
+
+def _cell(value: float | None, form: str) -> str:
+    return "-" if value is None else format(value, form)

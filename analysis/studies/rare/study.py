@@ -6,15 +6,15 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ...campaigns.spec.draw_space import DrawSpace
-from ...campaigns.spec.failure import failure_of
 from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError
-from ..evaluation.flights import SampleFlights
-from ..evaluation.flown import Flown
-from ..evaluation.units import units_of
+from ..draw_space import DrawSpace
+from ..failure import failure_of
+from ..flights import SampleFlights
+from ..flown import Flown
+from ..units import units_of
+from .conditional_sampling import Points
 from .outcome import RareResult
-from .points import Points
 from .subset_simulation import StuckError, subset_simulation
 
 SAMPLES = 4500  # of a level: an interval of a factor 1.3 to either side at 1e-4

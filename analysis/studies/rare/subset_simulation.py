@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...campaigns.draws.generators import standard_normals
-from .conditional_sampling import FIRST_SPREAD, Chains, grow_chains
-from .points import FreshStreams, MarginOf, Points
+from .conditional_sampling import FIRST_SPREAD, Chains, FreshStreams, MarginOf, Points, grow_chains
 from .uncertainty import (
     CONFIDENCE,
     Interval,

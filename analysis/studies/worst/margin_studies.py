@@ -13,7 +13,7 @@ from loky import ProcessPoolExecutor
 from ...campaigns.draws.declared import Columns
 from ...campaigns.draws.given import ALL, GivenDraws, Streams
 from ...campaigns.fly.metadata import provenance
-from ...campaigns.fly.workers.workers import worker_count
+from ...campaigns.fly.workers import worker_count
 from ...campaigns.spec.campaign import Record
 from ...campaigns.spec.checks import check_draws
 from ...campaigns.spec.plan import BatchPlan
@@ -25,9 +25,9 @@ from ...stability.loops.margin_values import Margins
 from ...stability.point.bench import StudyError
 from ...stability.point.point_study import PointStudy
 from ...stability.point.responses import margins_of
-from ..evaluation.flights import OWN
-from ..evaluation.noise import make_samples, noise_of
-from .margin import margin_columns
+from ..flights import OWN
+from ..noise import make_samples, noise_of
+from .objective import margin_columns
 from .request import MarginAsked
 
 

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 
 from ...campaigns.fly.shards.files import write_parquet
-from ...campaigns.spec.draw_space import DrawSpace
 from ...campaigns.tables import align_columns, assumption_lines
 from ...common.atomic import write_atomically
-from ..evaluation.flown import Flown
-from ..evaluation.noise import Noise, conditions, noise_line
-from ..evaluation.units import unit_of_expression, with_unit
-from .metric import Badness
+from ..draw_space import DrawSpace
+from ..flown import Flown
+from ..noise import Noise, conditions, noise_line
+from ..units import unit_of_expression, with_unit
+from .objective import Badness
 from .realisations import Fresh, Realisations
 from .search import Phase
 

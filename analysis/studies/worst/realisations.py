@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...campaigns.verdicts.quantiles import quantiles
+from ...campaigns.verdicts.order_statistics import quantiles
 from ...common.errors import InputError
 from .search import LEAST
 

@@ -11,17 +11,16 @@ import numpy as np
 from ...campaigns.draws.declared import Columns, input_names
 from ...campaigns.draws.generators import standard_normals
 from ...campaigns.draws.given import Streams
-from ...campaigns.spec.draw_space import DrawSpace
 from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError
 from ...runtime.system.prepared import PreparedSystem
-from ..evaluation.flights import SampleFlights
-from ..evaluation.flown import Flown
-from ..evaluation.noise import Noise
-from ..evaluation.units import units_of
-from .margin import SIZES, badness_of_margin
+from ..draw_space import DrawSpace
+from ..flights import SampleFlights
+from ..flown import Flown
+from ..noise import Noise
+from ..units import units_of
 from .margin_studies import MarginStudies
-from .metric import Badness, badness_of
+from .objective import SIZES, Badness, badness_of, badness_of_margin
 from .outcome import WorstResult
 from .realisations import Fresh, Realisations, read_realisations
 from .request import MarginAsked

@@ -10,16 +10,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...campaigns.fly.evaluation import worst_statuses
+from ...campaigns.fly.flyer import TrialResult
 from ...campaigns.fly.results import BatchResult
-from ...campaigns.fly.workers.flyer import TrialResult
-from ...campaigns.fly.workers.status_texts import worst_statuses
 from ...campaigns.replay_command import replay_of_folder
-from ...campaigns.rows import TrialColumns, TrialRows
 from ...campaigns.spec.campaign import Metric
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.plan import BatchPlan
 from ...campaigns.summary import requirement_values, summarise
 from ...campaigns.tables import align_columns, unmet_lines
+from ...campaigns.trials import TrialColumns, TrialRows
 from ...runtime.flight.results import TIMED_OUT
 from ...runtime.flight.statuses import with_meaning
 from .requirements import read_requirements, requirement_problems

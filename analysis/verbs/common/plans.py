@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from ...campaigns.draws.given import ALL, GivenDraws
-from ...campaigns.fly.manifest.manifest import FILE as MANIFEST
-from ...campaigns.fly.workers.workers import WorkersDiedError
+from ...campaigns.fly.manifest import FILE as MANIFEST
+from ...campaigns.fly.workers import WorkersDiedError
 from ...campaigns.replay_command import campaign_command, replay_command
 from ...campaigns.spec.plan import BatchPlan, read_plan
 from ...campaigns.spec.sweeps import part_sweeps
@@ -23,7 +23,7 @@ from ...runtime.system.fault import faults_of
 from ...runtime.system.in_flight.series import read_series
 from ...runtime.system.in_flight.watch import Watch
 from ...runtime.system.options import system_options
-from ...studies.evaluation.commands import Commands
+from ...studies.flown import Commands
 from ..options.option import FilePath
 
 

@@ -12,7 +12,7 @@ import pyarrow.parquet
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.fly.workers.flyer import Flyer
+from perilune.analysis.campaigns.fly.flyer import Flyer
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.common.errors import InputError

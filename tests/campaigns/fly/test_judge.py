@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from perilune.analysis.campaigns.draws.table import DrawTable
-from perilune.analysis.campaigns.fly.workers.evaluation import Judge
+from perilune.analysis.campaigns.fly.evaluation import Judge
 from perilune.analysis.campaigns.spec.checks import VariantNames
 from perilune.analysis.campaigns.spec.drawn import DrawnTrials
 from perilune.analysis.campaigns.spec.file import parse_campaign
 from perilune.analysis.campaigns.spec.metrics import evaluate_metric
-from perilune.analysis.campaigns.spec.toml.table import Table
+from perilune.analysis.campaigns.spec.table import Table
 from perilune.analysis.runtime.flight.results import Flight
 
 TEXT = """

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.fly.workers.flyer import Flyer
+from perilune.analysis.campaigns.fly.flyer import Flyer
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.campaigns.trials import join_trials
 from perilune.analysis.runtime.system.options import SystemOptions

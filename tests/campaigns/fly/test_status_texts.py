@@ -6,7 +6,7 @@ Truth: flights made by hand, whose worst statuses are seen.
 import numpy as np
 import pytest
 
-from perilune.analysis.campaigns.fly.workers.status_texts import trial_status, worst_statuses
+from perilune.analysis.campaigns.fly.evaluation import trial_status, worst_statuses
 from perilune.analysis.runtime.flight.results import Flight
 
 

@@ -1,28 +1,20 @@
 """Campaigns written in the tests themselves."""
 
-import tomllib
 from collections.abc import Callable
 
 import pytest
 
 from perilune.analysis.campaigns.spec.campaign import Campaign
-from perilune.analysis.campaigns.spec.file import parse_campaign
-from perilune.analysis.campaigns.spec.toml.table import Table
-
-HEAD = 'system = "s"\ntrials = {trials}\nseed = {seed}\n[success]\nexpression = "1"\n'
+from tests.support.campaigns.texts import make_campaign, parse_text
 
 
 @pytest.fixture(scope="session")
 def parse() -> Callable[[str], Campaign]:
-    """A campaign from the whole text of its file, which errors call test.toml."""
-    return lambda text: parse_campaign(Table(tomllib.loads(text), "test.toml"))
+    """See `parse_text`."""
+    return parse_text
 
 
 @pytest.fixture(scope="session")
-def campaign(parse: Callable[[str], Campaign]) -> Callable[..., Campaign]:
-    """A campaign from the part of its file below the required keys."""
-
-    def make(text: str, trials: int = 8, seed: int = 1) -> Campaign:
-        return parse(HEAD.format(trials=trials, seed=seed) + text)
-
-    return make
+def campaign() -> Callable[..., Campaign]:
+    """See `make_campaign`."""
+    return make_campaign

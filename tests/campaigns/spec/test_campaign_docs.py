@@ -8,7 +8,7 @@ import numpy as np
 import perilune
 from perilune.analysis.campaigns.draws.table import draw_table
 from perilune.analysis.campaigns.spec.campaign import REDUCTIONS, TRACES
-from perilune.analysis.campaigns.spec.distributions.reading import DISTRIBUTIONS
+from perilune.analysis.campaigns.spec.distributions import DISTRIBUTIONS
 from perilune.analysis.campaigns.spec.expressions import FUNCTIONS
 from perilune.analysis.campaigns.spec.faults import KEYS
 from perilune.analysis.campaigns.spec.file import REDUCTION_OF, SCATTER

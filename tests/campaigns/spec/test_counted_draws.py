@@ -9,8 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from perilune.analysis.campaigns.draws.counted import BLOCK, CountedDraws
-from perilune.analysis.campaigns.draws.table import MOST, draw_parts, draw_table
+from perilune.analysis.campaigns.draws.table import BLOCK, MOST, CountedDraws, draw_parts, draw_table
 from perilune.analysis.campaigns.spec.checks import check_plan
 from perilune.analysis.campaigns.spec.plan import BatchPlan
 from perilune.analysis.common.errors import InputError

@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 from scipy import stats
 from scipy.stats import qmc
 
-from perilune.analysis.campaigns.draws.generators import generator
-from perilune.analysis.campaigns.draws.streams import stream_numbers
+from perilune.analysis.campaigns.draws.generators import generator, stream_numbers
 from perilune.analysis.campaigns.draws.table import draw_table
 from perilune.analysis.common.errors import InputError
 

@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.spec.groups, and how a plan has them.
+"""perilune.analysis.campaigns.spec.campaign, and how a plan has them.
 
 Truth: a dictionary of the trials of each value.
 """
@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from perilune.analysis.campaigns.spec.campaign import MOST, groups_of
 from perilune.analysis.campaigns.spec.expressions import Expression
-from perilune.analysis.campaigns.spec.groups import MOST, groups_of
 from perilune.analysis.campaigns.spec.plan import BatchPlan
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions

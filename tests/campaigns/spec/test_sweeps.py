@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import perilune
 from perilune.analysis.campaigns.draws.table import draw_table
 from perilune.analysis.campaigns.spec.campaign import Campaign
-from perilune.analysis.campaigns.spec.distributions.discrete import Grid
+from perilune.analysis.campaigns.spec.distributions import Grid
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.sweeps import part_sweeps, with_sweeps
 from perilune.analysis.cli import main

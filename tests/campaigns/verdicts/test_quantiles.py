@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.verdicts.quantiles: order statistics, and nothing else anywhere in the product.
+"""perilune.analysis.campaigns.verdicts.order_statistics: order statistics, and nothing else anywhere in the product.
 
 Truth: the order statistic k = ceil(p n) counted in whole numbers, numpy's "inverted_cdf", and the sources themselves.
 """
@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from perilune.analysis.campaigns.verdicts.quantiles import column_quantiles, quantile_rank, quantiles
+from perilune.analysis.campaigns.verdicts.order_statistics import column_quantiles, quantile_rank, quantiles
 from perilune.fmus_src.paths import ROOT
 
 VALUES = st.floats(allow_nan=True, allow_infinity=True)

@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.verdicts.tolerance: bounds by order statistics.
+"""perilune.analysis.campaigns.verdicts.order_statistics: bounds by order statistics.
 
 Truth: the beta distribution of order statistics; samples whose quantiles are known; scipy's quantile test, which is
 built on the same signs.
@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from scipy.stats import beta, quantile_test
 
 from perilune.analysis.campaigns.verdicts.acceptance import acceptance_number
+from perilune.analysis.campaigns.verdicts.order_statistics import tolerance_bound as of_blocks
 from perilune.analysis.campaigns.verdicts.stopping import StoppingRule
-from perilune.analysis.campaigns.verdicts.tolerance import tolerance_bound as of_blocks
 
 
 def tolerance_bound(values, permitted, upper):

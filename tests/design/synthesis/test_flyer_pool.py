@@ -7,7 +7,7 @@ import threading
 
 import pytest
 
-from perilune.analysis.campaigns.fly.workers.workers import FlyerPool
+from perilune.analysis.campaigns.fly.workers import FlyerPool
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.runtime.system.options import SystemOptions
 

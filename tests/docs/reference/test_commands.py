@@ -83,7 +83,7 @@ FAILS = (  # exit status 1
 WORK = {
     "batch": ["verbs.batch.open_campaign"],
     "prepare": ["verbs.prepare.open_campaign"],
-    "sensitivity": ["studies.sensitivity.study.sensitivity"],
+    "sensitivity": ["studies.sensitivity.sensitivity"],
     "benchmark": ["verbs.benchmark.run_benchmark"],
     "compare": ["verbs.compare.compare_folders"],
     "design": ["verbs.design.transfer.hover_study", "verbs.design.bound.landing_study"],

@@ -20,7 +20,7 @@ from perilune.analysis.reports.studies.rare_figures import (
     level_spans,
 )
 from perilune.analysis.reports.studies.rare_page import level_table, write_rare_page
-from perilune.analysis.studies.evaluation.noise import Noise
+from perilune.analysis.studies.noise import Noise
 from tests.support.pages.checks import assert_self_contained, data_values, text_of
 from tests.support.pages.studies import LIMIT
 

@@ -18,8 +18,8 @@ from perilune.analysis.reports.studies.worst_figures import (
     point_values,
 )
 from perilune.analysis.reports.studies.worst_flight import worst_flight
-from perilune.analysis.studies.evaluation.flown import Flown
-from perilune.analysis.studies.evaluation.noise import Noise
+from perilune.analysis.studies.flown import Flown
+from perilune.analysis.studies.noise import Noise
 from perilune.analysis.studies.worst.realisations import Fresh, Realisations
 from tests.support.pages.checks import assert_self_contained, data_values, text_of
 

@@ -16,7 +16,7 @@ import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.stability.loops.margin_values import Margins
-from perilune.analysis.studies.worst.margin import badness_of_margin, margin_columns
+from perilune.analysis.studies.worst.objective import badness_of_margin, margin_columns
 from tests.support.lengths import LONG
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.loops.exact_systems import coupled_pair, late_double_integrator

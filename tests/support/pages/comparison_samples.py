@@ -10,7 +10,7 @@ from perilune.analysis.campaigns.fly.results import BatchResult
 from perilune.analysis.campaigns.fly.shards.files import write_draws
 from perilune.analysis.campaigns.spec.file import parse_campaign
 from perilune.analysis.campaigns.spec.plan import BatchPlan
-from perilune.analysis.campaigns.spec.toml.table import Table
+from perilune.analysis.campaigns.spec.table import Table
 from perilune.analysis.campaigns.trials import Trials
 from perilune.analysis.runtime.system.options import SystemOptions
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from ....common.errors import InputError
 from .flights import Cluster
-from .identity import identity, refuse_others
+from .sent import identity, refuse_others
 
 OPTION = "`scheduler`"
 ANSWER = 10.0  # s that a scheduler has to answer

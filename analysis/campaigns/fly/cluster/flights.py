@@ -14,11 +14,10 @@ from ....runtime.flight.interruptible import PATIENCE
 from ...trials import Trials
 from ..campaign import Campaign
 from ..shards.parts import Parts
-from ..workers.workers import WorkersDiedError
+from ..workers import WorkersDiedError
 from . import work
-from .retry import Again, Task
 from .sent import make_sent
-from .task_size import Portions
+from .tasks import Again, Portions, Task
 
 WAITING = 2  # tasks for each thread: one flies, one is there when it is done
 LOOK_UP = 1.0  # s, between looks at which workers are there

@@ -1,4 +1,4 @@
-"""What a worker elsewhere is sent of a campaign: its manifest, the contents that it names, its draws."""
+"""What a worker elsewhere is sent of a campaign, and whether it has the same perilune, without which bits differ."""
 
 from __future__ import annotations
 
@@ -6,17 +6,46 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
+from .....fmus_src.paths import PACKAGE
 from ....common.errors import InputError
 from ..campaign import Campaign
-from ..manifest.contents import store_content
-from ..manifest.gather import gather
-from ..manifest.manifest import CONTENTS, Manifest
+from ..manifest import CONTENTS, Manifest, content_path
+from ..plan_manifest import gather
 from ..shards.files import DRAWS, write_draws
-from ..workers.workers import in_threads
-from .identity import Identity, identity
+from ..workers import in_threads
+
+ROOMS = ("analysis", "fmus_src")
+Identity = tuple[str, str]
+
+
+@cache
+def identity() -> Identity:
+    """The version of this perilune, and the SHA-256 of its sources."""
+    total = hashlib.sha256()
+    for room in ROOMS:
+        place = (PACKAGE / room).resolve()  # a link in a checkout
+        for path in sorted(place.rglob("*.py")):
+            total.update(path.relative_to(place).as_posix().encode() + b"\0" + path.read_bytes())
+    return version("perilune"), total.hexdigest()
+
+
+def refuse_others(ours: Identity, theirs: Any, worker: str) -> None:
+    """Raise InputError unless a worker has the same perilune; ``theirs`` is an exception where it has none."""
+    if isinstance(theirs, BaseException):
+        problem = f"worker {worker} cannot load perilune: {' '.join(str(theirs).split())}"
+    elif theirs[0] != ours[0]:
+        problem = f"worker {worker} has perilune {theirs[0]}, the campaign is flown from {ours[0]}"
+    elif theirs != ours:
+        problem = f"worker {worker} has other sources of perilune {ours[0]}"
+    else:
+        return
+    raise InputError("`scheduler`", "", problem, "install the same in its environment, then start it again")
 
 
 @dataclass(frozen=True)
@@ -42,7 +71,7 @@ def make_sent(campaign: Campaign) -> Sent:
     """A campaign as workers are sent it: from its folder, or what it has read where it has none. Raises InputError."""
     manifest, folder = campaign.manifest, campaign.folder
     if folder is not None:
-        contents = {name: store_content(folder / CONTENTS, name).read_bytes() for name in manifest.names()}
+        contents = {name: content_path(folder / CONTENTS, name).read_bytes() for name in manifest.names()}
         draws = b"" if campaign.plan.is_counted else (folder / DRAWS).read_bytes()
     else:
         described, contents = gather(campaign.plan, campaign.systems)

@@ -15,15 +15,13 @@ from pathlib import Path
 from ....common.atomic import write_atomically
 from ...spec.plan import BatchPlan
 from ...trials import Trials
-from ..manifest.contents import store
-from ..manifest.manifest import CONTENTS
-from ..manifest.restore import restore
+from ..crash_report import LastWords
+from ..flyer import Flyer
+from ..manifest import CONTENTS, store_contents
+from ..plan_manifest import restore
 from ..shards.files import DRAWS
-from ..workers.crash_report import LastWords
-from ..workers.flyer import Flyer
-from .identity import identity, refuse_others
-from .sent import Sent
-from .task_size import Piece
+from .sent import Sent, identity, refuse_others
+from .tasks import Piece
 
 FOLDER = "perilune"  # within the worker's own, which dask removes
 MOST_HELD = 3  # campaigns whose simulations are kept for the next task
@@ -105,7 +103,7 @@ def _campaign(sent: Sent, folder: Path) -> _Held:
     if sent.key in _held:
         _held[sent.key] = _held.pop(sent.key)
         return _held[sent.key]
-    store(folder / CONTENTS, dict(sent.contents))
+    store_contents(folder / CONTENTS, dict(sent.contents))
     own = folder / sent.key
     if sent.draws:
         write_atomically(own / DRAWS, sent.draws)

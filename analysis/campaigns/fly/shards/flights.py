@@ -6,8 +6,8 @@ import itertools
 from collections.abc import Generator, Iterator, Sequence
 
 from ...trials import Trials
-from ..workers.flyer import Flyer
-from ..workers.workers import FlyerPool
+from ..flyer import Flyer
+from ..workers import FlyerPool
 from .numbering import Numbering
 from .parts import Parts
 

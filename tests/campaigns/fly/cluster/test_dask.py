@@ -13,7 +13,7 @@ import pytest
 
 import perilune
 from perilune.analysis.campaigns.fly.cluster import connection, flights
-from perilune.analysis.campaigns.fly.cluster.identity import refuse_others
+from perilune.analysis.campaigns.fly.cluster.sent import refuse_others
 from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.fmus_src.paths import PACKAGE, SYSTEMS

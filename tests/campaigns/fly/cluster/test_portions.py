@@ -6,7 +6,7 @@ Truth: the list of all trials, and times that are known beforehand.
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.campaigns.fly.cluster.task_size import FIRST, LONGEST, SHORTEST, Piece, Portions, halves
+from perilune.analysis.campaigns.fly.cluster.tasks import FIRST, LONGEST, SHORTEST, Piece, Portions, halves
 from perilune.analysis.campaigns.fly.shards.numbering import Numbering
 
 VARIANTS = ("a", "b")

@@ -10,7 +10,7 @@ import json
 import pytest
 
 from perilune.analysis.campaigns.fly import campaign
-from perilune.analysis.campaigns.fly.manifest import gather
+from perilune.analysis.campaigns.fly import plan_manifest as gather
 from perilune.analysis.cli import main
 from perilune.fmus_src.kernel.functions import VERSION
 

@@ -19,9 +19,8 @@ from perilune.analysis.campaigns import statistics, summary
 from perilune.analysis.campaigns.fly.campaign import open_folder
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.campaigns.plotted_sample import FIRST, select_trials
-from perilune.analysis.campaigns.spec.campaign import Metric
+from perilune.analysis.campaigns.spec.campaign import Group, Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
-from perilune.analysis.campaigns.spec.groups import Group
 from perilune.analysis.campaigns.spec.requirements import Requirement
 from perilune.analysis.campaigns.summary import summarise
 from perilune.analysis.cli import main

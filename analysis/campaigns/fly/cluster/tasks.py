@@ -1,0 +1,100 @@
+"""Tasks of a cluster: as many trials as take some seconds; those given up by a scheduler again, in smaller parts."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from ..shards.numbering import Numbering
+from ..workers import MOST_DEATHS
+
+FIRST = 4  # trials of a task as long as nobody knows how long one takes
+LONGEST, SHORTEST = 3.0, 0.5  # s of a task: little to lose with a worker, and long beside the 10 ms that sending costs
+QUICKEST = 1e-6  # s of a trial, below which a clock says nothing
+ROUNDS = 2  # tasks that each thread is to get at least of what is left, so that all end together
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Trials of one variant within one shard."""
+
+    shard: int
+    variant: str
+    trials: range
+
+
+class Portions:
+    """Parts shards into tasks, the larger the quicker trials turn out to be; ``trials`` are so many as are left."""
+
+    def __init__(self, numbering: Numbering, shards: Sequence[int], variants: Sequence[str]) -> None:
+        self._left = deque(Piece(shard, variant, numbering.of(shard)) for shard in shards for variant in variants)
+        self.trials = sum(len(piece.trials) for piece in self._left)
+        self._seconds: dict[str, float] = {}  # of a trial, by variant
+
+    def record_duration(self, piece: Piece, seconds: float) -> None:
+        """Remember how long a piece took in a worker."""
+        self._seconds[piece.variant] = seconds / len(piece.trials)
+
+    def next(self, threads: int) -> list[Piece]:
+        """What the next task flies, where so many threads are there; empty where nothing is left."""
+        slowest = max(self._seconds.values(), default=0.0)
+        budget = min(LONGEST, max(SHORTEST, self.trials * slowest / (ROUNDS * threads)))
+        pieces: list[Piece] = []
+        while self._left:
+            first = self._left[0]
+            seconds = self._seconds.get(first.variant)
+            count = FIRST if seconds is None else int(budget / max(seconds, QUICKEST))
+            if pieces and (seconds is None or not count):
+                break
+            piece = Piece(first.shard, first.variant, first.trials[: max(count, 1)])
+            pieces.append(piece)
+            self._left.popleft()
+            if len(piece.trials) < len(first.trials):
+                self._left.appendleft(Piece(first.shard, first.variant, first.trials[len(piece.trials) :]))
+            if seconds is None:
+                break
+            budget -= seconds * len(piece.trials)
+        self.trials -= sum(len(piece.trials) for piece in pieces)
+        return pieces
+
+
+def halves(pieces: Sequence[Piece]) -> list[tuple[Piece, ...]]:
+    """A task's trials in two tasks; in one where there is one trial only."""
+    first = sum(len(piece.trials) for piece in pieces) // 2
+    parts: tuple[list[Piece], list[Piece]] = ([], [])
+    for piece in pieces:
+        for half, trials in zip(parts, (piece.trials[:first], piece.trials[first:]), strict=True):
+            if trials:
+                half.append(Piece(piece.shard, piece.variant, trials))
+        first = max(0, first - len(piece.trials))
+    return [tuple(half) for half in parts if half]
+
+
+OWN = MOST_DEATHS - 1  # how often a part counts as given up at most before it has been by itself
+Task = tuple[Piece, ...]
+
+
+class Again:
+    """Parts of tasks that were given up; halved each time, so that what ends workers takes no others with it."""
+
+    def __init__(self) -> None:
+        self._waiting: deque[Task] = deque()
+        self._times: dict[Task, int] = {}
+
+    def add(self, task: Task) -> None:
+        """A task that was given up."""
+        times = self._times.pop(task, 0) + 1
+        parts = halves(task)
+        self._waiting += parts
+        self._times |= dict.fromkeys(parts, times if len(parts) == 1 else min(times, OWN))
+
+    def next(self) -> Task:
+        """What has waited longest; empty where nothing does."""
+        return self._waiting.popleft() if self._waiting else ()
+
+    def hopeless(self, under_way: Iterable[Task]) -> list[Task]:
+        """All that is left, if these are single trials that were given up often enough; else nothing."""
+        left = [*self._waiting, *under_way]
+        worn = all(len(halves(task)) == 1 and self._times.get(task, 0) >= MOST_DEATHS for task in left)
+        return left if worn else []

@@ -1,0 +1,169 @@
+"""Flies trials of a plan in one worker: one simulation per variant, reset and reused."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import nullcontext
+from typing import NamedTuple
+
+from ...runtime.flight.instances.library import LOADING
+from ...runtime.flight.instances.log import Log
+from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
+from ...runtime.flight.results import Flight, Result
+from ...runtime.flight.simulation import Simulation
+from ...runtime.ssp.parameter_sets import ParameterValue
+from ..spec.checks import VariantNames, variant_names
+from ..spec.drawn import DrawnTrials
+from ..spec.plan import BatchPlan
+from ..trials import Trials
+from .crash_report import LastWords
+from .evaluation import Judge
+
+AROUND = 4096  # trials whose draws are read together
+
+
+class TrialResult(NamedTuple):
+    """What one trial came to."""
+
+    status: str
+    message: str
+    success: bool
+    end_time: float
+    metrics: dict[str, float]
+
+
+class Flyer:
+    """Holds the simulations of a plan's variants; made once per worker, not shared between threads.
+
+    With ``words`` a step that does not return ends the process; trials of which that is known are not flown.
+    """
+
+    def __init__(self, plan: BatchPlan, words: LastWords | None = None) -> None:
+        self.plan = plan
+        self._words = words
+        self._drawn: DrawnTrials | None = None
+        self.variants = {variant.name: variant for variant in plan.campaign.variants()}
+        self._ready: dict[str, tuple[Simulation, VariantNames]] = {}
+        self._logs: dict[str, Log] = {}
+        self.halted = False
+
+    def simulation(self, variant: str) -> tuple[Simulation, VariantNames]:
+        """The simulation of a variant, made at its first use."""
+        if variant not in self._ready:
+            with LOADING:
+                prepared = self.plan.prepare(self.variants[variant])
+                if prepared.is_alone:
+                    self.close()  # other variants may hold the one instance that the process can have
+                names = variant_names(self.plan, prepared)
+                everything = self.plan.campaign.record.traces != "none"
+                wanted = None if everything else {*names.signals, *names.statuses}
+                faults = self.plan.list_faults()
+                log = self._log_of(variant)
+                simulation = Simulation(prepared, varied=names.varied, wanted=wanted, faults=faults, log=log)
+                self._ready[variant] = simulation, names
+        return self._ready[variant]
+
+    def _log_of(self, variant: str) -> Log | None:
+        """Where the FMUs of a variant write, if they are asked to."""
+        if self.plan.watch.log is None:
+            return None
+        self._logs[variant] = Log(self.plan.watch.log)
+        self._logs[variant].place = f"{variant}: "
+        return self._logs[variant]
+
+    def values_for(self, trial: int) -> DrawnTrials:
+        """What is drawn for a trial and those around it."""
+        if self._drawn is None or trial not in self._drawn.numbers:
+            first = trial - trial % AROUND
+            self._drawn = self.plan.values_of(range(first, min(first + AROUND, self.plan.campaign.trials)))
+        return self._drawn
+
+    def fly_others(self, variant: str, plan: BatchPlan) -> Trials:
+        """Fly all trials of another plan for the same system. Raises KeyboardInterrupt after an `interrupt`."""
+        trials = range(plan.campaign.trials)
+        self._drawn = plan.values_of(trials)
+        try:
+            return self.fly(variant, trials)
+        finally:
+            self._drawn = None
+
+    def interrupt(self) -> None:
+        """End what flies in another thread at its next communication point."""
+        self.halted = True
+        for simulation, _ in list(self._ready.values()):
+            simulation.interrupt()
+
+    def fly(self, variant: str, trials: range) -> Trials:
+        """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
+        judge = self._judge(variant)
+        for trial in trials:
+            judge.add(self._flight(variant, trial), trial, self.values_for(trial))
+            if self.halted:
+                raise KeyboardInterrupt
+        return judge.trials()
+
+    def fly_one(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> TrialResult:
+        """Fly one trial; the result does not depend on what was flown before.
+
+        ``overlay`` gives all of the plan's overlaid parameters their values; without it they keep those of
+        the variant's last flight.
+        """
+        judge = self._judge(variant)
+        judge.add(self._flight(variant, trial, overlay), trial, self.values_for(trial))
+        return _result(judge.trials())
+
+    def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
+        """Fly one trial with every signal recorded; same bits as in the batch."""
+        prepared = self.plan.prepare(self.variants[variant])
+        names = variant_names(self.plan, prepared)
+        faults, log = self.plan.list_faults(), self._log_of(variant)
+        sampled = self.values_for(trial)
+        with Simulation(prepared, varied=names.varied, faults=faults, log=log) as simulation:
+            simulation.set_faults(sampled.faults_of(trial))
+            simulation.set(sampled.parameters(prepared, trial))
+            result = fly(simulation, self.plan.watch.timeout)
+        judge = Judge(self.plan.campaign, names)
+        judge.add(result, trial, sampled)
+        return result, _result(judge.trials())
+
+    def _judge(self, variant: str) -> Judge:
+        """What looks at a variant's flights, with none seen."""
+        return Judge(self.plan.campaign, self.simulation(variant)[1])
+
+    def _flight(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> Flight:
+        simulation, _ = self.simulation(variant)
+        if variant in self._logs:
+            self._logs[variant].place = f"{variant}: trial {trial}: "
+        sampled = self.values_for(trial)
+        simulation.set_faults(sampled.faults_of(trial))
+        parameters = {**sampled.parameters(simulation.prepared, trial), **(overlay or {})}
+        words = self._words if sampled.campaign is self.plan.campaign and overlay is None else None
+        if words is not None and (variant, trial) in words.hung:
+            return nothing_flown(simulation, words.hung[variant, trial])
+        if words is not None:
+            simulation.unlock()  # compiled before its clock runs
+        try:
+            with words.of(variant, trial) if words is not None else nullcontext():
+                return run(simulation, parameters, self.plan.watch.timeout)
+        except StuckError as error:  # what it flew with is lost: the next trial flies with instances of its own
+            if words is not None:
+                words.say(variant, trial, str(error))
+            del self._ready[variant]
+            return nothing_flown(simulation, str(error))
+
+    def close(self) -> None:
+        """Free all instances."""
+        for simulation, _ in self._ready.values():
+            simulation.close()
+        self._ready = {}
+
+
+def _result(trials: Trials) -> TrialResult:
+    """One flight, of itself."""
+    return TrialResult(
+        status=trials.statuses[0],
+        message=next(iter(trials.messages.values()), ""),
+        success=bool(trials.success[0]),
+        end_time=float(trials.end_time[0]),
+        metrics={name: float(column[0]) for name, column in trials.metrics.items()},
+    )

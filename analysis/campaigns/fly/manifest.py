@@ -1,0 +1,151 @@
+"""What a campaign flies, as one JSON file: everything that its numbers depend on, with contents under their SHA-256."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from ...common.atomic import write_atomically
+from ...common.errors import InputError
+
+FILE = "manifest.json"
+CONTENTS = "files"  # the folder beside it
+MOST_DIFFERENCES = 3  # named in one line
+WRITE = "give a folder that perilune batch or prepare wrote"
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """A campaign to be flown in shards; every value can be written as JSON.
+
+    ``system`` has name, label, description, sha256 and ``files``, contents by archive name; ``elsewhere`` are contents
+    that lay outside of it, by what asks for them. ``campaign`` has label, content and what the command line compares,
+    and sweeps if it does.
+    ``options`` are the system options, ``faults`` the user's, ``series`` the inputs over time (label, sha256, content),
+    ``draws`` likewise those that are given instead of drawn, ``timeout`` is in s. ``fmus`` are hashes by variant and
+    component, ``resets`` the verdicts of reset tests by hash. ``until_decided`` says that it ends with the shard at
+    whose end its requirements are decided. ``shard_size`` is in trials, each of which every variant flies.
+    ``elementary_functions`` is their version: with another, results have other last bits. A campaign from before there
+    was one has None, and flew with those of the C library.
+    """
+
+    perilune: str
+    system: Mapping[str, Any]
+    elsewhere: Mapping[str, str]
+    campaign: Mapping[str, Any]
+    options: Mapping[str, Any]
+    faults: list[str]
+    series: Mapping[str, str] | None
+    draws: Mapping[str, str] | None
+    timeout: float | None
+    fmus: Mapping[str, Mapping[str, str]]
+    resets: Mapping[str, Mapping[str, Any]]
+    until_decided: bool
+    seed: int
+    trials: int
+    shard_size: int
+    elementary_functions: int | None = None
+
+    def document(self) -> dict[str, Any]:
+        """As JSON has it; without a version of the elementary functions where it has none, so that its key remains."""
+        content: dict[str, Any] = json.loads(json.dumps(asdict(self)))
+        if self.elementary_functions is None:
+            del content["elementary_functions"]
+        return content
+
+    @property
+    def key(self) -> str:
+        """What tells a campaign from others, however many trials it has."""
+        text = json.dumps({**self.document(), "trials": None}, sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()
+
+    def names(self) -> list[str]:
+        """The contents that it names, each once."""
+        tables = [table["content"] for table in (self.series, self.draws) if table is not None]
+        return sorted({*self.system["files"].values(), *self.elsewhere.values(), *_contents(self.campaign), *tables})
+
+    def write(self, folder: Path) -> None:
+        """Write it to ``folder``/manifest.json."""
+        write_atomically(folder / FILE, f"{json.dumps(self.document(), indent=1)}\n".encode())
+
+
+def _contents(campaign: Mapping[str, Any]) -> list[str]:
+    """The contents of a campaign's file, and of those that it extends."""
+    return [campaign["content"], *(name for part in campaign.get("extends", []) for name in _contents(part))]
+
+
+def read_manifest(folder: Path) -> Manifest:
+    """The manifest in a folder. Raises InputError."""
+    path = folder / FILE
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(path, "", error.strerror or str(error), WRITE) from error
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise InputError(path, "", f"not JSON: {error}", WRITE) from error
+    names = {field.name for field in fields(Manifest)}
+    if not isinstance(document, dict) or set(document) | {"elementary_functions"} != names:
+        raise InputError(path, "", "not as this version of perilune writes it", "resume with the version that wrote it")
+    return Manifest(**document)
+
+
+def differences(held: Manifest, asked: Manifest) -> str:
+    """What two manifests differ in, as one phrase; empty where they differ in nothing but the number of trials."""
+    one, other = ({**manifest.document(), "trials": None} for manifest in (held, asked))
+    phrases = [f"{name} was {_short(left)}, is {_short(right)}" for name, left, right in _pairs("", one, other)]
+    more = f"; and {len(phrases) - MOST_DIFFERENCES} more" if len(phrases) > MOST_DIFFERENCES else ""
+    return "; ".join(phrases[:MOST_DIFFERENCES]) + more
+
+
+def _pairs(name: str, left: Any, right: Any) -> Iterator[tuple[str, Any, Any]]:
+    """The values in which two documents differ, by dotted name."""
+    if isinstance(left, dict) and isinstance(right, dict):
+        for key in {**left, **right}:
+            yield from _pairs(f"{name}.{key}" if name else key, left.get(key), right.get(key))
+    elif left != right:
+        yield name, left, right
+
+
+def _short(value: Any) -> str:
+    text = "nothing" if value is None else value if isinstance(value, str) else json.dumps(value)
+    return text if len(text) <= 40 else f"{text[:16]}..."
+
+
+NAMED = re.compile(r"[0-9a-f]{64}(\..*)?")
+AGAIN = "copy the campaign's folder again, with all of its files"
+
+
+def content_name(content: bytes, suffix: str) -> str:
+    """The name under which a content is stored."""
+    return f"{hashlib.sha256(content).hexdigest()}{suffix}"
+
+
+def store_contents(folder: Path, contents: dict[str, bytes]) -> None:
+    """Write contents by their names, those that are not there yet."""
+    for name, content in contents.items():
+        if not (folder / name).is_file():
+            write_atomically(folder / name, content)
+
+
+def remove_contents(folder: Path) -> None:
+    """Remove the contents in a folder; other files stay."""
+    for path in folder.glob("*"):
+        if NAMED.fullmatch(path.name):
+            path.unlink()
+
+
+def content_path(folder: Path, name: str) -> Path:
+    """The path of a content, whose bytes are those of its name. Raises InputError."""
+    path = folder / name
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputError(path, "", "not found", AGAIN) from error
+    if content_name(content, path.suffix) != name:
+        raise InputError(path, "", "its content is not the one that it is named by", AGAIN)
+    return path

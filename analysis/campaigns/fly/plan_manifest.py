@@ -1,0 +1,202 @@
+"""From a plan and its prepared systems to the manifest with its contents, and from a folder back to the plan."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from contextlib import chdir
+from dataclasses import asdict, replace
+from importlib.metadata import version
+from pathlib import Path, PurePath
+from typing import Any
+
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+
+from ....fmus_src.kernel.functions import VERSION
+from ...runtime.flight.instances.reset_check import ResetVerdict, recall, reset_verdict
+from ...runtime.ssp.archive import SystemArchive
+from ...runtime.system.fault import parse_fault
+from ...runtime.system.in_flight.series import InputSeries
+from ...runtime.system.in_flight.watch import Watch
+from ...runtime.system.options import SystemOptions
+from ...runtime.system.prepared import PreparedSystem
+from ..draws.given import GivenDraws, part_streams
+from ..spec.file import parse_campaign
+from ..spec.plan import BatchPlan
+from ..spec.source import CampaignSource
+from ..spec.sweeps import with_sweeps
+from .manifest import CONTENTS, Manifest, content_name, content_path
+from .shards.draws import read_draws
+from .shards.numbering import shard_size
+
+NOT_ASKED = ("places", "folder")  # of the options: where values are written, and where paths are meant from
+
+
+def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Manifest, dict[str, bytes]]:
+    """The manifest of a plan that was read from a campaign's file, and the contents that it names.
+
+    ``systems`` are those of `check_plan`, by variant. FMUs that are not ours have their reset tried here, once.
+    """
+    assert plan.source is not None  # a plan that was read from a file has one
+    first = next(iter(systems.values()))
+    contents: dict[str, bytes] = {}
+
+    def keep(content: bytes, name: str) -> str:
+        stored = content_name(content, PurePath(name).suffix)
+        contents[stored] = content
+        return stored
+
+    archive = first.archive
+    with chdir(plan.options.folder):  # from which paths are meant
+        files = {name: keep(archive.read(name, name), name) for name in {**archive.files, **_read_besides(systems)}}
+        elsewhere = {
+            requested: keep(read(), requested)
+            for prepared in systems.values()
+            for requested, read in prepared.elsewhere.items()
+        }
+    series = None
+    if plan.series is not None:
+        content = keep(_table({"time": plan.series.time, **plan.series.columns}), ".parquet")
+        series = {"label": plan.series.file, "sha256": plan.series.sha256, "content": content}
+    draws = None
+    if plan.given is not None:
+        content = keep(_table(plan.given.table), ".parquet")
+        draws = {"label": plan.given.file, "sha256": plan.given.sha256, "content": content}
+    campaign = plan.campaign
+    options = {name: value for name, value in asdict(plan.options).items() if name not in NOT_ASKED}
+    fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
+    manifest = Manifest(
+        perilune=version("perilune"),
+        system=_system(archive) | {"files": files},
+        elsewhere=elsewhere,
+        campaign={
+            "label": campaign.file,
+            **_source(plan.source, keep),
+            "compare": {slot: list(names) for slot, names in campaign.compare.items()},
+            "compared_by": plan.compared_by,
+            **({} if campaign.selected is None else {"selected": campaign.selected}),
+            **({"sweep": dict(campaign.sweeps)} if campaign.sweeps else {}),
+        },
+        options=options,
+        faults=[str(fault) for fault in plan.faults],
+        series=series,
+        draws=draws,
+        timeout=plan.watch.timeout,
+        fmus={
+            variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
+            for variant, prepared in systems.items()
+        },
+        resets={digest: asdict(reset_verdict(fmu)) for digest, fmu in fmus.items() if not fmu.is_own},
+        until_decided=plan.until_decided,
+        seed=campaign.seed,
+        trials=campaign.trials,
+        shard_size=shard_size(campaign.trials),
+        elementary_functions=VERSION,
+    )
+    return manifest, contents
+
+
+def _source(source: CampaignSource, keep: Callable[[bytes, str], str]) -> dict[str, Any]:
+    """The contents of a campaign's file, and of those that it extends."""
+    extends = [{"label": part.label, **_source(part, keep)} for part in source.extends]
+    own = {"content": keep(source.raw, source.label)}
+    return own | {"extends": extends, "position": source.position} if extends else own
+
+
+def _system(archive: SystemArchive) -> dict[str, Any]:
+    return {
+        "name": archive.name,
+        "label": archive.label,
+        "description": archive.description,
+        "sha256": archive.digest,
+        "fmu": archive.path.name if archive.is_fmu else None,
+    }
+
+
+def _table(columns: Mapping[str, np.ndarray]) -> bytes:
+    """Columns as Parquet, every bit of them."""
+    sink = pyarrow.BufferOutputStream()
+    pyarrow.parquet.write_table(pyarrow.table(dict(columns)), sink)
+    return bytes(sink.getvalue())
+
+
+def _read_besides(systems: Mapping[str, PreparedSystem]) -> dict[str, None]:
+    """Files of a system's folder that its list of files lacks, and that some variant has read."""
+    return {name: None for prepared in systems.values() for name in prepared.archive.besides}
+
+
+def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: Path | None = None) -> BatchPlan:
+    """The plan of a campaign's folder, with the draws that are stored there. Raises InputError.
+
+    ``log`` is the level of the FMUs' messages, which changes no result; ``draws`` is the folder of the table of draws
+    where that is another.
+    """
+    contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
+    source = _restore_source(contents, manifest.campaign)
+    parsed, compare = parse_campaign(source.table()), manifest.campaign["compare"]
+    read = replace(
+        parsed,
+        trials=manifest.trials,
+        seed=manifest.seed,
+        compare={slot: tuple(names) for slot, names in compare.items()},
+        configurations=() if compare else parsed.configurations,
+        selected=manifest.campaign.get("selected"),
+    )
+    campaign = with_sweeps(read, manifest.campaign.get("sweep", {}))
+    options: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in manifest.options.items()
+    }
+    plan = BatchPlan(
+        manifest.system["label"],
+        campaign,
+        SystemOptions(**options, folder=str(contents)),
+        source.sha256,
+        faults=tuple(parse_fault(text) for text in manifest.faults),
+        series=None if manifest.series is None else _restore_series(contents, manifest.series),
+        watch=Watch(manifest.timeout, log),
+        compared_by=manifest.campaign["compared_by"],
+        source=source,
+        until_decided=manifest.until_decided,
+        archive=_restore_archive(contents, manifest),
+    )
+    if manifest.draws is not None:
+        plan = plan.of_samples(_restore_given(contents, manifest.draws)).of_first(manifest.trials)
+    elif not plan.is_counted:
+        stored_table = read_draws((draws or folder).absolute(), manifest.trials, plan.campaign.input_names())
+        plan = replace(plan, known_draws=stored_table)  # made anew they could differ
+    for digest, verdict in manifest.resets.items():
+        recall(digest, ResetVerdict(**verdict))
+    return plan
+
+
+def _restore_source(contents: Path, campaign: Mapping[str, Any]) -> CampaignSource:
+    extends = tuple(_restore_source(contents, part) for part in campaign.get("extends", []))
+    data = content_path(contents, campaign["content"]).read_bytes()
+    return CampaignSource(campaign["label"], data, extends, campaign.get("position", 0))
+
+
+def _restore_archive(contents: Path, manifest: Manifest) -> SystemArchive:
+    system: Mapping[str, Any] = manifest.system
+    files = {name: content_path(contents, content) for name, content in system["files"].items()}
+    return SystemArchive(
+        name=system["name"],
+        label=system["label"],
+        path=contents if system["fmu"] is None else files[system["fmu"]],
+        files=files,
+        description=system["description"],
+        elsewhere={requested: content_path(contents, content) for requested, content in manifest.elsewhere.items()},
+        known_digest=system["sha256"],  # without the files that were read in addition to its list of files
+    )
+
+
+def _restore_series(contents: Path, series: Mapping[str, str]) -> InputSeries:
+    table = pyarrow.parquet.read_table(content_path(contents, series["content"]))
+    columns = {name: table[name].to_numpy() for name in table.column_names}
+    return InputSeries(series["label"], series["sha256"], columns.pop("time"), columns)
+
+
+def _restore_given(contents: Path, given: Mapping[str, str]) -> GivenDraws:
+    table = pyarrow.parquet.read_table(content_path(contents, given["content"]))
+    columns = {name: table[name].to_numpy() for name in table.column_names}
+    return GivenDraws(*part_streams(columns), given["label"], given["sha256"])

@@ -1,1 +1,0 @@
-"""The distributions of a campaign, a class each."""

@@ -1,0 +1,201 @@
+"""A campaign's text: its TOML file with those that it extends, merged, and where each value is written."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import posixpath
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...common.errors import InputError
+from ...runtime.ssp.archive import SystemArchive
+from .table import Table
+
+EXTENDS = "extends"
+HERE = "."  # in its list, the position of the file's own entries; the end where it is not listed
+Origin = tuple[str, int]  # file and line
+
+
+@dataclass(frozen=True)
+class CampaignSource:
+    """A campaign's file, ``raw`` with its ``label`` for messages, and the files that it ``extends``, in their order.
+
+    ``position`` is the number of those whose entries come before its own, which are the last unless it says otherwise.
+    """
+
+    label: str
+    raw: bytes
+    extends: tuple[CampaignSource, ...] = ()
+    position: int = 0
+
+    @property
+    def sha256(self) -> str:
+        """Of the file, and of all that it extends."""
+        digest = hashlib.sha256(self.raw)
+        for part in self.extends:
+            digest.update(bytes.fromhex(part.sha256))
+        return digest.hexdigest()
+
+    def files(self) -> Iterator[CampaignSource]:
+        """This file and all that it extends."""
+        yield self
+        for part in self.extends:
+            yield from part.files()
+
+    def table(self) -> Table:
+        """The merged content. A later file's entry replaces an earlier one of the same name.
+
+        The entries of [draw], [metric], [requirement], [fault], [scatter] and [configuration] are tables, those of
+        [set], [derive], [compare], [record], [group] and [success] are values. Raises InputError.
+        """
+        content: dict[str, Any] = {}
+        origins: dict[str, Origin] = {}
+        for index, part in enumerate((*self.extends, self)):
+            if index == self.position:
+                self._add_own(content, origins)
+            if part is not self:
+                inherited = part.table()
+                _merge(content, inherited.content, part.label)
+                origins |= inherited.origins
+        return Table(content, self.label, origins=origins)
+
+    def _add_own(self, content: dict[str, Any], origins: dict[str, Origin]) -> None:
+        own = parse_toml(self.raw, self.label)
+        own.pop(EXTENDS, None)
+        _merge(content, own, self.label)
+        lines = key_lines(self.raw.decode("utf-8"))
+        origins |= {name: (self.label, line) for name, line in lines.items() if name != EXTENDS}
+
+
+def read_source(raw: bytes, label: str, archive: SystemArchive | None = None) -> CampaignSource:
+    """A campaign's file with those that it extends, perhaps in an ``archive``. Raises InputError, for a cycle too."""
+    return _read_source(raw, label, archive, ())
+
+
+def read_source_file(path: Path) -> CampaignSource:
+    """A campaign's file by its path, with those that it extends. Raises InputError."""
+    try:
+        return read_source(path.read_bytes(), str(path))
+    except OSError as error:
+        raise InputError(path, "", error.strerror or str(error), "give a readable file") from error
+
+
+def _read_source(raw: bytes, label: str, archive: SystemArchive | None, chain: tuple[str, ...]) -> CampaignSource:
+    names = parse_toml(raw, label).get(EXTENDS, [])
+    names = [names] if isinstance(names, str) else names
+    if not isinstance(names, list) or not all(isinstance(name, str) and name for name in names):
+        raise InputError(label, EXTENDS, f"{names!r} is not a file", 'write extends = "FILE.toml", or a list of files')
+    if names.count(HERE) > 1:
+        raise InputError(label, EXTENDS, f"{HERE!r} is there twice", "give this file's own position once")
+    extended = []
+    for name in names:
+        if name == HERE:
+            continue
+        content, other = _find(name, label, archive)
+        if other in (*chain, label):
+            path = " -> ".join([*chain, label, other])
+            raise InputError(label, EXTENDS, f"a cycle: {path}", "remove one of these")
+        extended.append(_read_source(content, other, archive, (*chain, label)))
+    return CampaignSource(label, raw, tuple(extended), names.index(HERE) if HERE in names else len(extended))
+
+
+def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes, str]:
+    """A file that the file ``origin`` extends, by its path relative to that, else a campaign of the system by name."""
+    label, mark, inside = origin.partition("!")
+    if mark and archive is not None and label == archive.label:
+        path = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
+        if path in archive.files:
+            return archive.read(path, origin), f"{label}!{path}"
+    else:
+        file = Path(os.path.normpath(os.path.join(os.path.dirname(origin), name)))
+        if file.is_file():
+            return file.read_bytes(), str(file)
+    known = [] if archive is None else archive.campaign_names()
+    if archive is not None:
+        path = archive.campaign_path(name)  # so that a copy of a system's campaign still extends what that did
+        if path in archive.files:
+            return archive.read(path, origin), f"{archive.label}!{path}"
+        if name in known:
+            return archive.campaign(name)
+    remedy = f"give a path relative to this file{', or a campaign: ' + ', '.join(known) if known else ''}"
+    raise InputError(origin, EXTENDS, f"no file {name}", remedy)
+
+
+def parse_toml(raw: bytes, label: str) -> dict[str, Any]:
+    """The content of a TOML file. Raises InputError."""
+    try:
+        return tomllib.loads(raw.decode("utf-8"))
+    except UnicodeDecodeError as error:
+        raise InputError(label, f"byte {error.start}", "not UTF-8", "save the file as UTF-8") from error
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(label, "", f"not TOML: {error}", "correct the file there") from error
+
+
+def _merge(content: dict[str, Any], later: Mapping[str, Any], label: str) -> None:
+    """Put the entries of a later file into ``content``: the tables entry by entry, everything else whole."""
+    for key, value in later.items():
+        if isinstance(value, Mapping):
+            table = Table(value, label, key)
+            entries = dict(table.flat(of_tables=True) if key == "draw" else table.flat() if key in FLAT else value)
+            earlier = content.get(key)
+            content[key] = {**earlier, **entries} if isinstance(earlier, Mapping) else entries
+        else:
+            content[key] = value
+
+
+FLAT = ("set", "derive", "compare")  # tables whose names have dots
+
+
+KEY = r"""(?:[A-Za-z0-9_-]+|"(?:[^"\\]|\\.)*"|'[^']*')"""
+DOTTED = rf"{KEY}(?:\s*\.\s*{KEY})*"
+HEADER = re.compile(rf"\s*\[(?P<array>\[)?\s*(?P<name>{DOTTED})\s*\]")
+ENTRY = re.compile(rf"\s*(?P<name>{DOTTED})\s*=")
+TOKEN = re.compile(r"""\"{3}|\'{3}|"(?:[^"\\\n]|\\.)*"|'[^'\n]*'|#[^\n]*|[\[\]{}]""")
+
+
+def key_lines(text: str) -> dict[str, int]:
+    """The line of each key by its name, ``draw.x.low``; parts in quotes without them. ``text`` is TOML."""
+    lines: dict[str, int] = {}
+    prefix, position, number = "", 0, 1
+    while position < len(text):
+        end = text.find("\n", position)
+        end = len(text) if end < 0 else end
+        header, entry = HEADER.match(text, position, end), ENTRY.match(text, position, end)
+        if header:
+            prefix = _plain(header["name"])
+            lines.setdefault(prefix, number)
+        elif entry:
+            name = _plain(entry["name"])
+            lines[f"{prefix}.{name}" if prefix else name] = number
+            end = _value_end(text, entry.end())
+        number += text.count("\n", position, end + 1)
+        position = end + 1
+    return lines
+
+
+def _plain(name: str) -> str:
+    return ".".join(part.strip("\"'") for part in re.findall(KEY, name))
+
+
+def _value_end(text: str, position: int) -> int:
+    """The end of the line on which a value ends that begins at a position."""
+    depth = 0
+    while position < len(text):
+        if text[position] == "\n" and not depth:
+            return position
+        token = TOKEN.match(text, position)
+        if token is None:
+            position += 1
+            continue
+        position = token.end()
+        if token[0] in ('"""', "'''"):
+            position = text.index(token[0], position) + 3
+            while text.startswith(token[0][0], position):  # up to two quotes may precede the closing three
+                position += 1
+        depth += (token[0] in ("[", "{")) - (token[0] in ("]", "}"))
+    return len(text)

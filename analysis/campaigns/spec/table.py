@@ -1,0 +1,168 @@
+"""Checked reading of a TOML file: every value has its kind, every key is known, or an InputError says which."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any, TypeVar
+
+from ...common.errors import InputError
+from .expressions import Expression
+
+T = TypeVar("T")
+REQUIRED: Any = object()
+
+
+class Table:
+    """One table of a TOML file; ``element`` is its place in the file, as in ``metric.position_error``.
+
+    ``origins`` has file and line of values by their place, where they are written in several files.
+    """
+
+    def __init__(
+        self,
+        content: Mapping[str, Any],
+        file: str,
+        element: str = "",
+        origins: Mapping[str, tuple[str, int]] | None = None,
+    ) -> None:
+        self.content = content
+        self.file = file
+        self.element = element
+        self.origins = origins or {}
+
+    def place(self, key: str) -> str:
+        return f"{self.element}.{key}" if self.element else key
+
+    def where(self, key: str) -> tuple[str, str]:
+        """File and place of a key, as errors name them."""
+        place = self.place(key) if key else self.element
+        return self.origin(place)[0], place
+
+    def origin(self, name: str) -> tuple[str, int]:
+        """File and line of a place, or of the nearest one that it is part of; line 0 where none is known."""
+        parts = re.split(r"(?=[.\[])", name)
+        nearest = ("".join(parts[:count]) for count in range(len(parts), 0, -1))
+        return next((self.origins[part] for part in nearest if part in self.origins), (self.file, 0))
+
+    def error(self, key: str, problem: str, remedy: str) -> InputError:
+        return InputError(*self.where(key), problem, remedy)
+
+    def only(self, allowed: Iterable[str]) -> None:
+        """Refuse keys that are not ``allowed``."""
+        names = list(allowed)
+        for key in self.content:
+            if key not in names:
+                raise self.error(key, "unknown key", f"allowed here: {', '.join(names)}")
+
+    def get(self, key: str, kind: Callable[[Table, str, Any], T], default: T = REQUIRED) -> T:
+        """The value of ``key`` read by ``kind`` (`text`, `number`, ...), or ``default`` where it is absent."""
+        if key in self.content:
+            return kind(self, key, self.content[key])
+        if default is REQUIRED:
+            raise self.error(key, "missing", f"add {key} = ... to the {self.element or 'top of the file'}")
+        return default
+
+    def table(self, key: str) -> Table:
+        """The subtable ``key``; an empty one where it is absent."""
+        value = self.content.get(key, {})
+        if not isinstance(value, dict):
+            raise self.error(key, "not a table", f"write [{self.place(key)}] and its keys below it")
+        return Table(value, self.file, self.place(key), self.origins)
+
+    def flat(self, of_tables: bool = False) -> Iterator[tuple[str, Any]]:
+        """Name and value of the entries; nested tables become dotted names: a.b = 1 is the same as "a.b" = 1.
+
+        With ``of_tables`` the entries are tables themselves, and only tables of tables are unfolded.
+        """
+
+        def walk(prefix: str, content: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+            for key, value in content.items():
+                inner = value.values() if isinstance(value, dict) else ()
+                if inner and (not of_tables or all(isinstance(entry, dict) for entry in inner)):
+                    yield from walk(f"{prefix}{key}.", value)
+                else:
+                    yield prefix + key, value
+
+        seen: set[str] = set()
+        for name, value in walk("", self.content):
+            if name in seen:
+                raise self.error(name, "there twice, written with and without quotes", "keep one of the two")
+            seen.add(name)
+            yield name, value
+
+
+def text(table: Table, key: str, value: Any) -> str:
+    """A string that is not empty."""
+    if not isinstance(value, str) or not value.strip():
+        raise table.error(key, f"{value!r} is not a text", 'write it in quotes: "..."')
+    return value.strip()
+
+
+def integer(table: Table, key: str, value: Any) -> int:
+    """A whole number."""
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise table.error(key, f"{value!r} is not a whole number", "write an integer")
+    return value
+
+
+def bound(table: Table, key: str, value: Any) -> float:
+    """A number, infinite ones included, or a text that is a constant expression, such as "-pi/4"."""
+    if isinstance(value, str):
+        formula = Expression(value, table.where(key))
+        if formula.names:
+            raise table.error(key, f"{value!r} is not constant", "use numbers, pi and e only, or [derive]")
+        value = formula.evaluate({})
+    if isinstance(value, bool) or not isinstance(value, int | float) or math.isnan(value):
+        raise table.error(key, f"{value!r} is not a number", 'write a number, or a constant expression as "pi/4"')
+    return float(value)
+
+
+def number(table: Table, key: str, value: Any) -> float:
+    """A finite number, or a text that is a constant expression."""
+    read = bound(table, key, value)
+    if not math.isfinite(read):
+        raise table.error(key, f"{value!r} is not finite", "write a finite number")
+    return read
+
+
+def sequence(kind: Callable[[Table, str, Any], T]) -> Callable[[Table, str, Any], tuple[T, ...]]:
+    """An array of at least one value, each of one kind."""
+
+    def read(table: Table, key: str, value: Any) -> tuple[T, ...]:
+        if not isinstance(value, list) or not value:
+            raise table.error(key, f"{value!r} is not a list of values", "write [a, b, ...] with one or more values")
+        return tuple(kind(table, f"{key}[{index + 1}]", entry) for index, entry in enumerate(value))
+
+    return read
+
+
+def numbers(table: Table, key: str, value: Any) -> tuple[float, ...]:
+    """An array of at least one finite number."""
+    return sequence(number)(table, key, value)
+
+
+def names(table: Table, key: str, value: Any) -> tuple[str, ...]:
+    """An array of at least one text, none of them twice."""
+    listed = sequence(text)(table, key, value)
+    for name in listed:
+        if listed.count(name) > 1:
+            raise table.error(key, f"{name!r} is there twice", "name it once")
+    return listed
+
+
+def expression(table: Table, key: str, value: Any) -> Expression:
+    """A text that is an expression, see `Expression`."""
+    return Expression(text(table, key, value), table.where(key))
+
+
+def choice_of(*allowed: str) -> Callable[[Table, str, Any], str]:
+    """One of the texts ``allowed``."""
+
+    def read(table: Table, key: str, value: Any) -> str:
+        if value not in allowed:
+            raise table.error(key, f"{value!r} is not known", f"use one of {', '.join(allowed)}")
+        return value
+
+    return read

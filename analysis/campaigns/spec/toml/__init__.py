@@ -1,1 +1,0 @@
-"""TOML of campaigns: checked tables, lines of keys, files that extend others."""

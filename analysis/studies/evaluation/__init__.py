@@ -1,1 +1,0 @@
-"""Flights of draws that a study chooses: who flies them, and what has been flown."""

@@ -1,0 +1,111 @@
+"""A failure as a number: how far a trial is from it, of an expression that says when it is one.
+
+``a > b`` becomes the margin a - b, ``and`` the least of two margins, ``or`` the largest, ``not`` the margin of the
+opposite. A trial has failed where its margin is 0 or more; the larger, the worse.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from ..campaigns.spec.campaign import Campaign
+from ..campaigns.spec.expressions import Expression, Where
+from ..common.errors import InputError, suggestion
+
+Margin = Callable[[Mapping[str, np.ndarray]], np.ndarray]
+NEVER = -np.nextafter(0.0, 1.0)  # the margin of a strict comparison of equals: next to failure, and none
+OPPOSITE: dict[type[ast.cmpop], type[ast.cmpop]] = {
+    ast.Lt: ast.GtE,
+    ast.LtE: ast.Gt,
+    ast.Gt: ast.LtE,
+    ast.GtE: ast.Lt,
+    ast.Eq: ast.NotEq,
+    ast.NotEq: ast.Eq,
+}
+
+
+class Failure:
+    """When a trial is a failure, and by how much.
+
+    ``names`` are metrics, drawn and derived values. A trial in which one of them is not finite is a failure of the
+    margin inf, as one is whose success expression has such a metric.
+    """
+
+    def __init__(self, expression: Expression) -> None:
+        self.expression = expression
+        self.text = expression.text
+        self.names = expression.names
+        self._margin = _margin(ast.parse(expression.text, mode="eval").body, False, expression.where)
+
+    def margins(self, values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
+        """The margin of every trial (trials,): 0 or more exactly where the expression is true.
+
+        ``values`` has an array (trials,) for every name; ``flown`` (trials,) says which flights came to their end: one
+        that did not is a failure.
+        """
+        given = {name: np.asarray(values[name], dtype=float) for name in self.names}
+        finite = np.array(flown, dtype=bool)
+        for column in given.values():
+            finite &= np.isfinite(column)
+        margins = np.broadcast_to(self._margin(given), finite.shape)
+        return np.where(finite & ~np.isnan(margins), margins, np.inf)
+
+
+def failure_of(campaign: Campaign, text: str | None) -> Failure:
+    """The failure that an expression over metrics and draws is, or without one that the campaign is no success.
+
+    Raises InputError.
+    """
+    if text is None:
+        return Failure(Expression(f"not ({campaign.success.text})", campaign.success.where))
+    wanted = Failure(Expression(text, ("`failure`", text)))
+    known = [metric.name for metric in campaign.metrics] + campaign.input_names()
+    for name in sorted(wanted.names - set(known)):
+        raise InputError("`failure`", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
+    return wanted
+
+
+def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:
+    """The margin of a part of an expression, or of its opposite."""
+    match node:
+        case ast.UnaryOp(op=ast.Not(), operand=operand):
+            return _margin(operand, not negated, where)
+        case ast.BoolOp(op=joint, values=values):
+            either = isinstance(joint, ast.Or) != negated  # of not (a and b): not a or not b
+            return _join_limit_states([_margin(value, negated, where) for value in values], either)
+        case ast.Compare(left=left, ops=operators, comparators=comparators):
+            sides = [left, *comparators]
+            links = []
+            for index, operator in enumerate(operators):
+                kind = OPPOSITE[type(operator)] if negated else type(operator)
+                links.append(_difference(sides[index], kind, sides[index + 1], where))
+            return _join_limit_states(links, negated)
+    nothing = ast.Constant(0)
+    return _difference(node, ast.Eq if negated else ast.NotEq, nothing, where)
+
+
+def _join_limit_states(margins: list[Margin], either: bool) -> Margin:
+    """The margin of one of several (``either``), or of all of them."""
+    join = np.maximum if either else np.minimum
+    return lambda values: join.reduce(np.broadcast_arrays(*(margin(values) for margin in margins)))
+
+
+def _difference(left: ast.expr, operator: type[ast.cmpop], right: ast.expr, where: Where) -> Margin:
+    """The margin of one comparison, from its sides' difference; nan where that is not known."""
+    above = Expression(f"({ast.unparse(left)}) - ({ast.unparse(right)})", where)
+
+    def margin(values: Mapping[str, np.ndarray]) -> np.ndarray:
+        difference = np.asarray(above.evaluate(values))
+        if operator in (ast.Lt, ast.LtE):
+            difference = -difference
+        elif operator in (ast.Eq, ast.NotEq):
+            difference = np.abs(difference)
+        if operator is ast.Eq:
+            return np.where(difference == 0.0, 0.0, -difference)
+        strict = operator in (ast.Lt, ast.Gt, ast.NotEq)
+        return np.where(difference == 0.0, NEVER if strict else 0.0, difference)
+
+    return margin

@@ -1,0 +1,83 @@
+"""Flights of given draws, as many times as a study asks for them, by workers that stay."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..campaigns.draws.declared import Columns
+from ..campaigns.draws.given import ALL, GivenDraws, Streams
+from ..campaigns.fly.flyer import Flyer
+from ..campaigns.fly.metadata import provenance
+from ..campaigns.fly.workers import FlyerPool, worker_count
+from ..campaigns.spec.campaign import Record
+from ..campaigns.spec.checks import check_draws, check_plan
+from ..campaigns.spec.plan import BatchPlan
+from ..campaigns.trials import Trials, join_trials
+from ..common.errors import InputError
+from ..common.progress import progress_bar
+from .noise import make_samples, noise_of
+
+OWN = ("trials", "record", "group", "draws_sha256")  # facts of a batch that a study of samples has not
+
+
+class SampleFlights:
+    """Flies draws of one variant of a campaign that somebody chooses. Use it as a context manager: it holds workers.
+
+    ``first`` are draws with which everything is checked before anything flies; ``noise_trial`` is the trial of the
+    campaign whose random streams all flights have, None where `fly` is given them. ``workers`` (default: one per
+    processor) does not change results. Raises InputError, also for a campaign that compares FMUs.
+    """
+
+    def __init__(
+        self, plan: BatchPlan, first: Columns, *, noise_trial: int | None = None, workers: int | None = None
+    ) -> None:
+        variants = plan.campaign.variants()
+        if len(variants) != 1:
+            problem = f"the campaign has {len(variants)} variants, and a study is of one"
+            raise InputError(plan.campaign.file, "`configuration`", problem, f"give `configuration` {variants[0].name}")
+        self._count = worker_count(workers)
+        plain = replace(plan.campaign, record=Record(), group=None, scatters=())
+        self.plan = replace(plan, campaign=plain).of_samples(GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))
+        systems = check_plan(self.plan)
+        self.variant, self.prepared = next(iter(systems.items()))
+        self.noise = noise_of(self.prepared, noise_trial, plan.campaign.seed)
+        self.facts = {name: fact for name, fact in provenance(self.plan, systems).items() if name not in OWN}
+        self.flown = 0
+        self._pool = FlyerPool(self.plan, self._count, self.prepared.flies_in_threads)
+        self._progress = progress_bar(unit="flight")
+
+    def fly(self, columns: Columns, streams: Streams) -> tuple[Trials, Mapping[str, np.ndarray]]:
+        """The trials of given draws and random streams, in their order, with the drawn and derived values.
+
+        ``streams`` are those of all sources of the noise, by component. Raises InputError.
+        """
+        plan = self.plan.of_samples(make_samples(columns, streams, self.noise))
+        check_draws(plan, [self.prepared])
+        trials = plan.campaign.trials
+        size = max(1, min(50 if self.prepared.flies_in_threads else 10, trials // (4 * self._count)))
+        pieces = [range(first, min(first + size, trials)) for first in range(0, trials, size)]
+        parts: dict[int, Trials] = {}
+        for place, flown in self._pool.work(_fly, [(self.variant, plan.of_part(piece)) for piece in pieces]):
+            if flown is None:
+                raise KeyboardInterrupt
+            parts[place] = flown.renumber(pieces[place].start)
+            self._progress.update(len(pieces[place]))
+        self.flown += trials
+        return join_trials(parts.values()), plan.draws.of_part(range(trials)).columns
+
+    def __enter__(self) -> SampleFlights:
+        self._pool.__enter__()
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self._progress.close()
+        self._pool.__exit__(*error)
+
+
+def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> Trials | None:
+    """The trials of a plan for the system that a worker flies."""
+    return flyer.fly_others(variant, plan)

@@ -1,0 +1,80 @@
+"""The random numbers that components draw themselves: random in a study, or those of one trial in all flights."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..campaigns.draws.declared import Columns
+from ..campaigns.draws.given import ALL, GivenDraws, Streams
+from ..campaigns.spec.drawn import with_streams
+from ..common.errors import InputError
+from ..runtime.system.prepared import PreparedSystem
+
+
+@dataclass(frozen=True)
+class Noise:
+    """The noise of ``components``, random where ``trial`` is None, else that of one trial of the campaign."""
+
+    components: tuple[str, ...]
+    trial: int | None
+    seed: int
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """The components whose noise is random in the study."""
+        return self.components if self.trial is None else ()
+
+    @property
+    def is_held(self) -> bool:
+        """Whether all flights have the noise of one trial, and there is any."""
+        return self.trial is not None and bool(self.components)
+
+    def of(self, streams: np.ndarray) -> Streams:
+        """Random streams by component, of numbers of trials (flights, sources)."""
+        return dict(zip(self.sources, streams.T, strict=True))
+
+    def same(self, streams: np.ndarray) -> Streams:
+        """Random streams where all sources have the noise of the same trial (flights,)."""
+        return dict.fromkeys(self.sources, streams)
+
+    def document(self) -> dict[str, Any]:
+        """What results say of it as JSON; ``noise_trial`` is None where the noise is random, or there is none."""
+        return {
+            "noise_trial": self.trial if self.components else None,
+            "noise": {"components": list(self.components), "random": bool(self.sources)},
+        }
+
+
+def noise_of(prepared: PreparedSystem, trial: int | None, seed: int) -> Noise:
+    """The noise of a system in a study. Raises InputError where there is no such trial."""
+    if trial is not None and trial < 0:
+        raise InputError("`noise_trial`", str(trial), "no such trial", "give 0 or more")
+    return Noise(tuple(with_streams(prepared)), trial, seed)
+
+
+def make_samples(columns: Columns, streams: Streams, noise: Noise) -> GivenDraws:
+    """Draws with the random streams of all sources, or those of the one trial where the noise is not random."""
+    if noise.sources:
+        return GivenDraws(columns, streams)
+    return GivenDraws(columns, {ALL: np.full(len(next(iter(columns.values()))), noise.trial or 0)})
+
+
+def conditions(noise: Noise, held: Mapping[str, float]) -> str:
+    """What a result is conditional on, as the end of a line; empty where it is on nothing."""
+    given = [f"{name} = {value:g}" for name, value in held.items()]
+    given += [f"the noise realisation of trial {noise.trial}"] if noise.is_held else []
+    return f", conditional on {' and '.join(given)}" if given else ""
+
+
+def noise_line(noise: Noise) -> str:
+    """What results say of the noise on a line of its own; empty where no component has any."""
+    if not noise.components:
+        return ""
+    names = ", ".join(noise.components)
+    if noise.is_held:
+        return f"noise of {names}: that of trial {noise.trial} in all flights, seed {noise.seed}"
+    return f"noise of {names}: random"

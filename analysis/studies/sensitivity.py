@@ -1,0 +1,208 @@
+"""What drives the metrics of a campaign: Sobol' indices of a plan of their own, and what comes of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..campaigns.draws.declared import input_names
+from ..campaigns.fly.shards.files import write_parquet
+from ..campaigns.spec.plan import BatchPlan
+from ..campaigns.tables import align_columns, assumption_lines
+from ..common.atomic import write_atomically
+from ..common.elementary import elementary
+from ..common.errors import InputError
+from .draw_space import DrawSpace
+from .flights import SampleFlights
+from .flown import Commands, Flown, strict
+from .noise import Noise, conditions, noise_line
+from .sobol import CONFIDENCE, Indices, indices, rank_correlations, saltelli_points, with_noise
+from .units import units_of, with_unit
+
+SUCCESS = "success"
+EDGE = 2.0**-40  # of the unit interval, where a normal draw would be infinite
+
+
+def sensitivity(
+    plan: BatchPlan,
+    base: int,
+    *,
+    hold: Mapping[str, float] | None = None,
+    noise_trial: int | None = None,
+    workers: int | None = None,
+    tell: Callable[[str], object] = lambda price: None,
+) -> SensitivityResult:
+    """First-order and total Sobol' indices of every metric and of success, by ``base`` * (draws + 3) flights.
+
+    The noise of all components is one input beside the draws, unless ``noise_trial`` gives all flights the same: then,
+    and where no component has any, it is ``base`` * (draws + 2) flights.
+    ``base`` is a power of two, 32 or more; draws that are jointly normal are refused, as their shares cannot be told
+    apart: hold them. ``hold`` and ``noise_trial`` are as in `rare_failure`. ``tell`` is given the price before anything
+    flies. The campaign's seed is that of the points; ``workers`` does not change the result. Raises InputError.
+    """
+    if base < 32 or base & (base - 1):
+        raise InputError("`base`", str(base), "not a power of two from 32 on", "give 64, 128, 256, ...")
+    space = DrawSpace(plan.campaign, hold)
+    if not space.independent:
+        draw = next(draw for draw in plan.campaign.draws if len(draw.names) > 1 and draw.names[0] in space.names)
+        problem = "jointly normal values have no indices of their own"
+        held = " ".join(f"`hold` {name}=VALUE" for name in draw.names)
+        raise InputError(plan.campaign.file, f"draw.{draw.name}", problem, f"hold them: {held}")
+    random = np.random.Generator(np.random.Philox(np.random.SeedSequence(plan.campaign.seed)))
+    with SampleFlights(
+        plan, space.from_normals(np.zeros((1, space.size))), noise_trial=noise_trial, workers=workers
+    ) as flights:
+        noise = flights.noise
+        extra = 3 if noise.sources else 2
+        tell(f"sensitivity: {base} x ({space.size} draws + {extra}) = {base * (space.size + extra)} flights")
+        points, streams = saltelli_points(base, space.size, random), np.zeros(0, dtype=np.int64)
+        if noise.sources:
+            points, streams = with_noise(points, base)
+        columns = space.from_normals(elementary("normal_quantile")(np.clip(points, EDGE, 1.0 - EDGE)))
+        trials, draws = flights.fly(columns, noise.same(streams))
+        metrics = {**trials.metrics, SUCCESS: trials.success.astype(float)}
+        reported = [name for name, values in metrics.items() if np.all(np.isfinite(values)) and np.ptp(values) > 0.0]
+        computed = indices(np.array([metrics[name] for name in reported]), base, random) if reported else None
+        independent = slice(0, 2 * base)  # A and B
+        sampled = {name: draws[name][independent] for name in space.names}
+        ranks = rank_correlations(sampled, {name: values[independent] for name, values in metrics.items()})
+        flown = Flown()
+        flown.add(points, draws, trials.metrics, metrics[SUCCESS])
+        return SensitivityResult(
+            base, space, tuple(reported), computed, _untold(metrics, reported), ranks, flown.whole(), flights.facts,
+            noise, units_of(space, flights.prepared, flights.facts),
+        )  # fmt: skip
+
+
+def _untold(metrics: Mapping[str, np.ndarray], told: list[str]) -> dict[str, str]:
+    """Why numbers have no indices."""
+    reasons = {}
+    for name, values in metrics.items():
+        if name not in told:
+            lacking = int(np.sum(~np.isfinite(values)))
+            reasons[name] = f"not finite in {lacking} flights" if lacking else f"{values[0]:g} in all flights"
+    return reasons
+
+
+NOISE = "noise realisation"  # the input that all random noise is
+DRAWS = "draws.parquet"
+
+
+@dataclass(frozen=True, eq=False)
+class SensitivityResult:
+    """Sobol' ``indices`` of the numbers ``told`` (None where there are none), and why others have none, ``untold``.
+
+    ``ranks`` are rank correlations by number and draw; the noise has none. ``facts`` are what the result depends on,
+    ``noise`` the random numbers that components draw themselves: one input more where they are random. ``units`` are
+    those of draws and metrics by name, ``commands`` write the command lines that fly flights again, where known.
+    """
+
+    base: int
+    space: DrawSpace
+    told: tuple[str, ...]
+    indices: Indices | None
+    untold: Mapping[str, str]
+    ranks: Mapping[str, Mapping[str, float | None]]
+    flown: Flown
+    facts: dict[str, Any]
+    noise: Noise
+    units: Mapping[str, str]
+    commands: Commands | None = None
+
+    @property
+    def flights(self) -> int:
+        """How many were flown."""
+        return len(self.flown.values)
+
+    @property
+    def inputs(self) -> list[str]:
+        """What varies: the draws, and the noise as one input where it is random."""
+        return [*self.space.names, *([NOISE] if self.noise.sources else [])]
+
+    @property
+    def conditions(self) -> str:
+        """What the numbers are conditional on, as the end of a line; empty where they are not."""
+        return conditions(self.noise, self.space.held)
+
+    def of(self, number: str) -> dict[str, dict[str, Any]]:
+        """What each input does to a metric or to ``success``: ``first``, ``total``, their intervals, ``rank``.
+
+        The noise has no rank: its realisations have no order.
+        """
+        rows: dict[str, dict[str, Any]] = {name: {"rank": self.ranks[number].get(name)} for name in self.inputs}
+        if self.indices is not None and number in self.told:
+            row = self.told.index(number)
+            for index, name in enumerate(self.inputs):
+                for order in ("first", "total"):
+                    rows[name][order] = float(getattr(self.indices, order)[row, index])
+                    ends = getattr(self.indices, f"{order}_interval")[:, row, index]
+                    rows[name][f"{order}_interval"] = [strict(end) for end in ends]
+        return rows
+
+    def replay(self, folder: Path | None, flight: int) -> str:
+        """The command that flies one of the flights again; empty where they are not written to a folder."""
+        return "" if folder is None or self.commands is None else self.commands.replay(folder / DRAWS, flight)
+
+    def document(self, folder: Path | None = None) -> dict[str, Any]:
+        """The machine-readable result; ``folder`` is where it has been written, if it has."""
+        replay = self.replay(folder, 0)
+        return {
+            **self.facts,
+            "held": self.space.held,
+            **self.noise.document(),
+            "conditional": bool(self.conditions),
+            "conditions": self.conditions.removeprefix(", "),
+            "inputs": self.inputs,
+            "units": dict(self.units),
+            "base": self.base,
+            "flights": self.flights,
+            "confidence": CONFIDENCE,
+            "sensitivity": {name: self.of(name) for name in self.ranks},
+            "without_indices": dict(self.untold),
+            **({"replay": replay} if replay else {}),
+        }
+
+    def text(self, folder: Path | None = None) -> str:
+        """The result for a terminal: a table for each number, its inputs in order of their total index."""
+        percent, under = f"{100 * CONFIDENCE:g} %", self.conditions
+        lines = [f"{self.flights} flights: Sobol' indices and their {percent} intervals, rank correlations{under}"]
+        lines += [line for line in (noise_line(self.noise),) if line]
+        if self.noise.sources:
+            lines.append(f"{NOISE}: all of these components as one input; rank correlations leave it out")
+        lines += assumption_lines(self.facts)
+        for number in self.told:
+            indices = self.of(number)
+            rows = [[with_unit(number, self.units), "total", percent, "first", percent, "rank"]]
+            for name in sorted(indices, key=lambda name: -indices[name]["total"]):
+                entry = indices[name]
+                cells = [
+                    cell
+                    for order in ("total", "first")
+                    for cell in (_text(entry[order]), " to ".join(map(_text, entry[f"{order}_interval"])))
+                ]
+                rows.append([f"  {with_unit(name, self.units)}", *cells, _text(entry["rank"])])
+            lines += ["", *([f"{number}{under}"] if under else []), *align_columns(rows)]
+        lines += ["", *(f"{name}: no indices, {why}" for name, why in self.untold.items())] if self.untold else []
+        replay = self.replay(folder, 0)
+        lines += [
+            "",
+            f"replay: {replay}" if replay else "replay: needs the folder of `output`",
+        ]
+        return "\n".join(line.rstrip() for line in lines)
+
+    def write(self, folder: Path) -> None:
+        """Write sensitivity.json, flights.parquet, and draws.parquet of all flights for `--draws`."""
+        sampled = input_names(self.space.campaign)
+        write_parquet(self.flown.given(sampled, np.arange(self.flights)), folder / DRAWS)
+        write_parquet(self.flown.table("success"), folder / "flights.parquet")
+        text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
+        write_atomically(folder / "sensitivity.json", text.encode())
+
+
+def _text(value: float | None) -> str:
+    return "-" if value is None else f"{round(value, 2) + 0.0:.2f}"

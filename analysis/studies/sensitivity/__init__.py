@@ -1,1 +1,0 @@
-"""What drives a campaign's metrics: rank correlations of any trials, Sobol' indices of a plan of their own."""

@@ -1,0 +1,107 @@
+"""Sobol' indices: the share of a number's variance that each draw makes, alone and with others.
+
+Saltelli et al. (2010): two independent tables of draws, A and B, and for each draw A with that column of B.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+CONFIDENCE = 0.95
+RESAMPLES = 999
+
+
+@dataclass(frozen=True, eq=False)
+class Indices:
+    """First-order and total indices (numbers, inputs) with their 95 % intervals (2, numbers, inputs), low and high.
+
+    The first-order index is the share of the variance that an input makes by itself; the total one is the share that is
+    left when all other inputs are known.
+    """
+
+    first: np.ndarray
+    total: np.ndarray
+    first_interval: np.ndarray
+    total_interval: np.ndarray
+
+
+def saltelli_points(base: int, dimensions: int, random: np.random.Generator) -> np.ndarray:
+    """Points of the unit cube (base * (dimensions + 2), dimensions): A, B, and A with each column of B in turn.
+
+    ``base`` is a power of two, that of the scrambled Sobol' sequence in twice as many dimensions.
+    """
+    both = scipy.stats.qmc.Sobol(2 * dimensions, scramble=True, bits=64, rng=random).random(base)
+    first, second = both[:, :dimensions], both[:, dimensions:]
+    mixed = np.tile(first, (dimensions, 1, 1))
+    places = np.arange(dimensions)
+    mixed[places, :, places] = second.T
+    return np.concatenate([first, second, *mixed])
+
+
+def with_noise(points: np.ndarray, base: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points and streams where the noise is one input more: `saltelli_points`, and A with the streams of B.
+
+    Points are (base * (dimensions + 3), dimensions), streams (base * (dimensions + 3),) a number for each noise
+    realisation: row i of A has i, row i of B base + i, and every mix has those of A but for the last, which has B's.
+    """
+    first = np.arange(base)
+    mixes = len(points) // base - 2
+    return np.concatenate([points, points[:base]]), np.concatenate(
+        [first, first + base, *[first] * mixes, first + base]
+    )
+
+
+def indices(values: np.ndarray, base: int, random: np.random.Generator) -> Indices:
+    """Indices of numbers (numbers, base * (inputs + 2)) at the points of `saltelli_points`, or of `with_noise`.
+
+    They are finite, and none is the same everywhere. The intervals are percentiles of a bootstrap over the rows.
+    """
+    pages = values.reshape(len(values), -1, base)  # numbers, A B AB..., rows
+
+    def statistic(rows: np.ndarray) -> np.ndarray:
+        part = pages[:, :, rows]
+        if part.shape[:2] == (1, 3):  # one number of one input, which scipy refuses: twice, and the first of the two
+            part = np.repeat(part, 2, axis=0)
+        parts = {"f_A": part[:, 0], "f_B": part[:, 1], "f_AB": part[:, 2:].swapaxes(0, 1)}
+        sobol = scipy.stats.sobol_indices(func=parts, n=base)
+        shape = (len(part), -1)  # which a single number has lost
+        return np.stack([order.reshape(shape)[: len(pages)] for order in (sobol.first_order, sobol.total_order)])
+
+    whole = statistic(np.arange(base))
+    spread = scipy.stats.bootstrap(
+        (np.arange(base),),
+        statistic,
+        n_resamples=RESAMPLES,
+        vectorized=False,
+        method="percentile",
+        confidence_level=CONFIDENCE,
+        rng=random,
+    ).confidence_interval
+    ends = np.stack([spread.low, spread.high])
+    return Indices(whole[0], whole[1], ends[:, 0], ends[:, 1])
+
+
+FEWEST = 3  # trials with a finite value
+
+
+def rank_correlations(
+    draws: Mapping[str, np.ndarray], metrics: Mapping[str, np.ndarray]
+) -> dict[str, dict[str, float | None]]:
+    """Spearman's rho of every metric with every draw, by metric and draw; all columns are (trials,).
+
+    Over the trials in which the metric is not nan: infinite values are the largest ranks. None where either has one
+    value only, or fewer than `FEWEST` trials have one. Chance alone gives about 1 / sqrt(trials).
+    """
+    return {metric: {name: _rho(draw, values) for name, draw in draws.items()} for metric, values in metrics.items()}
+
+
+def _rho(draw: np.ndarray, values: np.ndarray) -> float | None:
+    known = ~np.isnan(values)
+    draw, values = draw[known], values[known]
+    if values.size < FEWEST or np.all(draw == draw[0]) or np.all(values == values[0]):
+        return None
+    return float(scipy.stats.spearmanr(draw, values).statistic)

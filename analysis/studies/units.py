@@ -1,0 +1,53 @@
+"""Units of what a study prints: draws that are parameters, metrics, expressions that have the unit of one metric."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+from typing import Any
+
+from ..campaigns.spec.expressions import Expression
+from ..runtime.system.prepared import PreparedSystem
+from .draw_space import DrawSpace
+
+SUMS = (ast.Add, ast.Sub)
+
+
+def units_of(space: DrawSpace, prepared: PreparedSystem, facts: Mapping[str, Any]) -> dict[str, str]:
+    """The units of draws and metrics by name, of those that have one."""
+    units = {name: fact["unit"] for name, fact in facts["metrics"].items()}
+    for draw in space.campaign.draws:
+        for name in draw.names:
+            component = max(
+                (part for part in prepared.network.fmus if name.startswith(f"{part}.")), key=len, default=""
+            )
+            if component:
+                fmu = prepared.network.fmus[component]
+                units[name] = fmu.unit_of(fmu.variables[name.removeprefix(f"{component}.")])
+    return {name: unit for name, unit in units.items() if unit and unit != "1"}
+
+
+def unit_of_expression(expression: Expression, units: Mapping[str, str]) -> str:
+    """The unit of a sum or a comparison of one metric or draw with numbers, or of several of one unit; else nothing."""
+    candidates = {units.get(name, "") for name in expression.names}
+    return candidates.pop() if len(candidates) == 1 and _is_linear(ast.parse(expression.text, mode="eval").body) else ""
+
+
+def _is_linear(node: ast.expr) -> bool:
+    match node:
+        case ast.Name() | ast.Constant() | ast.Attribute() | ast.Subscript():
+            return True
+        case ast.UnaryOp(operand=operand):
+            return _is_linear(operand)
+        case ast.BinOp(left=left, op=operator, right=right):
+            return isinstance(operator, SUMS) and _is_linear(left) and _is_linear(right)
+        case ast.Compare(left=left, comparators=comparators):
+            return all(map(_is_linear, (left, *comparators)))
+        case ast.BoolOp(values=values):
+            return all(map(_is_linear, values))
+    return False
+
+
+def with_unit(name: str, units: Mapping[str, str]) -> str:
+    """A name as tables show it, its unit behind it."""
+    return f"{name}, {units[name]}" if name in units else name

@@ -1,0 +1,111 @@
+"""What is to be worst: a number of every trial, of its metrics or of a loop's margins, the larger the worse."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...campaigns.spec.campaign import Campaign
+from ...campaigns.spec.expressions import Expression
+from ...common.errors import InputError, suggestion
+from ...stability.loops.margin_values import UNSTABLE, Margins, Quantity
+from ..failure import failure_of
+from ..flown import strict
+
+
+@dataclass(frozen=True)
+class Badness:
+    """A number of every trial: called with values by name (trials,) and which flights came to their end (trials,).
+
+    It is inf where a flight did not, or where the number is not finite. ``text`` says what it is, ``size`` the number
+    that it stands for, and ``fact`` that number, or one of the values, as JSON has it; ``expression`` is what it is the
+    value or the margin of, None where its text says its unit.
+    """
+
+    text: str
+    of: Callable[[Mapping[str, np.ndarray], np.ndarray], np.ndarray]
+    size: Callable[[float], float] = float
+    fact: Callable[[float], float | str | None] = strict
+    expression: Expression | None = None
+
+    def __call__(self, values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
+        return self.of(values, flown)
+
+
+def badness_of(campaign: Campaign, text: str | None) -> Badness:
+    """Of an expression over metrics and draws, or without one of the margin by which a trial is no success.
+
+    Raises InputError.
+    """
+    if text is None:
+        failure = failure_of(campaign, None)
+        return Badness(f"margin of {failure.text}", failure.margins, expression=failure.expression)
+    expression = Expression(text, ("`metric`", text))
+    known = [metric.name for metric in campaign.metrics] + campaign.input_names()
+    for name in sorted(expression.names - set(known)):
+        raise InputError("`metric`", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
+
+    def of(values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
+        values_of_trials = np.broadcast_to(expression.evaluate(values), flown.shape)
+        return np.where(flown & np.isfinite(values_of_trials), values_of_trials, np.inf)
+
+    return Badness(expression.text, of, expression=expression)
+
+
+MOST = 1e9  # what a margin without a crossing counts as: more than any
+SIZES = {
+    "disk": ("disk_margin", Quantity.DISK),
+    "modulus": ("modulus_margin", Quantity.MODULUS),
+    "gain": ("gain_margin_db", Quantity.GAIN),
+    "phase": ("phase_margin_deg", Quantity.PHASE),
+    "delay": ("delay_margin_s", Quantity.DELAY),
+}
+LARGEST = "largest_multiplier"
+
+
+def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[Margins] | None]) -> dict[str, np.ndarray]:
+    """The margins of all channels, a row for each of ``found`` and a column for each margin and largest multiplier.
+
+    A margin of an unstable loop is `UNSTABLE`, one without a crossing inf; a row of None is nan.
+    """
+    columns: dict[str, np.ndarray] = {}
+    for index, channel in enumerate(channels):
+        for key, quantity in SIZES.values():
+            columns[f"{channel}.{key}"] = np.array([row[index].size(quantity) if row else np.nan for row in studied])
+        columns[f"{channel}.{LARGEST}"] = np.array(
+            [row[index].largest if row else np.nan for row in studied], dtype=float
+        )
+    return columns
+
+
+def badness_of_margin(name: str, point: str, channels: Sequence[str], margin: str) -> Badness:
+    """Of the least margin of a loop's channels at a point; ``margin`` is one of `SIZES`.
+
+    Of an unstable channel it is its largest multiplier less 1, which continues where margins end at 0.
+    """
+    key, quantity = SIZES[margin]
+
+    def of(values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
+        worst = np.full(flown.shape, -np.inf)
+        for channel in channels:
+            size = np.minimum(values[f"{channel}.{key}"], MOST)
+            beyond = np.maximum(values[f"{channel}.{LARGEST}"] - 1.0, np.finfo(float).tiny)
+            worst = np.maximum(worst, np.where(size == UNSTABLE, beyond, -size))
+        return np.where(flown, worst, np.inf)
+
+    unit = "" if quantity.unit == "1" else f" ({quantity.unit})"
+    return Badness(f"{quantity} of {name} at {point}{unit}", of, _size, _fact)
+
+
+def _size(value: float) -> float:
+    """The margin that a value is of; nan where there is none."""
+    if value == math.inf:
+        return math.nan
+    return UNSTABLE if value > 0.0 else 0.0 - value
+
+
+def _fact(size: float) -> float | str | None:
+    return "unstable" if size == UNSTABLE else "unlimited" if size >= MOST else strict(size)

@@ -1,0 +1,14 @@
+"""Campaigns written in the tests themselves."""
+
+from collections.abc import Callable
+
+import pytest
+
+from perilune.analysis.campaigns.spec.campaign import Campaign
+from tests.support.campaigns.texts import make_campaign
+
+
+@pytest.fixture(scope="session")
+def campaign() -> Callable[..., Campaign]:
+    """See `make_campaign`."""
+    return make_campaign

@@ -1,0 +1,21 @@
+"""Campaigns from texts that tests write."""
+
+from __future__ import annotations
+
+import tomllib
+
+from perilune.analysis.campaigns.spec.campaign import Campaign
+from perilune.analysis.campaigns.spec.file import parse_campaign
+from perilune.analysis.campaigns.spec.table import Table
+
+HEAD = 'system = "s"\ntrials = {trials}\nseed = {seed}\n[success]\nexpression = "1"\n'
+
+
+def parse_text(text: str) -> Campaign:
+    """A campaign from the whole text of its file, which errors call test.toml."""
+    return parse_campaign(Table(tomllib.loads(text), "test.toml"))
+
+
+def make_campaign(text: str, trials: int = 8, seed: int = 1) -> Campaign:
+    """A campaign from the part of its file below the required keys."""
+    return parse_text(HEAD.format(trials=trials, seed=seed) + text)
