@@ -45,7 +45,7 @@ LAW = Verb(
     "design law",
     "Make",
     "print a network operator's law as a formula, or write it as a parameter set or a drawing",
-    ("design.law", "law"),
+    ("law", "law"),
     (Argument("name", "LAW", "a law of laws/ by name, or the path of its .json file", "laws"),),
     LawOptions,
     LawFiles,
@@ -75,7 +75,7 @@ SEARCH = Verb(
     "design search",
     "Make",
     "search for a network operator's law, every candidate simulated in its system",
-    ("design.search", "synthesize"),
+    ("search", "synthesize"),
     (
         Argument(
             "search",
@@ -168,7 +168,7 @@ TRANSFER = Verb(
     "design transfer",
     "Make",
     "plan a transfer between two hovers: parametric programme, true optimum, point-mass bound",
-    ("design.transfer", "plan_hover_transfer"),
+    ("transfer", "plan_hover_transfer"),
     (),
     TransferOptions,
     ReportFiles,
@@ -210,7 +210,7 @@ BOUND = Verb(
     "design bound",
     "Make",
     "bound the propellant of a single-burn braking and landing: a point mass, attitude free",
-    ("design.bound", "plan_landing_bound"),
+    ("bound", "plan_landing_bound"),
     (
         Argument(
             "system",

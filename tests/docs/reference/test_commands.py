@@ -86,7 +86,7 @@ WORK = {
     "sensitivity": ["studies.sensitivity.sensitivity"],
     "benchmark": ["verbs.benchmark.run_benchmark"],
     "compare": ["verbs.compare.compare_folders"],
-    "design": ["verbs.design.transfer.hover_study", "verbs.design.bound.landing_study"],
+    "design": ["verbs.transfer.hover_study", "verbs.bound.landing_study"],
     "replay": ["verbs.replay.replay_trial", "verbs.replay.replay_plan"],
     "run": ["verbs.run.fly"],
     "stability": ["verbs.stability.study"],

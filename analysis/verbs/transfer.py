@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Unpack
 
-from ...common.errors import InputError
-from ...design.trajectories.hover_study import HoverStudy, hover_study
-from ...design.trajectories.path import PlannedPath
-from ...design.trajectories.vehicle import (
+from ..common.errors import InputError
+from ..design.trajectories.hover_study import HoverStudy, hover_study
+from ..design.trajectories.path import PlannedPath
+from ..design.trajectories.vehicle import (
     HOVER_MARGINS,
     HOVER_TRANSFER,
     HOVER_VEHICLE,
@@ -20,11 +20,11 @@ from ...design.trajectories.vehicle import (
     check_hover,
     check_vehicle,
 )
-from ...reports.plan.pages import write_hover_page
-from ..common.plan_text import OF_VEHICLE, burns_text, format_numbers, propellant_problems
-from ..options.design import TRANSFER, TransferOptions
-from ..options.option import FilePath
-from ..options.verb import verb
+from ..reports.plan.pages import write_hover_page
+from .common.plan_text import OF_VEHICLE, burns_text, format_numbers, propellant_problems
+from .options.design import TRANSFER, TransferOptions
+from .options.option import FilePath
+from .options.verb import verb
 
 
 @dataclass(frozen=True)

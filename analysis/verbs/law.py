@@ -9,17 +9,17 @@ from typing import Any, Unpack
 
 from matplotlib.figure import Figure as Plot
 
-from ...common.atomic import write_atomically
-from ...common.errors import InputError
-from ...design.laws import law as laws
-from ...design.laws.formula import formula, formula_text
-from ...design.laws.graph import law_figure, law_svg
-from ...design.laws.law import find_law, parameter_set
-from ...reports.common.notebook import Grid, notebook_view
-from ...reports.common.style import house_style
-from ..options.design import LAW, LawOptions
-from ..options.option import FilePath
-from ..options.verb import verb
+from ..common.atomic import write_atomically
+from ..common.errors import InputError
+from ..design.laws import law as laws
+from ..design.laws.formula import formula, formula_text
+from ..design.laws.graph import law_figure, law_svg
+from ..design.laws.law import find_law, parameter_set
+from ..reports.common.notebook import Grid, notebook_view
+from ..reports.common.style import house_style
+from .options.design import LAW, LawOptions
+from .options.option import FilePath
+from .options.verb import verb
 
 
 @dataclass(frozen=True)

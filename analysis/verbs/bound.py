@@ -8,19 +8,19 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Unpack
 
-from ....fmus_src.paths import IS_CHECKOUT, PACKAGE
-from ...common.errors import InputError, UnwrittenError
-from ...design.trajectories.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
-from ...design.trajectories.landing_study import LandingStudy, landing_study
-from ...design.trajectories.stored_bound import write_bound
-from ...design.trajectories.vehicle import LANDING, LANDING_VEHICLE, Landing, Vehicle, check_vehicle
-from ...reports.plan.pages import write_landing_page
-from ...runtime.system.options import SystemOptions, system_options
-from ...runtime.system.prepared import PreparedSystem, prepare_system
-from ..common.plan_text import OF_VEHICLE, burns_text, format_numbers, propellant_problems
-from ..options.design import BOUND, BoundOptions
-from ..options.option import FilePath
-from ..options.verb import verb
+from ...fmus_src.paths import IS_CHECKOUT, PACKAGE
+from ..common.errors import InputError, UnwrittenError
+from ..design.trajectories.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
+from ..design.trajectories.landing_study import LandingStudy, landing_study
+from ..design.trajectories.stored_bound import write_bound
+from ..design.trajectories.vehicle import LANDING, LANDING_VEHICLE, Landing, Vehicle, check_vehicle
+from ..reports.plan.pages import write_landing_page
+from ..runtime.system.options import SystemOptions, system_options
+from ..runtime.system.prepared import PreparedSystem, prepare_system
+from .common.plan_text import OF_VEHICLE, burns_text, format_numbers, propellant_problems
+from .options.design import BOUND, BoundOptions
+from .options.option import FilePath
+from .options.verb import verb
 
 OF_LANDING = tuple(Landing.__dataclass_fields__)
 

@@ -6,13 +6,13 @@ import os
 from pathlib import Path
 from typing import Unpack
 
-from ...common.targets import check_folder
-from ...design.synthesis.outcome import SynthesisResult
-from ...design.synthesis.synthesis import run_synthesis
-from ...design.synthesis.synthesis_file import find_search, read_synthesis
-from ..options.design import SEARCH, SearchOptions
-from ..options.option import FilePath
-from ..options.verb import verb
+from ..common.targets import check_folder
+from ..design.synthesis.outcome import SynthesisResult
+from ..design.synthesis.synthesis import run_synthesis
+from ..design.synthesis.synthesis_file import find_search, read_synthesis
+from .options.design import SEARCH, SearchOptions
+from .options.option import FilePath
+from .options.verb import verb
 
 
 @verb(SEARCH)

@@ -1,1 +1,0 @@
-"""The verbs of design: laws, and plans of least propellant."""
