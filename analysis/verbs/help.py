@@ -46,13 +46,9 @@ class Parser(argparse.ArgumentParser):
 def overview() -> str:
     """The verbs by purpose, each purpose with an example."""
     lines = ["Spacecraft guidance, navigation and control as FMI components."]
-    for purpose in PURPOSES:
-        verbs = [verb for verb in VERBS.values() if verb.purpose == purpose]
-        rows = [(verb.name, verb.text) for verb in verbs]
-        lines += ["", f"{purpose}:", *_rows(rows)]
-        examples = [
-            text for verb in verbs for text, _ in verb.examples if f"{text} ".startswith(f"perilune {verb.name} ")
-        ]
+    for purpose, verbs in PURPOSES.items():
+        lines += ["", f"{purpose}:", *_rows([(verb.name, verb.text) for verb in verbs])]
+        examples = [text for verb in verbs for text in verb.examples if f"{text} ".startswith(f"perilune {verb.name} ")]
         lines.append(f"  example: {_break_line(examples[0], 11)}")
     return "\n".join(lines)
 
@@ -65,7 +61,7 @@ def group_help(group: str) -> str:
 
 def verb_help(verb: Verb) -> str:
     """A verb's examples, and what its exit statuses mean."""
-    examples = "".join(f"  {_break_line(command, 4)}\n      {comment}\n" for command, comment in verb.examples)
+    examples = "".join(f"  {_break_line(command, 4)}\n      {comment}\n" for command, comment in verb.examples.items())
     return f"Examples:\n{examples}\n{exit_status(verb)}"
 
 

@@ -21,7 +21,7 @@ def verbs_page() -> str:
         table(["verb", "what it does"], rows),
     ]
     for name, verb in VERBS.items():
-        examples = "\n".join(f"# {comment}\n{command}" for command, comment in verb.examples)
+        examples = "\n".join(f"# {comment}\n{command}" for command, comment in verb.examples.items())
         parts += [f"## {name}", escaped(verb.text[0].upper() + verb.text[1:]) + ".", f"```sh\n{examples}\n```"]
         parts += [*_options(verb_parser(name)), exit_status(verb)]
     return "\n\n".join(parts) + "\n"

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypedDict
 
 from .flights import SYSTEM, FlightFiles
 from .option import NONE, FilePath, Option
-from .system import JsonFile, ReportFiles, RequireOptions, SimulationOptions, SystemOptions
+from .system import ReportFiles, RequireOptions, SimulationOptions, SystemOptions
 from .verb import Argument, Verb
 
 CAMPAIGN = Argument(
@@ -91,99 +91,76 @@ class ReplayOptions(CampaignOptions, TrialsOptions, RequireOptions, total=False)
 
 BATCH = Verb(
     "batch",
-    "Simulate",
     "simulate a campaign: many trials, variants compared on the same samples",
-    ("batch", "batch"),
     (SYSTEM, CAMPAIGN),
-    BatchOptions,
-    ReportFiles,
-    (
-        (
-            "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results --report batch.html",
-            "three guidance laws on the same fifty samples",
-        ),
-    ),
-    OF_CAMPAIGN,
+    options=BatchOptions,
+    files=ReportFiles,
+    examples={
+        "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results "
+        "--report batch.html": "three guidance laws on the same fifty samples",
+    },
+    not_met=OF_CAMPAIGN,
 )
 PREPARE = Verb(
     "prepare",
-    "Share",
     "write a campaign to a folder without simulating it, for shard",
-    ("prepare", "prepare"),
     (SYSTEM, CAMPAIGN, Argument("output", "DIR", "the folder to write", is_option=True)),
-    PrepareOptions,
-    JsonFile,
-    (
-        (
-            "perilune prepare lunar_terminal_guidance --campaign paper --trials 100 --output parts",
-            "the campaign in a folder",
-        ),
-    ),
+    options=PrepareOptions,
+    examples={
+        "perilune prepare lunar_terminal_guidance --campaign paper --trials 100 "
+        "--output parts": "the campaign in a folder",
+    },
 )
 SHARD = Verb(
     "shard",
-    "Share",
     "simulate some shards of a campaign that prepare wrote, or that batch left unfinished",
-    ("shard", "shard"),
     (FOLDER, Argument("numbers", "K", "numbers of shards, the first is 0; A-B: from A to B", many=True)),
-    ExecutionOptions,
-    JsonFile,
-    (
-        ("perilune prepare lunar_terminal_guidance --campaign paper --trials 100 --output parts", "a folder to share"),
-        ("perilune shard parts 0-1", "its first shards, on any machine that has the folder"),
-    ),
-    "a simulation failed, or workers or the scheduler ended repeatedly",
+    options=ExecutionOptions,
+    examples={
+        "perilune prepare lunar_terminal_guidance --campaign paper --trials 100 --output parts": "a folder to share",
+        "perilune shard parts 0-1": "its first shards, on any machine that has the folder",
+    },
+    not_met="a simulation failed, or workers or the scheduler ended repeatedly",
 )
 MERGE = Verb(
     "merge",
-    "Share",
     "merge the shards of a campaign: summary, page, requirements",
-    ("merge", "merge"),
     (FOLDER,),
-    RequireOptions,
-    ReportFiles,
-    (
-        ("perilune prepare lunar_terminal_guidance --campaign paper --trials 50 --output shared", "a folder to share"),
-        ("perilune shard shared 0-1", "all of its shards, on one machine or another"),
-        ("perilune merge shared --report merged.html", "what batch would have written"),
-    ),
-    OF_CAMPAIGN,
+    options=RequireOptions,
+    files=ReportFiles,
+    examples={
+        "perilune prepare lunar_terminal_guidance --campaign paper --trials 50 --output shared": "a folder to share",
+        "perilune shard shared 0-1": "all of its shards, on one machine or another",
+        "perilune merge shared --report merged.html": "what batch would have written",
+    },
+    not_met=OF_CAMPAIGN,
 )
 REPLAY = Verb(
     "replay",
-    "Simulate",
     "simulate a trial of a campaign again, with all signals",
-    ("replay", "replay"),
     (
         Argument("source", "SOURCE", "the folder of a campaign; or a system, with --campaign", completer="systems"),
         Argument("trial", "TRIAL", "its number, the first is 0", read=int),
     ),
-    ReplayOptions,
-    FlightFiles,
-    (
-        (
-            "perilune replay results 7 --configuration analytic_guidance --report trial.html",
-            "a trial of a stored campaign, from its folder alone",
-        ),
-        (
-            "perilune replay lunar_terminal_guidance 7 --campaign paper --compare guidance=astar_guidance "
-            "--output replay.csv",
-            "a trial of a campaign that is not stored",
-        ),
-    ),
-    "as for run; or the trial is no success, or differs from the stored one",
+    options=ReplayOptions,
+    files=FlightFiles,
+    examples={
+        "perilune replay results 7 --configuration analytic_guidance "
+        "--report trial.html": "a trial of a stored campaign, from its folder alone",
+        "perilune replay lunar_terminal_guidance 7 --campaign paper --compare guidance=astar_guidance "
+        "--output replay.csv": "a trial of a campaign that is not stored",
+    },
+    not_met="as for run; or the trial is no success, or differs from the stored one",
 )
 
 COMPARE = Verb(
     "compare",
-    "Study",
     "compare the variants of one or several stored campaigns on the same trials",
-    ("compare", "compare"),
     (Argument("results", "RESULT", "a folder that batch wrote to its output", many=True),),
-    CompareOptions,
-    ReportFiles,
-    (
-        ("perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results", "what is compared"),
-        ("perilune compare results --report compare.html", "rates, pairs of variants, trajectories, distributions"),
-    ),
+    options=CompareOptions,
+    files=ReportFiles,
+    examples={
+        "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results": "what is compared",
+        "perilune compare results --report compare.html": "rates, pairs of variants, trajectories, distributions",
+    },
 )

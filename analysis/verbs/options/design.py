@@ -43,19 +43,17 @@ class LawFiles(JsonFile, total=False):
 
 LAW = Verb(
     "design law",
-    "Make",
     "print a network operator's law as a formula, or write it as a parameter set or a drawing",
-    ("law", "law"),
     (Argument("name", "LAW", "a law of laws/ by name, or the path of its .json file", "laws"),),
-    LawOptions,
-    LawFiles,
-    (
-        ("perilune design law diveev_2013", "the published law as a formula"),
-        (
-            "perilune design law diveev_2013 --output law.ssv --graph law.svg",
-            "a parameter set for guidance, and a drawing",
-        ),
-    ),
+    options=LawOptions,
+    files=LawFiles,
+    module="law",
+    function="law",
+    examples={
+        "perilune design law diveev_2013": "the published law as a formula",
+        "perilune design law diveev_2013 --output law.ssv "
+        "--graph law.svg": "a parameter set for guidance, and a drawing",
+    },
 )
 
 
@@ -73,9 +71,7 @@ class SearchOptions(TypedDict, total=False):
 
 SEARCH = Verb(
     "design search",
-    "Make",
     "search for a network operator's law, every candidate simulated in its system",
-    ("search", "synthesize"),
     (
         Argument(
             "search",
@@ -84,14 +80,13 @@ SEARCH = Verb(
             "searches",
         ),
     ),
-    SearchOptions,
-    JsonFile,
-    (
-        (
-            "perilune design search lunar_landing_5_deg_s --output laws",
-            "ends at once: the published law succeeds from all nine starts",
-        ),
-    ),
+    options=SearchOptions,
+    module="search",
+    function="synthesize",
+    examples={
+        "perilune design search lunar_landing_5_deg_s "
+        "--output laws": "ends at once: the published law succeeds from all nine starts",
+    },
     not_met="no law was found with every trial a success",
 )
 
@@ -166,13 +161,14 @@ class TransferOptions(VehicleOptions, total=False):
 
 TRANSFER = Verb(
     "design transfer",
-    "Make",
     "plan a transfer between two hovers: parametric programme, true optimum, point-mass bound",
-    ("transfer", "plan_hover_transfer"),
-    (),
-    TransferOptions,
-    ReportFiles,
-    (("perilune design transfer --margins", "from hover to hover, with control margins"),),
+    options=TransferOptions,
+    files=ReportFiles,
+    module="transfer",
+    function="plan_hover_transfer",
+    examples={
+        "perilune design transfer --margins": "from hover to hover, with control margins",
+    },
     not_met=NO_PLAN,
 )
 
@@ -208,9 +204,7 @@ class BoundOptions(SystemOptions, VehicleOptions, total=False):
 
 BOUND = Verb(
     "design bound",
-    "Make",
     "bound the propellant of a single-burn braking and landing: a point mass, attitude free",
-    ("bound", "plan_landing_bound"),
     (
         Argument(
             "system",
@@ -220,8 +214,12 @@ BOUND = Verb(
             optional=True,
         ),
     ),
-    BoundOptions,
-    ReportFiles,
-    (("perilune design bound", "a lower bound of what any such landing takes; needs the extra plan"),),
+    options=BoundOptions,
+    files=ReportFiles,
+    module="bound",
+    function="plan_landing_bound",
+    examples={
+        "perilune design bound": "a lower bound of what any such landing takes; needs the extra plan",
+    },
     not_met=NO_PLAN,
 )

@@ -31,24 +31,19 @@ class FlightFiles(ReportFiles, total=False):
 
 RUN = Verb(
     "run",
-    "Simulate",
     "simulate a system once",
-    ("run", "simulate"),
     (SYSTEM,),
-    RunOptions,
-    FlightFiles,
-    (
-        ("perilune run lunar_terminal_guidance --report flight.html", "one landing and its page"),
-        (
-            "perilune run lunar_landing --use guidance=astar_guidance --parameters ideal.ssv --output flight.csv",
-            "another guidance law, no sensor errors; all signals to a file",
-        ),
-        ("perilune run lunar_terminal_guidance --require 'time < 300'", "exit status 1 if it takes longer"),
-        ("perilune export flat_moon_lander", "an FMU for any tool"),
-        (
-            "perilune run flat_moon_lander.fmu --stop-time 20 --log warning --timeout 60 --output lander.csv",
-            "the FMU alone, with its log messages and a 60 s wall-clock limit",
-        ),
-    ),
+    options=RunOptions,
+    files=FlightFiles,
+    function="simulate",
+    examples={
+        "perilune run lunar_terminal_guidance --report flight.html": "one landing and its page",
+        "perilune run lunar_landing --use guidance=astar_guidance --parameters ideal.ssv "
+        "--output flight.csv": "another guidance law, no sensor errors; all signals to a file",
+        "perilune run lunar_terminal_guidance --require 'time < 300'": "exit status 1 if it takes longer",
+        "perilune export flat_moon_lander": "an FMU for any tool",
+        "perilune run flat_moon_lander.fmu --stop-time 20 --log warning --timeout 60 "
+        "--output lander.csv": "the FMU alone, with its log messages and a 60 s wall-clock limit",
+    },
     not_met="a limit of the SSD or a --require is violated or not evaluated, or the simulation did not complete",
 )

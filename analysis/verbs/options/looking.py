@@ -5,16 +5,17 @@ from __future__ import annotations
 from typing import Annotated, TypedDict
 
 from .option import Option
-from .system import JsonFile, SystemOptions
+from .system import SystemOptions
 from .verb import Argument, Verb
 
 LIST = Verb(
     "list",
-    "Look",
     "list systems with their parameter sets, campaigns and loops; laws, searches and FMUs",
-    ("inventory", "inventory"),
-    files=JsonFile,
-    examples=(("perilune list", "names to give to the other verbs"),),
+    module="inventory",
+    function="inventory",
+    examples={
+        "perilune list": "names to give to the other verbs",
+    },
 )
 
 
@@ -33,36 +34,32 @@ class DescribeOptions(SystemOptions, total=False):
 
 DESCRIBE = Verb(
     "describe",
-    "Look",
     "describe a system, an FMU or a slot: connectors, parameters with their values, compatible FMUs",
-    ("describe", "describe"),
     (
         Argument("what", "SYSTEM|FMU|SLOT", "a system, an FMU by name or file, or a slot", "systems_and_fmus"),
         Argument("component", "COMPONENT", "of a system: one component with all its variables", optional=True),
     ),
-    DescribeOptions,
-    JsonFile,
-    (
-        ("perilune describe lunar_landing", "components, connections, values, compatible FMUs"),
-        ("perilune describe lunar_landing guidance", "one component with all its variables"),
-        ("perilune describe terminal_guidance", "a slot: connectors, parameters, its FMUs"),
-        ("perilune describe entry_attitude --campaign cases", "a campaign, each value with file and line"),
-    ),
+    options=DescribeOptions,
+    examples={
+        "perilune describe lunar_landing": "components, connections, values, compatible FMUs",
+        "perilune describe lunar_landing guidance": "one component with all its variables",
+        "perilune describe terminal_guidance": "a slot: connectors, parameters, its FMUs",
+        "perilune describe entry_attitude --campaign cases": "a campaign, each value with file and line",
+    },
 )
 
 VALIDATE = Verb(
     "validate",
-    "Look",
     "check systems, FMUs, parameter sets and campaigns",
-    ("validate", "validate"),
     (
         Argument(
             "paths", "PATH", "a system, .ssp, .fmu, .ssv, law .json or campaign .toml", "systems_and_files", many=True
         ),
     ),
-    SystemOptions,
-    JsonFile,
-    (("perilune validate lunar_landing", "a system; a folder, .ssp, .fmu, .ssv or campaign .toml likewise"),),
+    options=SystemOptions,
+    examples={
+        "perilune validate lunar_landing": "a system; a folder, .ssp, .fmu, .ssv or campaign .toml likewise",
+    },
 )
 
 
@@ -75,13 +72,11 @@ class BenchmarkOptions(TypedDict, total=False):
 
 BENCHMARK = Verb(
     "benchmark",
-    "Look",
     "time a communication step, compared with FMPy",
-    ("benchmark", "benchmark"),
-    (),
-    BenchmarkOptions,
-    JsonFile,
-    (("perilune benchmark --steps 500 --repeats 2", "a shorter run than the default"),),
+    options=BenchmarkOptions,
+    examples={
+        "perilune benchmark --steps 500 --repeats 2": "a shorter run than the default",
+    },
 )
 
 
@@ -93,11 +88,9 @@ class DocsOptions(TypedDict, total=False):
 
 DOCS = Verb(
     "docs",
-    "Look",
     "open the documentation in a browser",
-    ("docs", "docs"),
-    (),
-    DocsOptions,
-    JsonFile,
-    (("perilune docs --print", "the path of its first page"),),
+    options=DocsOptions,
+    examples={
+        "perilune docs --print": "the path of its first page",
+    },
 )

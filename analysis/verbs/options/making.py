@@ -6,16 +6,13 @@ from collections.abc import Sequence
 from typing import Annotated, Literal, TypedDict
 
 from .option import FilePath, Option
-from .system import JsonFile
 from .verb import Argument, Verb
 
 NAME = Argument("name", "NAME", "small letters, digits and underscores")
 
 NEW_BLOCK = Verb(
     "new block",
-    "Make",
     "write NAME.py, a block of your own to start from",
-    ("new", "new_block"),
     (
         NAME,
         Argument(
@@ -27,18 +24,22 @@ NEW_BLOCK = Verb(
             is_option=True,
         ),
     ),
-    files=JsonFile,
-    examples=(("perilune new block my_guidance --slot terminal_guidance", "my_guidance.py, which runs as it is"),),
+    module="new",
+    function="new_block",
+    examples={
+        "perilune new block my_guidance --slot terminal_guidance": "my_guidance.py, which runs as it is",
+    },
 )
 
 NEW_SYSTEM = Verb(
     "new system",
-    "Make",
     "write the folder NAME, a system of your own to start from: blocks, parameter sets, campaign",
-    ("new", "new_system"),
     (NAME,),
-    files=JsonFile,
-    examples=(("perilune new system my_axis", "a folder with plant, controller, description, campaign, loop"),),
+    module="new",
+    function="new_system",
+    examples={
+        "perilune new system my_axis": "a folder with plant, controller, description, campaign, loop",
+    },
 )
 
 
@@ -61,9 +62,7 @@ class ExportOptions(TypedDict, total=False):
 
 EXPORT = Verb(
     "export",
-    "Share",
     "build an FMU, or a self-contained .ssp of a system, for a chosen platform",
-    ("export", "export"),
     (
         Argument(
             "name",
@@ -72,13 +71,10 @@ EXPORT = Verb(
             "systems_and_fmus",
         ),
     ),
-    ExportOptions,
-    JsonFile,
-    (
-        ("perilune export forming_filter --platform linux64", "forming_filter.fmu"),
-        (
-            "perilune export lunar_terminal_guidance --flavour python --output landing.ssp",
-            "a system with its FMUs inside",
-        ),
-    ),
+    options=ExportOptions,
+    examples={
+        "perilune export forming_filter --platform linux64": "forming_filter.fmu",
+        "perilune export lunar_terminal_guidance --flavour python "
+        "--output landing.ssp": "a system with its FMUs inside",
+    },
 )

@@ -61,21 +61,15 @@ class StabilityFiles(ReportFiles, total=False):
 
 STABILITY = Verb(
     "stability",
-    "Study",
     "compute margins, poles and robustness of a system's loops",
-    ("stability", "stability"),
     (SYSTEM,),
-    StabilityOptions,
-    StabilityFiles,
-    (
-        (
-            "perilune stability robot_rendezvous --loop attitude --parameters paper.ssv --report stability.html",
-            "one of the loops that the system declares",
-        ),
-        (
-            "perilune stability lunar_terminal_guidance --loop guidance.thrust_acceleration --at 20",
-            "a loop broken at one connector, in a system that declares none",
-        ),
-    ),
+    options=StabilityOptions,
+    files=StabilityFiles,
+    examples={
+        "perilune stability robot_rendezvous --loop attitude --parameters paper.ssv "
+        "--report stability.html": "one of the loops that the system declares",
+        "perilune stability lunar_terminal_guidance --loop guidance.thrust_acceleration "
+        "--at 20": "a loop broken at one connector, in a system that declares none",
+    },
     not_met="a requirement is not met or withheld, or something could not be studied",
 )

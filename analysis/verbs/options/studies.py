@@ -77,60 +77,43 @@ class SensitivityOptions(CampaignOptions, ConditionOptions, total=False):
 
 RARE = Verb(
     "rare",
-    "Study",
     "estimate the probability of a rare failure, and its most probable failure points",
-    ("rare", "rare"),
     (SYSTEM, CAMPAIGN),
-    RareOptions,
-    ReportFiles,
-    (
-        (
-            "perilune rare lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
-            "--failure 'flight_time > 220' --samples 500 --output long_flights",
-            "the probability of a long flight, from few simulations a level",
-        ),
-        (
-            "perilune batch lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
-            "--draws long_flights/failures.parquet",
-            "the most probable long flights, simulated again",
-        ),
-    ),
+    options=RareOptions,
+    files=ReportFiles,
+    examples={
+        "perilune rare lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+        "--failure 'flight_time > 220' --samples 500 "
+        "--output long_flights": "the probability of a long flight, from few simulations a level",
+        "perilune batch lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+        "--draws long_flights/failures.parquet": "the most probable long flights, simulated again",
+    },
     not_met="a --require is not met",
 )
 WORST = Verb(
     "worst",
-    "Study",
     "search a campaign's dispersions for the worst value of a metric or of a stability margin",
-    ("worst", "worst"),
     (SYSTEM, CAMPAIGN),
-    WorstOptions,
-    ReportFiles,
-    (
-        (
-            "perilune worst lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
-            "--metric flight_time --flights 600 --output longest",
-            "the longest flight within the search box",
-        ),
-    ),
+    options=WorstOptions,
+    files=ReportFiles,
+    examples={
+        "perilune worst lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+        "--metric flight_time --flights 600 --output longest": "the longest flight within the search box",
+    },
     not_met="a --require is not met",
 )
 SENSITIVITY = Verb(
     "sensitivity",
-    "Study",
     "compute Sobol' indices: which dispersed inputs drive the metrics",
-    ("sensitivity", "sensitivity"),
     (
         SYSTEM,
         CAMPAIGN,
         Argument("base", "N", "N (inputs + 2) simulations, + 3 with noise; a power of two", is_option=True, read=int),
     ),
-    SensitivityOptions,
-    ReportFiles,
-    (
-        (
-            "perilune sensitivity lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
-            "--base 64",
-            "which dispersed inputs drive the metrics",
-        ),
-    ),
+    options=SensitivityOptions,
+    files=ReportFiles,
+    examples={
+        "perilune sensitivity lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+        "--base 64": "which dispersed inputs drive the metrics",
+    },
 )

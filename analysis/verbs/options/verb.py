@@ -8,16 +8,17 @@ from __future__ import annotations
 import functools
 import inspect
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, TypedDict, TypeVar
 
 from ...common.errors import suggestion
 from .option import defaults_of, options_of
+from .system import JsonFile
 from .values import check_value
 
 
-class NoFiles(TypedDict):
-    """Files"""
+class NoOptions(TypedDict):
+    """Options of a verb that has none"""
 
 
 @dataclass(frozen=True)
@@ -42,21 +43,26 @@ class Argument:
 class Verb:
     """What the command line, the signature and the documentation need of a verb.
 
-    ``name`` is what the command line calls it (two words for those of a group), ``purpose`` the heading of
-    `perilune --help` under which it stands. ``options`` are those of the Python function, too; ``files`` are those that
-    only the command line has: where it writes the result. ``not_met`` is what exit status 1 means in addition to an
-    interruption. ``home`` is the module below `verbs` and the function in it.
+    ``name`` is what the command line calls it (two words for those of a group). ``options`` are those of the Python
+    function, too; ``files`` are those that only the command line has: where it writes the result. ``module`` below
+    `verbs` and ``function`` in it are stated where they are not the name. ``examples`` are commands with comments,
+    ``not_met`` is what exit status 1 means in addition to an interruption.
     """
 
     name: str
-    purpose: str
     text: str
-    home: tuple[str, str]
     arguments: tuple[Argument, ...] = ()
-    options: type = NoFiles
-    files: type = NoFiles
-    examples: tuple[tuple[str, str], ...] = ()
+    options: type = NoOptions
+    files: type = JsonFile
+    module: str = ""
+    function: str = ""
+    examples: Mapping[str, str] = field(default_factory=dict)
     not_met: str = ""
+
+    @property
+    def home(self) -> tuple[str, str]:
+        """The module below `verbs`, and the function in it."""
+        return self.module or self.name, self.function or self.name
 
 
 Function = TypeVar("Function", bound=Callable[..., Any])

@@ -11,17 +11,14 @@ from .stability import STABILITY
 from .studies import RARE, SENSITIVITY, WORST
 from .verb import Verb
 
-PURPOSES = ("Simulate", "Study", "Look", "Make", "Share")  # headings of `perilune --help`
-VERBS: dict[str, Verb] = {
-    verb.name: verb
-    for verb in (
-        *(RUN, BATCH, REPLAY),
-        *(COMPARE, STABILITY, RARE, WORST, SENSITIVITY),
-        *(LIST, DESCRIBE, VALIDATE, BENCHMARK, DOCS),
-        *(NEW_BLOCK, NEW_SYSTEM, LAW, SEARCH, TRANSFER, BOUND),
-        *(EXPORT, PREPARE, SHARD, MERGE),
-    )
+PURPOSES = {  # headings of `perilune --help`
+    "Simulate": (RUN, BATCH, REPLAY),
+    "Study": (COMPARE, STABILITY, RARE, WORST, SENSITIVITY),
+    "Look": (LIST, DESCRIBE, VALIDATE, BENCHMARK, DOCS),
+    "Make": (NEW_BLOCK, NEW_SYSTEM, LAW, SEARCH, TRANSFER, BOUND),
+    "Share": (EXPORT, PREPARE, SHARD, MERGE),
 }
+VERBS: dict[str, Verb] = {verb.name: verb for verbs in PURPOSES.values() for verb in verbs}
 GROUPS = {  # first word of verbs -> what they do
     "new": "write a block or a system of your own to start from",
     "design": "design control laws, and plans of least propellant",
