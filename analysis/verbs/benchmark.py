@@ -6,7 +6,7 @@ from typing import Any, Unpack
 
 from ..benchmark.measure import run_benchmark
 from ..benchmark.table import benchmark_text
-from .options.looking import BENCHMARK, BenchmarkOptions
+from .options.library import BENCHMARK, BenchmarkOptions
 from .options.verb import verb
 
 

@@ -20,7 +20,7 @@ from ..runtime.system.options import SystemOptions as System
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import find_fmu, prepare_system
 from .common.description_text import description_lines
-from .options.looking import DESCRIBE, DescribeOptions
+from .options.library import DESCRIBE, DescribeOptions
 from .options.option import FilePath
 from .options.verb import verb
 

@@ -9,7 +9,7 @@ from typing import Any, Unpack
 
 from ...fmus_src.paths import BUILD, IS_CHECKOUT
 from ..common.errors import InputError
-from .options.looking import DOCS, DocsOptions
+from .options.library import DOCS, DocsOptions
 from .options.verb import verb
 
 FIRST_PAGE = BUILD / "site" / "index.html"

@@ -28,7 +28,7 @@ from ..common.errors import InputError, SeveralProblemsError, suggestion
 from ..common.targets import check_file
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.documents import parse_xml
-from .options.making import EXPORT, ExportOptions
+from .options.library import EXPORT, ExportOptions
 from .options.option import FilePath
 from .options.verb import verb
 

@@ -17,7 +17,7 @@ from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.reading import read_description
 from ..stability.request.reading import read_declaration
 from .common.text import wrap
-from .options.looking import LIST
+from .options.library import LIST
 from .options.verb import verb
 
 TITLE = 18  # columns of a title

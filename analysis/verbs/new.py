@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..authoring.new import block, system
-from .options.making import NEW_BLOCK, NEW_SYSTEM
+from .options.library import NEW_BLOCK, NEW_SYSTEM
 from .options.verb import verb
 
 

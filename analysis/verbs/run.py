@@ -29,7 +29,7 @@ from ..runtime.system.prepared import PreparedSystem, prepare_system
 from .common.flight_text import flight_lines, flight_problems
 from .common.notes import note_lines
 from .common.requirements import read_requirements, requirement_problems
-from .options.flights import RUN, RunOptions
+from .options.campaigns import RUN, RunOptions
 from .options.option import FilePath
 from .options.verb import verb
 

@@ -26,7 +26,7 @@ from ..stability.results.requirement import Verdict
 from ..stability.study import study
 from .common.stability_text import stability_lines, stability_problems
 from .options.option import FilePath
-from .options.stability import STABILITY, StabilityOptions
+from .options.studies import STABILITY, StabilityOptions
 from .options.verb import verb
 
 

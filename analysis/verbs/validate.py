@@ -30,7 +30,7 @@ from ..stability.request.reading import read_declaration
 from ..stability.request.request import Subject
 from .common.paths import path_list
 from .common.text import wrap
-from .options.looking import VALIDATE
+from .options.library import VALIDATE
 from .options.option import FilePath
 from .options.system import SystemOptions
 from .options.verb import verb

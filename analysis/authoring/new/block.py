@@ -12,8 +12,8 @@ from ...common.errors import InputError, suggestion
 from ...runtime.ssp.archive import open_system, system_names
 from ...runtime.ssp.description import Component
 from ...runtime.ssp.reading import read_description
+from ...verbs.options.campaigns import RUN
 from ...verbs.options.command import write_command
-from ...verbs.options.flights import RUN
 from ..describe.fits import slots
 from .names import check_free, check_name, class_name
 from .rendering import render, template_names

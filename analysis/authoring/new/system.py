@@ -8,10 +8,9 @@ import tempfile
 from pathlib import Path
 
 from ....fmus_src.catalogue import blocks_in_file
-from ...verbs.options.campaigns import BATCH
+from ...verbs.options.campaigns import BATCH, RUN
 from ...verbs.options.command import write_command
-from ...verbs.options.flights import RUN
-from ...verbs.options.stability import STABILITY
+from ...verbs.options.studies import STABILITY
 from .block import Written
 from .connectors import part_of, units_of
 from .names import check_free, check_name, class_name

@@ -18,7 +18,7 @@ from ...runtime.system.options import Layer, SystemOptions
 from ...runtime.system.prepared import PreparedSystem, prepare_system
 from ...verbs.options.command import write_command
 from ...verbs.options.option import options_of
-from ...verbs.options.stability import STABILITY
+from ...verbs.options.studies import STABILITY
 from .declaration import Declaration, Loop, Point
 from .reading import read_declaration
 

@@ -1,14 +1,62 @@
-"""The verbs of campaigns: batch, prepare, shard, merge, replay."""
+"""The verbs that simulate: run, and those of campaigns: batch, prepare, shard, merge, replay, compare."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, TypedDict
 
-from .flights import SYSTEM, FlightFiles
 from .option import NONE, FilePath, Option
-from .system import ReportFiles, RequireOptions, SimulationOptions, SystemOptions
+from .system import (
+    Overwrite,
+    ReportFiles,
+    RequireOptions,
+    Seed,
+    SimulationOptions,
+    SystemOptions,
+    UntilDecided,
+    Workers,
+)
 from .verb import Argument, Verb
+
+SYSTEM = Argument(
+    "system",
+    "SYSTEM",
+    "a name under ssp_systems, a folder, an .ssp file, or an .fmu for a stand-alone simulation",
+    completer="systems_and_fmu_files",
+)
+
+
+class RunOptions(SystemOptions, SimulationOptions, RequireOptions, total=False):
+    """Options of run"""
+
+
+class FlightFiles(ReportFiles, total=False):
+    """Files"""
+
+    output: Annotated[
+        FilePath | None,
+        Option("write all signals to F.csv or F.parquet", metavar="F", suffixes=(".csv", ".parquet")),
+    ]
+
+
+RUN = Verb(
+    "run",
+    "simulate a system once",
+    (SYSTEM,),
+    options=RunOptions,
+    files=FlightFiles,
+    function="simulate",
+    examples={
+        "perilune run lunar_terminal_guidance --report flight.html": "one landing and its page",
+        "perilune run lunar_landing --use guidance=astar_guidance --parameters ideal.ssv "
+        "--output flight.csv": "another guidance law, no sensor errors; all signals to a file",
+        "perilune run lunar_terminal_guidance --require 'time < 300'": "exit status 1 if it takes longer",
+        "perilune export flat_moon_lander": "an FMU for any tool",
+        "perilune run flat_moon_lander.fmu --stop-time 20 --log warning --timeout 60 "
+        "--output lander.csv": "the FMU alone, with its log messages and a 60 s wall-clock limit",
+    },
+    not_met="a limit of the SSD or a --require is violated or not evaluated, or the simulation did not complete",
+)
 
 CAMPAIGN = Argument(
     "campaign", "NAME", "a campaign of the system, or a .toml file", completer="campaigns", is_option=True
@@ -20,7 +68,7 @@ OF_CAMPAIGN = "a requirement of the campaign is not met or undecided, a --requir
 class CampaignOptions(SystemOptions, SimulationOptions, total=False):
     """Options of everything that simulates a campaign"""
 
-    seed: Annotated[int | None, Option("instead of the campaign's root seed", metavar="S")]
+    seed: Seed
     compare: Annotated[
         Mapping[str, FilePath | Sequence[FilePath]],
         Option("compare these FMUs in a slot on the same samples", NONE, metavar="SLOT=A,B,C", comma=True),
@@ -44,7 +92,7 @@ class TrialsOptions(TypedDict, total=False):
 class ExecutionOptions(TypedDict, total=False):
     """Where simulations run"""
 
-    workers: Annotated[int | None, Option("simulations in parallel; default: one per processor", metavar="N")]
+    workers: Workers
     engine: Annotated[
         Literal["threads", "processes"] | None, Option("parallel threads or processes; default: threads where FMUs can")
     ]
@@ -55,9 +103,9 @@ class BatchOptions(CampaignOptions, TrialsOptions, ExecutionOptions, RequireOpti
     """Options of batch"""
 
     output: Annotated[FilePath | None, Option("write trials, samples and summary to a folder", metavar="DIR")]
-    overwrite: Annotated[bool, Option("overwrite existing results in the folder of --output", False)]
+    overwrite: Overwrite
     resume: Annotated[bool, Option("continue or extend the campaign in the folder of --output", False)]
-    until_decided: Annotated[bool, Option("stop as soon as the campaign's requirements are met, or are not", False)]
+    until_decided: UntilDecided
 
 
 class CompareOptions(TypedDict, total=False):
@@ -73,7 +121,7 @@ class PrepareOptions(CampaignOptions, TrialsOptions, total=False):
 
     overwrite: Annotated[bool, Option("overwrite existing results in the folder", False)]
     resume: Annotated[bool, Option("continue or extend the campaign in the folder", False)]
-    until_decided: Annotated[bool, Option("stop as soon as the campaign's requirements are met, or are not", False)]
+    until_decided: UntilDecided
 
 
 class ReplayOptions(CampaignOptions, TrialsOptions, RequireOptions, total=False):

@@ -14,7 +14,7 @@ from ...design.trajectories.vehicle import (
     Margins,
 )
 from .option import FilePath, Option
-from .system import JsonFile, ReportFiles, SystemOptions
+from .system import JsonFile, ReportFiles, Seed, SystemOptions
 from .verb import Argument, Verb
 
 MOST_INTERVALS = 100_000
@@ -60,7 +60,7 @@ LAW = Verb(
 class SearchOptions(TypedDict, total=False):
     """Options of design search"""
 
-    seed: Annotated[int | None, Option("instead of the campaign's root seed", metavar="S")]
+    seed: Seed
     workers: Annotated[int | None, Option("laws evaluated in parallel; default: one per processor", metavar="N")]
     output: Annotated[FilePath | None, Option("write checkpoints, Pareto set and law to a folder", metavar="DIR")]
     resume: Annotated[bool, Option("continue from the checkpoint in the folder of --output", False)]

@@ -1,15 +1,77 @@
-"""The verbs of studies over a campaign's dispersions: rare, worst, sensitivity."""
+"""The verbs of studies: of a system's loops, stability; of a campaign's dispersions, rare, worst, sensitivity."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, TypedDict
 
-from .campaigns import CAMPAIGN, CampaignOptions
-from .flights import SYSTEM
+from .campaigns import CAMPAIGN, SYSTEM, CampaignOptions, TrialsOptions
 from .option import NONE, FilePath, Option
-from .system import ReportFiles, RequireOptions
+from .system import Overwrite, ReportFiles, RequireOptions, Seed, SystemOptions, Workers
 from .verb import Argument, Verb
+
+
+class StabilityOptions(SystemOptions, TrialsOptions, total=False):
+    """Options of stability"""
+
+    loops: Annotated[
+        Sequence[str],
+        Option(
+            "a loop of the SSD, or COMPONENT.CONNECTOR to cut; default: all loops of the SSD",
+            (),
+            flag="loop",
+            metavar="NAME",
+        ),
+    ]
+    at: Annotated[
+        float | Sequence[float],
+        Option(
+            "times of the operating points, s; default: those of the SSD, for a cut 0",
+            (),
+            unit="s",
+            metavar="T,...",
+            comma=True,
+        ),
+    ]
+    campaign: Annotated[
+        FilePath | None,
+        Option("disperse the margins over a campaign, by name or .toml", metavar="NAME", completer="campaigns"),
+    ]
+    configuration: Annotated[str | None, Option("one of the campaign's configurations", metavar="NAME")]
+    seed: Seed
+    trial: Annotated[int | None, Option("study one trial of the campaign instead", metavar="K")]
+    workers: Annotated[
+        int | None, Option("operating points studied in parallel; default: one per processor", metavar="N")
+    ]
+
+
+class StabilityFiles(ReportFiles, total=False):
+    """Files"""
+
+    data: Annotated[
+        FilePath | None,
+        Option(
+            "write loop responses and A, B, C, D for python-control and MATLAB to a folder",
+            metavar="DIR",
+            is_folder=True,
+        ),
+    ]
+
+
+STABILITY = Verb(
+    "stability",
+    "compute margins, poles and robustness of a system's loops",
+    (SYSTEM,),
+    options=StabilityOptions,
+    files=StabilityFiles,
+    examples={
+        "perilune stability robot_rendezvous --loop attitude --parameters paper.ssv "
+        "--report stability.html": "one of the loops that the system declares",
+        "perilune stability lunar_terminal_guidance --loop guidance.thrust_acceleration "
+        "--at 20": "a loop broken at one connector, in a system that declares none",
+    },
+    not_met="a requirement is not met or withheld, or something could not be studied",
+)
 
 
 class ConditionOptions(TypedDict, total=False):
@@ -22,9 +84,9 @@ class ConditionOptions(TypedDict, total=False):
         int | None,
         Option("use the noise realisation of trial K in all simulations; default: random noise", metavar="K"),
     ]
-    workers: Annotated[int | None, Option("simulations in parallel; default: one per processor", metavar="N")]
+    workers: Workers
     output: Annotated[FilePath | None, Option("write the results to a folder", metavar="DIR")]
-    overwrite: Annotated[bool, Option("overwrite existing results in the folder of --output", False)]
+    overwrite: Overwrite
 
 
 class RareOptions(CampaignOptions, ConditionOptions, RequireOptions, total=False):

@@ -110,4 +110,10 @@ class ReportFiles(JsonFile, total=False):
     ]
 
 
+# Options of several verbs, each named where its group has it.
+Seed = Annotated[int | None, Option("instead of the campaign's root seed", metavar="S")]
+Workers = Annotated[int | None, Option("simulations in parallel; default: one per processor", metavar="N")]
+Overwrite = Annotated[bool, Option("overwrite existing results in the folder of --output", False)]
+UntilDecided = Annotated[bool, Option("stop as soon as the campaign's requirements are met, or are not", False)]
+
 SHARED = {"system options": SystemOptions, "simulation options": SimulationOptions}  # which --help-all explains

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from .campaigns import BATCH, COMPARE, MERGE, PREPARE, REPLAY, SHARD
+from .campaigns import BATCH, COMPARE, MERGE, PREPARE, REPLAY, RUN, SHARD
 from .design import BOUND, LAW, SEARCH, TRANSFER
-from .flights import RUN
-from .looking import BENCHMARK, DESCRIBE, DOCS, LIST, VALIDATE
-from .making import EXPORT, NEW_BLOCK, NEW_SYSTEM
-from .stability import STABILITY
-from .studies import RARE, SENSITIVITY, WORST
+from .library import BENCHMARK, DESCRIBE, DOCS, EXPORT, LIST, NEW_BLOCK, NEW_SYSTEM, VALIDATE
+from .studies import RARE, SENSITIVITY, STABILITY, WORST
 from .verb import Verb
 
 PURPOSES = {  # headings of `perilune --help`
