@@ -45,7 +45,7 @@ RUN = Verb(
     (SYSTEM,),
     options=RunOptions,
     files=FlightFiles,
-    function="simulate",
+    function="run.simulate",
     examples={
         "perilune run lunar_terminal_guidance --report flight.html": "one landing and its page",
         "perilune run lunar_landing --use guidance=astar_guidance --parameters ideal.ssv "

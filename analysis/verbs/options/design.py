@@ -19,6 +19,16 @@ from .verb import Argument, Verb
 
 MOST_INTERVALS = 100_000
 NO_PLAN = "there is no such plan, or it takes more propellant than is on board"
+SEARCH_FILE = Argument(
+    "search", "F.toml", "a campaign with a table [network_operator]; by name of laws/searches, or a path", "searches"
+)
+LANDING_SYSTEM = Argument(
+    "system",
+    "SYSTEM",
+    "a name under ssp_systems, a folder or an .ssp file: the bound of its landing; default: the published one",
+    "systems",
+    optional=True,
+)
 
 
 class LawOptions(TypedDict, total=False):
@@ -47,8 +57,7 @@ LAW = Verb(
     (Argument("name", "LAW", "a law of laws/ by name, or the path of its .json file", "laws"),),
     options=LawOptions,
     files=LawFiles,
-    module="law",
-    function="law",
+    function="law.law",
     examples={
         "perilune design law diveev_2013": "the published law as a formula",
         "perilune design law diveev_2013 --output law.ssv "
@@ -72,17 +81,9 @@ class SearchOptions(TypedDict, total=False):
 SEARCH = Verb(
     "design search",
     "search for a network operator's law, every candidate simulated in its system",
-    (
-        Argument(
-            "search",
-            "F.toml",
-            "a campaign with a table [network_operator]; by name of laws/searches, or a path",
-            "searches",
-        ),
-    ),
+    (SEARCH_FILE,),
     options=SearchOptions,
-    module="search",
-    function="synthesize",
+    function="search.synthesize",
     examples={
         "perilune design search lunar_landing_5_deg_s "
         "--output laws": "ends at once: the published law succeeds from all nine starts",
@@ -164,11 +165,8 @@ TRANSFER = Verb(
     "plan a transfer between two hovers: parametric programme, true optimum, point-mass bound",
     options=TransferOptions,
     files=ReportFiles,
-    module="transfer",
-    function="plan_hover_transfer",
-    examples={
-        "perilune design transfer --margins": "from hover to hover, with control margins",
-    },
+    function="transfer.plan_hover_transfer",
+    examples={"perilune design transfer --margins": "from hover to hover, with control margins"},
     not_met=NO_PLAN,
 )
 
@@ -205,21 +203,10 @@ class BoundOptions(SystemOptions, VehicleOptions, total=False):
 BOUND = Verb(
     "design bound",
     "bound the propellant of a single-burn braking and landing: a point mass, attitude free",
-    (
-        Argument(
-            "system",
-            "SYSTEM",
-            "a name under ssp_systems, a folder or an .ssp file: the bound of its landing; default: the published one",
-            "systems",
-            optional=True,
-        ),
-    ),
+    (LANDING_SYSTEM,),
     options=BoundOptions,
     files=ReportFiles,
-    module="bound",
-    function="plan_landing_bound",
-    examples={
-        "perilune design bound": "a lower bound of what any such landing takes; needs the extra plan",
-    },
+    function="bound.plan_landing_bound",
+    examples={"perilune design bound": "a lower bound of what any such landing takes; needs the extra plan"},
     not_met=NO_PLAN,
 )

@@ -9,14 +9,30 @@ from .option import FilePath, Option
 from .system import SystemOptions
 from .verb import Argument, Verb
 
+PATHS = Argument(
+    "paths", "PATH", "a system, .ssp, .fmu, .ssv, law .json or campaign .toml", "systems_and_files", many=True
+)
+NAME = Argument("name", "NAME", "small letters, digits and underscores")
+SLOT = Argument(
+    "slot",
+    "SLOT",
+    "the slot that it fits into, one of `perilune describe SLOT`; default: a plain block",
+    "block_slots",
+    optional=True,
+    is_option=True,
+)
+EXPORTED = Argument(
+    "name",
+    "SYSTEM|FMU|BLOCK|FILE.py",
+    "a system or its folder, a block's name (of a .py file in this folder, too), or a file with blocks",
+    "systems_and_fmus",
+)
+
 LIST = Verb(
     "list",
     "list systems with their parameter sets, campaigns and loops; laws, searches and FMUs",
-    module="inventory",
-    function="inventory",
-    examples={
-        "perilune list": "names to give to the other verbs",
-    },
+    function="inventory.inventory",
+    examples={"perilune list": "names to give to the other verbs"},
 )
 
 
@@ -52,15 +68,9 @@ DESCRIBE = Verb(
 VALIDATE = Verb(
     "validate",
     "check systems, FMUs, parameter sets and campaigns",
-    (
-        Argument(
-            "paths", "PATH", "a system, .ssp, .fmu, .ssv, law .json or campaign .toml", "systems_and_files", many=True
-        ),
-    ),
+    (PATHS,),
     options=SystemOptions,
-    examples={
-        "perilune validate lunar_landing": "a system; a folder, .ssp, .fmu, .ssv or campaign .toml likewise",
-    },
+    examples={"perilune validate lunar_landing": "a system; a folder, .ssp, .fmu, .ssv or campaign .toml likewise"},
 )
 
 
@@ -75,9 +85,7 @@ BENCHMARK = Verb(
     "benchmark",
     "time a communication step, compared with FMPy",
     options=BenchmarkOptions,
-    examples={
-        "perilune benchmark --steps 500 --repeats 2": "a shorter run than the default",
-    },
+    examples={"perilune benchmark --steps 500 --repeats 2": "a shorter run than the default"},
 )
 
 
@@ -91,43 +99,24 @@ DOCS = Verb(
     "docs",
     "open the documentation in a browser",
     options=DocsOptions,
-    examples={
-        "perilune docs --print": "the path of its first page",
-    },
+    examples={"perilune docs --print": "the path of its first page"},
 )
 
-NAME = Argument("name", "NAME", "small letters, digits and underscores")
 
 NEW_BLOCK = Verb(
     "new block",
     "write NAME.py, a block of your own to start from",
-    (
-        NAME,
-        Argument(
-            "slot",
-            "SLOT",
-            "the slot that it fits into, one of `perilune describe SLOT`; default: a plain block",
-            "block_slots",
-            optional=True,
-            is_option=True,
-        ),
-    ),
-    module="new",
-    function="new_block",
-    examples={
-        "perilune new block my_guidance --slot terminal_guidance": "my_guidance.py, which runs as it is",
-    },
+    (NAME, SLOT),
+    function="new.new_block",
+    examples={"perilune new block my_guidance --slot terminal_guidance": "my_guidance.py, which runs as it is"},
 )
 
 NEW_SYSTEM = Verb(
     "new system",
     "write the folder NAME, a system of your own to start from: blocks, parameter sets, campaign",
     (NAME,),
-    module="new",
-    function="new_system",
-    examples={
-        "perilune new system my_axis": "a folder with plant, controller, description, campaign, loop",
-    },
+    function="new.new_system",
+    examples={"perilune new system my_axis": "a folder with plant, controller, description, campaign, loop"},
 )
 
 
@@ -151,14 +140,7 @@ class ExportOptions(TypedDict, total=False):
 EXPORT = Verb(
     "export",
     "build an FMU, or a self-contained .ssp of a system, for a chosen platform",
-    (
-        Argument(
-            "name",
-            "SYSTEM|FMU|BLOCK|FILE.py",
-            "a system or its folder, a block's name (of a .py file in this folder, too), or a file with blocks",
-            "systems_and_fmus",
-        ),
-    ),
+    (EXPORTED,),
     options=ExportOptions,
     examples={
         "perilune export forming_filter --platform linux64": "forming_filter.fmu",

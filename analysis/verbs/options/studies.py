@@ -10,6 +10,8 @@ from .option import NONE, FilePath, Option
 from .system import Overwrite, ReportFiles, RequireOptions, Seed, SystemOptions, Workers
 from .verb import Argument, Verb
 
+PAPER = "lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance"  # of the examples
+
 
 class StabilityOptions(SystemOptions, TrialsOptions, total=False):
     """Options of stability"""
@@ -19,8 +21,8 @@ class StabilityOptions(SystemOptions, TrialsOptions, total=False):
         Option(
             "a loop of the SSD, or COMPONENT.CONNECTOR to cut; default: all loops of the SSD",
             (),
-            flag="loop",
             metavar="NAME",
+            flag="loop",
         ),
     ]
     at: Annotated[
@@ -144,10 +146,9 @@ RARE = Verb(
     options=RareOptions,
     files=ReportFiles,
     examples={
-        "perilune rare lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
-        "--failure 'flight_time > 220' --samples 500 "
+        f"perilune rare {PAPER} --failure 'flight_time > 220' --samples 500 "
         "--output long_flights": "the probability of a long flight, from few simulations a level",
-        "perilune batch lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+        f"perilune batch {PAPER} "
         "--draws long_flights/failures.parquet": "the most probable long flights, simulated again",
     },
     not_met="a --require is not met",
@@ -159,8 +160,8 @@ WORST = Verb(
     options=WorstOptions,
     files=ReportFiles,
     examples={
-        "perilune worst lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
-        "--metric flight_time --flights 600 --output longest": "the longest flight within the search box",
+        f"perilune worst {PAPER} --metric flight_time --flights 600 "
+        "--output longest": "the longest flight within the search box"
     },
     not_met="a --require is not met",
 )
@@ -174,8 +175,5 @@ SENSITIVITY = Verb(
     ),
     options=SensitivityOptions,
     files=ReportFiles,
-    examples={
-        "perilune sensitivity lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
-        "--base 64": "which dispersed inputs drive the metrics",
-    },
+    examples={f"perilune sensitivity {PAPER} --base 64": "which dispersed inputs drive the metrics"},
 )

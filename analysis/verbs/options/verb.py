@@ -44,9 +44,9 @@ class Verb:
     """What the command line, the signature and the documentation need of a verb.
 
     ``name`` is what the command line calls it (two words for those of a group). ``options`` are those of the Python
-    function, too; ``files`` are those that only the command line has: where it writes the result. ``module`` below
-    `verbs` and ``function`` in it are stated where they are not the name. ``examples`` are commands with comments,
-    ``not_met`` is what exit status 1 means in addition to an interruption.
+    function, too; ``files`` are those that only the command line has: where it writes the result. ``function`` is
+    stated where it is not NAME.NAME. ``examples`` are commands with comments, ``not_met`` is what exit status 1 means
+    in addition to an interruption.
     """
 
     name: str
@@ -54,7 +54,6 @@ class Verb:
     arguments: tuple[Argument, ...] = ()
     options: type = NoOptions
     files: type = JsonFile
-    module: str = ""
     function: str = ""
     examples: Mapping[str, str] = field(default_factory=dict)
     not_met: str = ""
@@ -62,7 +61,8 @@ class Verb:
     @property
     def home(self) -> tuple[str, str]:
         """The module below `verbs`, and the function in it."""
-        return self.module or self.name, self.function or self.name
+        module, _, function = self.function.partition(".")
+        return module or self.name, function or self.name
 
 
 Function = TypeVar("Function", bound=Callable[..., Any])
