@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from contextlib import chdir
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Unpack
 
 from matplotlib.figure import Figure as Plot
 
-from ..campaigns.spec.expressions import Expression
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.studies.plots import rare_plot
 from ..reports.studies.rare_page import design_table, level_table, write_rare_page
 from ..studies.rare import outcome
 from ..studies.rare.study import rare_failure
 from .common.plans import commands_of, read_campaign
-from .common.requirements import read_requirements, requirement_problems
-from .common.studies import condition_lines, conditions, extend_result, results_folder, write_results
+from .common.requirements import read_requirements
+from .common.studies import Required, condition_lines, conditions, results_folder, store_result
 from .options.option import FilePath
 from .options.studies import RARE, RareOptions
 from .options.verb import verb
@@ -27,29 +25,14 @@ NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # on which r
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class RareResult(outcome.RareResult):
+class RareResult(Required, outcome.RareResult):
     """A rare failure: ``probability``, ``interval``, ``flights``, ``failures``, and the conditions of all of them.
 
     ``simulation`` has the levels, ``flown`` every simulation; ``folder`` is where it is stored, if it is.
     """
 
-    folder: Path | None = None
-    requirements: Sequence[Expression] = ()
-
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.facts['system']}, {self.headline()})"
-
-    def to_json(self) -> dict[str, Any]:
-        """The result for other programs."""
-        return self.document(self.folder)
-
-    def lines(self) -> list[str]:
-        """What `perilune rare` prints."""
-        return [self.text(self.folder)]
-
-    def problems(self) -> list[str]:
-        """Requirements that are not met."""
-        return requirement_problems(self.requirements, self.values())
 
     def write(self, folder: FilePath) -> None:
         """Write rare.json, flights.parquet and, where there are failures, failures.parquet."""
@@ -88,6 +71,4 @@ def rare(system: FilePath, campaign: FilePath, **options: Unpack[RareOptions]) -
             plan, options["failure"], samples=options["samples"], least=options["least"], **conditions(options)
         )
     result = replace(result, commands=commands_of(plan))
-    complete = extend_result(RareResult, result, folder=folder, requirements=requirements)
-    write_results(complete, folder)
-    return complete
+    return store_result(RareResult, result, folder, requirements=requirements)

@@ -6,7 +6,7 @@ import sys
 from contextlib import chdir
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Unpack
 
 from matplotlib.figure import Figure as Plot
 
@@ -16,7 +16,7 @@ from ..reports.studies.plots import sensitivity_plot
 from ..reports.studies.sensitivity_page import driver_table, rank_table, write_sensitivity_page
 from ..studies import sensitivity as study
 from .common.plans import commands_of, read_campaign
-from .common.studies import condition_lines, conditions, extend_result, results_folder, write_results
+from .common.studies import Stored, condition_lines, conditions, results_folder, store_result
 from .options.option import FilePath
 from .options.studies import SENSITIVITY, SensitivityOptions
 from .options.verb import verb
@@ -25,25 +25,11 @@ MOST_PLOTTED = 4  # metrics, in a notebook
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SensitivityResult(study.SensitivityResult):
+class SensitivityResult(Stored, study.SensitivityResult):
     """Sobol' indices of metrics and success: `of` gives those of one, ``ranks`` the rank correlations."""
-
-    folder: Path | None = None
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.facts['system']}, {self.flights} simulations: {', '.join(self.told)})"
-
-    def to_json(self) -> dict[str, Any]:
-        """The result for other programs."""
-        return self.document(self.folder)
-
-    def lines(self) -> list[str]:
-        """What `perilune sensitivity` prints."""
-        return [self.text(self.folder)]
-
-    def problems(self) -> list[str]:
-        """None."""
-        return []
 
     def write(self, folder: FilePath) -> None:
         """Write sensitivity.json, flights.parquet and draws.parquet."""
@@ -87,9 +73,7 @@ def sensitivity(
     plan = read_campaign(system, campaign, options)
     with chdir(Path.cwd()):  # an FMU may change the folder
         result = study.sensitivity(plan, base, **conditions(options), tell=_announce)
-    complete = extend_result(SensitivityResult, replace(result, commands=commands_of(plan)), folder=folder)
-    write_results(complete, folder)
-    return complete
+    return store_result(SensitivityResult, replace(result, commands=commands_of(plan)), folder)
 
 
 def _announce(cost: str) -> None:

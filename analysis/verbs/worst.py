@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from contextlib import chdir
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Unpack
 
 from matplotlib.figure import Figure as Plot
 
-from ..campaigns.spec.expressions import Expression
 from ..campaigns.spec.plan import BatchPlan
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.studies.plots import worst_plot
@@ -21,8 +19,8 @@ from ..studies.worst import outcome
 from ..studies.worst.request import check_options, margin_asked
 from ..studies.worst.study import MARGIN, worst_case, worst_margin
 from .common.plans import commands_of, read_campaign
-from .common.requirements import read_requirements, requirement_problems
-from .common.studies import condition_lines, conditions, extend_result, results_folder, write_results
+from .common.requirements import read_requirements
+from .common.studies import Conditions, Required, condition_lines, conditions, results_folder, store_result
 from .options.option import FilePath
 from .options.studies import WORST, WorstOptions
 from .options.verb import verb
@@ -31,30 +29,16 @@ NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # on 
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class WorstResult(outcome.WorstResult):
+class WorstResult(Required, outcome.WorstResult):
     """A worst case: ``worst`` and ``worst_random`` with their draws and metrics, and every simulation in ``flown``.
 
     ``plan`` is what was simulated; None for a stability margin. ``folder`` is where the result is stored, if it is.
     """
 
     plan: BatchPlan | None = None
-    folder: Path | None = None
-    requirements: Sequence[Expression] = ()
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.facts['system']}, {self.headline()[0]})"
-
-    def to_json(self) -> dict[str, Any]:
-        """The result for other programs."""
-        return self.document(self.folder)
-
-    def lines(self) -> list[str]:
-        """What `perilune worst` prints."""
-        return [self.text(self.folder)]
-
-    def problems(self) -> list[str]:
-        """Requirements that are not met."""
-        return requirement_problems(self.requirements, self.values())
 
     def write(self, folder: FilePath) -> None:
         """Write worst.json, flights.parquet and worst.parquet."""
@@ -77,6 +61,15 @@ class WorstResult(outcome.WorstResult):
         return notebook_view(f"{self.facts['system']}: worst case", text, grids, self.plot())
 
 
+class Search(Conditions, total=False):
+    """Arguments of a search."""
+
+    sigmas: float
+    realisations: int | None
+    quantile: float | None
+    flights: int
+
+
 @verb(WORST)
 def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions]) -> WorstResult:
     """The worst case of a metric within a box of a campaign's dispersions: `perilune worst`.
@@ -97,30 +90,29 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
     loop = options["loop"]
     check_options(loop, options)
     requirements = read_requirements(options["require"], NUMBERS)
-    search = conditions(options) | {name: options[name] for name in ("sigmas", "realisations", "quantile")}  # type: ignore[literal-required]
-    search |= {} if options["flights"] is None else {"flights": options["flights"]}
-    plan = None if loop is not None else read_campaign(system, campaign, options)
+    search: Search = {
+        **conditions(options),
+        "sigmas": options["sigmas"],
+        "realisations": options["realisations"],
+        "quantile": options["quantile"],
+    }
+    if options["flights"] is not None:
+        search["flights"] = options["flights"]
+    plan = None
     with chdir(Path.cwd()):  # an FMU may change the folder
-        if plan is None:
-            result = _worst_margin(system, campaign, options, search)
-        else:
+        if loop is None:
+            plan = read_campaign(system, campaign, options)
             result = replace(worst_case(plan, options["metric"], **search), again=commands_of(plan).replay)
-    complete = extend_result(WorstResult, result, plan=plan, folder=folder, requirements=requirements)
-    write_results(complete, folder)
-    return complete
-
-
-def _worst_margin(
-    system: FilePath, campaign: FilePath, options: Mapping[str, Any], search: Mapping[str, Any]
-) -> outcome.WorstResult:
-    request = margin_asked(
-        Path(system),
-        system_options(options),
-        campaign=str(campaign),
-        configuration=options["configuration"],
-        loop=options["loop"],
-        point=options["point"],
-        at=options["at"],
-        seed=options["seed"],
-    )
-    return worst_margin(request, options["margin"] or MARGIN, **search)
+        else:
+            request = margin_asked(
+                Path(system),
+                system_options(options),
+                campaign=str(campaign),
+                configuration=options["configuration"],
+                loop=loop,
+                point=options["point"],
+                at=options["at"],
+                seed=options["seed"],
+            )
+            result = worst_margin(request, options["margin"] or MARGIN, **search)
+    return store_result(WorstResult, result, folder, plan=plan, requirements=requirements)
