@@ -12,7 +12,10 @@ INLINE = re.compile(r"(?<![\\$\w])\$([^\s$](?:[^$\n]*[^\s$])?)\$(?![\w$])")
 
 
 def typeset(page: str) -> str:
-    """A page of Markdown with its formulas as MathML: ``$$...$$`` on lines of their own, ``$...$`` in the text."""
+    """A page of Markdown with its formulas as MathML: ``$$...$$`` on lines of their own, ``$...$`` in the text.
+
+    Those in the text are in a span: Markdown ends a paragraph at a line that begins with ``<math``.
+    """
     parts = CODE.split(page)
     return "".join(part if index % 2 else _with_mathml(part) for index, part in enumerate(parts))
 
@@ -21,4 +24,4 @@ def _with_mathml(text: str) -> str:
     displayed = DISPLAYED.sub(
         lambda matches: f'<div class="formula">{convert(matches[1], display="block")}</div>', text
     )
-    return INLINE.sub(lambda matches: convert(matches[1]), displayed)
+    return INLINE.sub(lambda matches: f"<span>{convert(matches[1])}</span>", displayed)

@@ -12,6 +12,7 @@ import pytest
 
 import perilune
 from docs.reference.build import pages_of, site_settings
+from docs.reference.formulas import typeset
 from docs.reference.links import broken_links
 from docs.reference.markdown import escaped, prose
 from docs.reference.pages import derived_pages, reference_navigation
@@ -95,6 +96,12 @@ def test_words_stay_as_they_are():
     assert "\n\n    a * b\n\n" in text
     assert "[lunar\\_landing](../systems/lunar_landing.md)" in text
     assert "\n\nSource: A 2001." in text
+
+
+def test_a_line_that_begins_with_a_formula_stays_in_its_paragraph():
+    """Markdown takes a line that begins with ``<math`` for the start of a block."""
+    assert typeset("With\n$a$ and `$b$`.").startswith("With\n<span><math ")
+    assert typeset("With\n$a$ and `$b$`.").endswith("</math></span> and `$b$`.")
 
 
 def test_broken_links_are_found(tmp_path):
