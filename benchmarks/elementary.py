@@ -32,8 +32,7 @@ def library() -> ctypes.CDLL:
     sources = native_sources(ElementaryFunctions, "{0}")
     text = sources[main].decode()
     for name, function in ELEMENTARY_FUNCTIONS.items():
-        inner = getattr(functions, name)
-        home = getattr(inner, "__wrapped__", inner).__module__.rpartition(".")[2]
+        home = functions.unchecked(getattr(functions, name)).__module__.rpartition(".")[2]
         arguments = "x[i], y[i]" if len(function.takes) == 2 else "x[i]"
         for prefix, called in (("ours", f"{home}_{name}"), ("theirs", name)):
             text += (

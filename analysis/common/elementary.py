@@ -13,30 +13,14 @@ from typing import Any
 
 import numpy as np
 
-from ...fmus_src.kernel.elementary import (
-    exponential,
-    inverse,
-    logarithm,
-    normal_distribution,
-    power,
-    roots,
-    trigonometric,
-)
+from ...fmus_src.kernel import functions
+from ...fmus_src.kernel.elementary import normal_distribution, roots
 
 FEW = 30_000  # values that Python computes in the time that numba takes to load a function
 
+OF_KERNELS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "log10", "pow")
 FUNCTIONS: dict[str, Callable] = {
-    "sin": trigonometric.sin,
-    "cos": trigonometric.cos,
-    "tan": trigonometric.tan,
-    "asin": inverse.asin,
-    "acos": inverse.acos,
-    "atan": inverse.atan,
-    "atan2": inverse.atan2,
-    "exp": exponential.exp,
-    "log": logarithm.log,
-    "log10": logarithm.log10,
-    "pow": power.pow,
+    **{name: functions.unchecked(getattr(functions, name)) for name in OF_KERNELS},
     "hypot": roots.hypot,
     "normal_distribution": normal_distribution.normal_distribution,
     "normal_quantile": normal_distribution.normal_quantile,

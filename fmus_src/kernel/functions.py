@@ -10,15 +10,17 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
+from types import FunctionType
+from typing import Any
 
 from .elementary import exponential, hyperbolic, inverse, logarithm, power, roots, trigonometric
 
 DOMAIN_ERROR, RANGE_ERROR = "math domain error", "math range error"
+EITHER_ERROR = ""  # the argument decides
 
 VERSION = 1  # of the bits: counts up with every change of a result of a function
 
-
-# What an infinite result of finite arguments is, by the computing function; "" where the argument decides.
+# What an infinite result of finite arguments is, by the computing function.
 FAULTS: dict[Callable, str] = {}
 
 
@@ -53,8 +55,14 @@ def _checked_power(function: Callable[[float, float], float]) -> Callable[[float
             _refuse(z, DOMAIN_ERROR if x == 0.0 else RANGE_ERROR)
         return z
 
-    FAULTS[function] = ""
+    FAULTS[function] = EITHER_ERROR
     return call
+
+
+def unchecked(function: Any) -> FunctionType:
+    """The kernel function that computes one of these functions, without errors: NaN and infinities instead."""
+    computing: FunctionType = getattr(function, "__wrapped__", function)
+    return computing
 
 
 sin = _checked(trigonometric.sin, DOMAIN_ERROR)

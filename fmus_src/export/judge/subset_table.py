@@ -11,6 +11,9 @@ import ast
 import math
 from dataclasses import dataclass
 
+from ...face import HOMES
+from ...kernel import functions
+
 
 @dataclass(frozen=True)
 class Rule:
@@ -53,16 +56,28 @@ MATH_FUNCTIONS: dict[str, MathFunction] = {
     "isnan": MathFunction(returns=("bool",)),
 }
 
+
+def _read_rules(text: str) -> dict[str, Rule]:
+    """Rules by name, from two lines each: ``name: what is refused``, and indented what to write instead."""
+    lines = text.strip().splitlines()
+    rules = {}
+    for first, remedy in zip(lines[::2], lines[1::2], strict=True):
+        name, _, what = first.partition(": ")
+        rules[name] = Rule(what, remedy.strip())
+    return rules
+
+
+def _elementary_function(name: str) -> MathFunction:
+    """Arguments and faults of a function of `kernel.functions`."""
+    function = functions.unchecked(getattr(functions, name))
+    faults = {functions.DOMAIN_ERROR: DOMAIN, functions.RANGE_ERROR: RANGE, functions.EITHER_ERROR: DOMAIN + RANGE}
+    error = functions.FAULTS.get(function)
+    return MathFunction(("float",) * function.__code__.co_argcount, faults[error] if error is not None else ())
+
+
 # Functions of `perilune` in place of those of `math`, with the same errors.
 ELEMENTARY_FUNCTIONS: dict[str, MathFunction] = {
-    name: MathFunction(TWO if name in ("atan2", "pow") else ("float",), faults)
-    for faults, names in {
-        (): ("atan", "atan2", "tanh", "cbrt"),
-        DOMAIN: ("sin", "cos", "tan", "asin", "acos", "log", "log2", "log10", "log1p"),
-        RANGE: ("exp", "exp2", "expm1", "sinh", "cosh"),
-        DOMAIN + RANGE: ("pow",),
-    }.items()
-    for name in names
+    name: _elementary_function(name) for name in HOMES["kernel.functions"] if name not in MATH_FUNCTIONS
 }
 
 MATH_CONSTANTS: dict[str, float] = {"pi": math.pi, "tau": math.tau, "e": math.e, "inf": math.inf, "nan": math.nan}
@@ -99,49 +114,87 @@ EXPRESSIONS: tuple[type[ast.expr], ...] = (
 OPERATORS: tuple[type[ast.operator], ...] = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv, ast.Mod)
 COMPARISONS: tuple[type[ast.cmpop], ...] = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
 
-_PLAIN_LOOP = "write a for loop over range that assigns one element at a time"
-
+# By the node of `ast`.
 REFUSED_SYNTAX: dict[type[ast.AST], Rule] = {
-    ast.Try: Rule("try: exceptions do not exist in a kernel", "test the condition with if before the operation"),
-    ast.Raise: Rule("raise: a kernel cannot raise", "set the Integer output status and return"),
-    ast.Assert: Rule("assert: a kernel cannot raise", "set the Integer output status, or test it in tests/"),
-    ast.With: Rule("with: no objects in a kernel", "compute with floats, ints, bools and fixed lists only"),
-    ast.Import: Rule("import inside a kernel", "import at the top of the module"),
-    ast.ImportFrom: Rule("import inside a kernel", "import at the top of the module"),
-    ast.Global: Rule("global: a kernel's memory is its block", "declare a State on the block"),
-    ast.Nonlocal: Rule("nonlocal: no nested functions", "declare a State on the block, or pass a list"),
-    ast.Delete: Rule("del: nothing is freed in a kernel", "remove the statement"),
-    ast.FunctionDef: Rule("a function inside a function", "move it to the module and pass what it needs"),
-    ast.ClassDef: Rule("a class inside a function", "declare a State on the block"),
-    ast.Lambda: Rule("lambda", "write a function in the module"),
-    ast.Match: Rule("match", "write if and elif"),
-    ast.ListComp: Rule("a list comprehension", _PLAIN_LOOP),
-    ast.GeneratorExp: Rule("a generator expression", _PLAIN_LOOP),
-    ast.SetComp: Rule("a set comprehension", _PLAIN_LOOP),
-    ast.DictComp: Rule("a dict comprehension", _PLAIN_LOOP),
-    ast.Dict: Rule("a dict", "use a list with a fixed meaning per index"),
-    ast.Set: Rule("a set", "use a list of bools"),
-    ast.Tuple: Rule("a tuple in a kernel", "write one statement per value; several values only in return a, b"),
-    ast.List: Rule(
-        "a list inside an expression", "write vector(x, y, z), or give it a name of its own: name = [0.0] * n"
-    ),
-    ast.Starred: Rule("a starred argument", "pass every argument by itself; only vector(*name[0:3]) takes one"),
-    ast.JoinedStr: Rule("a string", "use an int and name its values as module constants"),
-    ast.NamedExpr: Rule("an assignment inside an expression", "assign in a statement of its own"),
-    ast.Yield: Rule("yield", "keep what is to be remembered in a State"),
-    ast.Await: Rule("await", "remove it"),
-    ast.Pow: Rule("the operator **", "write x * x, or pow(x, y) of perilune"),
-    ast.MatMult: Rule("the operator @", "take dot of perilune for vectors, and sums as for loops"),
-    ast.LShift: Rule("a bit operator", "use *, // and % on ints"),
-    ast.RShift: Rule("a bit operator", "use *, // and % on ints"),
-    ast.BitAnd: Rule("a bit operator", "use `and` on bools; *, // and % on ints"),
-    ast.BitOr: Rule("a bit operator", "use `or` on bools; *, // and % on ints"),
-    ast.BitXor: Rule("a bit operator", "use != on bools; *, // and % on ints"),
-    ast.Invert: Rule("a bit operator", "use `not` on bools"),
-    ast.Is: Rule("`is`", "compare with =="),
-    ast.IsNot: Rule("`is not`", "compare with !="),
-    ast.In: Rule("`in`", "write a for loop with a comparison"),
-    ast.NotIn: Rule("`not in`", "write a for loop with a comparison"),
+    getattr(ast, node): rule
+    for node, rule in _read_rules("""
+Try: try: exceptions do not exist in a kernel
+    test the condition with if before the operation
+Raise: raise: a kernel cannot raise
+    set the Integer output status and return
+Assert: assert: a kernel cannot raise
+    set the Integer output status, or test it in tests/
+With: with: no objects in a kernel
+    compute with floats, ints, bools and fixed lists only
+Import: import inside a kernel
+    import at the top of the module
+ImportFrom: import inside a kernel
+    import at the top of the module
+Global: global: a kernel's memory is its block
+    declare a State on the block
+Nonlocal: nonlocal: no nested functions
+    declare a State on the block, or pass a list
+Delete: del: nothing is freed in a kernel
+    remove the statement
+FunctionDef: a function inside a function
+    move it to the module and pass what it needs
+ClassDef: a class inside a function
+    declare a State on the block
+Lambda: lambda
+    write a function in the module
+Match: match
+    write if and elif
+ListComp: a list comprehension
+    write a for loop over range that assigns one element at a time
+GeneratorExp: a generator expression
+    write a for loop over range that assigns one element at a time
+SetComp: a set comprehension
+    write a for loop over range that assigns one element at a time
+DictComp: a dict comprehension
+    write a for loop over range that assigns one element at a time
+Dict: a dict
+    use a list with a fixed meaning per index
+Set: a set
+    use a list of bools
+Tuple: a tuple in a kernel
+    write one statement per value; several values only in return a, b
+List: a list inside an expression
+    write vector(x, y, z), or give it a name of its own: name = [0.0] * n
+Starred: a starred argument
+    pass every argument by itself; only vector(*name[0:3]) takes one
+JoinedStr: a string
+    use an int and name its values as module constants
+NamedExpr: an assignment inside an expression
+    assign in a statement of its own
+Yield: yield
+    keep what is to be remembered in a State
+Await: await
+    remove it
+Pow: the operator **
+    write x * x, or pow(x, y) of perilune
+MatMult: the operator @
+    take dot of perilune for vectors, and sums as for loops
+LShift: a bit operator
+    use *, // and % on ints
+RShift: a bit operator
+    use *, // and % on ints
+BitAnd: a bit operator
+    use `and` on bools; *, // and % on ints
+BitOr: a bit operator
+    use `or` on bools; *, // and % on ints
+BitXor: a bit operator
+    use != on bools; *, // and % on ints
+Invert: a bit operator
+    use `not` on bools
+Is: `is`
+    compare with ==
+IsNot: `is not`
+    compare with !=
+In: `in`
+    write a for loop with a comparison
+NotIn: `not in`
+    write a for loop with a comparison
+""").items()
 }
 
 OTHER_SYNTAX = Rule("{name} is outside the subset", "use the statements and expressions of subset_table.py")
@@ -173,99 +226,127 @@ LANGUAGE_PAGE = "What a kernel may use"  # of the documentation site, derived fr
 OTHER_FUNCTION = f'take one of the page "{LANGUAGE_PAGE}", write one in the file, or declare python_only = True'
 
 # What a kernel may not say although each word of it is allowed.
-RULES: dict[str, Rule] = {
-    "no source": Rule("{name}: its source cannot be read", "define it in a .py file"),
-    "no initialize": Rule("{name}: initialize is not a method", "write def initialize(self) -> None"),
-    "no variables": Rule("{name} declares no variables", "declare its inputs, parameters, states and outputs"),
-    "python only": Rule("{name} says python_only", "it has no C form; build its Python flavour"),
-    "decorator": Rule("{name} has a decorator", "write a plain method, or a function in the module"),
-    "signature": Rule(
-        "{name}: {detail}", "declare every argument as float, int, bool, Vector3 or list, without defaults"
-    ),
-    "return type": Rule(
-        "{name}: no return type of the subset",
-        "declare -> None, float, int, bool, Vector3 or tuple[float, Vector3]; pass a list to be filled",
-    ),
-    "missing return": Rule("{name}: a path ends without return", "return a value at the end"),
-    "return value": Rule("returns {got}, declared {expected}", "return what the declaration says; float(n) widens"),
-    "recursion": Rule("{name} calls itself, directly or through others", "write a for loop with a bound"),
-    "unbound": Rule("{name} may be read before it is assigned", "give it a value before the if or the loop"),
-    "no import": Rule("{name} is not imported", "write {words} at the top of the file"),
-    "unknown name": Rule(
-        "{name} is no local variable, kernel function or constant of the module",
-        "assign it first, or define it as a float or int constant of the module",
-    ),
-    "undeclared": Rule("self.{name} is not declared", "declare it in the class: {name} = State(...)"),
-    "read-only": Rule("{name} is an input, a parameter or a constant and is changed here", "copy it to a State"),
-    "list rebound": Rule("the list {name} is rebound", "copy element by element: for i in range(n)"),
-    "list shared": Rule("a list is given a second name", "declare [0.0] * n and copy element by element"),
-    "list size": Rule("the list {name} has no fixed size here", "write [0.0] * n with n an int constant"),
-    "list literal": Rule("{detail}", "write a list of floats, of ints or of bools, or [0.0] * n"),
-    "list replaces itself": Rule("a new value of {name} reads the old one", "assign its elements one at a time"),
-    "index": Rule("index {index} is outside {name}, which has {size} elements", "correct the index or the size"),
-    "type change": Rule("{name} is {before} and becomes {after}", "use two variables; start floats from 0.0; float(n)"),
-    "argument type": Rule("{name} takes {expected} for {argument}, got {got}", "float(n) widens an int"),
-    "argument count": Rule("{name} takes {expected} arguments, got {got}", "pass every argument"),
-    "keyword": Rule("an argument passed by name", "pass arguments by position"),
-    "number": Rule("{name} of {got}", "use numbers; bools and lists do not compute"),
-    "condition": Rule("{got} used as a truth value", "compare it: x != 0.0, n != 0"),
-    "comparison": Rule("{left} compared with {right}", "compare numbers with numbers, bools with == or !="),
-    "chained comparison": Rule("a chained comparison", "write a < b and b < c"),
-    "branches": Rule("one value is {left}, the other {right}", "give both the same type; float(n) widens"),
-    "wide int": Rule(
-        "an int that may exceed 2^53 is {use} as a float would be", "convert it first: float(n), which rounds it once"
-    ),
-    "int literal": Rule("an int beyond 64 bits", "write it as a float"),
-    "no effect": Rule("an expression without effect", "assign it, or remove it"),
-    "string": Rule("a string or other constant", "use an int and name its values as module constants"),
-    "function": Rule("{name} is not in the subset", "{remedy}"),
-    "changes inside expression": Rule(
-        "{name} changes its arguments or the block inside a larger expression",
-        "call it in a statement of its own: x = {name}(...)",
-    ),
-    "conditional order": Rule(
-        "this part of an and, or, or if-else expression can fail in more than one way",
-        "assign its parts to variables first, or write nested ifs",
-    ),
-    "one target": Rule("an assignment to several targets", "write one statement per target"),
-    "number of targets": Rule("{targets} targets for {got}", "write one target per value"),
-    "several values": Rule("{name} returns {got}", "assign them in a statement of their own: a, b = {name}(...)"),
-    "vector sizes": Rule("a {left} with a {right}", "use vectors of one size"),
-    "vector operator": Rule(
-        "operator {name} of {left} and {right}",
-        "vectors take + - * / with vectors of their size, and * / with numbers; dot(a, b) is the scalar product",
-    ),
-    "vector size": Rule("a vector of {got}", "make it of two, three or four, or use a list"),
-    "list for vector": Rule("a {left} with a {right}", "make the list a vector: vector(*name), vector(*name[0:3])"),
-    "list and vector": Rule(
-        "{name} takes a {expected} for {argument}, got a {got}",
-        "vector(*name) makes a vector of a list; a list takes a vector's elements one at a time",
-    ),
-    "list stored": Rule("a list is stored in the vector {name}", "write {name} = vector(x, y, z), or vector(*name)"),
-    "component": Rule("a {kind} has no component {name}", "it has {names}; or write v[k]"),
-    "component assigned": Rule(
-        "{name} is a vector, whose components cannot be assigned",
-        "make a new one: {name} = vector(x, y, z); or declare it with vector=False, which makes it a list",
-    ),
-    "record operator": Rule(
-        "operator {name} of {left} and {right}",
-        "records of floats and vectors take + - with their like, and * / with numbers",
-    ),
-    "record": Rule("{name} without each of its fields in their order", "write {name}({names})"),
-    "replace": Rule("replace of something else than a named record", "write replace(record, field=value)"),
-    "field": Rule("{kind} has no field {name}", "it has {names}"),
-    "field assigned": Rule(
-        "{name} is a record, whose fields cannot be assigned", "make a new one: {name} = replace({name}, field=value)"
-    ),
-    "derivatives": Rule(
-        "{name} is given to a function to be called, and changes its arguments or the block",
-        "return what it computes, and assign that where the state is",
-    ),
-    "part": Rule("{part} is no part of two to four of its {size} elements", "write constants from 0 to {size}"),
-    "part of a list": Rule("{part} is a list in Python", "write vector(*{part}), or a for loop over range"),
-    "part of an expression": Rule("a part of {name}", "give it a name first"),
-    "target": Rule("an assignment to something else than a variable, self.name or an element", "assign one of these"),
-    "for range": Rule("for over something else than range", "write for i in range(n)"),
-    "range step": Rule("the step of range is not a constant", "write a non-zero int literal, or a while loop"),
-    "loop else": Rule("else of a loop", "set a bool in the loop and test it afterwards"),
-}
+RULES: dict[str, Rule] = _read_rules("""
+no source: {name}: its source cannot be read
+    define it in a .py file
+no initialize: {name}: initialize is not a method
+    write def initialize(self) -> None
+no variables: {name} declares no variables
+    declare its inputs, parameters, states and outputs
+python only: {name} says python_only
+    it has no C form; build its Python flavour
+decorator: {name} has a decorator
+    write a plain method, or a function in the module
+signature: {name}: {detail}
+    declare every argument as float, int, bool, Vector3 or list, without defaults
+return type: {name}: no return type of the subset
+    declare -> None, float, int, bool, Vector3 or tuple[float, Vector3]; pass a list to be filled
+missing return: {name}: a path ends without return
+    return a value at the end
+return value: returns {got}, declared {expected}
+    return what the declaration says; float(n) widens
+recursion: {name} calls itself, directly or through others
+    write a for loop with a bound
+unbound: {name} may be read before it is assigned
+    give it a value before the if or the loop
+no import: {name} is not imported
+    write {words} at the top of the file
+unknown name: {name} is no local variable, kernel function or constant of the module
+    assign it first, or define it as a float or int constant of the module
+undeclared: self.{name} is not declared
+    declare it in the class: {name} = State(...)
+read-only: {name} is an input, a parameter or a constant and is changed here
+    copy it to a State
+list rebound: the list {name} is rebound
+    copy element by element: for i in range(n)
+list shared: a list is given a second name
+    declare [0.0] * n and copy element by element
+list size: the list {name} has no fixed size here
+    write [0.0] * n with n an int constant
+list literal: {detail}
+    write a list of floats, of ints or of bools, or [0.0] * n
+list replaces itself: a new value of {name} reads the old one
+    assign its elements one at a time
+index: index {index} is outside {name}, which has {size} elements
+    correct the index or the size
+type change: {name} is {before} and becomes {after}
+    use two variables; start floats from 0.0; float(n)
+argument type: {name} takes {expected} for {argument}, got {got}
+    float(n) widens an int
+argument count: {name} takes {expected} arguments, got {got}
+    pass every argument
+keyword: an argument passed by name
+    pass arguments by position
+number: {name} of {got}
+    use numbers; bools and lists do not compute
+condition: {got} used as a truth value
+    compare it: x != 0.0, n != 0
+comparison: {left} compared with {right}
+    compare numbers with numbers, bools with == or !=
+chained comparison: a chained comparison
+    write a < b and b < c
+branches: one value is {left}, the other {right}
+    give both the same type; float(n) widens
+wide int: an int that may exceed 2^53 is {use} as a float would be
+    convert it first: float(n), which rounds it once
+int literal: an int beyond 64 bits
+    write it as a float
+no effect: an expression without effect
+    assign it, or remove it
+string: a string or other constant
+    use an int and name its values as module constants
+function: {name} is not in the subset
+    {remedy}
+changes inside expression: {name} changes its arguments or the block inside a larger expression
+    call it in a statement of its own: x = {name}(...)
+conditional order: this part of an and, or, or if-else expression can fail in more than one way
+    assign its parts to variables first, or write nested ifs
+one target: an assignment to several targets
+    write one statement per target
+number of targets: {targets} targets for {got}
+    write one target per value
+several values: {name} returns {got}
+    assign them in a statement of their own: a, b = {name}(...)
+vector sizes: a {left} with a {right}
+    use vectors of one size
+vector operator: operator {name} of {left} and {right}
+    vectors take + - * / with vectors of their size, and * / with numbers; dot(a, b) is the scalar product
+vector size: a vector of {got}
+    make it of two, three or four, or use a list
+list for vector: a {left} with a {right}
+    make the list a vector: vector(*name), vector(*name[0:3])
+list and vector: {name} takes a {expected} for {argument}, got a {got}
+    vector(*name) makes a vector of a list; a list takes a vector's elements one at a time
+list stored: a list is stored in the vector {name}
+    write {name} = vector(x, y, z), or vector(*name)
+component: a {kind} has no component {name}
+    it has {names}; or write v[k]
+component assigned: {name} is a vector, whose components cannot be assigned
+    make a new one: {name} = vector(x, y, z); or declare it with vector=False, which makes it a list
+record operator: operator {name} of {left} and {right}
+    records of floats and vectors take + - with their like, and * / with numbers
+record: {name} without each of its fields in their order
+    write {name}({names})
+replace: replace of something else than a named record
+    write replace(record, field=value)
+field: {kind} has no field {name}
+    it has {names}
+field assigned: {name} is a record, whose fields cannot be assigned
+    make a new one: {name} = replace({name}, field=value)
+derivatives: {name} is given to a function to be called, and changes its arguments or the block
+    return what it computes, and assign that where the state is
+part: {part} is no part of two to four of its {size} elements
+    write constants from 0 to {size}
+part of a list: {part} is a list in Python
+    write vector(*{part}), or a for loop over range
+part of an expression: a part of {name}
+    give it a name first
+target: an assignment to something else than a variable, self.name or an element
+    assign one of these
+for range: for over something else than range
+    write for i in range(n)
+range step: the step of range is not a constant
+    write a non-zero int literal, or a while loop
+loop else: else of a loop
+    set a bool in the loop and test it afterwards
+""")

@@ -8,7 +8,7 @@ from typing import Any
 
 from ...block import Block, Variable
 from ...kernel import vector_types
-from ...kernel.functions import DOMAIN_ERROR, FAULTS, RANGE_ERROR
+from ...kernel.functions import DOMAIN_ERROR, EITHER_ERROR, FAULTS, RANGE_ERROR
 from ...kernel.records import Record
 from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
 from ..judge.expressions import SCALARS, type_of_variable
@@ -140,7 +140,7 @@ def _functions(kernel: Kernel, names: Names, type_name: str) -> list[str]:
 def _checked(function: Function, c_name: str) -> str:
     """The form of an elementary function that records a fault, ``py_sin``, at its caller's line."""
     error = FAULTS[function.source.function]
-    if not error:
+    if error == EITHER_ERROR:
         return f"CHECKED_POWER({function.source.name}, {c_name})\n"
     return f"CHECKED_FUNCTION({function.source.name}, {c_name}, {C_ERRORS[error]})\n"
 
