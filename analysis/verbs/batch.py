@@ -26,7 +26,7 @@ from ..reports.common.notebook import Grid, metric_grid, notebook_view
 from ..runtime.flight.results import require_pandas
 from ..studies.sobol import rank_correlations
 from .common.campaign_text import campaign_problems, campaign_requirements, status_meanings
-from .common.plans import read_campaign, resume_hint
+from .common.campaigns import read_campaign, resume_hint
 from .options.campaigns import BATCH, BatchOptions
 from .options.option import FilePath
 from .options.verb import verb

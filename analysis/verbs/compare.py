@@ -19,7 +19,7 @@ from ..reports.common.notebook import Grid, metric_grid, notebook_view
 from ..reports.compare.metrics import metric_plot, varying_metrics
 from ..reports.compare.page import write_comparison_page
 from ..runtime.flight.results import require_pandas
-from .common.paths import path_list
+from .common.arguments import path_list
 from .options.campaigns import COMPARE, CompareOptions
 from .options.command import write_command
 from .options.option import FilePath

@@ -16,7 +16,7 @@ from ...fmus_src.paths import LAWS, SEARCHES
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.reading import read_description
 from ..stability.request.reading import read_declaration
-from .common.text import wrap
+from .common.description_text import wrap
 from .options.library import LIST
 from .options.verb import verb
 

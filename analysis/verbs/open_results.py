@@ -1,20 +1,112 @@
-"""A campaign's folder from Python: `open_results`, and what it gives with tables and plots."""
+"""Campaigns that are stored, in Python: `open_results`, and `plot_results` of several in one figure."""
 
 from __future__ import annotations
 
+import os
 import shlex
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import pyarrow.compute
 from matplotlib.figure import Figure as Plot
 
+from ..campaigns.fly.results import BatchResult
 from ..campaigns.folder.folder import read_folder
 from ..campaigns.folder.opened import OpenedResults
+from ..campaigns.spec.campaign import Metric
+from ..campaigns.spec.expressions import Expression
+from ..campaigns.trials import whole_column
+from ..common.errors import InputError, suggestion
+from ..reports.campaign.distributions import distribution_plot
 from ..reports.common.notebook import Grid, notebook_view
+from ..reports.common.style import look
 from ..runtime.flight.results import require_pandas
 from .options.option import FilePath
-from .plot_results import distributions
+
+Results = OpenedResults | BatchResult
+
+
+def plot_results(results: Mapping[str, FilePath | Results], metrics: Sequence[str] | None = None) -> Plot:
+    """How metrics of several campaigns are distributed over all trials: a panel per metric, a line per variant.
+
+    ``results`` are folders that `batch` wrote, or what `batch` or `open_results` gave, by their labels; they may be of
+    different systems and draws, since only the metrics' names and units are put together. Without ``metrics`` it is
+    all that every campaign has and that vary. Raises KeyError for a metric that a campaign does not have, InputError
+    for units that differ and for what is no results, ValueError where there is none to draw.
+    """
+    if not results:
+        raise InputError("plot_results", "", "no results", "give folders that batch(..., output=...) wrote, by labels")
+    opened = {
+        label: OpenedResults(read_folder(Path(given))) if isinstance(given, str | os.PathLike) else given
+        for label, given in results.items()
+    }
+    return distributions(opened, metrics)
+
+
+def distributions(results: Mapping[str, Results], metrics: Sequence[str] | None) -> Plot:
+    """The figure of `plot_results`; a label may be empty where it is the only one."""
+    declared = {label: _metrics(batch) for label, batch in results.items()}
+    common = [name for name in next(iter(declared.values())) if all(name in batch for batch in declared.values())]
+    for name in metrics or ():
+        for label, known in declared.items():
+            if name not in known:
+                raise KeyError(f"no metric {name}{f' in {label}' if label else ''}; {suggestion(name, known)}")
+    displayed: dict[Metric, dict[str, np.ndarray]] = {}
+    for name in common if metrics is None else dict.fromkeys(metrics):
+        metric = _of_one_unit(name, declared)
+        values = {line: column for label, batch in results.items() for line, column in _lines(label, batch, name)}
+        if _varies(np.concatenate(list(values.values()))) or (metrics is not None and _is_somewhere(values)):
+            displayed[metric] = values
+    if not displayed:
+        raise ValueError(f"{', '.join(filter(None, results)) or 'the campaign'}: no metric that varies and is finite")
+    lines = list(dict.fromkeys(line for values in displayed.values() for line in values))
+    return distribution_plot(displayed, {line: look(index) for index, line in enumerate(lines)})
+
+
+def _metrics(results: Results) -> dict[str, Metric]:
+    if isinstance(results, BatchResult):
+        return {metric.name: metric for metric in results.plan.campaign.metrics}
+    facts = results.provenance["metrics"]
+    return {
+        name: Metric(name, Expression(fact["expression"]), fact["reduction"], unit=fact["unit"])
+        for name, fact in facts.items()
+    }
+
+
+def _of_one_unit(name: str, declared: Mapping[str, Mapping[str, Metric]]) -> Metric:
+    """A metric of all campaigns. Raises InputError where its units differ."""
+    (first, metric), *others = ((label, known[name]) for label, known in declared.items())
+    for label, other in others:
+        if other.unit != metric.unit:
+            problem = f"in {other.unit}, in {metric.unit} in {first}"
+            raise InputError(label, f"metric {name}", problem, "plot metrics of one unit, by naming them")
+    return metric
+
+
+def _lines(label: str, results: Results, metric: str) -> list[tuple[str, np.ndarray]]:
+    """The values of a metric by what their lines are called: the label, the variant, or both."""
+    if isinstance(results, BatchResult):
+        lines = {variant: whole_column(rows, f"metric.{metric}") for variant, rows in results.rows.items()}
+    else:
+        table = results.arrow(["variant", f"metric.{metric}"])
+        column = table.column(1).to_numpy().astype(np.float64)
+        lines = {
+            variant: column[pyarrow.compute.equal(table.column(0), variant).to_numpy()] for variant in results.variants
+        }
+    if not label:
+        return list(lines.items())
+    return [(label if len(lines) == 1 else f"{label}: {variant}", values) for variant, values in lines.items()]
+
+
+def _varies(values: np.ndarray) -> bool:
+    finite = values[np.isfinite(values)]
+    return bool(finite.size) and not (finite.size == values.size > 1 and np.all(finite == finite[0]))
+
+
+def _is_somewhere(values: Mapping[str, np.ndarray]) -> bool:
+    return any(np.any(np.isfinite(values_of)) for values_of in values.values())
 
 
 class StoredResults(OpenedResults):

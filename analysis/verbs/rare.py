@@ -14,8 +14,8 @@ from ..reports.studies.plots import rare_plot
 from ..reports.studies.rare_page import design_table, level_table, write_rare_page
 from ..studies.rare import outcome
 from ..studies.rare.study import rare_failure
-from .common.plans import commands_of, read_campaign
-from .common.requirements import read_requirements
+from .common.arguments import read_requirements
+from .common.campaigns import commands_of, read_campaign
 from .common.studies import Required, condition_lines, conditions, results_folder, store_result
 from .options.option import FilePath
 from .options.studies import RARE, RareOptions

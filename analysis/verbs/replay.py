@@ -14,9 +14,9 @@ from ..common.errors import InputError
 from ..reports.figures.declaration.reading import read_figures
 from ..reports.flight.run_report import write_run_report
 from ..runtime.flight.interruptible import StuckError
+from .common.arguments import read_requirements
 from .common.campaign_text import outcome_lines
-from .common.plans import read_campaign
-from .common.requirements import read_requirements
+from .common.campaigns import read_campaign
 from .options.campaigns import REPLAY, ReplayOptions
 from .options.command import record_options
 from .options.option import FilePath

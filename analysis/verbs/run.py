@@ -26,9 +26,8 @@ from ..runtime.system.fault import Fault, faults_of
 from ..runtime.system.in_flight.series import read_series
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
-from .common.flight_text import flight_lines, flight_problems
-from .common.notes import note_lines
-from .common.requirements import read_requirements, requirement_problems
+from .common.arguments import read_requirements, requirement_problems
+from .common.flight_text import flight_lines, flight_problems, note_lines
 from .options.campaigns import RUN, RunOptions
 from .options.option import FilePath
 from .options.verb import verb

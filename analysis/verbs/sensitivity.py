@@ -15,7 +15,7 @@ from ..reports.common.notebook import Grid, notebook_view
 from ..reports.studies.plots import sensitivity_plot
 from ..reports.studies.sensitivity_page import driver_table, rank_table, write_sensitivity_page
 from ..studies import sensitivity as study
-from .common.plans import commands_of, read_campaign
+from .common.campaigns import commands_of, read_campaign
 from .common.studies import Stored, condition_lines, conditions, results_folder, store_result
 from .options.option import FilePath
 from .options.studies import SENSITIVITY, SensitivityOptions

@@ -1,4 +1,4 @@
-"""`perilune.shard`: some shards of a campaign whose folder is prepared; the result says what is missing."""
+"""A campaign in parts: `prepare` writes its folder, `shard` simulates shards of it, `merge` puts them together."""
 
 from __future__ import annotations
 
@@ -8,15 +8,63 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Unpack
 
-from ..campaigns.fly.campaign import open_folder
+from ..campaigns.fly.campaign import open_campaign, open_folder
 from ..campaigns.fly.cluster.connection import cluster
-from ..campaigns.fly.runner import fly_campaign
+from ..campaigns.fly.runner import fly_campaign, merge_rows
 from ..campaigns.fly.shards.numbering import numbers_of
-from .common.campaign_text import failure_lines, find_failed
-from .common.plans import resume_hint
-from .options.campaigns import SHARD, ExecutionOptions
+from ..common.errors import InputError
+from ..common.targets import check_folder
+from .batch import BatchResult
+from .common.campaign_text import campaign_requirements, failure_lines, find_failed
+from .common.campaigns import read_campaign, resume_hint
+from .options.campaigns import MERGE, PREPARE, SHARD, ExecutionOptions, PrepareOptions
 from .options.option import FilePath
+from .options.system import RequireOptions
 from .options.verb import verb
+
+
+@dataclass(frozen=True)
+class PreparedCampaign:
+    """A campaign's ``folder`` with ``shards`` of ``shard_size`` trials, the last one with the rest."""
+
+    folder: Path
+    shards: int
+    shard_size: int
+
+    def to_json(self) -> dict[str, Any]:
+        """Folder, number and size of shards."""
+        return {"folder": str(self.folder), "shards": self.shards, "shard_size": self.shard_size}
+
+    def lines(self) -> list[str]:
+        """What `perilune prepare` prints."""
+        last = self.shards - 1
+        return [
+            f"written: {self.folder}, shards 0-{last}, {self.shard_size} trials each, the rest in the last",
+            f"simulate them: perilune shard {self.folder} 0-{last}, in any parts; then: perilune merge {self.folder}",
+        ]
+
+    def problems(self) -> list[str]:
+        """None."""
+        return []
+
+
+@verb(PREPARE)
+def prepare(
+    system: FilePath, campaign: FilePath, output: FilePath, **options: Unpack[PrepareOptions]
+) -> PreparedCampaign:
+    """Write a campaign to the folder ``output`` without simulating it: `perilune prepare`.
+
+    `shard` simulates its shards, here or wherever the folder is, and `merge` puts them together. Options are as in
+    `batch`. Raises InputError.
+    """
+    folder = Path(output)
+    if options["resume"] and options["overwrite"]:
+        raise InputError("`resume`", "`overwrite`", "one keeps what is stored, one does not", "leave one of them out")
+    is_kept = options["overwrite"] or options["resume"]
+    check_folder("`output`", folder, overwrite=is_kept, otherwise="`resume` or `overwrite`")
+    with chdir(Path.cwd()):  # an FMU may change the folder
+        opened = open_campaign(read_campaign(system, campaign, options), folder, resume=options["resume"])
+    return PreparedCampaign(folder, opened.numbering.count, opened.numbering.size)
 
 
 @dataclass(frozen=True)
@@ -77,3 +125,12 @@ def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpac
         campaign.numbering.count,
         tuple(failure_lines(failures, campaign.plan, Path(folder))),
     )
+
+
+@verb(MERGE)
+def merge(folder: FilePath, **options: Unpack[RequireOptions]) -> BatchResult:
+    """Merge the shards of a campaign's folder: `perilune merge`. Raises InputError where some are missing."""
+    with chdir(Path.cwd()), resume_hint(Path(folder)):
+        campaign = open_folder(Path(folder))
+        requirements = campaign_requirements(campaign.plan, options["require"])
+        return BatchResult.finish(campaign, merge_rows(campaign), requirements=tuple(requirements))

@@ -28,8 +28,8 @@ from ..stability.request.channels import channels_of
 from ..stability.request.declaration import Declaration
 from ..stability.request.reading import read_declaration
 from ..stability.request.request import Subject
-from .common.paths import path_list
-from .common.text import wrap
+from .common.arguments import path_list
+from .common.description_text import wrap
 from .options.library import VALIDATE
 from .options.option import FilePath
 from .options.system import SystemOptions

@@ -18,8 +18,8 @@ from ..runtime.system.options import system_options
 from ..studies.worst import outcome
 from ..studies.worst.request import check_options, margin_asked
 from ..studies.worst.study import MARGIN, worst_case, worst_margin
-from .common.plans import commands_of, read_campaign
-from .common.requirements import read_requirements
+from .common.arguments import read_requirements
+from .common.campaigns import commands_of, read_campaign
 from .common.studies import Conditions, Required, condition_lines, conditions, results_folder, store_result
 from .options.option import FilePath
 from .options.studies import WORST, WorstOptions

@@ -22,7 +22,7 @@ from ...campaigns.tables import align_columns, unmet_lines
 from ...campaigns.trials import TrialColumns, TrialRows
 from ...runtime.flight.results import TIMED_OUT
 from ...runtime.flight.statuses import with_meaning
-from .requirements import read_requirements, requirement_problems
+from .arguments import read_requirements, requirement_problems
 
 
 def campaign_problems(result: BatchResult, requirements: Sequence[Expression]) -> list[str]:

@@ -1,9 +1,11 @@
-"""What commands say of one flight: its limits, its statuses, and whether all is met."""
+"""What commands say of one flight: its limits, its statuses, whether all is met; notes on its system."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
+from ....fmus_src.paths import SYSTEMS
 from ...reports.figures.declaration.figures import Figure, Limits
 from ...reports.figures.declaration.values import Unavailable
 from ...reports.figures.limits import Verdict, evaluate, limit_lines
@@ -59,3 +61,28 @@ def _is_cut_off(prepared: PreparedSystem, result: Flight) -> bool:
     end = prepared.network.nodes.get(FINISHED)
     says_so = end is not None and end.component is None and end.kind == "output"
     return says_so and result.status == "stop_time" and prepared.options.stop_time is None
+
+
+MOST = 4  # names in a line
+INDEX = re.compile(r"\[[\d,]+\]$")
+
+
+def note_lines(prepared: PreparedSystem) -> list[str]:
+    """What `perilune validate` notes of a system, a line for each kind of note.
+
+    Of a system of this repository it is what was assumed only: an FMU of another's may fly in it.
+    """
+    is_ours = prepared.archive.path.is_relative_to(SYSTEMS.resolve())
+    notes = prepared.assumptions if is_ours else prepared.network.notes
+    kinds: dict[str, dict[str, None]] = {}
+    for note in notes:
+        name, _, words = note.partition(": ")
+        kind = words.partition(", keeps ")[0]
+        kind += ", keeps its start" if kind != words else ""
+        kinds.setdefault(kind, {})[INDEX.sub("", name)] = None
+    return [f"note: {_some(list(names))}: {kind}" for kind, names in kinds.items()]
+
+
+def _some(names: list[str]) -> str:
+    more = f" and {len(names) - MOST} more" if len(names) > MOST else ""
+    return f"{', '.join(names[:MOST])}{more}"

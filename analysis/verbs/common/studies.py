@@ -13,7 +13,7 @@ from ...common.errors import UnwrittenError
 from ...common.targets import check_folder
 from ...reports.studies.conditions import StudyResult, conditions_of
 from ..options.studies import ConditionOptions
-from .requirements import requirement_problems
+from .arguments import requirement_problems
 
 
 class _Outcome(Protocol):

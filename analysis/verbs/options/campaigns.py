@@ -154,6 +154,7 @@ PREPARE = Verb(
     "write a campaign to a folder without simulating it, for shard",
     (SYSTEM, CAMPAIGN, Argument("output", "DIR", "the folder to write", is_option=True)),
     options=PrepareOptions,
+    function="shard.prepare",
     examples={
         "perilune prepare lunar_terminal_guidance --campaign paper --trials 100 "
         "--output parts": "the campaign in a folder",
@@ -176,6 +177,7 @@ MERGE = Verb(
     (FOLDER,),
     options=RequireOptions,
     files=ReportFiles,
+    function="shard.merge",
     examples={
         "perilune prepare lunar_terminal_guidance --campaign paper --trials 50 --output shared": "a folder to share",
         "perilune shard shared 0-1": "all of its shards, on one machine or another",

@@ -57,7 +57,7 @@ LAW = Verb(
     (Argument("name", "LAW", "a law of laws/ by name, or the path of its .json file", "laws"),),
     options=LawOptions,
     files=LawFiles,
-    function="law.law",
+    function="laws.law",
     examples={
         "perilune design law diveev_2013": "the published law as a formula",
         "perilune design law diveev_2013 --output law.ssv "
@@ -83,7 +83,7 @@ SEARCH = Verb(
     "search for a network operator's law, every candidate simulated in its system",
     (SEARCH_FILE,),
     options=SearchOptions,
-    function="search.synthesize",
+    function="laws.synthesize",
     examples={
         "perilune design search lunar_landing_5_deg_s "
         "--output laws": "ends at once: the published law succeeds from all nine starts",
@@ -165,7 +165,7 @@ TRANSFER = Verb(
     "plan a transfer between two hovers: parametric programme, true optimum, point-mass bound",
     options=TransferOptions,
     files=ReportFiles,
-    function="transfer.plan_hover_transfer",
+    function="plans.plan_hover_transfer",
     examples={"perilune design transfer --margins": "from hover to hover, with control margins"},
     not_met=NO_PLAN,
 )
@@ -206,7 +206,7 @@ BOUND = Verb(
     (LANDING_SYSTEM,),
     options=BoundOptions,
     files=ReportFiles,
-    function="bound.plan_landing_bound",
+    function="plans.plan_landing_bound",
     examples={"perilune design bound": "a lower bound of what any such landing takes; needs the extra plan"},
     not_met=NO_PLAN,
 )

@@ -82,11 +82,11 @@ FAILS = (  # exit status 1
 # What begins the work of a verb, once all that it was given has been looked at.
 WORK = {
     "batch": ["verbs.batch.open_campaign"],
-    "prepare": ["verbs.prepare.open_campaign"],
+    "prepare": ["verbs.shard.open_campaign"],
     "sensitivity": ["studies.sensitivity.sensitivity"],
     "benchmark": ["verbs.benchmark.run_benchmark"],
     "compare": ["verbs.compare.compare_folders"],
-    "design": ["verbs.transfer.hover_study", "verbs.bound.landing_study"],
+    "design": ["verbs.plans.hover_study", "verbs.plans.landing_study"],
     "replay": ["verbs.replay.replay_trial", "verbs.replay.replay_plan"],
     "run": ["verbs.run.fly"],
     "stability": ["verbs.stability.study"],

@@ -1,13 +1,15 @@
-"""The option `require`: expressions that have to be true of a result's numbers."""
+"""Arguments of several verbs: requirements on a result's numbers, paths one by one or as a list."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
 from ...campaigns.spec.expressions import Expression
 from ...common.errors import InputError, suggestion
+from ..options.option import FilePath
 
 
 def read_requirements(texts: Sequence[str], known: Collection[str], families: tuple[str, ...] = ()) -> list[Expression]:
@@ -28,3 +30,11 @@ def requirement_problems(requirements: Sequence[Expression], values: Mapping[str
         if not all(np.isfinite(values.get(name, np.nan)) for name in requirement.names)
         or not requirement.evaluate(values)
     ]
+
+
+def path_list(given: Sequence[FilePath | Sequence[FilePath]]) -> list[str]:
+    """Paths of a call that takes them one by one, or as a list."""
+    paths: list[str] = []
+    for entry in given:
+        paths += [os.fspath(entry)] if isinstance(entry, str | os.PathLike) else [os.fspath(path) for path in entry]
+    return paths

@@ -1,4 +1,4 @@
-"""`perilune.law` and `perilune design law`: a network operator as formula, parameter set and drawing."""
+"""Network operators: `perilune.law`, formula, parameter set and drawing; `perilune.synthesize`, a search for one."""
 
 from __future__ import annotations
 
@@ -11,13 +11,17 @@ from matplotlib.figure import Figure as Plot
 
 from ..common.atomic import write_atomically
 from ..common.errors import InputError
+from ..common.targets import check_folder
 from ..design.laws import law as laws
 from ..design.laws.formula import formula, formula_text
 from ..design.laws.graph import law_figure, law_svg
 from ..design.laws.law import find_law, parameter_set
+from ..design.synthesis.outcome import SynthesisResult
+from ..design.synthesis.synthesis import run_synthesis
+from ..design.synthesis.synthesis_file import find_search, read_synthesis
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.common.style import house_style
-from .options.design import LAW, LawOptions
+from .options.design import LAW, SEARCH, LawOptions, SearchOptions
 from .options.option import FilePath
 from .options.verb import verb
 
@@ -75,3 +79,26 @@ def law(name: FilePath, **options: Unpack[LawOptions]) -> Law:
     if not component.isprintable() or "" in component.split("."):
         raise InputError("`component`", repr(component), "not a component's name", "name it as the system does")
     return Law(**vars(laws.read_law(find_law(os.fspath(name)))), component=component)
+
+
+@verb(SEARCH)
+def synthesize(search: FilePath, **options: Unpack[SearchOptions]) -> SynthesisResult:
+    """Search for a law of a network operator, every candidate simulated: `perilune design search`.
+
+    ``search`` is a name of laws/searches/ or the path of a campaign that says what to search for; ``output`` a folder
+    for checkpoints, Pareto set and law, from which ``resume`` continues; the search ends with the generation in which
+    ``evaluations`` laws have been evaluated. The result's ``succeeded`` says whether the chosen law has every trial a
+    success. Raises InputError.
+    """
+    folder = None if options["output"] is None else Path(options["output"])
+    check_folder("`output`", folder, overwrite=options["resume"], otherwise="`resume` to continue")
+    result = run_synthesis(
+        read_synthesis(find_search(os.fspath(search))),
+        seed=options["seed"],
+        workers=options["workers"],
+        output=folder,
+        resume=options["resume"],
+        evaluations=options["evaluations"],
+    )
+    result.folder = folder
+    return result

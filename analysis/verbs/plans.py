@@ -1,0 +1,253 @@
+"""Plans of least propellant: `perilune.plan_hover_transfer`, `perilune.plan_landing_bound`, and their commands."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Unpack
+
+from ...fmus_src.paths import IS_CHECKOUT, PACKAGE
+from ..common.errors import InputError, UnwrittenError
+from ..design.trajectories.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
+from ..design.trajectories.hover_study import HoverStudy, hover_study
+from ..design.trajectories.landing_study import LandingStudy, landing_study
+from ..design.trajectories.path import PlannedPath
+from ..design.trajectories.stored_bound import write_bound
+from ..design.trajectories.vehicle import (
+    HOVER_MARGINS,
+    HOVER_TRANSFER,
+    HOVER_VEHICLE,
+    LANDING,
+    LANDING_VEHICLE,
+    Landing,
+    Margins,
+    Transfer,
+    Vehicle,
+    check_hover,
+    check_vehicle,
+)
+from ..reports.plan.pages import write_hover_page, write_landing_page
+from ..runtime.system.options import SystemOptions, system_options
+from ..runtime.system.prepared import PreparedSystem, prepare_system
+from .options.design import BOUND, TRANSFER, BoundOptions, TransferOptions, VehicleOptions
+from .options.option import FilePath, options_of
+from .options.verb import verb
+
+OF_VEHICLE = frozenset(options_of(VehicleOptions))
+
+
+def format_numbers(options: Mapping[str, Any], names: Collection[str]) -> dict[str, float]:
+    """The numbers among the options that are given, by name."""
+    return {name: options[name] for name in names if options[name] is not None}
+
+
+def propellant_problems(vehicle: Vehicle, propellant: float, what: str) -> list[str]:
+    """A line for a plan that takes more propellant (kg) than is on board."""
+    carried = vehicle.mass - vehicle.dry_mass
+    if propellant <= carried:
+        return []
+    return [f"{what} takes {propellant:.2f} kg of propellant; {carried:g} kg are on board"]
+
+
+def burns_text(burns: Iterable[tuple[float, float]]) -> str:
+    """``full thrust 0.0 to 65.6 s, 112.3 to 292.7 s``."""
+    return "full thrust " + ", ".join(f"{begin:.1f} to {end:.1f} s" for begin, end in burns)
+
+
+@dataclass(frozen=True)
+class HoverPlan(HoverStudy):
+    """A transfer planned: its ``programme``, compared with optimum and bound as far as they were requested."""
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune design transfer --report`, curves included."""
+        write_hover_page(self.with_curves(), Path(path))
+
+    def lines(self) -> list[str]:
+        """What `perilune design transfer` prints."""
+        programme, mass = self.programme, self.vehicle.mass
+        fraction, vertical = programme.propellant_fraction, self.vertical.propellant_fraction
+        t2, t5, w, tp, t7 = programme.times
+        threshold = "" if programme.threshold is None else f" (k {programme.threshold:.4f})"
+        low, high = (math.degrees(angle) for angle in programme.extremes)
+        lines = [
+            f"programme {programme.kind}: t2 {t2:.3f}, t5 {t5:.3f}, w {w:.3f}{threshold}, tp {tp:.3f}, t7 {t7:.3f} s",
+            f"  propellant fraction {fraction:.6f}, {fraction * mass:.3f} kg; {burns_text(programme.burns)}",
+            f"  pitch {low:.1f} to {high:.1f} deg, {math.degrees(programme.turn_rate):.3f} deg/s",
+            f"  {fraction / vertical:.4f} x vertical descent, {vertical:.6f} in {self.vertical.duration:.2f} s",
+        ]
+        named = (("true optimum", self.optimum), ("point-mass bound", self.bound))
+        return lines + [line for name, path in named if path is not None for line in _path_lines(name, path, mass)]
+
+    def to_json(self) -> dict[str, Any]:
+        """All of it for other programs; times in s, angles in deg."""
+        return self.document()
+
+    def problems(self) -> list[str]:
+        """Whether the programme takes more propellant than is on board."""
+        return propellant_problems(
+            self.vehicle, self.programme.propellant_fraction * self.vehicle.mass, "the programme"
+        )
+
+
+@verb(TRANSFER)
+def plan_hover_transfer(
+    transfer: Transfer = HOVER_TRANSFER, vehicle: Vehicle = HOVER_VEHICLE, **options: Unpack[TransferOptions]
+) -> HoverPlan:
+    """Plan a transfer between two hovers: `perilune design transfer`; see docs/planning.md.
+
+    ``transfer`` and ``vehicle`` are the published case, with numbers of it replaced by keywords of their names.
+    ``margins`` leave feedback its part of throttle and angular acceleration: `Margins`, or True for the published ones;
+    ``maximum_throttle``, ``minimum_throttle`` and ``angular_acceleration`` (deg/s2) replace their numbers.
+    ``duration`` (s) is the programme's end, by default that of least propellant; ``optimum`` and ``bound`` need the
+    extra `plan`. Raises InputError for a vehicle that cannot hover, and PlanError where there is no such plan.
+    """
+    if options["intervals"] is not None and not (options["optimum"] or options["bound"]):
+        problem = "without effect unless `optimum` or `bound` is given"
+        raise InputError("`intervals`", str(options["intervals"]), problem, "give one of them with it")
+    transfer = replace(transfer, **format_numbers(options, ("distance", "descent", "gravity")))
+    vehicle = check_vehicle(replace(vehicle, **format_numbers(options, OF_VEHICLE)))
+    margins = _margins(options, vehicle)
+    check_hover(vehicle if margins is None else margins.of(vehicle), transfer)
+    study = hover_study(
+        vehicle,
+        transfer,
+        margins,
+        duration=options["duration"],
+        optimum=options["optimum"],
+        bound=options["bound"],
+        curves=options["curves"],
+        intervals=options["intervals"],
+    )
+    return HoverPlan(**vars(study))
+
+
+def _margins(options: TransferOptions, vehicle: Vehicle) -> Margins | None:
+    """The margins with the numbers that replace theirs; None where none are requested."""
+    margins = options["margins"]
+    numbers = format_numbers(options, ("maximum_throttle", "minimum_throttle", "angular_acceleration"))
+    if not numbers and not margins:
+        return None
+    if not isinstance(margins, Margins):
+        unlimited = Margins(1.0, vehicle.minimum_thrust / vehicle.maximum_thrust, vehicle.angular_acceleration)
+        margins = HOVER_MARGINS if margins else unlimited
+    if "angular_acceleration" in numbers:
+        numbers["angular_acceleration"] = math.radians(numbers["angular_acceleration"])
+    return replace(margins, **numbers)
+
+
+def _path_lines(name: str, path: PlannedPath, mass: float) -> list[str]:
+    return [
+        f"{name}: propellant fraction {path.propellant_fraction:.6f}, {path.propellant_fraction * mass:.3f} kg "
+        f"in {path.duration:.2f} s ({path.throttle.size} intervals)",
+        f"  {burns_text(path.burns())}",
+    ]
+
+
+OF_LANDING = tuple(Landing.__dataclass_fields__)
+
+
+@dataclass(frozen=True)
+class LandingBound(LandingStudy):
+    """The bound of a landing: ``propellant`` (kg) and the ``bound`` path that takes it.
+
+    ``file`` is where the bound is stored, in the system's folder, if it was requested.
+    """
+
+    file: Path | None = None
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune design bound --report`."""
+        write_landing_page(self, Path(path))
+
+    def lines(self) -> list[str]:
+        """What `perilune design bound` prints."""
+        bound = self.bound
+        lines = [
+            f"bound {self.propellant:.3f} kg of {self.vehicle.mass:g} kg in {bound.duration:.2f} s "
+            f"({bound.throttle.size} intervals)",
+            f"  {burns_text(bound.burns())}",
+            f"  largest thrust residual of the convex form: {self.looseness:.1g} m/s2",
+        ]
+        lines += [f"  {name} alone: {propellant:.3f} kg" for name, propellant in self.pieces.items()]
+        if self.direct is not None:
+            propellant = self.direct.propellant_fraction * self.vehicle.mass
+            difference = f"{propellant - self.propellant:+.1e} kg compared with the bound"
+            lines.append(f"direct method {propellant:.3f} kg in {self.direct.duration:.2f} s, {difference}")
+        return lines + ([] if self.file is None else [f"stored: {self.file}"])
+
+    def to_json(self) -> dict[str, Any]:
+        """All of it for other programs; SI, but angular acceleration."""
+        return self.document()
+
+    def problems(self) -> list[str]:
+        """Whether the bound is more propellant than is on board."""
+        return propellant_problems(self.vehicle, self.propellant, "the bound")
+
+
+@verb(BOUND)
+def plan_landing_bound(
+    landing: Landing | None = None,
+    vehicle: Vehicle | None = None,
+    system: FilePath | None = None,
+    **options: Unpack[BoundOptions],
+) -> LandingBound:
+    """Bound the propellant of a single-burn braking and landing: `perilune design bound`; needs the extra `plan`.
+
+    ``landing`` and ``vehicle`` are those of a ``system`` that declares a bound, else the published case, with numbers
+    replaced by keywords of their names; ``climb`` is in deg. ``direct`` checks the bound by a direct method. ``store``
+    writes it to the system's folder, for the pages of its simulations. Raises InputError and PlanError.
+    """
+    chosen = system_options(options)
+    if system is None and chosen != SystemOptions():
+        raise InputError("design bound", "system options", "there is no system that they are for", "name a system")
+    prepared = None if system is None else prepare_system(Path(system), chosen)
+    inputs = None if prepared is None else _read_inputs(prepared)
+    of_vehicle, of_landing = format_numbers(options, OF_VEHICLE), format_numbers(options, OF_LANDING)
+    is_changed = bool(of_vehicle or of_landing or landing or vehicle)
+    if options["store"]:
+        _check_store(
+            prepared, [*of_vehicle, *of_landing, *(["landing"] if landing else (vehicle and ["vehicle"]) or [])]
+        )
+    base = (LANDING_VEHICLE, LANDING)
+    if prepared is not None and inputs is not None:
+        base = landing_of(inputs, prepared.archive.label)
+    if "climb" in of_landing:
+        of_landing["climb"] = math.radians(of_landing["climb"])
+    study = landing_study(
+        check_vehicle(replace(vehicle or base[0], **of_vehicle)),
+        replace(landing or base[1], **of_landing),
+        direct=options["direct"],
+        intervals=options["intervals"],
+        pieces=pieces_of(inputs, prepared.archive.label) if prepared and inputs and not is_changed else None,
+    )
+    bound = LandingBound(**vars(study))
+    if not options["store"] or prepared is None or inputs is None:
+        return bound
+    try:
+        return replace(bound, file=write_bound(bound.to_stored_bound(inputs), prepared.archive.path))
+    except OSError as error:
+        raise UnwrittenError(error, bound) from error
+
+
+def _read_inputs(prepared: PreparedSystem) -> Inputs:
+    inputs = read_inputs(prepared)
+    if inputs is None:
+        problem = f"no annotation {ANNOTATION}: it does not say what its landing's bound is made of"
+        raise InputError(prepared.network.file, "Annotations", problem, 'add one: "Planning" in the documentation')
+    return inputs
+
+
+def _check_store(prepared: PreparedSystem | None, changed: Sequence[str]) -> None:
+    """Refuse to store a bound that is not that of the system as its files say, or in a folder that cannot hold it."""
+    if prepared is None:
+        raise InputError("`store`", "", "no system to store it with", "name a system")
+    if not prepared.archive.path.is_dir():
+        raise InputError("`store`", str(prepared.archive.path), "not a folder", "unpack the .ssp and name its folder")
+    if not IS_CHECKOUT and prepared.archive.path.is_relative_to(PACKAGE):
+        problem = "a system of the installed package, which is not written to"
+        raise InputError("`store`", str(prepared.archive.path), problem, "copy this folder and name the copy")
+    if changed:
+        problem = "a stored bound is that of the system's own values"
+        raise InputError("`store`", f"`{changed[0]}`", problem, "leave one out")
