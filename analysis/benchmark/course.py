@@ -7,8 +7,8 @@ from functools import cached_property
 from pathlib import Path
 
 from ..common.errors import InputError
+from ..runtime.ssp.conversions import IDENTITY
 from ..runtime.ssp.parameter_sets import ParameterValue
-from ..runtime.ssp.transformations import IDENTITY
 from ..runtime.system.network import Link
 from ..runtime.system.prepared import PreparedSystem, prepare_system
 

@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from ..common.errors import InputError
-from ..runtime.system.order.schedule import origin
 from ..runtime.system.prepared import PreparedSystem
+from ..runtime.system.schedule import origin
 from .point.bench import StudyError
 from .request.request import Request, Subject
 from .results.report import JointReport, LoopReport, Orders, StabilityReport, Unstudied

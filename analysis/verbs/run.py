@@ -23,9 +23,9 @@ from ..runtime.flight.instances.log import Log
 from ..runtime.flight.interruptible import StuckError, fly
 from ..runtime.flight.simulation import Simulation
 from ..runtime.system.fault import Fault, faults_of
-from ..runtime.system.in_flight.series import read_series
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
+from ..runtime.system.series import read_series
 from .common.arguments import read_requirements, requirement_problems
 from .common.flight_text import flight_lines, flight_problems, note_lines
 from .options.campaigns import RUN, RunOptions

@@ -17,10 +17,9 @@ from ....fmus_src.kernel.functions import VERSION
 from ...runtime.flight.instances.reset_check import ResetVerdict, recall, reset_verdict
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.system.fault import parse_fault
-from ...runtime.system.in_flight.series import InputSeries
-from ...runtime.system.in_flight.watch import Watch
-from ...runtime.system.options import SystemOptions
+from ...runtime.system.options import SystemOptions, Watch
 from ...runtime.system.prepared import PreparedSystem
+from ...runtime.system.series import InputSeries
 from ..draws.given import GivenDraws, part_streams
 from ..spec.file import parse_campaign
 from ..spec.plan import BatchPlan

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...common.errors import InputError, suggestion
-from ...runtime.system.faults import check_fault
+from ...runtime.system.checks import check_fault
 from ...runtime.system.prepared import PreparedSystem
 from ..draws.given import ALL, stream_column
 from .drawn import with_streams

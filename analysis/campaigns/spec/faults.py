@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ...common.errors import InputError
+from ...runtime.system.checks import check_value, connector_type
 from ...runtime.system.fault import KINDS, Fault
-from ...runtime.system.faults import check_value, connector_type
 from ...runtime.system.network import Network
 from .expressions import Expression
 from .table import REQUIRED, Table, choice_of, expression, text

@@ -10,10 +10,9 @@ from pathlib import Path
 from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive, open_system
 from ...runtime.system.fault import Fault
-from ...runtime.system.in_flight.series import InputSeries
-from ...runtime.system.in_flight.watch import UNWATCHED, Watch
-from ...runtime.system.options import SystemOptions
+from ...runtime.system.options import UNWATCHED, SystemOptions, Watch
 from ...runtime.system.prepared import PreparedSystem, prepare_system
+from ...runtime.system.series import InputSeries
 from ..draws.generators import StreamNumbers
 from ..draws.given import GivenDraws, read_given
 from ..draws.table import CountedDraws, Draws, DrawTable, draw_parts, draw_table, split_trials, table_of

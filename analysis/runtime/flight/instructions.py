@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
-from ..system.order.schedule import Schedule
+from ..system.schedule import Schedule
 from .compiled import codes
 from .in_memory import Run, runs_in_memory, with_moves
 from .instances.instance import Instance

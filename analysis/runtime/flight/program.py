@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from ..ssp.transformations import IDENTITY
+from ..ssp.conversions import IDENTITY
 from ..system.assignments import Settings, numbers
-from ..system.drive import Drive
-from ..system.faults import connector_type
+from ..system.checks import connector_type
 from ..system.fmu import Fmu
+from ..system.inputs import Drive
 from ..system.names import split_name
 from ..system.network import Link, Network, Node
-from ..system.order.schedule import Schedule, origin
+from ..system.schedule import Schedule, origin
 from .compiled import arrays, codes
 from .injections import Injection
 from .instances.instance import Instance

@@ -11,8 +11,8 @@ import numpy as np
 
 from ...common.errors import InputError
 from ..ssp.parameter_sets import ParameterValue, parse_value
+from ..system.checks import check_fault
 from ..system.fault import Fault
-from ..system.faults import check_fault
 from ..system.prepared import PreparedSystem, no_collection
 from .compiled import arrays, codes, loop
 from .endings import TERMINATED, Outcome, end_request, in_words, outcome_of

@@ -10,7 +10,7 @@ import numpy as np
 from ...common.errors import InputError
 from ..system.assignments import Settings
 from ..system.network import Network
-from ..system.order.schedule import origin
+from ..system.schedule import origin
 from .compiled import arrays
 
 LONGEST = 4096  # bytes of a string, with its end

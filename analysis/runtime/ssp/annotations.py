@@ -1,14 +1,15 @@
-"""Our own annotations of an SSD read: attributes, parts and numbers of their elements, each refused with its line."""
+"""Our own annotations of an SSD: which are ours, attributes and numbers of their elements, direct feedthrough."""
 
 from __future__ import annotations
 
+import difflib
 import math
 from collections.abc import Collection
 
 from lxml import etree
 
 from ...common.errors import InputError, suggestion
-from .documents import tag
+from .documents import NAMESPACES, child, children, tag
 
 
 class AnnotationReader:
@@ -65,3 +66,54 @@ class AnnotationReader:
         if not math.isfinite(value) or (positive and value <= 0.0):
             raise self.refuse(element, f"{name} {text!r} is not a {'positive ' if positive else ''}number", "fix it")
         return value
+
+
+FEEDTHROUGH = "org.perilune.feedthrough"
+DIRECT = {"true": True, "false": False}
+
+
+def feedthrough_of_component(component: etree._Element, file: str) -> bool | None:
+    """True: all its outputs on all its inputs, False: none on any, None: not stated. Raises InputError."""
+    reader = AnnotationReader(file)
+    annotations = children(child(component, "ssd:Annotations"), "ssc:Annotation")
+    matches = [annotation for annotation in annotations if annotation.get("type") == FEEDTHROUGH]
+    if not matches:
+        return None
+    if len(matches) > 1:
+        raise reader.refuse(matches[1], f"the second of type {FEEDTHROUGH}", "write one")
+    element = reader.content(matches[0], "Feedthrough")
+    text = reader.attributes(element, ("direct",))["direct"]
+    if text not in DIRECT:
+        raise reader.refuse(element, f"direct is {text!r}", 'write direct="true" or direct="false"')
+    return DIRECT[text]
+
+
+PREFIX = "org.perilune."
+KINDS = ("bound", "feedthrough", "report", "stability", "step")
+OURS = {f"{PREFIX}{name}": f"https://perilune.org/{name}" for name in KINDS}
+NEARLY = 0.9  # of difflib's ratio
+
+
+def check_annotations(root: etree._Element, file: str) -> None:
+    """Raises InputError for an annotation that would be passed over though it is meant for us."""
+    for annotation in root.iter(f"{{{NAMESPACES['ssc']}}}Annotation"):
+        kind = annotation.get("type", "")
+        place = f"Annotation (line {annotation.sourceline})"
+        if kind in OURS:
+            _check_content(annotation, kind, file)
+            owner = annotation.getparent().getparent()
+            if kind == FEEDTHROUGH and tag(owner) != "Component":
+                raise InputError(file, place, f"type {kind} in a {tag(owner)}", "write it into a Component")
+        elif kind.startswith(PREFIX) or difflib.get_close_matches(kind, OURS, n=1, cutoff=NEARLY):
+            raise InputError(file, place, f"no annotation is of type {kind}", suggestion(kind, OURS))
+
+
+def _check_content(annotation: etree._Element, kind: str, file: str) -> None:
+    for item in annotation:
+        if not isinstance(item.tag, str):
+            continue  # a comment
+        namespace = etree.QName(item).namespace
+        if namespace != OURS[kind]:
+            actual = f"of the namespace {namespace}" if namespace else "of no namespace"
+            problem = f"{actual} in an annotation of type {kind}"
+            raise InputError(file, f"{tag(item)} (line {item.sourceline})", problem, f'write xmlns="{OURS[kind]}"')

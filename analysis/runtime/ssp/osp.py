@@ -13,11 +13,10 @@ from pathlib import PurePosixPath
 from lxml import etree
 
 from ...common.errors import InputError
-from .description import Binding, Component, Connection, Connector, Description, System
+from .conversions import IDENTITY, Transformation
+from .description import Binding, Component, Connection, Connector, Description, System, is_elsewhere, source_file
 from .documents import NAMESPACES, parse_xml, tag
 from .experiment import positive_seconds
-from .sources import is_elsewhere, source_file
-from .transformations import IDENTITY, Transformation
 
 Load = Callable[[str, str], bytes]  # content of a file by name, and the element that names it
 Point = tuple[str, str]  # simulator and variable

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from lxml import etree
 
 from ...common.errors import InputError
+from .archive import SystemArchive
+from .conversions import Transformation, Unit, check_type, read_transformation, units_of_document
+from .description import Binding
 from .documents import NAMESPACES, check_schema, child, children, read_document, tag
-from .transformations import Transformation, check_type, read_transformation
-from .units import Unit, units_of_document
 
 ParameterValue = float | int | bool | str
 SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
@@ -134,3 +135,26 @@ def write_parameter_set(name: str, values: Mapping[str, float], description: str
         kind = "Integer" if isinstance(value, int) else "Real"
         etree.SubElement(parameter, f"{space}{kind}", value=repr(value))
     return etree.tostring(root, encoding="UTF-8", xml_declaration=True, pretty_print=True)
+
+
+def read_binding(archive: SystemArchive, file: str, binding: Binding) -> tuple[list[Assignment], Sequence[Assignment]]:
+    """The values of a binding of the document ``file``, the prefix put before their names and then mapped.
+
+    With those that its mapping has no entry for, which are not applied (SSP 1.0, ParameterBindings). Raises InputError.
+    """
+    element = f"ParameterBinding (line {binding.line})"
+    if binding.source is not None:
+        source = f"{archive.label}!{binding.source}"
+        values = read_parameter_file(archive.read(binding.source, element), source)
+    else:
+        assert binding.inline is not None  # the reader refuses a binding with neither
+        values = read_parameter_set(binding.inline, file)
+    values = [replace(value, name=binding.prefix + value.name) for value in values]
+    entries = binding.mapping_inline
+    if binding.mapping_source is not None:
+        file = f"{archive.label}!{binding.mapping_source}"
+        entries = read_document(archive.read(binding.mapping_source, element), "ssm", file)
+    if entries is None:
+        return values, ()
+    mapped = {entry.get("source") for entry in children(entries, "ssm:MappingEntry")}
+    return apply_mapping(values, entries, file), [value for value in values if value.name not in mapped]

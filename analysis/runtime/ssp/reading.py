@@ -5,16 +5,23 @@ from __future__ import annotations
 from lxml import etree
 
 from ...common.errors import InputError
+from .annotations import check_annotations, feedthrough_of_component
 from .archive import OSP_DESCRIPTION, SystemArchive
-from .description import Binding, Component, Connection, Connector, Description, DictionaryReference, System
-from .direct_outputs import feedthrough_of_component
+from .conversions import Unit, read_transformation, units_of_document
+from .description import (
+    Binding,
+    Component,
+    Connection,
+    Connector,
+    Description,
+    DictionaryReference,
+    System,
+    is_elsewhere,
+    source_file,
+)
 from .documents import child, children, read_document, tag
 from .experiment import Pace, pace_of_experiment, pace_of_system, step_of_component
 from .osp import Load, read_osp
-from .own_annotations import check_annotations
-from .sources import is_elsewhere, source_file
-from .transformations import read_transformation
-from .units import Unit, units_of_document
 
 FMU_TYPE = "application/x-fmu-sharedlibrary"
 

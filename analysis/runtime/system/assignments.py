@@ -9,10 +9,9 @@ from typing import Any
 
 from ...common.errors import InputError, suggestion
 from ..ssp.archive import SystemArchive
-from ..ssp.bindings import read_binding
+from ..ssp.conversions import VALUE_TYPES, Transformation
 from ..ssp.description import Binding, Component, System
-from ..ssp.parameter_sets import Assignment, ParameterValue, SetValue, parse_value
-from ..ssp.transformations import VALUE_TYPES, Transformation
+from ..ssp.parameter_sets import Assignment, ParameterValue, SetValue, parse_value, read_binding
 from .network import Link, Network, Node
 from .options import SystemOptions
 

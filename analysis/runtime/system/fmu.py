@@ -22,8 +22,8 @@ from lxml import etree
 
 from ...common.errors import InputError
 from ..ssp.archive import open_zip
+from ..ssp.conversions import Unit, units_of_fmu
 from ..ssp.documents import parse_xml
-from ..ssp.units import Unit, units_of_fmu
 
 DESCRIPTION = "modelDescription.xml"
 MOST_FLAWS = 3  # named in one line

@@ -6,9 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from ...common.errors import InputError, suggestion
+from ..ssp.conversions import IDENTITY, Transformation, Unit, check_type
 from ..ssp.description import Component, Connection, Connector, Description, DictionaryReference, Element, System
-from ..ssp.transformations import IDENTITY, Transformation, check_type
-from ..ssp.units import Unit
 from .fmu import Fmu
 
 SOURCES = ("output", "calculatedParameter")

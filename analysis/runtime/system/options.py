@@ -1,12 +1,14 @@
-"""What a user may ask of a system, whatever flies it: FMUs in slots, parameters, times, algorithm."""
+"""What a user may ask of a system, whatever flies it: FMUs in slots, parameters, times, algorithm, limit and log."""
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
+from ...common.errors import InputError, suggestion
 from ..ssp.parameter_sets import SetValue
 
 ALGORITHMS = ("sequential", "jacobi")
@@ -87,3 +89,28 @@ def _places(layers: Sequence[Layer]) -> dict[str, tuple[str, int]]:
     """Where each value comes from that is set last, as far as its layer says."""
     last = {name: layer for layer in layers for name in layer.set}
     return {name: layer.places[name] for name, layer in last.items() if name in layer.places}
+
+
+LOG_LEVELS = ("error", "warning", "info", "all")
+# The least fmi2Status of each level: discard, warning, OK; of `all` FMUs are asked for all their categories, too.
+SAID_FROM = dict(zip(LOG_LEVELS, (2, 1, 0, 0), strict=True))
+
+
+@dataclass(frozen=True)
+class Watch:
+    """``timeout`` (s of the wall clock) ends a flight, ``log`` is the least level of messages that are written.
+
+    Raises InputError for a time that is not positive, and a level that is none.
+    """
+
+    timeout: float | None = None
+    log: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.timeout is not None and not 0.0 < self.timeout < math.inf:
+            raise InputError("`timeout`", str(self.timeout), "not a positive number of seconds", "give more than 0")
+        if self.log is not None and self.log not in LOG_LEVELS:
+            raise InputError("`log`", self.log, "no such level", suggestion(self.log, LOG_LEVELS))
+
+
+UNWATCHED = Watch()

@@ -19,15 +19,14 @@ from ..ssp.reading import read_description
 from .alone import describe_alone
 from .assignments import Settings, collect_settings, single_value
 from .checks import check_samples, check_shared, unfit
-from .drive import Drive, drive_inputs, find_driven
+from .feedthrough import find_feedthrough
 from .fmu import Fmu, load_fmu
-from .in_flight.series import InputSeries
+from .inputs import Drive, check_signals, drive_inputs, find_driven, settle_open_inputs
 from .network import Network, build_network
-from .open_inputs import check_signals, settle_open_inputs
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
-from .order.feedthrough import find_feedthrough
-from .order.schedule import Schedule, make_schedule
-from .retired import Retired, find_retired
+from .schedule import Schedule, make_schedule
+from .series import InputSeries
+from .stale import Retired, find_retired
 from .times import component_periods, flight_times
 
 

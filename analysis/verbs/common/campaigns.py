@@ -20,9 +20,8 @@ from ...campaigns.spec.sweeps import part_sweeps
 from ...common.errors import EndedError, InputError
 from ...common.exit_status import ExitStatus
 from ...runtime.system.fault import faults_of
-from ...runtime.system.in_flight.series import read_series
-from ...runtime.system.in_flight.watch import Watch
-from ...runtime.system.options import system_options
+from ...runtime.system.options import Watch, system_options
+from ...runtime.system.series import read_series
 from ...studies.flown import Commands
 from ..options.option import FilePath
 

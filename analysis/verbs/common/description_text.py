@@ -9,7 +9,7 @@ from typing import Any
 
 from ...authoring.describe.campaign import toml_value
 from ...authoring.describe.variables import of_causality
-from ...runtime.system.order.feedthrough import Origin
+from ...runtime.system.feedthrough import Origin
 
 WIDEST = 100  # columns of a line
 LONGEST = 48  # characters of a column, beyond which an entry pushes the rest of its line on

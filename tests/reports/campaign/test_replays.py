@@ -18,8 +18,8 @@ from perilune.analysis.cli import main
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.campaign.replays import extremes_to_replay, failures_to_replay
 from perilune.analysis.runtime.system.fault import parse_fault
-from perilune.analysis.runtime.system.in_flight.series import read_series
 from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.series import read_series
 from tests.support.pages.checks import assert_self_contained, text_of
 from tests.support.pages.samples import DRAWS, METRICS, batch_result
 

@@ -19,8 +19,7 @@ from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.flight.compiled import loop
 from perilune.analysis.runtime.flight.interruptible import StuckError, fly, run
 from perilune.analysis.runtime.flight.simulation import Simulation
-from perilune.analysis.runtime.system.in_flight.watch import Watch
-from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.options import SystemOptions, Watch
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.lengths import either
 from tests.support.lone_fmus import build_lone_fmu

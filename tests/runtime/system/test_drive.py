@@ -11,7 +11,7 @@ from fmpy.simulation import Input
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from perilune.analysis.runtime.system.drive import hold, interpolate
+from perilune.analysis.runtime.system.inputs import hold, interpolate
 
 TIMES = st.lists(st.sampled_from([0.0, 0.1, 0.2, 0.3, 0.30000000000000004, 0.5, 0.7, 1.0, 3.0]), min_size=1, max_size=9)
 POINTS = st.lists(

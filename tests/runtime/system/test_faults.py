@@ -1,4 +1,4 @@
-"""perilune.analysis.runtime.system.faults: how a fault is written, and which faults a system can have.
+"""Faults: how a fault is written, and which faults a system can have.
 
 Truth: the form in docs/command_line.md, read by hand; that what is printed is what is parsed.
 """
@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.system.checks import check_fault
 from perilune.analysis.runtime.system.fault import KINDS, Fault, parse_fault
-from perilune.analysis.runtime.system.faults import check_fault
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import component, connection, document, pack, system
 

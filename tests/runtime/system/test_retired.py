@@ -8,7 +8,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.runtime.system.retired import RETIRED
+from perilune.analysis.runtime.system.stale import RETIRED
 from perilune.fmus_src.catalogue import catalogue
 
 pytestmark = pytest.mark.usefixtures("fmus")

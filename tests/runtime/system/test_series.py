@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.runtime.system.in_flight.series import read_series
+from perilune.analysis.runtime.system.series import read_series
 
 
 def test_a_file_as_fmpy_reads_it(tmp_path):

@@ -18,7 +18,7 @@ from perilune.analysis.reports.figures.declaration.figures import (
     Point,
 )
 from perilune.analysis.reports.figures.declaration.values import Rows
-from perilune.analysis.runtime.ssp.units import Unit
+from perilune.analysis.runtime.ssp.conversions import Unit
 from tests.support.pages.own_samples import DEG, DEGREE, TIME, flown, scalar
 
 METRE = Unit("m", (0, 1, 0, 0, 0, 0, 0, 0))

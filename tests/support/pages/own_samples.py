@@ -7,7 +7,7 @@ import numpy as np
 
 from perilune.analysis.reports.figures.declaration.figures import Band, Error, Pulses
 from perilune.analysis.reports.figures.declaration.values import Signal
-from perilune.analysis.runtime.ssp.units import Unit
+from perilune.analysis.runtime.ssp.conversions import Unit
 from tests.support.pages.samples import run_result
 
 DEGREE = math.pi / 180.0

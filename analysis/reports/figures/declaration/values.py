@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....runtime.flight.results import Flight
-from ....runtime.ssp.units import Unit
+from ....runtime.ssp.conversions import Unit
 from ...common.quantities import display_factor
 from ...common.round_body import ground_range
 

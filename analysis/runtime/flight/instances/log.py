@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 
-from ...system.in_flight.watch import LOG_LEVELS, SAID_FROM
+from ...system.options import LOG_LEVELS, SAID_FROM
 
 STATUSES = ("OK", "warning", "discard", "error", "fatal", "pending")
 

@@ -6,9 +6,9 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from ....common.errors import InputError
-from ..network import Network
-from ..options import SystemOptions
+from ...common.errors import InputError
+from .network import Network
+from .options import SystemOptions
 
 Dependencies = dict[str, dict[str, set[str]]]  # component -> output -> inputs that it depends on directly
 OPTIONS = ("`feedthrough`", "`no_feedthrough`")

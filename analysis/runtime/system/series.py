@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ....common.errors import InputError
+from ...common.errors import InputError
 
 TIME = "time"
 FORM = "write a comma-separated file whose first line is time and the inputs' names"

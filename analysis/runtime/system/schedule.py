@@ -7,9 +7,9 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
-from ....common.errors import InputError
-from ..network import Link, Network, Node
+from ...common.errors import InputError
 from .feedthrough import Dependencies, Feedthrough, cut_loops
+from .network import Link, Network, Node
 
 Edge = tuple[Node, Node]  # an output, and the input of another component that its value reaches
 
