@@ -19,7 +19,7 @@ from ..reports.flight.run_report import key_values, write_run_report
 from ..reports.flight.time_histories import signal_plot
 from ..reports.flight.trajectory import trajectory_plot
 from ..runtime.flight import results
-from ..runtime.flight.instances.log import Log
+from ..runtime.flight.instance import Log
 from ..runtime.flight.interruptible import StuckError, fly
 from ..runtime.flight.simulation import Simulation
 from ..runtime.system.fault import Fault, faults_of

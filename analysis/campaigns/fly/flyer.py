@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from contextlib import nullcontext
 from typing import NamedTuple
 
-from ...runtime.flight.instances.library import LOADING
-from ...runtime.flight.instances.log import Log
+from ...runtime.flight.instance import Log
 from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
+from ...runtime.flight.library import LOADING
 from ...runtime.flight.results import Flight, Result
 from ...runtime.flight.simulation import Simulation
 from ...runtime.ssp.parameter_sets import ParameterValue

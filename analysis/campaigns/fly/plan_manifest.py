@@ -14,7 +14,7 @@ import pyarrow
 import pyarrow.parquet
 
 from ....fmus_src.kernel.functions import VERSION
-from ...runtime.flight.instances.reset_check import ResetVerdict, recall, reset_verdict
+from ...runtime.flight.reset_check import ResetVerdict, recall, reset_verdict
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.system.fault import parse_fault
 from ...runtime.system.options import SystemOptions, Watch

@@ -9,11 +9,10 @@ import numpy as np
 from fmpy import fmi2
 
 from .compiled import arrays, codes
-from .instances.instance import Instance
-from .instances.library import FUNCTION_NAMES
-from .instances.log import status_word
+from .instance import Instance, status_word
+from .library import FUNCTION_NAMES
+from .parameters import LONGEST
 from .program import Layout
-from .texts import LONGEST
 
 STATUS = {
     codes.STOP_TIME: "stop_time",

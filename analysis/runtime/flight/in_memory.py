@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .compiled import codes
-from .instances.instance import Instance
+from .instance import Instance
 
 REAL_SIZE = 8  # bytes
 

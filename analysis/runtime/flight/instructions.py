@@ -10,9 +10,9 @@ import numpy as np
 from ..system.schedule import Schedule
 from .compiled import codes
 from .in_memory import Run, runs_in_memory, with_moves
-from .instances.instance import Instance
-from .instances.library import FUNCTION_NAMES
-from .texts import Texts
+from .instance import Instance
+from .library import FUNCTION_NAMES
+from .parameters import Texts
 
 TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}
 FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES)}

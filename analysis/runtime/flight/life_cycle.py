@@ -10,9 +10,9 @@ from fmpy.fmi1 import FMICallException
 
 from .compiled import arrays, codes
 from .endings import Outcome, check_initialisation
-from .instances.instance import Instance
-from .instances.reset_check import ResetVerdict, judge, reset_verdict, verdict_in_cache
+from .instance import Instance
 from .instructions import InstructionList
+from .reset_check import ResetVerdict, judge, reset_verdict, verdict_in_cache
 
 
 class LifeCycle:

@@ -13,7 +13,7 @@ from lxml import etree
 
 from ...common.errors import InputError
 from ..system.fmu import Fmu
-from .instances.instance import Instance
+from .instance import Instance
 from .simulation import Simulation
 
 STATE_ANNOTATION = "org.perilune.state"  # in modelDescription.xml of FMUs that tell how they serialise their memory

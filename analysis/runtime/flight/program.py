@@ -2,27 +2,54 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..ssp.conversions import IDENTITY
 from ..system.assignments import Settings, numbers
 from ..system.checks import connector_type
+from ..system.fault import Fault
 from ..system.fmu import Fmu
 from ..system.inputs import Drive
 from ..system.names import split_name
 from ..system.network import Link, Network, Node
 from ..system.schedule import Schedule, origin
 from .compiled import arrays, codes
-from .injections import Injection
-from .instances.instance import Instance
-from .instances.library import FUNCTION_NAMES
+from .instance import Instance
 from .instructions import InstructionList, write_instructions
-from .parameters import TYPE_KIND, Parameters
-from .texts import Texts
+from .library import FUNCTION_NAMES
+from .parameters import TYPE_KIND, Parameters, Texts
+
+KIND_NUMBERS = {"override": codes.OVERRIDE, "bias": codes.BIAS, "freeze": codes.FREEZE}
+NEVER = (math.inf, math.inf)  # the window of a fault that does not fly
+
+
+class Injection(NamedTuple):
+    """One of the loop's faults: a connector, what is done to it, and in which window [from, until) s.
+
+    ``value`` is in the connector's unit; of an excitation it is the column that is added.
+    """
+
+    connector: str
+    kind: int
+    value: float
+    window: tuple[float, float]
+
+
+def of_fault(fault: Fault, margin: float) -> Injection:
+    """A fault; ``margin`` (s) is what the times of communication points may lack."""
+    window = (fault.start - margin, fault.stop - margin)
+    return Injection(fault.name, KIND_NUMBERS[fault.kind], float(fault.value), window)
+
+
+def of_excitation(connector: str, column: int) -> Injection:
+    """A connector to which `Simulation.advance` adds the given column of its excitation, in the connector's unit."""
+    return Injection(connector, codes.EXCITE, float(column), (-math.inf, math.inf))
+
 
 CAUSALITIES = ("input", "output")
 EXCHANGES = FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean

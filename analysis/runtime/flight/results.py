@@ -1,9 +1,12 @@
-"""What a run leaves: a table of signals over time, how it ended, where it came from."""
+"""What a run leaves: a table of signals over time, how it ended, how its components fared, where it came from."""
 
 from __future__ import annotations
 
 import json
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Self
@@ -15,7 +18,13 @@ import pyarrow.parquet
 
 from ...common.atomic import whole_file, write_atomically
 from ...common.errors import suggestion
-from ..system.names import elements, vectors
+from ...common.percent import short_percent
+from ..system.assignments import Settings
+from ..system.fault import Fault
+from ..system.names import elements, split_name, vectors
+from ..system.network import Network
+from ..system.prepared import PreparedSystem
+from .parameters import Parameters
 
 TIMED_OUT = "timed_out"
 COMPLETE = ("finished", "stop_time", "terminated")
@@ -128,3 +137,72 @@ class Result(Flight):
             units = {"time": "s"} | {name: unit for name, unit in self.units.items() if unit}
             text = json.dumps(self.summary() | {"units": units}, indent=1)
             write_atomically(path.with_name(f"{path.name}.json"), f"{text}\n".encode())
+
+
+STATUS = "status"  # output of components that say how they fare, 0 for good
+MEANING = re.compile(r"(?:^|[,:] )(-?\d+):? (.+?)(?=, -?\d+:? |$)")  # "0 good, 1 clamped, 2 ..."
+
+
+def status_lines(network: Network, flight: Flight) -> list[str]:
+    """A line for every component that reported a status other than 0: the worst, for how long, and the last."""
+    lines = []
+    for name, values in flight.signals.items():
+        component, variable = split_name(name, network.fmus)
+        if variable != STATUS or not component or flight.types[name] != "Integer" or not values.any():
+            continue
+        worst, last = int(np.max(values)), int(values[-1])
+        first = float(flight.time[np.argmax(values == worst)])
+        fraction = np.count_nonzero(values == worst) / values.size
+        meaning = status_meaning(network, name, worst)
+        value = f"{worst} ({meaning})" if meaning else f"{worst}"
+        words = f"{name}: {value} from t = {first:g} s, {_percent(fraction)} of the samples"
+        lines.append(words if last == worst else f"{words}, {last} at the end")
+    return lines
+
+
+def _percent(share: float) -> str:
+    return "all" if share == 1.0 else f"{short_percent(share)} %"
+
+
+def status_meaning(network: Network, name: str, value: int) -> str:
+    """What ``value`` of the connector ``component.status`` means, as its description lists it; else nothing."""
+    component, variable = split_name(name, network.fmus)
+    fmu = network.fmus.get(component)
+    declared = fmu.variables.get(variable) if fmu is not None else None
+    description = (declared.description or "") if declared is not None else ""
+    meanings = {int(number): words for number, words in MEANING.findall(" ".join(description.split()))}
+    return meanings.get(value, "").rstrip(".")
+
+
+def with_meaning(network: Network, name: str, value: int) -> str:
+    """``guidance.status 3, no solution``."""
+    words = status_meaning(network, name, value)
+    return f"{name} {value}, {words}" if words else f"{name} {value}"
+
+
+def provenance_of(
+    prepared: PreparedSystem, settings: Settings, parameters: Parameters, faults: Sequence[Fault | None]
+) -> dict[str, Any]:
+    """Parameter values, hashes, options and version."""
+    return {
+        "system": prepared.archive.name,
+        "system_sha256": prepared.archive.digest,
+        "fmus": {
+            name: {"fmu": fmu.name, "sha256": fmu.digest, "guid": fmu.description.guid}
+            for name, fmu in prepared.network.fmus.items()
+        },
+        "parameters": {
+            f"{component}.{variable}": parameters[component, variable] for component, variable in settings.variables
+        },
+        "start_time": prepared.start,
+        "step": prepared.step,
+        "stop_time": prepared.start + prepared.steps * prepared.step,
+        "variant": prepared.options.variant,
+        "feedthrough": list(prepared.options.feedthrough),
+        "no_feedthrough": list(prepared.options.no_feedthrough),
+        "assumptions": prepared.assumptions,
+        "faults": [str(fault) for fault in faults if fault is not None],
+        "algorithm": prepared.algorithm,
+        **(prepared.drive.facts() if prepared.drive is not None else {}),
+        "perilune": version("perilune"),
+    }

@@ -16,14 +16,11 @@ from ..system.fault import Fault
 from ..system.prepared import PreparedSystem, no_collection
 from .compiled import arrays, codes, loop
 from .endings import TERMINATED, Outcome, end_request, in_words, outcome_of
-from .injections import NEVER, of_excitation, of_fault
-from .instances.instance import Instance, instantiate
-from .instances.log import Log
+from .instance import Instance, Log, instantiate
 from .instructions import write_ending
 from .life_cycle import LifeCycle
-from .program import build_program
-from .provenance import provenance_of
-from .results import Flight, Result
+from .program import NEVER, build_program, of_excitation, of_fault
+from .results import Flight, Result, provenance_of
 
 NOTHING = np.zeros((0, 0))  # no excitation
 TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry rounding

@@ -20,8 +20,7 @@ from ...campaigns.spec.plan import BatchPlan
 from ...campaigns.summary import requirement_values, summarise
 from ...campaigns.tables import align_columns, unmet_lines
 from ...campaigns.trials import TrialColumns, TrialRows
-from ...runtime.flight.results import TIMED_OUT
-from ...runtime.flight.statuses import with_meaning
+from ...runtime.flight.results import TIMED_OUT, with_meaning
 from .arguments import read_requirements, requirement_problems
 
 

@@ -9,8 +9,7 @@ from ....fmus_src.paths import SYSTEMS
 from ...reports.figures.declaration.figures import Figure, Limits
 from ...reports.figures.declaration.values import Unavailable
 from ...reports.figures.limits import Verdict, evaluate, limit_lines
-from ...runtime.flight.results import Flight, Result
-from ...runtime.flight.statuses import status_lines
+from ...runtime.flight.results import Flight, Result, status_lines
 from ...runtime.system.prepared import PreparedSystem
 
 REMEDIES = {

@@ -55,8 +55,7 @@ from .codes import (
     TRANSFORM,
     UNMAPPED,
 )
-from .fmi_calls import boolean_at, do_step, exchange, put_real, real_at, whole_at
-from .strings import exchange_texts
+from .fmi_calls import boolean_at, do_step, exchange, exchange_texts, put_real, real_at, whole_at
 
 ONE = np.uint64(1)
 WHOLE_MIN, WHOLE_MAX = -(2**31), 2**31 - 1  # of FMI's Integers

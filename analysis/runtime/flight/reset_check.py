@@ -12,7 +12,7 @@ import numpy as np
 from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
 
-from ...system.fmu import Fmu
+from ..system.fmu import Fmu
 from .instance import Instance, instantiate
 from .library import LOADING
 

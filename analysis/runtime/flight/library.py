@@ -11,7 +11,7 @@ from typing import Any
 
 from fmpy import fmi2
 
-from ...system.fmu import Fmu
+from ..system.fmu import Fmu
 
 FUNCTION_NAMES = (
     "fmi2SetReal",

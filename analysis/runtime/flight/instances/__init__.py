@@ -1,1 +1,0 @@
-"""One FMU at run time: its library, its instances, whether its reset can be trusted."""
