@@ -8,10 +8,9 @@ from typing import Any, Unpack
 
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
-from ..authoring.describe.campaign import describe_campaign
-from ..authoring.describe.fits import blocks_of_slot, slots
-from ..authoring.describe.system import describe_system
-from ..authoring.describe.variables import variables_of
+from ..authoring.campaign import describe_campaign
+from ..authoring.description import describe_system, variables_of
+from ..authoring.fits import blocks_of_slot, slots
 from ..common.errors import InputError, suggestion
 from ..runtime.ssp.archive import system_names
 from ..runtime.system.alone import describe_alone

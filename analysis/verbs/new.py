@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ..authoring.new import block, system
+from ..authoring import block, system
 from .options.library import NEW_BLOCK, NEW_SYSTEM
 from .options.verb import verb
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from perilune.analysis.authoring.describe.fits import Demand, blocks_of_slot, connectors_of, slots
+from perilune.analysis.authoring.fits import Demand, blocks_of_slot, connectors_of, slots
 from perilune.fmus_src.block import Block, Output, Parameter
 from perilune.fmus_src.catalogue import catalogue
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from perilune.analysis.authoring.describe.fits import blocks_of_slot, slots
+from perilune.analysis.authoring.fits import blocks_of_slot, slots
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import KINDS, catalogue
 

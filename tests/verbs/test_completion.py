@@ -12,7 +12,7 @@ import sys
 
 import pytest
 
-from perilune.analysis.authoring.new.block import block_slots
+from perilune.analysis.authoring.block import block_slots
 from perilune.analysis.verbs.options.verbs import VERBS
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.paths import LAWS, SYSTEMS

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import perilune
-from perilune.analysis.authoring.describe.campaign import toml_value
+from perilune.analysis.authoring.campaign import toml_value
 from perilune.analysis.campaigns.spec.file import parse_campaign, read_campaign
 from perilune.analysis.campaigns.spec.table import Table
 from perilune.analysis.cli import main

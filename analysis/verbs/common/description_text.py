@@ -7,8 +7,8 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ...authoring.describe.campaign import toml_value
-from ...authoring.describe.variables import of_causality
+from ...authoring.campaign import toml_value
+from ...authoring.description import of_causality
 from ...runtime.system.feedthrough import Origin
 
 WIDEST = 100  # columns of a line

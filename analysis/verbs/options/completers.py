@@ -16,7 +16,7 @@ from ...runtime.ssp.archive import SystemArchive, open_system, system_names
 from ...runtime.ssp.description import Component
 from ...runtime.ssp.reading import read_description
 
-SLOT_TEMPLATES = Path(__file__).parents[2] / "authoring" / "new" / "templates" / "slots"
+SLOT_TEMPLATES = Path(__file__).parents[2] / "authoring" / "templates" / "slots"
 Completer = Callable[..., Iterable[str]]
 
 

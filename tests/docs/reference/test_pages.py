@@ -17,7 +17,7 @@ from docs.reference.links import broken_links
 from docs.reference.markdown import escaped, prose
 from docs.reference.pages import derived_pages, reference_navigation
 from docs.reference.verbs import verb_parser
-from perilune.analysis.authoring.describe.fits import slots
+from perilune.analysis.authoring.fits import slots
 from perilune.analysis.verbs.options.verbs import VERBS
 from perilune.fmus_src.export.judge.subset_table import (
     ELEMENTARY_FUNCTIONS,

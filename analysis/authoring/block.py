@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from ....fmus_src.catalogue import catalogue
-from ....fmus_src.export.ssp_package import DESCRIPTION
-from ...common.atomic import write_atomically
-from ...common.errors import InputError, suggestion
-from ...runtime.ssp.archive import open_system, system_names
-from ...runtime.ssp.description import Component
-from ...runtime.ssp.reading import read_description
-from ...verbs.options.campaigns import RUN
-from ...verbs.options.command import write_command
-from ..describe.fits import slots
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from ...fmus_src.catalogue import catalogue
+from ...fmus_src.export.ssp_package import DESCRIPTION
+from ..common.atomic import write_atomically
+from ..common.errors import InputError, suggestion
+from ..runtime.ssp.archive import open_system, system_names
+from ..runtime.ssp.description import Component
+from ..runtime.ssp.reading import read_description
+from ..verbs.options.campaigns import RUN
+from ..verbs.options.command import write_command
+from .fits import slots
 from .names import check_free, check_name, class_name
-from .rendering import render, template_names
 
 SLOTS = "slots"
 
@@ -65,3 +67,25 @@ def where_it_flies(slot: str) -> tuple[str, str]:
         raise InputError("`slot`", slot, f"no system's {DESCRIPTION} has it", suggestion(slot, block_slots()))
     _, system, component = min(candidates)
     return system, component
+
+
+FOLDER = Path(__file__).parent / "templates"
+SUFFIX = ".jinja"
+
+
+def template_names(folder: str) -> list[str]:
+    """The files that the templates below a folder make, by their names in it."""
+    root = FOLDER / folder
+    return sorted(path.relative_to(root).as_posix().removesuffix(SUFFIX) for path in root.rglob(f"*{SUFFIX}"))
+
+
+def render(template: str, **content: Any) -> str:
+    """The text of a file; a value that its template needs and does not get is an error."""
+    environment = Environment(
+        loader=FileSystemLoader(FOLDER),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )  # names are checked and units are ours: there is nothing to escape
+    return environment.get_template(f"{template}{SUFFIX}").render(**content)

@@ -7,9 +7,9 @@ from functools import cache
 
 from fmpy import read_model_description
 
-from ....fmus_src.block import Block
-from ....fmus_src.catalogue import catalogue
-from ....fmus_src.export.available import fmu_flavours
+from ...fmus_src.block import Block
+from ...fmus_src.catalogue import catalogue
+from ...fmus_src.export.available import fmu_flavours
 
 Demand = tuple[str, str, str]  # variable, causality, type
 

@@ -7,11 +7,11 @@ import re
 import sys
 from pathlib import Path
 
-from ....fmus_src.block import snake_case
-from ....fmus_src.catalogue import catalogue
-from ....fmus_src.paths import FLAVOURS, own_fmu
-from ...common.errors import InputError
-from ...runtime.ssp.archive import system_names
+from ...fmus_src.block import snake_case
+from ...fmus_src.catalogue import catalogue
+from ...fmus_src.paths import FLAVOURS, own_fmu
+from ..common.errors import InputError
+from ..runtime.ssp.archive import system_names
 
 
 def class_name(name: str) -> str:

@@ -8,11 +8,11 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER
-from ...campaigns.spec.file import parse_campaign
-from ...campaigns.spec.source import read_source
-from ...campaigns.spec.table import Table
-from ...runtime.ssp.archive import open_system
+from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
+from ..campaigns.spec.file import parse_campaign
+from ..campaigns.spec.source import read_source
+from ..campaigns.spec.table import Table
+from ..runtime.ssp.archive import open_system
 
 EXTRA = posixpath.dirname(CAMPAIGN_FOLDER)  # of an archive, where all that is not SSP's own is stored
 

@@ -1,1 +1,0 @@
-"""A block or a system of a user's own to start from, written from templates."""
