@@ -1,11 +1,66 @@
-"""What every way of flying a system looks like to the benchmark."""
+"""The system that all contestants fly, packed as one .ssp, and what every way of flying it is to the benchmark."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
 
-from .course import Course
+from ..common.errors import InputError
+from ..runtime.ssp.conversions import IDENTITY
+from ..runtime.ssp.parameter_sets import ParameterValue
+from ..runtime.system.network import Link
+from ..runtime.system.prepared import PreparedSystem, prepare_system
+
+
+@dataclass(frozen=True)
+class Course:
+    """A system whose FMUs exchange Reals as they are, from one component straight to another."""
+
+    ssp: Path
+
+    @cached_property
+    def prepared(self) -> PreparedSystem:
+        """The system read and checked by our own importer; raises InputError."""
+        prepared = prepare_system(self.ssp)
+        for link in prepared.network.driver.values():
+            if link.target.component is not None and not _is_plain(link):
+                raise InputError(
+                    prepared.network.file,
+                    f"connection {link.source.name} -> {link.target.name} (line {link.line})",
+                    "contestants exchange Reals between FMUs without conversion",
+                    "benchmark another system",
+                )
+        return prepared
+
+    def flight(self, steps: int, algorithm: str = "sequential") -> PreparedSystem:
+        """The system with another number of steps and the algorithm given."""
+        return replace(self.prepared, steps=steps, algorithm=algorithm)
+
+    @cached_property
+    def links(self) -> list[Link]:
+        """Connections between FMUs, in the order of the SSD."""
+        return [link for link in self.prepared.network.driver.values() if link.target.component is not None]
+
+    @cached_property
+    def names(self) -> list[str]:
+        """Outputs that another FMU reads: what a flight gives back."""
+        return list(dict.fromkeys(link.source.name for link in self.links))
+
+    def settings(self) -> dict[tuple[str, str], ParameterValue]:
+        """Parameter values by component and variable."""
+        return dict(self.prepared.settings.variables)
+
+
+def _is_plain(link: Link) -> bool:
+    return (
+        link.source.component is not None
+        and link.source.type_name == link.target.type_name == "Real"
+        and link.target.kind == "input"
+        and link.transformation == IDENTITY
+    )
+
 
 Values = dict[str, float]
 Fly = Callable[[int], Values]

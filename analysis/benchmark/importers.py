@@ -2,24 +2,163 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
 
-from . import fmpy_calls, fmpy_ssp, perilune_loop
-from .contestant import Contestant, both_flavours
+from fmpy.fmi2 import FMU2Slave
+from fmpy.ssp.simulation import simulate_ssp
+from fmpy.ssp.ssd import Parameter, ParameterSet
+
+from ..runtime.flight.simulation import Simulation
+from ..runtime.system.fmu import Fmu
+from .contestant import Contestant, Course, Fly, Values, both_flavours
+
+
+def prepare_loop(course: Course, algorithm: str = "sequential") -> Fly:
+    """`Simulation`, its instances reset and reused; flies on after ``finished``, as the others do."""
+    simulation = Simulation(course.flight(1, algorithm), wanted=course.names)
+    simulation.program = simulation.program._replace(finished_slot=-1)
+
+    def fly(steps: int) -> Values:
+        simulation.prepared = course.flight(steps, algorithm)
+        result = simulation.fly(every=max(1, steps))
+        if not result.complete:
+            raise RuntimeError(f"{result.status}: {result.message}")
+        return {name: float(values[-1]) for name, values in result.signals.items()}
+
+    return fly
+
+
+@dataclass
+class _Unit:
+    """An FMU with its lists made once: value references and places in the common list of values."""
+
+    slave: FMU2Slave
+    inputs: list[int]
+    sources: list[int]
+    outputs: list[int]
+    first: int  # outputs lie together in the list of values
+    parameters: dict[str, dict[int, float | int | bool | str]]  # by type and value reference
+
+    def set_inputs(self, values: list[float]) -> None:
+        self.slave.setReal(self.inputs, [values[source] for source in self.sources])
+
+    def get_outputs(self, values: list[float]) -> None:
+        values[self.first : self.first + len(self.outputs)] = self.slave.getReal(self.outputs)
+
+
+def prepare_calls(course: Course) -> Fly:
+    """One setReal, doStep and getReal per FMU and step, in the order of our sequential algorithm."""
+    prepared = course.prepared
+    places: dict[str, int] = {}
+    for component in prepared.network.fmus:
+        for name in course.names:
+            if name.startswith(f"{component}."):
+                places[name] = len(places)
+    units = {component: _unit(course, component, fmu, places) for component, fmu in prepared.network.fmus.items()}
+    initial = [units[name] for name in prepared.schedule.initial_order]
+    sources = [units[name] for name in prepared.schedule.sources_first]
+    followers = [units[name] for name in prepared.schedule.followers]
+    start, step = prepared.start, prepared.step
+
+    def fly(steps: int) -> Values:
+        values = [0.0] * len(places)
+        for unit in initial:
+            unit.slave.reset()
+            unit.slave.setReal(list(unit.parameters["Real"]), list(unit.parameters["Real"].values()))
+            unit.slave.setInteger(list(unit.parameters["Integer"]), list(unit.parameters["Integer"].values()))
+            unit.slave.setBoolean(list(unit.parameters["Boolean"]), list(unit.parameters["Boolean"].values()))
+            unit.slave.setString(list(unit.parameters["String"]), list(unit.parameters["String"].values()))
+            unit.slave.setupExperiment(startTime=start, stopTime=start + steps * step)
+            unit.slave.enterInitializationMode()
+        for unit in initial:
+            unit.set_inputs(values)
+            unit.get_outputs(values)
+        for unit in initial:
+            unit.slave.exitInitializationMode()
+        for n in range(steps):
+            time = start + n * step
+            for unit in sources:
+                unit.set_inputs(values)
+                unit.slave.doStep(time, step)
+            for unit in sources:
+                unit.get_outputs(values)
+            for unit in followers:
+                unit.set_inputs(values)
+                unit.slave.doStep(time, step)
+                unit.get_outputs(values)
+        return {name: values[place] for name, place in places.items()}
+
+    return fly
+
+
+def _unit(course: Course, component: str, fmu: Fmu, places: dict[str, int]) -> _Unit:
+    slave = FMU2Slave(
+        guid=fmu.description.guid,
+        unzipDirectory=str(fmu.folder),
+        modelIdentifier=fmu.description.coSimulation.modelIdentifier,
+        instanceName=component,
+    )
+    slave.instantiate()
+    links = [link for link in course.links if link.target.component == component]
+    mine = {name: place for name, place in places.items() if name.startswith(f"{component}.")}
+    parameters: dict[str, dict[int, float | int | bool | str]] = {
+        kind: {} for kind in ("Real", "Integer", "Boolean", "String")
+    }
+    for (owner, name), value in course.settings().items():
+        if owner == component:
+            variable = fmu.variables[name]
+            kind = "Integer" if variable.type == "Enumeration" else variable.type
+            parameters[kind][variable.valueReference] = value
+    return _Unit(
+        slave=slave,
+        inputs=[fmu.variables[link.target.variable].valueReference for link in links],
+        sources=[places[link.source.name] for link in links],
+        outputs=[fmu.variables[name.removeprefix(f"{component}.")].valueReference for name in mine],
+        first=min(mine.values(), default=0),
+        parameters=parameters,
+    )
+
+
+def prepare_ssp(course: Course) -> Fly:
+    """simulate_ssp; it unpacks and instantiates the FMUs anew for every flight.
+
+    The parameters are handed to it, since it does not read the bindings of the SSD. It gives all
+    inputs 0 in the first step, exchanges after all have stepped, and records every connector.
+    """
+    parameters = ParameterSet(
+        name="benchmark",
+        parameters=[
+            Parameter(name=f"{component}.{variable}", value=value)
+            for (component, variable), value in course.settings().items()
+        ],
+    )
+    start, step = course.prepared.start, course.prepared.step
+
+    def fly(steps: int) -> Values:
+        # it adds up the time as it goes and stops once that is not below the stop time
+        stop = start + (steps - 0.5) * step
+        rows = simulate_ssp(str(course.ssp), start, stop, step, parameters)
+        if len(rows) != steps:
+            raise RuntimeError(f"simulate_ssp made {len(rows)} steps instead of {steps}")
+        return {name: float(rows[-1][name]) for name in course.names}
+
+    return fly
+
 
 FMPY_SSP = Contestant(
     "fmpy_simulate_ssp",
     "python",
     "FMPy's simulate_ssp: one call per variable, every connector recorded",
     None,
-    fmpy_ssp.prepare,
+    prepare_ssp,
 )
 FMPY_CALLS = Contestant(
     "fmpy_calls",
     "python",
     "FMPy's calls in a hand-written loop: one setReal, doStep, getReal per FMU",
     "sequential",
-    fmpy_calls.prepare,
+    prepare_calls,
 )
 LOOPS = (
     Contestant(
@@ -27,14 +166,14 @@ LOOPS = (
         "python",
         "the compiled loop of this project, exchanging after all have stepped",
         "jacobi",
-        partial(perilune_loop.prepare, algorithm="jacobi"),
+        partial(prepare_loop, algorithm="jacobi"),
     ),
     Contestant(
         "perilune_python",
         "python",
         "the compiled loop of this project",
         "sequential",
-        perilune_loop.prepare,
+        prepare_loop,
     ),
 )
 CONTESTANTS = both_flavours(FMPY_SSP, FMPY_CALLS, *LOOPS)

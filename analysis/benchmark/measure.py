@@ -1,13 +1,17 @@
-"""Runs the contestants in turn and works out what a step costs each of them."""
+"""Runs the contestants in turn and works out what a step costs each of them; the machine and the versions."""
 
 from __future__ import annotations
 
+import platform
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
+
+from loky import cpu_count
 
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.ssp_package import list_fmus, pack_system
@@ -15,14 +19,10 @@ from ...fmus_src.paths import SYSTEMS, built_fmu
 from ..common.errors import InputError, suggestion
 from ..common.progress import progress_bar
 from ..runtime.ssp.archive import system_names
-from .agreement import disagreements
-from .contestant import Contestant, Unavailable, Values
-from .course import Course
+from .contestant import Contestant, Course, Unavailable, Values
 from .importers import MODULE, OURS
-from .machine import machine, versions
-from .times import Times, compute_promised_ratios
-from .trials import ROUNDS, trials_per_second
-from .worker import Worker, WorkerError
+from .times import Times, compute_promised_ratios, disagreements
+from .worker import ROUNDS, Worker, WorkerError, trials_per_second
 
 
 def run_benchmark(
@@ -141,3 +141,31 @@ def _fly_in_turn(
             if repeat == 0:
                 unavailable |= disagreements(listed, final)
     return {name: each for name, each in times.items() if name not in unavailable}
+
+
+PACKAGES = ("perilune", "fmpy", "pythonfmu", "libcosimpy", "fmu-manipulation-toolbox", "numba", "numpy")
+
+
+def machine() -> dict[str, str | int]:
+    """Processor, how many of them this process may use, operating system."""
+    return {"processor": _processor(), "processors": cpu_count(), "system": platform.platform()}
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python, of this package and of the peers; "not installed" for those that are not."""
+    by_package = {"python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            by_package[package] = version(package)
+        except PackageNotFoundError:
+            by_package[package] = "not installed"
+    return by_package
+
+
+def _processor() -> str:
+    path = Path("/proc/cpuinfo")
+    if path.is_file():
+        for line in path.read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or platform.machine()

@@ -14,9 +14,8 @@ from typing import Any
 
 from ..common.errors import InputError
 from ..common.process_end import leave
-from .contestant import Fly, Unavailable
-from .course import Course
-from .trials import fly_batch
+from .contestant import Course, Fly, Unavailable
+from .worker import fly_batch
 
 # Flights are repeated until there are so many and so much time has passed: some take long to start, and unevenly.
 FLIGHTS = 3

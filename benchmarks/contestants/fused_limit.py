@@ -8,8 +8,7 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from perilune.analysis.benchmark.contestant import Fly, Unavailable, Values
-from perilune.analysis.benchmark.course import Course
+from perilune.analysis.benchmark.contestant import Course, Fly, Unavailable, Values
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import FLAGS, PLATFORMS, CompilerMissing, compilers_for, local_platform

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from perilune.analysis.benchmark.course import Course
+from perilune.analysis.benchmark.contestant import Course
 from perilune.analysis.runtime.system.network import Link
 from perilune.analysis.runtime.system.prepared import PreparedSystem
 

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from perilune.analysis.benchmark.contestant import Fly, Unavailable, Values
-from perilune.analysis.benchmark.course import Course
+from perilune.analysis.benchmark.contestant import Course, Fly, Unavailable, Values
 from perilune.fmus_src.export.ssp_package import DESCRIPTION, SSD_NAMESPACE
 
 OSP = "http://opensimulationplatform.com/SSP/OSPAnnotations"

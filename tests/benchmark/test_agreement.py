@@ -6,10 +6,8 @@ import math
 
 import pytest
 
-from perilune.analysis.benchmark.agreement import disagreements
-from perilune.analysis.benchmark.contestant import Contestant
-from perilune.analysis.benchmark.course import Course
-from perilune.analysis.benchmark.times import Times, compute_promised_ratios
+from perilune.analysis.benchmark.contestant import Contestant, Course
+from perilune.analysis.benchmark.times import Times, compute_promised_ratios, disagreements
 
 
 def contestant(name: str, algorithm: str | None = "sequential", exact: bool = False) -> Contestant:

@@ -10,7 +10,7 @@ import pytest
 import benchmarks.contestants
 from benchmarks.contestants import CONTESTANTS
 from perilune.analysis import cli
-from perilune.analysis.benchmark import importers, trials
+from perilune.analysis.benchmark import importers, worker
 from perilune.analysis.benchmark.measure import run_benchmark
 from perilune.analysis.benchmark.table import benchmark_text
 from perilune.analysis.common.errors import InputError
@@ -43,8 +43,8 @@ FLOWN = either(CONTESTANTS, [each for each in CONTESTANTS if each.name in {*PROM
 def test_a_tiny_run_has_every_contestant_and_all_agree(
     fmus: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(trials, "SECONDS", 0.0)
-    monkeypatch.setattr(trials, "LEAST", 4)
+    monkeypatch.setattr(worker, "SECONDS", 0.0)
+    monkeypatch.setattr(worker, "LEAST", 4)
     monkeypatch.setattr(benchmarks.contestants, "CONTESTANTS", FLOWN)
     document = run_benchmark(steps=30, repeats=1, contestants="benchmarks.contestants")
 
@@ -66,8 +66,8 @@ def test_a_tiny_run_has_every_contestant_and_all_agree(
 
 @pytest.mark.slow
 def test_the_command_times_what_comes_with_the_package(fmus, capsys, monkeypatch):
-    monkeypatch.setattr(trials, "SECONDS", 0.0)
-    monkeypatch.setattr(trials, "LEAST", 4)
+    monkeypatch.setattr(worker, "SECONDS", 0.0)
+    monkeypatch.setattr(worker, "LEAST", 4)
     assert cli.main(["benchmark", "--steps", "30", "--repeats", "1", "--json", "-"]) == 0
     document = json.loads(capsys.readouterr().out)
     assert document["unavailable"] == {}

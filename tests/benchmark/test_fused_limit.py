@@ -8,9 +8,8 @@ from pathlib import Path
 import pytest
 
 from benchmarks.contestants import fused_limit
-from perilune.analysis.benchmark import perilune_loop
-from perilune.analysis.benchmark.contestant import Unavailable
-from perilune.analysis.benchmark.course import Course
+from perilune.analysis.benchmark.contestant import Course, Unavailable
+from perilune.analysis.benchmark.importers import prepare_loop
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import blocks_in_file
 from tests.support.builders import component, connection, document, inline, pack, retouched, system
@@ -51,7 +50,7 @@ def test_parameters_sources_and_followers(tmp_path: Path, tiny_folder: Path, blo
             " first-gain.factor=Real:-0.7; delay.start=Real:0.3 m"
         ),
     )
-    ours, fused = perilune_loop.prepare(flown), fused_limit.prepare(flown, blocks)
+    ours, fused = prepare_loop(flown), fused_limit.prepare(flown, blocks)
     for steps in (1, 2, 7, 1, 30):  # each flight starts anew
         assert bits(fused(steps)) == bits(ours(steps))
     # the ramp rises from 1 by 0.1 m/s and is read after 2 s
@@ -72,7 +71,7 @@ def test_blocks_that_wait_for_each_other(tmp_path: Path, tiny_folder: Path, bloc
         bindings=inline("right.b=Real:2 m"),
     )
     assert flown.prepared.schedule.late
-    ours, fused = perilune_loop.prepare(flown), fused_limit.prepare(flown, blocks)
+    ours, fused = prepare_loop(flown), fused_limit.prepare(flown, blocks)
     for steps in (1, 2, 9):
         assert bits(fused(steps)) == bits(ours(steps))
 
@@ -92,7 +91,7 @@ def test_what_ends_our_flight_ends_a_fused_one(
         bindings=inline(f"trouble.kind=Integer:{kind}"),
     )
     with pytest.raises(RuntimeError, match=r"^(failed|nonfinite): "):
-        perilune_loop.prepare(flown)(5)
+        prepare_loop(flown)(5)
     fused = fused_limit.prepare(flown, blocks)
     with pytest.raises(RuntimeError, match=problem):
         fused(5)
