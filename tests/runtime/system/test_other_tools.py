@@ -277,7 +277,7 @@ def test_what_a_mapping_leaves_out_is_said(tiny, tmp_path, capsys):
     ):
         fly(path)
     assert main(["validate", str(path), "--open-inputs", "start"]) == 0
-    said = capsys.readouterr().out
+    said = " ".join(capsys.readouterr().out.split())  # a longer path breaks the line elsewhere
     assert re.search(r"gain\.ParameterBinding \(line \d+\): its mapping has no entry for u: not applied", said)
     given = fly(pack(tmp_path / "s.ssp", tiny, document(system(component("gain", "gain", "output y Real m", binding)))))
     assert set(given["gain.y"]) == {2.0 * 0.0}  # u keeps its start
