@@ -12,10 +12,8 @@ from typing import NoReturn
 
 import argcomplete
 
-from .common.errors import EndedError, InputError, UnwrittenError, call_by_flags, warn_in_one_line
-from .common.exit_status import ExitStatus
-from .common.process_end import leave
-from .common.streams import steady_streams
+from .common.errors import EndedError, ExitStatus, InputError, UnwrittenError, call_by_flags, warn_in_one_line
+from .common.process import leave, steady_streams
 from .verbs.help import Parser, group_help, overview, verb_help
 from .verbs.options.parsing import add_verb, flags_of, read_parsed
 from .verbs.options.verb import Verb

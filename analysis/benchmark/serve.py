@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ..common.errors import InputError
-from ..common.process_end import leave
+from ..common.process import leave
 from .contestant import Course, Fly, Unavailable
 from .worker import fly_batch
 

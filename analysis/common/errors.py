@@ -1,4 +1,4 @@
-"""The error that wrong input ends in: one line that says where, what and what to do."""
+"""What wrong input ends in, one line that says where, what and what to do, and what an exit status says."""
 
 from __future__ import annotations
 
@@ -7,7 +7,17 @@ import os
 import re
 import warnings
 from collections.abc import Iterable, Mapping
+from enum import IntEnum
 from typing import Any
+
+
+class ExitStatus(IntEnum):
+    """Of any verb."""
+
+    MET = 0  # done, and everything that was to hold does
+    NOT_MET = 1  # done, and something is violated, withheld or not evaluated, or a flight did not finish
+    REFUSED = 2  # wrong input, or a result could not be written
+
 
 PARAMETER = re.compile(r"`(\w+)`")  # how a message marks the name of a parameter
 

@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from ..common.atomic import write_atomically
-from ..common.errors import InputError, call_by_flags
-from ..common.exit_status import ExitStatus
+from ..common.errors import ExitStatus, InputError, call_by_flags
 from ..common.targets import Results, check_file, check_folder
 from ..runtime.system.options import system_options
 from ..runtime.system.stale import report_fmus

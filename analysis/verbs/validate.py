@@ -11,8 +11,7 @@ from fmpy.validation import validate_fmu
 
 from ..campaigns.spec.file import SYNTHESIS, read_campaign
 from ..campaigns.spec.source import read_source_file
-from ..common.errors import InputError
-from ..common.exit_status import ExitStatus
+from ..common.errors import ExitStatus, InputError
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
 from ..design.trajectories.stored_bound import MissingBound, find_bound

@@ -10,7 +10,7 @@ from perilune.analysis.campaigns.fly.results import BatchResult
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import BatchPlan, read_plan
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.common.process_end import leave
+from perilune.analysis.common.process import leave
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.flight.run_report import write_run_report
 from perilune.analysis.runtime.flight.results import Result

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from perilune.analysis.campaigns.spec.plan import read_plan
-from perilune.analysis.common.process_end import leave
+from perilune.analysis.common.process import leave
 from perilune.analysis.runtime.system.options import SystemOptions
 
 from .landing import fly_landings, landing_figure

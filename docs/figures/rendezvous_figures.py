@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
-from perilune.analysis.common.process_end import leave
+from perilune.analysis.common.process import leave
 from perilune.analysis.reports.common.style import (
     BLUE,
     FAINT,

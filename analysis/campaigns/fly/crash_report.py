@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NoReturn
 
-from ...common.process_end import leave
+from ...common.process import leave
 from ...runtime.flight.interruptible import PATIENCE
 
 GRACE = 2 * PATIENCE  # s beyond a flight's time: after the other clock

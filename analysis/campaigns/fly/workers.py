@@ -21,7 +21,7 @@ from loky import ProcessPoolExecutor, cpu_count
 from loky.process_executor import TerminatedWorkerError
 
 from ...common.errors import InputError, suggestion, warn_in_one_line
-from ...common.process_end import leave
+from ...common.process import leave
 from ...runtime.flight.interruptible import PATIENCE, wait
 from ...runtime.system.prepared import PreparedSystem
 from ..spec.plan import BatchPlan

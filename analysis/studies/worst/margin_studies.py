@@ -18,7 +18,7 @@ from ...campaigns.spec.campaign import Record
 from ...campaigns.spec.checks import check_draws
 from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError
-from ...common.process_end import leave_when_done
+from ...common.process import leave_when_done
 from ...common.progress import progress_bar
 from ...stability.dispersion import models_of_trial
 from ...stability.loops.margin_values import Margins

@@ -17,8 +17,7 @@ from ...campaigns.fly.workers import WorkersDiedError
 from ...campaigns.replay_command import campaign_command, replay_command
 from ...campaigns.spec.plan import BatchPlan, read_plan
 from ...campaigns.spec.sweeps import part_sweeps
-from ...common.errors import EndedError, InputError
-from ...common.exit_status import ExitStatus
+from ...common.errors import EndedError, ExitStatus, InputError
 from ...runtime.system.fault import faults_of
 from ...runtime.system.options import Watch, system_options
 from ...runtime.system.series import read_series
