@@ -236,7 +236,7 @@ class HoverGuidance(HoverPlan):
         """Of the loop (rad/s) at the time t (s) after the plan's start."""
         if self.plan_kind == HOLDING or self.plan_kind == POLYNOMIAL or t >= self.duration:
             return self.holding_frequency
-        if t >= self.duration - self.programme[3] - BEFORE_LAST_BURN:
+        if t >= self.shape.last_burn_begin - BEFORE_LAST_BURN:
             return self.braking_frequency
         return self.coasting_frequency
 

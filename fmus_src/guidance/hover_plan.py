@@ -7,7 +7,7 @@ from ..kernel.functions import cos, expm1, sin
 from ..mathlib.gravity import STANDARD_GRAVITY, from_centre, vertical_at
 from ..mathlib.hover_motion import HoverVehicle, motion, propellant, thrust_impulse
 from ..mathlib.hover_programme import programme
-from ..mathlib.hover_shape import END, UNKNOWNS, HoverShape, clear, pitch, shape_of
+from ..mathlib.hover_shape import HoverProgramme, HoverShape, pitch, shape_of, without_programme
 from ..mathlib.hover_solution import NONE, VERTICAL
 from ..mathlib.transfer_polynomial import TRANSFER, capture, derivative, expense, slow_duration, thrust_along, transfer
 from ..mathlib.vectors import Vector3, add_along, clip, cross, dot, is_finite, norm, smallest_component, vector
@@ -80,9 +80,7 @@ class HoverPlan(Block, interface=True):
         description="0 none, 1 vertical, 2 without first burn, 3 with first burn, 4 polynomial",
     )
     predicted_propellant = Output(0.0, unit="kg", direct=True, description="that the plan takes")
-    programme = Output(
-        [0.0] * UNKNOWNS, unit="s", direct=True, description="t2, t5, w, tp, t7 of the programme; 0 where none"
-    )
+    programme = Output([0.0] * 5, unit="s", direct=True, description="t2, t5, w, tp, t7 of the programme; 0 where none")
     origin = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="where the plan starts")
     goal = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="where the plan ends")
     up = State([0.0, 0.0, 1.0], frozen=True, unit="1", frame="landing site", description="vertical of the plan")
@@ -117,7 +115,7 @@ class HoverPlan(Block, interface=True):
         self.plan_kind = HOLDING
         self.duration = 0.0
         self.predicted_propellant = 0.0
-        clear(self.programme)
+        self.set_programme(without_programme())
         self.origin = self.position
         self.goal = self.target_position
         self.up = self.vertical(self.goal)
@@ -154,7 +152,8 @@ class HoverPlan(Block, interface=True):
         y = dot(way, self.up)
         side = way - y * self.up
         x = norm(side)
-        kind = programme(x, y, self.vehicle, self.programme)
+        kind, times = programme(x, y, self.vehicle)
+        self.set_programme(times)
         if kind == NONE:
             self.plan_transfer(STANDBY_SPEED, STANDBY_ACCELERATION)
             if self.status == GOOD:
@@ -168,11 +167,19 @@ class HoverPlan(Block, interface=True):
                 self.along = level / norm(level)
             if kind == VERTICAL:
                 self.origin = self.goal - y * self.up
-            self.shape, is_feasible = shape_of(self.programme, self.vehicle.swing)
+            self.shape, is_feasible = shape_of(times, self.vehicle.swing)
             if is_feasible:
                 self.plan_kind = kind
-                self.duration = self.programme[END]
+                self.duration = times.t7
                 self.predicted_propellant = self.mass * propellant(self.shape, self.vehicle, self.duration)
+
+    def set_programme(self, p: HoverProgramme) -> None:
+        """Put out the times of a programme."""
+        self.programme[0] = p.t2
+        self.programme[1] = p.t5
+        self.programme[2] = p.width
+        self.programme[3] = p.last_burn
+        self.programme[4] = p.t7
 
     def plan_transfer(self, speed: float, acceleration: float) -> None:
         """A polynomial from rest to rest within a speed (m/s) and an acceleration (m/s2)."""
@@ -239,12 +246,11 @@ class HoverPlan(Block, interface=True):
         if self.plan_kind == POLYNOMIAL:
             place = derivative(self.coefficients, 0, t, self.duration)
             return place, derivative(self.coefficients, 1, t, self.duration)
-        state = [0.0] * 4
-        moved = motion(self.shape, self.vehicle, t, state)
+        s, moved = motion(self.shape, self.vehicle, t)
         if not moved:
             return self.goal, rest
-        place = self.origin + state[0] * self.along + state[2] * self.up
-        return place, state[1] * self.along + state[3] * self.up
+        place = self.origin + s.x * self.along + s.y * self.up
+        return place, s.x_rate * self.along + s.y_rate * self.up
 
     def plan_direction(self, t: float) -> tuple[Vector3, Vector3]:
         """Thrust direction of the plan at the time t (s) after its start, and its derivative (1/s)."""

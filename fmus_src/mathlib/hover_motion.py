@@ -8,7 +8,7 @@ Source: Huang 2017; Gauss-Legendre quadrature: Abramowitz and Stegun 1964, table
 
 from ..kernel.functions import cos, log, sin
 from ..kernel.records import Field, Record
-from .hover_shape import HoverShape, burnt, full_thrust, pitch_segment
+from .hover_shape import HoverProgramme, HoverShape, burnt, full_thrust, pitch_segment, shape_of
 
 LONGEST = 30.0  # s; longest interval of eight nodes, which leave below 1e-9 of the motion
 
@@ -21,6 +21,20 @@ class HoverVehicle(Record):
     exhaust = Field(unit="m/s", frozen=True, description="exhaust speed")
     gravity = Field(unit="m/s2", frozen=True, description="gravity, uniform")
     swing = Field(unit="rad/s2", frozen=True, description="angular acceleration")
+
+
+class PlaneMotion(Record):
+    """Motion in the plane of a transfer."""
+
+    x = Field(unit="m", description="towards the target")
+    x_rate = Field(unit="m/s", description="its rate")
+    y = Field(unit="m", description="upwards")
+    y_rate = Field(unit="m/s", description="its rate")
+
+
+def without_motion() -> PlaneMotion:
+    """No motion: at the start, at rest."""
+    return PlaneMotion(x=0.0, x_rate=0.0, y=0.0, y_rate=0.0)
 
 
 def propellant(s: HoverShape, vehicle: HoverVehicle, t: float) -> float:
@@ -37,8 +51,8 @@ def thrust_impulse(s: HoverShape, vehicle: HoverVehicle, begin: float, end: floa
     return vehicle.exhaust * log(before / after)
 
 
-def motion(s: HoverShape, vehicle: HoverVehicle, until: float, state: list) -> bool:
-    """state[4] = x (m), x' (m/s), y and y' at the time ``until`` (s); whether any mass is left then."""
+def motion(s: HoverShape, vehicle: HoverVehicle, until: float) -> tuple[PlaneMotion, bool]:
+    """The motion at the time ``until`` (s), and whether any mass is left then."""
     x = 0.0
     vx = 0.0
     y = 0.0
@@ -55,7 +69,7 @@ def motion(s: HoverShape, vehicle: HoverVehicle, until: float, state: list) -> b
             span = end - begin
             flow = thrust / vehicle.exhaust
             if not (mass - flow * span > 0.0 and span < 1e4):
-                return False
+                return without_motion(), False
             parts = int(span / LONGEST) + 1
             span = span / float(parts)
             scale = span * thrust
@@ -76,11 +90,17 @@ def motion(s: HoverShape, vehicle: HoverVehicle, until: float, state: list) -> b
                 begin = begin + span
                 mass = mass - flow * span
             begin = end
-    state[0] = x
-    state[1] = vx
-    state[2] = y - 0.5 * vehicle.gravity * until * until
-    state[3] = vy - vehicle.gravity * until
-    return True
+    drop = 0.5 * vehicle.gravity * until * until
+    return PlaneMotion(x=x, x_rate=vx, y=y - drop, y_rate=vy - vehicle.gravity * until), True
+
+
+def end_motion(p: HoverProgramme, vehicle: HoverVehicle) -> tuple[PlaneMotion, bool]:
+    """The motion at the end of a programme, and whether there is one."""
+    s, room = shape_of(p, vehicle.swing)
+    if not room:
+        return without_motion(), False
+    end, exists = motion(s, vehicle, p.t7)
+    return end, exists
 
 
 def interval(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float) -> tuple[float, float]:

@@ -6,8 +6,9 @@ of the transfer. The path is ours.
 
 import math
 
-from .hover_motion import HoverVehicle, motion
-from .hover_shape import END, LAST_BURN, RETURN, TURN, UNKNOWNS, WIDTH, copy, shape_of
+from ..kernel.records import replace
+from .hover_motion import HoverVehicle, end_motion
+from .hover_shape import HoverProgramme, without_programme
 from .hover_solution import VERTICAL, WITH_FIRST_BURN, WITHOUT_FIRST_BURN, propellant_fraction, solve
 
 NEAR = 0.01  # of the drop, where the first programme aside ends
@@ -21,163 +22,139 @@ LARGEST_PATH = 60  # programmes
 TILT = 0.01  # rad, for the response to small tilts
 
 
-def vertical(y: float, vehicle: HoverVehicle, p: list) -> bool:
-    """p = the programme straight down; whether there is one."""
+def vertical(y: float, vehicle: HoverVehicle) -> tuple[HoverProgramme, bool]:
+    """The programme straight down, and whether there is one."""
+    p = without_programme()
     fall = vehicle.gravity - vehicle.least
     brake = vehicle.full - vehicle.gravity
     scale = fall * (fall + brake)
     if not scale > 0.0:
-        return False
+        return p, False
     time = math.sqrt(-2.0 * y * brake / scale)
-    p[LAST_BURN] = time * fall / brake
-    p[END] = time + p[LAST_BURN]
-    p[RETURN] = p[END]
-    if not p[END] < math.inf:
-        return False
-    is_feasible = solve(VERTICAL, p, vehicle, 0.0, y)
-    return is_feasible
+    last_burn = time * fall / brake
+    end = time + last_burn
+    if not end < math.inf:
+        return p, False
+    p = replace(p, t5=end, last_burn=last_burn, t7=end)
+    p, is_feasible = solve(VERTICAL, p, vehicle, 0.0, y)
+    return p, is_feasible
 
 
-def little_aside(x: float, vehicle: HoverVehicle, p: list) -> bool:
-    """Tilt the vertical programme p so that it goes about x (m) aside; whether it can be done.
+def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> tuple[HoverProgramme, bool]:
+    """The vertical programme p tilted so that it goes about x (m) aside, and whether it can be.
 
     The deviation is about -u (1 - t/t7) + v t/t7, to which the end answers linearly; u and v follow from x, and
     from rest.
     """
-    state = [0.0] * 4
-    ahead = [0.0] * 4
     turn = 2.0 * math.sqrt(TILT / vehicle.swing)
-    end = p[END]
-    p[TURN] = turn
-    s, fine = shape_of(p, vehicle.swing)
-    if fine:
-        fine = motion(s, vehicle, end, state)
-    p[TURN] = 0.0
-    p[RETURN] = end - turn
-    if fine:
-        s, fine = shape_of(p, vehicle.swing)
-    if fine:
-        fine = motion(s, vehicle, end, ahead)
-    p[RETURN] = end
-    if not fine:
-        return False
-    # u state + v ahead = (x, 0), in units of TILT
-    determinant = state[0] * ahead[1] - state[1] * ahead[0]
+    first, exists = end_motion(replace(p, t2=turn), vehicle)
+    if not exists:
+        return p, False
+    last, exists = end_motion(replace(p, t5=p.t7 - turn), vehicle)
+    if not exists:
+        return p, False
+    # u first + v last = (x, 0), in units of TILT
+    determinant = first.x * last.x_rate - first.x_rate * last.x
     if determinant == 0.0:
-        return False
-    u = x * ahead[1] / determinant
-    v = -x * state[1] / determinant
+        return p, False
+    u = x * last.x_rate / determinant
+    v = -x * first.x_rate / determinant
     if not (u >= 0.0 and v >= 0.0):
-        return False
-    p[TURN] = turn * math.sqrt(u)
-    p[RETURN] = end - turn * math.sqrt(v)
-    return True
+        return p, False
+    return replace(p, t2=turn * math.sqrt(u), t5=p.t7 - turn * math.sqrt(v)), True
 
 
-def widen(p: list, factor: float, other: list) -> None:
-    """other = p with both turns longer by a factor."""
-    copy(p, other)
-    other[TURN] = factor * p[TURN]
-    other[RETURN] = p[END] - factor * (p[END] - p[RETURN])
+def widen(p: HoverProgramme, factor: float) -> HoverProgramme:
+    """The programme with both turns longer by a factor."""
+    return replace(p, t2=factor * p.t2, t5=p.t7 - factor * (p.t7 - p.t5))
 
 
-def lengthen(p: list, end: float, other: list) -> None:
-    """other = p with another end (s), what comes last moved with it."""
-    copy(p, other)
-    other[END] = end
-    other[RETURN] = p[RETURN] + end - p[END]
+def lengthen(p: HoverProgramme, end: float) -> HoverProgramme:
+    """The programme with another end (s), what comes last moved with it."""
+    return replace(p, t5=p.t5 + end - p.t7, t7=end)
 
 
-def aside(x: float, y: float, vehicle: HoverVehicle, p: list) -> float:
-    """From the vertical programme p to the one without first burn to x, or as near as there is; returns its x (m)."""
+def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> tuple[HoverProgramme, float]:
+    """From the vertical programme p to the one without first burn to x, or as near as there is; and its x (m)."""
     place = x
     if place > -NEAR * y:
         place = -NEAR * y
-    is_feasible = little_aside(place, vehicle, p)
+    p, is_feasible = little_aside(place, vehicle, p)
     if is_feasible:
-        is_feasible = solve(WITHOUT_FIRST_BURN, p, vehicle, place, y)
+        p, is_feasible = solve(WITHOUT_FIRST_BURN, p, vehicle, place, y)
     if not is_feasible:
-        return 0.0
+        return p, 0.0
     growth = GROWTH
-    trial = [0.0] * UNKNOWNS
     for _ in range(LARGEST_PATH):
         if place < x and growth > LEAST_GROWTH:
             goal = growth * place
             if goal > x:
                 goal = x
-            widen(p, math.sqrt(goal / place), trial)
-            is_feasible = solve(WITHOUT_FIRST_BURN, trial, vehicle, goal, y)
+            trial, is_feasible = solve(WITHOUT_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
             if is_feasible:
-                copy(trial, p)
+                p = trial
                 place = goal
             else:
                 growth = 0.5 * (1.0 + growth)
-    return place
+    return p, place
 
 
-def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: list, other: list) -> float:
-    """other = the programme with first burn that ends at ``end`` (s), from p near by; its propellant, infinite if none.
+def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> tuple[HoverProgramme, float]:
+    """The programme with first burn that ends at ``end`` (s), from p near by; its propellant, infinite if none.
 
     Propellant is over the mass at the start.
     """
-    lengthen(p, end, other)
-    is_feasible = solve(WITH_FIRST_BURN, other, vehicle, x, y)
+    other, is_feasible = solve(WITH_FIRST_BURN, lengthen(p, end), vehicle, x, y)
     if not is_feasible:
-        return math.inf
-    return propellant_fraction(other, vehicle)
+        return other, math.inf
+    return other, propellant_fraction(other, vehicle)
 
 
-def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: list) -> bool:
-    """Change p to the programme with first burn that ends at ``end`` (s), in steps; whether it is reached."""
-    trial = [0.0] * UNKNOWNS
-    part = LARGEST_STRETCH * p[END]
+def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> tuple[HoverProgramme, bool]:
+    """From p in steps to the programme with first burn that ends at ``end`` (s), or the last; whether it is reached."""
+    part = LARGEST_STRETCH * p.t7
     for _ in range(LARGEST_PATH):
-        left = end - p[END]
-        if left != 0.0 and part > LEAST_STRETCH * p[END]:
+        left = end - p.t7
+        if left != 0.0 and part > LEAST_STRETCH * p.t7:
             ahead = end
             if abs(left) > part:
-                ahead = p[END] + math.copysign(part, left)
-            value = ending(ahead, x, y, vehicle, p, trial)
+                ahead = p.t7 + math.copysign(part, left)
+            trial, value = ending(ahead, x, y, vehicle, p)
             if value < math.inf:
-                copy(trial, p)
+                p = trial
             else:
                 part = 0.5 * part
-    return p[END] == end
+    return p, p.t7 == end
 
 
-def further(reached: float, x: float, y: float, vehicle: HoverVehicle, p: list) -> bool:
+def further(
+    reached: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme
+) -> tuple[HoverProgramme, bool]:
     """From the programme p without first burn to x = reached (m), to one with it to x; whether there is one.
 
     A little nearer, where a first burn begins, then longer, then farther.
     """
-    trial = [0.0] * UNKNOWNS
     place = 0.9 * reached
-    widen(p, math.sqrt(0.9), trial)
-    is_feasible = solve(WITHOUT_FIRST_BURN, trial, vehicle, place, y)
+    p, is_feasible = solve(WITHOUT_FIRST_BURN, widen(p, math.sqrt(0.9)), vehicle, place, y)
     if not is_feasible:
-        return False
-    copy(trial, p)
-    p[WIDTH] = 0.1
-    end = p[END]
-    lengthen(p, 1.01 * end, trial)
-    is_feasible = solve(WITH_FIRST_BURN, trial, vehicle, place, y)
+        return p, False
+    end = p.t7
+    p, is_feasible = solve(WITH_FIRST_BURN, lengthen(replace(p, width=0.1), 1.01 * end), vehicle, place, y)
     if not is_feasible:
-        return False
-    copy(trial, p)
-    longer = stretch(ROOM * end, place, y, vehicle, p)
+        return p, False
+    p, _ = stretch(ROOM * end, place, y, vehicle, p)
     growth = GROWTH_WITH_FIRST_BURN
     for _ in range(LARGEST_PATH):
         if place < x and growth > LEAST_GROWTH:
             goal = growth * place
             if goal > x:
                 goal = x
-            widen(p, math.sqrt(goal / place), trial)
-            is_feasible = solve(WITH_FIRST_BURN, trial, vehicle, goal, y)
+            trial, is_feasible = solve(WITH_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
             if is_feasible:
-                copy(trial, p)
+                p = trial
                 place = goal
             else:
-                longer = stretch(1.04 * p[END], place, y, vehicle, p)
+                p, longer = stretch(1.04 * p.t7, place, y, vehicle, p)
                 if not longer:
                     growth = 0.5 * (1.0 + growth)
-    return place >= x
+    return p, place >= x

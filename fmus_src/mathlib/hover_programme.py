@@ -6,9 +6,10 @@ plane of the transfer. Source: Huang 2017; the path of the search is ours.
 
 import math
 
+from ..kernel.records import replace
 from .hover_motion import HoverVehicle
 from .hover_path import aside, ending, further, stretch, vertical
-from .hover_shape import END, UNKNOWNS, WIDTH, clear, copy
+from .hover_shape import HoverProgramme, without_programme
 from .hover_solution import NONE, VERTICAL, WITH_FIRST_BURN, WITHOUT_FIRST_BURN, propellant_fraction, solve
 
 STRAIGHT = 1.0  # m; nearer to the vertical the vertical programme is flown
@@ -18,58 +19,51 @@ TIME_SETTLED = 1e-3  # s, of the best end
 LARGEST_PATH = 60  # programmes
 
 
-def programme(x: float, y: float, vehicle: HoverVehicle, p: list) -> int:
-    """p[5] = the programme to (x, y) on least propellant; returns its kind, NONE if none was found."""
-    clear(p)
+def programme(x: float, y: float, vehicle: HoverVehicle) -> tuple[int, HoverProgramme]:
+    """Kind and programme to (x, y) on least propellant; NONE if none was found."""
+    p = without_programme()
     is_feasible = possible(x, y, vehicle)
     if is_feasible:
-        is_feasible = vertical(y, vehicle, p)
+        p, is_feasible = vertical(y, vehicle)
     if not is_feasible:
-        clear(p)
-        return NONE
+        return NONE, without_programme()
     if x < STRAIGHT:
-        return VERTICAL
-    trial = [0.0] * UNKNOWNS
-    reached = aside(x, y, vehicle, p)
+        return VERTICAL, p
+    p, reached = aside(x, y, vehicle, p)
     if reached >= x:
-        copy(p, trial)
-        trial[END] = p[END] + 0.2
-        trial[WIDTH] = FIRST_WIDTH
-        is_feasible = solve(WITH_FIRST_BURN, trial, vehicle, x, y)
+        trial = replace(p, width=FIRST_WIDTH, t7=p.t7 + 0.2)
+        trial, is_feasible = solve(WITH_FIRST_BURN, trial, vehicle, x, y)
         if is_feasible:
             gain = propellant_fraction(p, vehicle) - propellant_fraction(trial, vehicle)
             is_feasible = gain > 0.0
         if not is_feasible:
-            return WITHOUT_FIRST_BURN
-        copy(trial, p)
+            return WITHOUT_FIRST_BURN, p
+        p = trial
     else:
         is_feasible = reached > 0.0
         if is_feasible:
-            is_feasible = further(reached, x, y, vehicle, p)
+            p, is_feasible = further(reached, x, y, vehicle, p)
         if not is_feasible:
-            clear(p)
-            return NONE
-    least_propellant(x, y, vehicle, p)
-    return WITH_FIRST_BURN
+            return NONE, without_programme()
+    return WITH_FIRST_BURN, least_propellant(x, y, vehicle, p)
 
 
-def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVehicle, p: list) -> int:
-    """p[5] = the programme to (x, y) that ends after a given time (s); returns its kind, NONE if none was found.
+def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVehicle) -> tuple[int, HoverProgramme]:
+    """Kind and programme to (x, y) that ends after a given time (s); NONE if none was found.
 
     It has a first burn, but if it is the one without that ends just then.
     """
-    kind = programme(x, y, vehicle, p)
-    if kind == NONE or p[END] == duration:
-        return kind
+    kind, p = programme(x, y, vehicle)
+    if kind == NONE or p.t7 == duration:
+        return kind, p
     is_feasible = kind != VERTICAL and math.isfinite(duration)
     if is_feasible and kind == WITHOUT_FIRST_BURN:
-        p[WIDTH] = FIRST_WIDTH
+        p = replace(p, width=FIRST_WIDTH)
     if is_feasible:
-        is_feasible = stretch(duration, x, y, vehicle, p)
+        p, is_feasible = stretch(duration, x, y, vehicle, p)
     if not is_feasible:
-        clear(p)
-        return NONE
-    return WITH_FIRST_BURN
+        return NONE, without_programme()
+    return WITH_FIRST_BURN, p
 
 
 def possible(x: float, y: float, vehicle: HoverVehicle) -> bool:
@@ -87,48 +81,49 @@ def is_usable(value: float) -> bool:
     return value > 0.0 and math.isfinite(value)
 
 
-def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: list) -> None:
-    """Change the programme p with first burn to the one whose end takes least propellant: golden section."""
-    low, high = descend(1.0, x, y, vehicle, p)
-    if low == p[END]:
-        behind, low = descend(-1.0, x, y, vehicle, p)
-        if behind > p[END]:
+def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverProgramme:
+    """From the programme p with first burn to the one whose end takes least propellant: golden section."""
+    p, low, high = descend(1.0, x, y, vehicle, p)
+    if low == p.t7:
+        p, behind, low = descend(-1.0, x, y, vehicle, p)
+        if behind > p.t7:
             high = behind
-    trial = [0.0] * UNKNOWNS
     minimum = propellant_fraction(p, vehicle)
     for _ in range(LARGEST_PATH):
         if high - low > TIME_SETTLED:
-            end = p[END] + (1.0 - SECTION) * (high - p[END])
-            if p[END] - low > high - p[END]:
-                end = p[END] - (1.0 - SECTION) * (p[END] - low)
-            value = ending(end, x, y, vehicle, p, trial)
+            end = p.t7 + (1.0 - SECTION) * (high - p.t7)
+            if p.t7 - low > high - p.t7:
+                end = p.t7 - (1.0 - SECTION) * (p.t7 - low)
+            trial, value = ending(end, x, y, vehicle, p)
             outside = end  # of the new bracket
             if value < minimum:
-                outside = p[END]
+                outside = p.t7
                 minimum = value
-                copy(trial, p)
-            if outside > p[END]:
+                p = trial
+            if outside > p.t7:
                 high = outside
             else:
                 low = outside
+    return p
 
 
-def descend(way: float, x: float, y: float, vehicle: HoverVehicle, p: list) -> tuple[float, float]:
+def descend(
+    way: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme
+) -> tuple[HoverProgramme, float, float]:
     """Move the end of p by way (s), then by more and more, as long as it takes less propellant.
 
-    Returns the ends (s) before the last one, which is that of p where there is none, and after it.
+    Returns the last programme, and the ends (s) before its own, which is that of p where there is none, and after it.
     """
-    trial = [0.0] * UNKNOWNS
     minimum = propellant_fraction(p, vehicle)
-    before = p[END]
-    beyond = p[END] + way
+    before = p.t7
+    beyond = p.t7 + way
     for _ in range(LARGEST_PATH):
-        value = ending(beyond, x, y, vehicle, p, trial)
+        trial, value = ending(beyond, x, y, vehicle, p)
         if not value < minimum:
-            return before, beyond
+            return p, before, beyond
         minimum = value
-        before = p[END]
-        copy(trial, p)
+        before = p.t7
+        p = trial
         way = 1.6 * way
-        beyond = p[END] + way
-    return before, beyond
+        beyond = p.t7 + way
+    return p, before, beyond

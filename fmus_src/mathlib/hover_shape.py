@@ -4,9 +4,7 @@ A lander turns from the vertical towards its target, over to the other side to b
 acceleration but +a, -a and 0; the engine gives full thrust once about the first turning point and once at the end,
 its least in between. The deviation is the angle of thrust from the vertical, positive against the way to go.
 
-A programme is a list of five times (s) with the indices TURN, RETURN, WIDTH, LAST_BURN and END: t2, where the
-deviation is least; t5, where it is largest; w = t1 sqrt(2 (1 - k)), half the first burn where that lies about t2
-symmetrically, 0: no first burn; tp, the last burn's length; t7, the end. `shape_of` makes its `HoverShape` of it.
+`HoverProgramme` has the five times that determine all of it, `shape_of` computes its `HoverShape`.
 Source: Huang 2017, with the pieces of its equations where they join.
 """
 
@@ -14,14 +12,17 @@ import math
 
 from ..kernel.records import Field, Record
 
-TURN = 0
-RETURN = 1
-WIDTH = 2
-LAST_BURN = 3
-END = 4
-UNKNOWNS = 5
-
 STEEPEST = 0.5 * math.pi  # rad; largest deviation, beyond which thrust would push down
+
+
+class HoverProgramme(Record):
+    """The times (s) that determine a programme, named as in the paper. A change of a programme is one as well."""
+
+    t2 = Field(unit="s", description="where the deviation is least")
+    t5 = Field(unit="s", description="where the deviation is largest")
+    width = Field(unit="s", description="w = t1 sqrt(2 (1 - k)), half a first burn symmetric about t2; 0: none")
+    last_burn = Field(unit="s", description="tp, duration of the last burn")
+    t7 = Field(unit="s", description="the end")
 
 
 class HoverShape(Record):
@@ -50,16 +51,9 @@ class PitchSegment(Record):
     half_acceleration = Field(unit="rad/s2", description="half its acceleration")
 
 
-def clear(p: list) -> None:
-    """p = no programme."""
-    for i in range(UNKNOWNS):
-        p[i] = 0.0
-
-
-def copy(p: list, other: list) -> None:
-    """other = p, programmes."""
-    for i in range(UNKNOWNS):
-        other[i] = p[i]
+def without_programme() -> HoverProgramme:
+    """No programme: all its times are 0."""
+    return HoverProgramme(t2=0.0, t5=0.0, width=0.0, last_burn=0.0, t7=0.0)
 
 
 def without_shape() -> HoverShape:
@@ -80,20 +74,20 @@ def without_shape() -> HoverShape:
     )
 
 
-def shape_of(p: list, acceleration: float) -> tuple[HoverShape, bool]:
+def shape_of(p: HoverProgramme, acceleration: float) -> tuple[HoverShape, bool]:
     """The shape of the programme p at an angular acceleration (rad/s2, > 0), and whether there is one.
 
     t3 and t4 bound the stretch of constant rate, d after t2 and before t5, that joins both turns:
     d^2 - (t5 - t2) d + t1^2 + (t7 - t6)^2 = 0. There is none without room for that, where thrust would point down,
     and where the burns overlap.
     """
-    first = 0.5 * p[TURN]
-    last = 0.5 * (p[END] - p[RETURN])
-    between = p[RETURN] - p[TURN]
-    width = p[WIDTH]
+    first = 0.5 * p.t2
+    last = 0.5 * (p.t7 - p.t5)
+    between = p.t5 - p.t2
+    width = p.width
     room = between * between - 4.0 * (first * first + last * last)
     turns = first >= 0.0 and last >= 0.0 and between > 0.0 and room >= 0.0 and acceleration > 0.0
-    if not (turns and width >= 0.0 and p[LAST_BURN] >= 0.0 and math.isfinite(p[END]) and room < math.inf):
+    if not (turns and width >= 0.0 and p.last_burn >= 0.0 and math.isfinite(p.t7) and room < math.inf):
         return without_shape(), False
     if acceleration * first * first > STEEPEST or acceleration * last * last > STEEPEST:
         return without_shape(), False
@@ -101,25 +95,25 @@ def shape_of(p: list, acceleration: float) -> tuple[HoverShape, bool]:
     fraction = 2.0 * first * first - width * width  # 2 k t1^2
     if not fraction >= 0.0:
         return without_shape(), False
-    begin = p[TURN] - width
+    begin = p.t2 - width
     if width > first:
         begin = math.sqrt(fraction)
-    end = p[TURN] + width
+    end = p.t2 + width
     if width > d:
         if not d > 0.0:
             return without_shape(), False
-        end = p[TURN] + (width * width + d * d) / (2.0 * d)
+        end = p.t2 + (width * width + d * d) / (2.0 * d)
     s = HoverShape(
         t1=first,
-        t2=p[TURN],
-        t3=p[TURN] + d,
-        t4=p[RETURN] - d,
-        t5=p[RETURN],
-        t6=p[RETURN] + last,
-        t7=p[END],
+        t2=p.t2,
+        t3=p.t2 + d,
+        t4=p.t5 - d,
+        t5=p.t5,
+        t6=p.t5 + last,
+        t7=p.t7,
         first_burn_begin=begin,
         first_burn_end=end,
-        last_burn_begin=p[END] - p[LAST_BURN],
+        last_burn_begin=p.t7 - p.last_burn,
         d=d,
         last=last,
     )

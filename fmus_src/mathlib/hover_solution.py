@@ -5,9 +5,10 @@ Programmes, shapes and vehicles as in `hover_shape` and `hover_motion`.
 
 import math
 
-from .hover_motion import HoverVehicle, motion, propellant
-from .hover_shape import END, LAST_BURN, RETURN, TURN, UNKNOWNS, WIDTH, copy, shape_of
+from .hover_motion import HoverVehicle, end_motion, propellant
+from .hover_shape import HoverProgramme, shape_of
 from .matrices import inverse
+from .vectors import Vector4, vector
 
 NONE = 0
 VERTICAL = 1
@@ -20,71 +21,60 @@ LEAST_PART = 0.1  # of a step of Newton's
 DIFFERENCE = 1e-6  # s
 
 
-def propellant_fraction(p: list, vehicle: HoverVehicle) -> float:
+def propellant_fraction(p: HoverProgramme, vehicle: HoverVehicle) -> float:
     """Propellant of the programme p over the mass at its start; infinite without room for its shape."""
     s, room = shape_of(p, vehicle.swing)
     if not room:
         return math.inf
-    return propellant(s, vehicle, p[END])
+    return propellant(s, vehicle, p.t7)
 
 
-def residual(p: list, vehicle: HoverVehicle, x: float, y: float, r: list) -> float:
-    """r[4] = what is missing at the end: (y/10, y', x/10, x'); returns its length, infinite without a motion."""
-    s, room = shape_of(p, vehicle.swing)
-    if not room:
-        return math.inf
-    state = [0.0] * 4
-    moved = motion(s, vehicle, p[END], state)
+def residual(p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> tuple[Vector4, float]:
+    """Errors at the end, (y/10, y', x/10, x'), and their length, which is infinite without a motion."""
+    end, moved = end_motion(p, vehicle)
     if not moved:
-        return math.inf
-    r[0] = 0.1 * (state[2] - y)
-    r[1] = state[3]
-    r[2] = 0.1 * (state[0] - x)
-    r[3] = state[1]
-    size = 0.0
-    for i in range(4):
-        size = size + r[i] * r[i]
+        return vector(0.0, 0.0, 0.0, 0.0), math.inf
+    r = vector(0.1 * (end.y - y), end.y_rate, 0.1 * (end.x - x), end.x_rate)
+    size = r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]
     if not math.isfinite(size):
-        return math.inf
-    return math.sqrt(size)
+        return r, math.inf
+    return r, math.sqrt(size)
 
 
-def free_times(kind: int, free: list) -> int:
-    """free[4] = indices of the times that Newton's method changes; their number, which is that of the conditions."""
-    free[0] = LAST_BURN
-    free[1] = END
+def count_free_times(kind: int) -> int:
+    """How many times of a programme Newton's method changes: as many as there are conditions."""
     if kind == VERTICAL:
         return 2
-    if kind == WITH_FIRST_BURN:
-        free[1] = WIDTH
-    free[2] = TURN
-    free[3] = RETURN
     return 4
 
 
-def move(kind: int, p: list, i: int, time: float) -> None:
-    """Set a time of p (s). The vertical programme never turns, so that its return is at its end."""
-    p[i] = time
+def change_of(kind: int, free: Vector4) -> HoverProgramme:
+    """The change of a programme whose free times (s) change by ``free``.
+
+    Free are tp, then w (WITH_FIRST_BURN) or t7, then t2 and t5. The vertical programme never turns: its t5 is t7.
+    """
     if kind == VERTICAL:
-        p[RETURN] = p[END]
+        return HoverProgramme(t2=0.0, t5=free[1], width=0.0, last_burn=free[0], t7=free[1])
+    if kind == WITH_FIRST_BURN:
+        return HoverProgramme(t2=free[2], t5=free[3], width=free[1], last_burn=free[0], t7=0.0)
+    return HoverProgramme(t2=free[2], t5=free[3], width=0.0, last_burn=free[0], t7=free[1])
 
 
-def sensitivities(kind: int, p: list, vehicle: HoverVehicle, x: float, y: float, r: list, inverted: list) -> bool:
-    """inverted[16] = how the free times answer to the residual, by differences from r at p; whether they do."""
-    free = [0] * 4
-    n = free_times(kind, free)
+def invert_sensitivities(
+    kind: int, p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float, r: Vector4, inverted: list
+) -> bool:
+    """inverted[16] = derivatives of the free times by the residual, from differences to r at p; whether there are."""
+    n = count_free_times(kind)
     derivatives = [0.0] * 16
-    ahead = [0.0] * 4
     for j in range(n):
-        retained = p[free[j]]
+        free = [0.0] * 4
         change = DIFFERENCE
-        move(kind, p, free[j], retained + change)
-        size = residual(p, vehicle, x, y, ahead)
+        free[j] = change
+        ahead, size = residual(p + change_of(kind, vector(*free)), vehicle, x, y)
         if not size < math.inf:
             change = -DIFFERENCE
-            move(kind, p, free[j], retained + change)
-            size = residual(p, vehicle, x, y, ahead)
-        move(kind, p, free[j], retained)
+            free[j] = change
+            ahead, size = residual(p + change_of(kind, vector(*free)), vehicle, x, y)
         if not size < math.inf:
             return False
         for i in range(n):
@@ -93,66 +83,49 @@ def sensitivities(kind: int, p: list, vehicle: HoverVehicle, x: float, y: float,
     return is_regular
 
 
-def advance(
-    kind: int, p: list, vehicle: HoverVehicle, x: float, y: float, r: list, inverted: list, part: float
-) -> float:
-    """Move p by a part of Newton's step from the residual r; returns the new residual's length, and r itself."""
-    free = [0] * 4
-    n = free_times(kind, free)
+def newton_step(kind: int, inverted: list, r: Vector4) -> HoverProgramme:
+    """The change of a programme that Newton's method makes where its residual is r."""
+    n = count_free_times(kind)
+    free = [0.0] * 4
     for i in range(n):
-        step = 0.0
         for j in range(n):
-            step = step - inverted[n * i + j] * r[j]
-        move(kind, p, free[i], p[free[i]] + part * step)
-    size = residual(p, vehicle, x, y, r)
-    return size
+            free[i] = free[i] - inverted[n * i + j] * r[j]
+    return change_of(kind, vector(*free))
 
 
-def solve(kind: int, p: list, vehicle: HoverVehicle, x: float, y: float) -> bool:
-    """Change the free times of p until it ends at (x, y) (m) and at rest; whether it does. p is kept where not.
+def solve(kind: int, start: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> tuple[HoverProgramme, bool]:
+    """The programme near ``start`` that ends at (x, y) (m) and at rest, and whether there is one; else the start.
 
     Steps are halved until the residual falls; while it falls to a tenth, the sensitivities are kept. Free are t2, t5
     (not VERTICAL), w (WITH_FIRST_BURN), tp, t7 (not WITH_FIRST_BURN).
     """
-    retained = [0.0] * UNKNOWNS
-    copy(p, retained)
-    before = [0.0] * UNKNOWNS
+    p = start
     inverted = [0.0] * 16
-    r = [0.0] * 4
-    last = [0.0] * 4
     known = False
-    size = residual(p, vehicle, x, y, r)
+    r, size = residual(p, vehicle, x, y)
+    if not size < math.inf:
+        return start, False
     for _ in range(ITERATIONS):
-        if not size < math.inf:
-            copy(retained, p)
-            return False
         if size <= SETTLED:
-            return True
+            return p, True
         fresh = not known
         if fresh:
-            known = sensitivities(kind, p, vehicle, x, y, r, inverted)
+            known = invert_sensitivities(kind, p, vehicle, x, y, r, inverted)
             if not known:
-                copy(retained, p)
-                return False
-        copy(p, before)
-        for i in range(4):
-            last[i] = r[i]
-        ahead = advance(kind, p, vehicle, x, y, r, inverted, 1.0)
+                return start, False
+        step = newton_step(kind, inverted, r)
+        ahead = p + step
+        r_ahead, size_ahead = residual(ahead, vehicle, x, y)
         part = 1.0
-        while not ahead < size and fresh and part > LEAST_PART:
+        while not size_ahead < size and fresh and part > LEAST_PART:
             part = 0.5 * part
-            copy(before, p)
-            for i in range(4):
-                r[i] = last[i]
-            ahead = advance(kind, p, vehicle, x, y, r, inverted, part)
-        known = ahead < 0.1 * size
-        if ahead < size:
-            size = ahead
+            ahead = p + part * step
+            r_ahead, size_ahead = residual(ahead, vehicle, x, y)
+        known = size_ahead < 0.1 * size
+        if size_ahead < size:
+            p = ahead
+            r = r_ahead
+            size = size_ahead
         elif fresh:
-            size = math.inf
-        else:
-            copy(before, p)
-            for i in range(4):
-                r[i] = last[i]
-    copy(retained, p)
-    return False
+            return start, False
+    return start, False

@@ -15,9 +15,9 @@ from scipy.integrate import quad
 from scipy.optimize import fsolve
 
 from perilune.fmus_src.kernel.records import replace
-from perilune.fmus_src.mathlib.hover_motion import HoverVehicle, motion, propellant, thrust_impulse
+from perilune.fmus_src.mathlib.hover_motion import HoverVehicle, end_motion, motion, propellant, thrust_impulse
 from perilune.fmus_src.mathlib.hover_programme import programme, programme_of_duration
-from perilune.fmus_src.mathlib.hover_shape import UNKNOWNS, full_thrust, pitch, shape_of
+from perilune.fmus_src.mathlib.hover_shape import HoverProgramme, full_thrust, pitch, shape_of, without_programme
 from perilune.fmus_src.mathlib.hover_solution import (
     NONE,
     VERTICAL,
@@ -36,38 +36,37 @@ MARGINS = HoverVehicle.of_elements([0.9 * 0.8 * EARTH, 0.1 * 0.8 * EARTH, 300.0 
 
 def planned(x, y=DROP, vehicle=PAPER, duration=None):
     """Kind, programme, propellant fraction."""
-    p = [0.0] * UNKNOWNS
-    kind = programme(x, y, vehicle, p) if duration is None else programme_of_duration(x, y, duration, vehicle, p)
+    kind, p = programme(x, y, vehicle) if duration is None else programme_of_duration(x, y, duration, vehicle)
     return kind, p, propellant_fraction(p, vehicle) if kind else None
 
 
 def test_published_case_without_minimising():
     kind, p, mu = planned(1600.0, duration=78.0)
     assert kind == WITH_FIRST_BURN
-    assert [p[0], p[1], p[3]] == pytest.approx([15.0086, 64.7012, 10.9309], abs=0.02)
-    assert p[2] == pytest.approx(1.6991, abs=0.001)
-    assert share_of(p) == pytest.approx(0.9744, abs=0.001)
+    assert [p.t2, p.t5, p.last_burn] == pytest.approx([15.0086, 64.7012, 10.9309], abs=0.02)
+    assert p.width == pytest.approx(1.6991, abs=0.001)
+    assert share_of(p.elements()) == pytest.approx(0.9744, abs=0.001)
     assert mu == pytest.approx(0.04953, abs=2e-5)
     # the paper's own, its t5 mended
-    assert [p[0], p[1], p[3]] == pytest.approx([15.0444, 64.7528, 10.9621], abs=0.06)
-    assert share_of(p) == pytest.approx(0.9748, abs=0.001)
+    assert [p.t2, p.t5, p.last_burn] == pytest.approx([15.0444, 64.7528, 10.9621], abs=0.06)
+    assert share_of(p.elements()) == pytest.approx(0.9748, abs=0.001)
     assert mu == pytest.approx(0.0494, abs=2e-4)
 
 
 def test_best_duration():
     kind, p, mu = planned(1600.0)
     assert kind == WITH_FIRST_BURN
-    assert p == pytest.approx([15.2696, 63.6422, 1.6968, 10.9894, 77.157], abs=0.01)
+    assert p.elements() == pytest.approx([15.2696, 63.6422, 1.6968, 10.9894, 77.157], abs=0.01)
     assert mu == pytest.approx(0.049514, abs=5e-6)
     for other in (-1.0, -0.1, 0.1, 1.0):
-        assert planned(1600.0, duration=p[4] + other)[2] > mu
+        assert planned(1600.0, duration=p.t7 + other)[2] > mu
 
 
 def test_published_pitch():
     _, p, _ = planned(1600.0)
     s, room = shape_of(p, PAPER.swing)
     assert room
-    angles = [90.0 + math.degrees(pitch(s, PAPER.swing, t)[0]) for t in np.linspace(0.0, p[4], 4001)]
+    angles = [90.0 + math.degrees(pitch(s, PAPER.swing, t)[0]) for t in np.linspace(0.0, p.t7, 4001)]
     assert min(angles) == pytest.approx(31.7, abs=0.05)
     assert max(angles) == pytest.approx(135.7, abs=0.05)
     assert math.degrees(pitch(s, PAPER.swing, 40.0)[1]) == pytest.approx(2.254, abs=5e-4)
@@ -76,7 +75,7 @@ def test_published_pitch():
 def test_control_margins():
     kind, p, mu = planned(1600.0, vehicle=MARGINS)
     assert kind == WITH_FIRST_BURN
-    assert p == pytest.approx([18.430, 64.428, 1.5178, 11.309, 82.186], abs=0.005)
+    assert p.elements() == pytest.approx([18.430, 64.428, 1.5178, 11.309, 82.186], abs=0.005)
     assert mu == pytest.approx(0.052518, abs=1e-6)
 
 
@@ -85,7 +84,7 @@ def test_control_margins():
 )
 def test_propellant_over_duration(duration, fraction):
     kind, p, mu = planned(1600.0, duration=duration)
-    assert (kind, p[4]) == (WITH_FIRST_BURN, duration)
+    assert (kind, p.t7) == (WITH_FIRST_BURN, duration)
     assert mu == pytest.approx(fraction, abs=6e-6)
 
 
@@ -121,22 +120,21 @@ def test_sideways_costs_what_the_paper_says_and_grows_linearly():
 
 
 def end_of(p, vehicle=PAPER):
-    state = [0.0] * 4
-    s, room = shape_of(p, vehicle.swing)
-    assert room
-    assert motion(s, vehicle, p[4], state)
-    return state
+    end, exists = end_motion(p, vehicle)
+    assert exists
+    return end.elements()
 
 
 def test_wrong_digit_of_the_paper():
     width = 0.5 * 15.0444 * math.sqrt(2.0 * (1.0 - 0.9748))
-    printed = end_of([15.0444, 63.7528, width, 10.9621, 78.0])
-    mended = end_of([15.0444, 64.7528, width, 10.9621, 78.0])
+    corrected = HoverProgramme(t2=15.0444, t5=64.7528, width=width, last_burn=10.9621, t7=78.0)
+    printed = end_of(replace(corrected, t5=63.7528))
+    mended = end_of(corrected)
     assert abs(printed[0] - 1600.0) == pytest.approx(64.0, abs=1.0)
     assert abs(printed[2] - DROP) == pytest.approx(26.0, abs=1.0)
     assert abs(printed[1]) == pytest.approx(2.8, abs=0.05)
     assert DROP - mended[2] == pytest.approx(11.9, abs=0.1)
-    assert propellant_fraction([15.0444, 64.7528, width, 10.9621, 78.0], PAPER) == pytest.approx(0.04956, abs=5e-6)
+    assert propellant_fraction(corrected, PAPER) == pytest.approx(0.04956, abs=5e-6)
 
 
 @pytest.mark.parametrize(
@@ -145,7 +143,7 @@ def test_wrong_digit_of_the_paper():
 )
 def test_full_equations_end_where_they_should(x, vehicle, duration):
     _, p, mu = planned(x, vehicle=vehicle, duration=duration)
-    end = flown(p, vehicle)
+    end = flown(p.elements(), vehicle)
     assert end[:4] == pytest.approx([x, 0.0, DROP, 0.0], abs=1e-6)
     assert end[4] == pytest.approx(mu, abs=1e-9)
     assert end[5:] == pytest.approx([0.5 * math.pi, 0.0], abs=1e-9)
@@ -155,25 +153,25 @@ def test_low_drops_with_far_sides_stay_above_the_target():
     for x, y in ((600.0, -300.0), (1600.0, -500.0), (50.0, -100.0)):
         kind, p, _ = planned(x, y)
         assert kind == WITH_FIRST_BURN
-        assert flown(p, PAPER)[:4] == pytest.approx([x, 0.0, y, 0.0], abs=1e-6)
-        state = [0.0] * 4
+        assert flown(p.elements(), PAPER)[:4] == pytest.approx([x, 0.0, y, 0.0], abs=1e-6)
         s, room = shape_of(p, PAPER.swing)
         assert room
-        for t in np.linspace(0.0, p[4], 101):
-            assert motion(s, PAPER, t, state)
-            assert state[2] > y - 1e-6
+        for t in np.linspace(0.0, p.t7, 101):
+            state, exists = motion(s, PAPER, t)
+            assert exists
+            assert state.y > y - 1e-6
 
 
 @pytest.mark.parametrize("t", [5.0, 15.0, 20.0, 62.0, 70.0, 77.0])
 def test_motion_pitch_and_propellant_on_the_way(t):
     _, p, _ = planned(1600.0)
-    state = [0.0] * 4
     s, room = shape_of(p, PAPER.swing)
     assert room
-    assert motion(s, PAPER, t, state)
+    state, exists = motion(s, PAPER, t)
+    assert exists
     deviation, rate = pitch(s, PAPER.swing, t)
-    actual = [*state, propellant(s, PAPER, t), 0.5 * math.pi + deviation, rate]
-    assert actual == pytest.approx(flown(p, PAPER, until=t), abs=1e-7)
+    actual = [*state.elements(), propellant(s, PAPER, t), 0.5 * math.pi + deviation, rate]
+    assert actual == pytest.approx(flown(p.elements(), PAPER, until=t), abs=1e-7)
 
 
 def test_impulse_is_the_integral_of_thrust_over_mass():
@@ -185,7 +183,7 @@ def test_impulse_is_the_integral_of_thrust_over_mass():
         return (PAPER.full if full_thrust(s, t) else PAPER.least) / (1.0 - propellant(s, PAPER, t))
 
     switches = (s.first_burn_begin, s.first_burn_end, s.last_burn_begin)
-    for begin, end in ((0.0, 10.0), (13.0, 14.0), (14.0, 18.0), (60.0, 70.0), (10.0, p[4])):
+    for begin, end in ((0.0, 10.0), (13.0, 14.0), (14.0, 18.0), (60.0, 70.0), (10.0, p.t7)):
         truth = quad(
             push,
             begin,
@@ -214,7 +212,7 @@ def test_straight_down_is_the_rocket_equation():
     coast, burn = fsolve(missing, [60.0, 10.0], xtol=1e-13)
     kind, p, mu = planned(0.3)  # so near that it is flown straight down
     assert kind == VERTICAL
-    assert p == pytest.approx([0.0, coast + burn, 0.0, burn, coast + burn], abs=1e-7)
+    assert p.elements() == pytest.approx([0.0, coast + burn, 0.0, burn, coast + burn], abs=1e-7)
     assert mu == pytest.approx(q * coast + r * burn, abs=1e-10)
 
 
@@ -231,7 +229,7 @@ def test_random_vehicles_and_targets():
         assert kind != NONE, (x, y, vehicle)
         assert 0.0 < mu < 1.0
         assert end_of(p, vehicle) == pytest.approx([x if x >= 1.0 else 0.0, 0.0, y, 0.0], abs=1e-7)
-        assert kind != WITH_FIRST_BURN or 0.0 < p[2] <= p[0] / math.sqrt(2.0)
+        assert kind != WITH_FIRST_BURN or 0.0 < p.width <= p.t2 / math.sqrt(2.0)
 
 
 @pytest.mark.parametrize(
@@ -252,7 +250,7 @@ def test_random_vehicles_and_targets():
 )
 def test_no_programme(x, y, change):
     vehicle = replace(PAPER, **change)
-    assert planned(x, y, vehicle)[:2] == (NONE, [0.0] * UNKNOWNS)
+    assert planned(x, y, vehicle)[:2] == (NONE, without_programme())
 
 
 def test_no_programme_of_that_duration():
@@ -266,7 +264,7 @@ def test_far_sides_never_thrust_downwards(x, y):
     vehicle = MARGINS
     kind, p, _ = planned(x, y, vehicle)
     if kind == WITH_FIRST_BURN:
-        angles = [flown(p, vehicle, until=t)[5] for t in np.linspace(0.1, 0.999, 25) * p[4]]
+        angles = [flown(p.elements(), vehicle, until=t)[5] for t in np.linspace(0.1, 0.999, 25) * p.t7]
         assert min(angles) >= -1e-9
         assert max(angles) <= math.pi + 1e-9
     assert kind in (WITH_FIRST_BURN, NONE)
@@ -275,6 +273,6 @@ def test_far_sides_never_thrust_downwards(x, y):
 def test_longer_than_the_one_without_first_burn():
     kind, p, mu = planned(400.0, duration=70.0)
     assert kind == WITH_FIRST_BURN
-    assert p[4] == 70.0
+    assert p.t7 == 70.0
     assert mu > planned(400.0)[2]
     assert end_of(p) == pytest.approx([400.0, 0.0, DROP, 0.0], abs=1e-7)

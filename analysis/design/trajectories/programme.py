@@ -9,7 +9,7 @@ import numpy as np
 
 from ....fmus_src.mathlib import hover_motion, hover_programme, hover_shape, hover_solution
 from ....fmus_src.mathlib.hover_motion import HoverVehicle
-from ....fmus_src.mathlib.hover_shape import HoverShape
+from ....fmus_src.mathlib.hover_shape import HoverProgramme, HoverShape
 from .path import PlannedPath
 from .vehicle import Transfer, Vehicle
 
@@ -25,28 +25,33 @@ DISTANCES = (1.6, 25)  # of the one that is asked for: to, how many
 
 @dataclass(frozen=True)
 class Programme:
-    """A programme with its vehicle, as the plan may use it; times in s: t2, t5, w, tp, t7."""
+    """A programme with its vehicle, as the plan may use it."""
 
     vehicle: Vehicle
     transfer: Transfer
     kind: str
-    times: tuple[float, ...]
+    programme: HoverProgramme
+
+    @property
+    def times(self) -> tuple[float, ...]:
+        """t2, t5, w, tp and t7, s."""
+        return self.programme.elements()
 
     @property
     def duration(self) -> float:
         """t7, s."""
-        return self.times[hover_shape.END]
+        return self.programme.t7
 
     @property
     def propellant_fraction(self) -> float:
         """Propellant fraction: propellant over the initial mass."""
-        return hover_solution.propellant_fraction(list(self.times), _kernel_vehicle(self.vehicle, self.transfer))
+        return hover_solution.propellant_fraction(self.programme, _kernel_vehicle(self.vehicle, self.transfer))
 
     @property
     def threshold(self) -> float | None:
         """The paper's k: the first burn is where thrust is turned beyond k of its largest turn; None for vertical."""
-        first = 0.5 * self.times[hover_shape.TURN]
-        return 1.0 - self.times[hover_shape.WIDTH] ** 2 / (2.0 * first**2) if first > 0.0 else None
+        first = 0.5 * self.programme.t2
+        return 1.0 - self.programme.width**2 / (2.0 * first**2) if first > 0.0 else None
 
     @property
     def burns(self) -> list[tuple[float, float]]:
@@ -68,17 +73,16 @@ class Programme:
 
     def shape(self) -> HoverShape:
         """Its shape as the kernels have it, see `hover_shape`."""
-        shape, _ = hover_shape.shape_of(list(self.times), self.vehicle.angular_acceleration)
+        shape, _ = hover_shape.shape_of(self.programme, self.vehicle.angular_acceleration)
         return shape
 
     def states(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """At times (s): rows of x, x', y, y' (m, m/s), and rows of pitch, its rate (rad, rad/s) and propellant."""
         shape, vehicle = self.shape(), _kernel_vehicle(self.vehicle, self.transfer)
-        motion, state = np.zeros((time.size, 4)), [0.0] * 4
-        remainder = np.zeros((time.size, 3))
+        motion, remainder = np.zeros((time.size, 4)), np.zeros((time.size, 3))
         for index, value in enumerate(map(float, time)):
-            hover_motion.motion(shape, vehicle, value, state)
-            motion[index] = state
+            state, _ = hover_motion.motion(shape, vehicle, value)
+            motion[index] = state.elements()
             turn, rate = hover_shape.pitch(shape, self.vehicle.angular_acceleration, value)
             remainder[index] = 0.5 * math.pi + turn, rate, hover_motion.propellant(shape, vehicle, value)
         return motion, remainder
@@ -108,13 +112,13 @@ class Programme:
 
 def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None = None) -> Programme | None:
     """The programme on least propellant, or the one of a given ``duration`` (s); None where there is none."""
-    times, kernel = [0.0] * hover_shape.UNKNOWNS, _kernel_vehicle(vehicle, transfer)
+    kernel = _kernel_vehicle(vehicle, transfer)
     if duration is None:
-        kind = hover_programme.programme(transfer.distance, -transfer.descent, kernel, times)
+        kind, programme = hover_programme.programme(transfer.distance, -transfer.descent, kernel)
     else:
         place = transfer.distance, -transfer.descent
-        kind = hover_programme.programme_of_duration(*place, duration, kernel, times)
-    return None if kind == hover_solution.NONE else Programme(vehicle, transfer, KINDS[kind], tuple(times))
+        kind, programme = hover_programme.programme_of_duration(*place, duration, kernel)
+    return None if kind == hover_solution.NONE else Programme(vehicle, transfer, KINDS[kind], programme)
 
 
 def over_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:

@@ -17,6 +17,7 @@ from perilune.analysis.design.trajectories.path import PlanError
 from perilune.analysis.design.trajectories.programme import Programme, find_programme, over_distance, over_duration
 from perilune.analysis.design.trajectories.true_optimum import find_true_optimum
 from perilune.analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
+from perilune.fmus_src.mathlib.hover_shape import HoverProgramme
 from tests.support.bars import watched
 from tests.support.lengths import either
 
@@ -59,7 +60,8 @@ def _published(t5):
     """The paper's own numbers flown; how far from the target they end: x, y, x', y'."""
     t2, _, _, tp, t7 = PUBLISHED
     width = 0.5 * t2 * math.sqrt(2.0 * (1.0 - PUBLISHED_K))
-    programme = Programme(VEHICLE, TRANSFER, "with first burn", (t2, t5, width, tp, t7))
+    times = HoverProgramme(t2=t2, t5=t5, width=width, last_burn=tp, t7=t7)
+    programme = Programme(VEHICLE, TRANSFER, "with first burn", times)
     motion, _ = programme.states(np.array([t7]))
     return motion[0, [0, 2, 1, 3]] - [1600.0, -2300.0, 0.0, 0.0], programme
 
