@@ -28,7 +28,7 @@ from ..design.trajectories.vehicle import (
     check_hover,
     check_vehicle,
 )
-from ..reports.plan.pages import write_hover_page, write_landing_page
+from ..reports.plan_pages import write_hover_page, write_landing_page
 from ..runtime.system.options import SystemOptions, system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
 from .options.design import BOUND, TRANSFER, BoundOptions, TransferOptions, VehicleOptions

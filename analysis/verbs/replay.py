@@ -11,8 +11,8 @@ from typing import Any, Unpack
 from ..campaigns.fly.replay import ReplayedTrial, replay_plan, replay_trial
 from ..campaigns.tables import faults_line
 from ..common.errors import InputError
-from ..reports.figures.declaration.reading import read_figures
-from ..reports.flight.run_report import write_run_report
+from ..reports.figures.reading import read_figures
+from ..reports.run_report import write_run_report
 from ..runtime.flight.interruptible import StuckError
 from .common.arguments import read_requirements
 from .common.campaign_text import outcome_lines

@@ -12,12 +12,12 @@ from matplotlib.figure import Figure as Plot
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.tables import faults_line
 from ..reports.common.notebook import Grid, notebook_view, value_text
-from ..reports.figures.declaration.figures import Band, Figure, Limits
-from ..reports.figures.declaration.reading import read_figures
+from ..reports.figures.declared import Band, Figure, Limits
 from ..reports.figures.limits import limit_document, limit_rows
-from ..reports.flight.run_report import key_values, write_run_report
-from ..reports.flight.time_histories import signal_plot
-from ..reports.flight.trajectory import trajectory_plot
+from ..reports.figures.reading import read_figures
+from ..reports.run_report import key_values, write_run_report
+from ..reports.time_histories import signal_plot
+from ..reports.trajectory import trajectory_plot
 from ..runtime.flight import results
 from ..runtime.flight.instance import Log
 from ..runtime.flight.interruptible import StuckError, fly

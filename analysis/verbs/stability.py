@@ -11,7 +11,7 @@ from matplotlib.figure import Figure as Plot
 
 from ..common.errors import suggestion
 from ..reports.common.notebook import Grid, notebook_view
-from ..reports.stability.orders.words import order_sentences
+from ..reports.stability.orders import order_sentences
 from ..reports.stability.page import write_stability_page
 from ..reports.stability.plots import Diagram, loop_plot
 from ..reports.stability.words import gain_margin, phase_margin, size, verdict

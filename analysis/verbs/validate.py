@@ -15,7 +15,7 @@ from ..common.errors import ExitStatus, InputError
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
 from ..design.trajectories.stored_bound import MissingBound, find_bound
-from ..reports.figures.declaration.reading import read_figures
+from ..reports.figures.reading import read_figures
 from ..runtime.flight.reset_check import reset_verdict
 from ..runtime.ssp.archive import DEFAULT_VARIANT, open_system
 from ..runtime.ssp.parameter_sets import read_parameter_file

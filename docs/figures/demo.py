@@ -12,7 +12,7 @@ from perilune.analysis.campaigns.spec.plan import BatchPlan, read_plan
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.common.process import leave
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
-from perilune.analysis.reports.flight.run_report import write_run_report
+from perilune.analysis.reports.run_report import write_run_report
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.fmus_src.export.command import main as build_fmus

@@ -12,9 +12,9 @@ from ..common.page import exact
 from ..common.panels import HALF_WIDTH, Panel, panel
 from ..common.quantities import display_factor, display_unit
 from ..common.style import FAINT, GREEN, INK, look
-from .declaration.figures import Band
-from .declaration.values import Signal
+from .declared import Band
 from .section import HEIGHT, Section, history_panel, legend_of, seconds, sentence
+from .values import Signal
 
 SETTLED = "settled"  # a band's name that a settling time needs not repeat
 ZOOM = 3.0  # widths of the band that the zoom shows

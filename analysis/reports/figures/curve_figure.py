@@ -10,7 +10,7 @@ from ...runtime.flight.results import Result
 from ..common.page import exact
 from ..common.quantities import display_factor, display_unit
 from ..common.style import FAINT, look
-from .declaration.figures import Curve
+from .declared import Curve
 from .section import (
     Section,
     condition_text,

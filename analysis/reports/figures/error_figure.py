@@ -12,7 +12,7 @@ from ...runtime.flight.results import Result
 from ..common.panels import Panel
 from ..common.quantities import display_unit
 from ..common.style import BLUE, FAINT, ORANGE
-from .declaration.figures import Error
+from .declared import Error
 from .section import (
     Section,
     capital,

@@ -10,7 +10,7 @@ from markupsafe import Markup
 from ...runtime.flight.results import Result
 from .band_figure import band_section, inside, settling_text
 from .curve_figure import curve_section
-from .declaration.figures import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses
+from .declared import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses
 from .error_figure import error_section
 from .path_figure import path_section
 from .phase_figure import phase_section

@@ -12,8 +12,8 @@ from markupsafe import Markup
 from ...runtime.flight.results import Flight
 from ..common.page import exact
 from ..common.quantities import NONE, display_unit
-from .declaration.figures import Figure, Limit, Limits
-from .declaration.values import Unavailable
+from .declared import Figure, Limit, Limits
+from .values import Unavailable
 
 
 class Verdict(StrEnum):

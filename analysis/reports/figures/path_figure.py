@@ -11,9 +11,9 @@ from ...runtime.flight.results import Result
 from ..common.panels import both_widths, far, is_slim
 from ..common.quantities import display_unit, label_with_unit
 from ..common.style import BLUE, INK, look, plain_ticks
-from .declaration.figures import Path, Point
-from .declaration.values import Arc, Signal
+from .declared import Path, Point
 from .section import Section, condition_text, empty_section, select_rows, sentence, span_of
+from .values import Arc, Signal
 
 HEIGHT = 3.6  # in
 EQUAL_HEIGHT = 4.6  # in, with equal scales

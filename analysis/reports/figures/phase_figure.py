@@ -16,7 +16,7 @@ from ..common.panels import Widths, both_widths, is_slim
 from ..common.quantities import label_with_unit, number
 from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 from ..common.tables import Table
-from .declaration.figures import Phase, Phases
+from .declared import Phase, Phases
 from .section import Section, align, seconds, sentence
 
 

@@ -14,7 +14,7 @@ from ..common.page import exact
 from ..common.panels import Widths, both_widths, is_slim
 from ..common.quantities import label_with_unit, number
 from ..common.style import BLUE, FAINT, VERMILION, plain_ticks
-from .declaration.figures import Pulses
+from .declared import Pulses
 from .section import Section, sentence
 
 LANE = 0.85  # in

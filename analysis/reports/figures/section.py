@@ -17,7 +17,7 @@ from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, pan
 from ..common.quantities import MINUS, in_shown_unit
 from ..common.style import look, plain_ticks
 from ..common.tables import Table
-from .declaration.values import Rows
+from .values import Rows
 
 HEIGHT = 2.6  # in
 

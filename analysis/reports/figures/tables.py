@@ -10,7 +10,7 @@ from markupsafe import Markup
 from ...runtime.flight.results import Result
 from ..common.quantities import display_unit
 from ..common.tables import Table
-from .declaration.figures import BoundValues, Budget, Item, Limits
+from .declared import BoundValues, Budget, Item, Limits
 from .limits import Verdict, evaluate, limit_rows
 from .phase_figure import spans_of
 from .section import Section, align, sentence

@@ -16,13 +16,13 @@ from ..common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, panel
 from ..common.quantities import number
 from ..common.style import house_style, new_figure
 from ..common.svg import inline_svg
-from .diagrams.bode import draw_bode
-from .diagrams.frequency import draw_sensitivity, margin_words
-from .diagrams.limits import Limits, limits_of
-from .diagrams.nichols import draw_nichols
-from .diagrams.nyquist import INVERSE, draw_harmonic_balance, draw_nyquist
-from .diagrams.poles import are_crowded, draw_cloud, draw_poles, poles_of
-from .diagrams.sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
+from .bode import draw_bode
+from .frequency import draw_sensitivity, margin_words
+from .limits import Limits, limits_of
+from .nichols import draw_nichols
+from .nyquist import INVERSE, draw_harmonic_balance, draw_nyquist
+from .poles import are_crowded, draw_cloud, draw_poles, poles_of
+from .sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
 
 HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels
 SIGHT = 3.5  # in; of what is seen at first sight, two beside each other

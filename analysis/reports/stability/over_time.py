@@ -11,7 +11,7 @@ from ...stability.loops.margin_values import Quantity
 from ...stability.results.report import StabilityReport
 from ..common.panels import Panel, panel, swatch
 from ..common.quantities import number
-from .diagrams.over_time import QUANTITIES, Course, course_look, courses, draw_over_time
+from .courses import QUANTITIES, Course, course_look, courses, draw_over_time
 from .shared import together
 from .words import numeral
 

@@ -15,7 +15,7 @@ from ..common.page import write_page
 from ..common.panels import Panel
 from ..common.quantities import label_with_unit
 from .figures import joint_panel, loop_panels, part_panels, sight_panels, sweep_panel
-from .orders.section import order_section
+from .order_section import order_section
 from .over_time import over_time
 from .paper import Paper, paper_of
 from .parts import Part, parts, without

@@ -10,13 +10,13 @@ from matplotlib.figure import Figure
 
 from ...stability.results.report import LoopReport
 from ..common.style import house_style, new_figure
-from .diagrams.bode import draw_bode
-from .diagrams.frequency import draw_sensitivity
-from .diagrams.limits import limits_of
-from .diagrams.nichols import draw_nichols
-from .diagrams.nyquist import draw_nyquist
-from .diagrams.poles import draw_poles, poles_of
-from .diagrams.sets import draw_step
+from .bode import draw_bode
+from .frequency import draw_sensitivity
+from .limits import limits_of
+from .nichols import draw_nichols
+from .nyquist import draw_nyquist
+from .poles import draw_poles, poles_of
+from .sets import draw_step
 
 SIZE = 4.6  # in
 

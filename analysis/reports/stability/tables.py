@@ -13,7 +13,7 @@ from ...stability.loops.margin_values import UNSTABLE
 from ...stability.results.report import LoopReport, PointReport, StabilityReport
 from ...stability.results.requirement import Requirement, Scope, Verdict
 from ..common.quantities import display_unit, number
-from .orders.words import order_note
+from .orders import order_note
 from .words import (
     NO_CROSSING,
     crossing_text,

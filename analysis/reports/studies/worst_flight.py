@@ -11,8 +11,8 @@ from ...campaigns.spec.campaign import Record
 from ...campaigns.spec.plan import BatchPlan
 from ...runtime.flight.results import Result
 from ...studies.worst.outcome import WorstResult
-from ..figures.declaration.figures import Figure
-from ..figures.declaration.reading import read_figures
+from ..figures.declared import Figure
+from ..figures.reading import read_figures
 
 
 def worst_flight(result: WorstResult, plan: BatchPlan) -> tuple[Result, list[Figure]]:

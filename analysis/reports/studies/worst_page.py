@@ -14,11 +14,11 @@ from ..common.page import write_page
 from ..common.panels import Panel
 from ..common.quantities import display_unit, label_with_unit
 from ..common.tables import Table, cell, fraction
-from ..figures.declaration.figures import Figure
+from ..figures.declared import Figure
 from ..figures.figure_sections import figure_sections, joint_findings
 from ..figures.section import Section
-from ..flight.time_histories import Histories, time_histories
-from ..flight.trajectory import trajectory_panels, trajectory_reading
+from ..time_histories import Histories, time_histories
+from ..trajectory import trajectory_panels, trajectory_reading
 from .conditions import conditions_of
 from .worst_figures import box_figure, box_lanes, fresh_panel, objective_of, search_figure, trials_panel
 
@@ -45,7 +45,7 @@ def write_worst_page(
     """Write one self-contained HTML page; the same result gives the same bytes.
 
     ``flight`` is the worst case with all signals, None where a margin was studied; ``figures`` are those that the
-    system asks for, see own/asked/reading.py. ``folder`` is where the result has been written, if it has: the page says
+    system asks for, see figures/reading.py. ``folder`` is where the result has been written, if it has: the page says
     how the worst case is flown again.
     """
     conditions = conditions_of(result)

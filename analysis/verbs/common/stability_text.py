@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from ...reports.stability.orders.words import order_loops, order_sentences, withheld_line
+from ...reports.stability.orders import order_loops, order_sentences, withheld_line
 from ...stability.loops.margin_values import MARGINS, UNLIMITED, Quantity
 from ...stability.results.report import JointReport, LoopReport, StabilityReport
 from ...stability.results.requirement import Requirement, Verdict

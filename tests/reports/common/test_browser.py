@@ -5,7 +5,7 @@ import pytest
 from matplotlib import image
 
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
-from perilune.analysis.reports.flight.run_report import write_run_report
+from perilune.analysis.reports.run_report import write_run_report
 from tests.support.pages.browser import start
 from tests.support.pages.samples import mixed_batch, run_result
 

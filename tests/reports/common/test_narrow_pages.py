@@ -8,8 +8,8 @@ import pytest
 from perilune.analysis.design.trajectories.hover_study import hover_study
 from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_VEHICLE
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
-from perilune.analysis.reports.flight.run_report import write_run_report
-from perilune.analysis.reports.plan.pages import write_hover_page
+from perilune.analysis.reports.plan_pages import write_hover_page
+from perilune.analysis.reports.run_report import write_run_report
 from tests.support.lengths import either
 from tests.support.pages.narrow import PHONE, assert_legible, measure
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.reports.figures.declaration.figures import Budget, Limits, Phases
-from perilune.analysis.reports.figures.declaration.reading import read_figures
+from perilune.analysis.reports.figures.declared import Budget, Limits, Phases
 from perilune.analysis.reports.figures.figure_sections import figure_sections
 from perilune.analysis.reports.figures.limits import is_met
 from perilune.analysis.reports.figures.phase_figure import spans_of, statuses_of
+from perilune.analysis.reports.figures.reading import read_figures
 from perilune.analysis.reports.figures.tables import amount, consumption_by_phase
 from perilune.analysis.runtime.system.prepared import prepare_system
 

@@ -3,9 +3,9 @@
 import re
 from pathlib import Path
 
-from perilune.analysis.reports.figures.declaration.history_readers import BAND, CURVE
-from perilune.analysis.reports.figures.declaration.reading import BUDGET, READERS
-from perilune.analysis.reports.figures.declaration.signal_reader import ROWS
+from perilune.analysis.reports.figures.history_readers import BAND, CURVE
+from perilune.analysis.reports.figures.reading import BUDGET, READERS
+from perilune.analysis.reports.figures.signal_reader import ROWS
 from perilune.fmus_src.paths import ROOT, SYSTEMS
 
 WORDS = set(

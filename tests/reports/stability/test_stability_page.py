@@ -17,15 +17,15 @@ from scipy.optimize import brentq
 from perilune.analysis.cli import main
 from perilune.analysis.reports.common.quantities import NONE
 from perilune.analysis.reports.common.style import FAINT, VERMILION
-from perilune.analysis.reports.stability.diagrams.bode import draw_bode
-from perilune.analysis.reports.stability.diagrams.frequency import beside, draw_sensitivity, phase_of
-from perilune.analysis.reports.stability.diagrams.limits import limits_of
-from perilune.analysis.reports.stability.diagrams.nichols import draw_nichols
-from perilune.analysis.reports.stability.diagrams.nyquist import draw_harmonic_balance, draw_nyquist
-from perilune.analysis.reports.stability.diagrams.poles import thin
-from perilune.analysis.reports.stability.diagrams.sets import draw_histogram, draw_joint, draw_sweep
+from perilune.analysis.reports.stability.bode import draw_bode
+from perilune.analysis.reports.stability.frequency import beside, draw_sensitivity, phase_of
+from perilune.analysis.reports.stability.limits import limits_of
+from perilune.analysis.reports.stability.nichols import draw_nichols
+from perilune.analysis.reports.stability.nyquist import draw_harmonic_balance, draw_nyquist
 from perilune.analysis.reports.stability.page import write_stability_page
 from perilune.analysis.reports.stability.parts import modes
+from perilune.analysis.reports.stability.poles import thin
+from perilune.analysis.reports.stability.sets import draw_histogram, draw_joint, draw_sweep
 from perilune.analysis.reports.stability.words import complex_number, in_decibels, numeral
 from perilune.analysis.stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
 from perilune.analysis.stability.loops.readings import Classical, Curve

@@ -5,7 +5,7 @@ Rows are half a second apart, 401 of them. Phase 1 to 20 s, 2 to 150 s, 4 to 180
 
 import numpy as np
 
-from perilune.analysis.reports.figures.declaration.figures import (
+from perilune.analysis.reports.figures.declared import (
     BoundValues,
     Budget,
     Curve,
@@ -17,7 +17,7 @@ from perilune.analysis.reports.figures.declaration.figures import (
     Phases,
     Point,
 )
-from perilune.analysis.reports.figures.declaration.values import Rows
+from perilune.analysis.reports.figures.values import Rows
 from perilune.analysis.runtime.ssp.conversions import Unit
 from tests.support.pages.own_samples import DEG, DEGREE, TIME, flown, scalar
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.reports.compare.page import write_comparison_page
-from perilune.analysis.reports.flight.run_report import write_run_report
+from perilune.analysis.reports.run_report import write_run_report
 from perilune.analysis.reports.stability.page import write_stability_page
 from tests.support.loops.studies import Studies
 from tests.support.pages.comparison_samples import write_sample

@@ -1,11 +1,11 @@
-"""perilune.analysis.reports.flight.run_report"""
+"""perilune.analysis.reports.run_report"""
 
 import numpy as np
 import pytest
 
 from perilune.analysis.reports.common.style import new_figure
-from perilune.analysis.reports.flight.run_report import ENDINGS, write_run_report
-from perilune.analysis.reports.flight.trajectory import _views
+from perilune.analysis.reports.run_report import ENDINGS, write_run_report
+from perilune.analysis.reports.trajectory import _views
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 from tests.support.pages.samples import DIGEST, run_result
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from perilune.analysis.reports.flight.run_report import write_run_report
+from perilune.analysis.reports.run_report import write_run_report
 from tests.support.lengths import either
 from tests.support.pages.browser import start
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses

@@ -15,10 +15,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator
 
-from ....stability.loops.readings import Classical, Curve, decibel_size, decibels, degree_size
-from ....stability.results.report import LoopReport
-from ...common.quantities import log_tick, number, tick
-from ...common.style import BLUE, FAINT, GREEN, INK, VERMILION, log_ticks_x
+from ...stability.loops.readings import Classical, Curve, decibel_size, decibels, degree_size
+from ...stability.results.report import LoopReport
+from ..common.quantities import log_tick, number, tick
+from ..common.style import BLUE, FAINT, GREEN, INK, VERMILION, log_ticks_x
 
 MEASURED: Any = {
     "linestyle": "", "marker": "o", "markersize": 3.0, "markerfacecolor": "none", "markeredgecolor": INK,

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from lxml import etree
 
-from ....runtime.ssp.conversions import BASE_UNITS, Unit
-from .figures import Band, Curve, Error, Path, Point, Pulses
+from ...runtime.ssp.conversions import BASE_UNITS, Unit
+from .declared import Band, Curve, Error, Path, Point, Pulses
 from .signal_reader import ROWS, SignalReader
 from .values import Arc, Signal
 

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 from lxml import etree
 
-from ....common.errors import suggestion
-from ....design.trajectories.declared_bound import read_inputs
-from ....design.trajectories.stored_bound import MissingBound, find_bound
-from ....runtime.ssp.documents import tag
-from ....runtime.system.prepared import PreparedSystem
-from .figures import LANDING, MEASURES, BoundValues, Budget, Figure, Item, Limit, Limits, Phase, Phases
+from ...common.errors import suggestion
+from ...design.trajectories.declared_bound import read_inputs
+from ...design.trajectories.stored_bound import MissingBound, find_bound
+from ...runtime.ssp.documents import tag
+from ...runtime.system.prepared import PreparedSystem
+from .declared import LANDING, MEASURES, BoundValues, Budget, Figure, Item, Limit, Limits, Phase, Phases
 from .history_readers import SECOND
 from .signal_reader import NUMBERS, MissingSignalError, SignalReader
 

@@ -7,8 +7,8 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from ....stability.results.report import LoopReport
-from ...common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
+from ...stability.results.report import LoopReport
+from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 from .frequency import faint_line
 
 DAMPINGS = (0.2, 0.5, 0.8)

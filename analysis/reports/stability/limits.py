@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ....stability.loops.margin_values import Quantity
-from ....stability.results.report import LoopReport
-from ...common.style import VERMILION
+from ...stability.loops.margin_values import Quantity
+from ...stability.results.report import LoopReport
+from ..common.style import VERMILION
 
 LIMIT: Any = {"color": VERMILION, "linewidth": 1.0, "linestyle": (0, (4, 2))}
 FORBIDDEN = "#f6d5c0"  # fill of where a response or a margin must not be

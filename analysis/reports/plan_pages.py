@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ...design.trajectories.hover_study import HoverStudy
-from ...design.trajectories.landing_study import LandingStudy
-from ..common.page import write_page
-from ..common.panels import swatch
-from ..common.style import look
-from .figures import Point, Series, curve_panel, path_panel, path_widths, time_panels
+from ..design.trajectories.hover_study import HoverStudy
+from ..design.trajectories.landing_study import LandingStudy
+from .common.page import write_page
+from .common.panels import swatch
+from .common.style import look
+from .plan_figures import Point, Series, curve_panel, path_panel, path_widths, time_panels
 
 NAMES = ("simplified programme", "true optimum", "point-mass bound")
 

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ....stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
-from ....stability.loops.readings import decibels
-from ....stability.results.report import LoopReport, StabilityReport
-from ...common.quantities import number
-from ...common.style import COLOURS, INK, VERMILION, Look, look, plain_ticks
+from ...stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
+from ...stability.loops.readings import decibels
+from ...stability.results.report import LoopReport, StabilityReport
+from ..common.quantities import number
+from ..common.style import COLOURS, INK, VERMILION, Look, look, plain_ticks
 from .limits import FORBIDDEN
 
 QUANTITIES = (Quantity.GAIN, Quantity.PHASE, Quantity.MODULUS)

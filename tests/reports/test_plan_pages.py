@@ -13,7 +13,7 @@ from matplotlib import image
 from perilune.analysis.design.trajectories.hover_study import hover_study
 from perilune.analysis.design.trajectories.landing_study import landing_study
 from perilune.analysis.design.trajectories.vehicle import Landing, Margins, Transfer, Vehicle
-from perilune.analysis.reports.plan.pages import write_hover_page, write_landing_page
+from perilune.analysis.reports.plan_pages import write_hover_page, write_landing_page
 from tests.support.lengths import either
 from tests.support.pages.browser import start
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of

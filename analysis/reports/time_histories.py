@@ -10,13 +10,13 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...campaigns.verdicts.order_statistics import quantiles
-from ...runtime.flight.results import Result
-from ...runtime.system.names import elements
-from ..common.panels import Panel, panel, swatch
-from ..common.quantities import display_factor, label_with_unit, number
-from ..common.signals import SignalGroup, distinct, signal_groups, states_and_commands
-from ..common.style import FAINT, house_style, look, new_figure, plain_ticks
+from ..campaigns.verdicts.order_statistics import quantiles
+from ..runtime.flight.results import Result
+from ..runtime.system.names import elements
+from .common.panels import Panel, panel, swatch
+from .common.quantities import display_factor, label_with_unit, number
+from .common.signals import SignalGroup, distinct, signal_groups, states_and_commands
+from .common.style import FAINT, house_style, look, new_figure, plain_ticks
 
 HEIGHT = 1.9  # in, of a panel on the page
 PLOT_HEIGHT, PLOT_WIDTH = 2.0, 6.8  # in, of a panel in a figure of its own

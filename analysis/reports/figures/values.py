@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....runtime.flight.results import Flight
-from ....runtime.ssp.conversions import Unit
-from ...common.quantities import display_factor
-from ...common.round_body import ground_range
+from ...runtime.flight.results import Flight
+from ...runtime.ssp.conversions import Unit
+from ..common.quantities import display_factor
+from ..common.round_body import ground_range
 
 
 @dataclass(frozen=True)

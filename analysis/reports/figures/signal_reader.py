@@ -7,12 +7,12 @@ from dataclasses import replace
 
 from lxml import etree
 
-from ....common.errors import suggestion
-from ....runtime.flight.program import layout_of
-from ....runtime.ssp.annotations import AnnotationReader
-from ....runtime.ssp.conversions import Unit
-from ....runtime.system.names import elements, split_name
-from ....runtime.system.prepared import PreparedSystem
+from ...common.errors import suggestion
+from ...runtime.flight.program import layout_of
+from ...runtime.ssp.annotations import AnnotationReader
+from ...runtime.ssp.conversions import Unit
+from ...runtime.system.names import elements, split_name
+from ...runtime.system.prepared import PreparedSystem
 from .values import Rows, Signal
 
 NUMBERS = ("Real", "Integer")

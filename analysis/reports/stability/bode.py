@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from ....stability.loops.readings import Classical, decibels
-from ....stability.results.report import LoopReport
-from ...common.quantities import number, tick
-from ...common.style import BLUE, FAINT, INK, VERMILION
+from ...stability.loops.readings import Classical, decibels
+from ...stability.results.report import LoopReport
+from ..common.quantities import number, tick
+from ..common.style import BLUE, FAINT, INK, VERMILION
 from .frequency import (
     DECISIVE,
     GAIN_MARK,

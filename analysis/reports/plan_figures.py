@@ -10,11 +10,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...design.trajectories.hover_study import Curve
-from ...design.trajectories.path import PlannedPath
-from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, far, is_slim, panel
-from ..common.quantities import number
-from ..common.style import FAINT, INK, Look, plain_ticks
+from ..design.trajectories.hover_study import Curve
+from ..design.trajectories.path import PlannedPath
+from .common.panels import HALF_WIDTH, Panel, Widths, both_widths, far, is_slim, panel
+from .common.quantities import number
+from .common.style import FAINT, INK, Look, plain_ticks
 
 LOWEST, HIGHEST = 3.0, 6.5  # in, of a path to one scale
 LOW = 3.8  # in, of one to two

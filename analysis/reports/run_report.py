@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ...runtime.flight.results import Result
-from ..common.page import write_page
-from ..common.signals import SignalGroup, distinct, signal_groups
-from ..figures.declaration.figures import Figure
-from ..figures.figure_sections import figure_sections, joint_findings
-from ..figures.limits import Verdict, limit_document
+from ..runtime.flight.results import Result
+from .common.page import write_page
+from .common.signals import SignalGroup, distinct, signal_groups
+from .figures.declared import Figure
+from .figures.figure_sections import figure_sections, joint_findings
+from .figures.limits import Verdict, limit_document
 from .time_histories import time_histories
 from .trajectory import trajectory_panels, trajectory_reading
 
@@ -33,7 +33,7 @@ KEY_VECTORS = ("position", "velocity")
 def write_run_report(result: Result, path: Path, title: str, figures: Sequence[Figure] = ()) -> None:
     """Write one self-contained HTML page about a run; the same result gives the same bytes.
 
-    ``figures`` are those that the SSD declares, see figures/declaration/reading.py.
+    ``figures`` are those that the SSD declares, see figures/reading.py.
     """
     limits = limits_by_verdict(figures, result)
     write_page(

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ....stability.results.report import LoopReport
-from ....stability.results.responses import Nonlinearity
-from ...common.quantities import MINUS
-from ...common.style import BLUE, GREEN, INK, PURPLE, plain_ticks
+from ...stability.results.report import LoopReport
+from ...stability.results.responses import Nonlinearity
+from ..common.quantities import MINUS
+from ..common.style import BLUE, GREEN, INK, PURPLE, plain_ticks
 from .frequency import GAIN_MARK, MEASURED, PHASE_MARK, faint_line, has_measurement, margin_crossings
 from .limits import LIMIT, limits_of
 

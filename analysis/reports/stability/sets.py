@@ -10,14 +10,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from ....stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
-from ....stability.loops.margins import disk_of_gain, disk_of_phase
-from ....stability.loops.readings import decibels, factor_of
-from ....stability.results.report import JointReport, LoopReport
-from ....stability.results.responses import Nonlinearity
-from ....stability.results.varied import SweepReport
-from ...common.quantities import display_factor, label_with_unit, tick
-from ...common.style import BLUE, FAILED, GREEN, INK, VERMILION, log_ticks_x, plain_ticks
+from ...stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
+from ...stability.loops.margins import disk_of_gain, disk_of_phase
+from ...stability.loops.readings import decibels, factor_of
+from ...stability.results.report import JointReport, LoopReport
+from ...stability.results.responses import Nonlinearity
+from ...stability.results.varied import SweepReport
+from ..common.quantities import display_factor, label_with_unit, tick
+from ..common.style import BLUE, FAILED, GREEN, INK, VERMILION, log_ticks_x, plain_ticks
 from .frequency import PHASE_MARK, frequency_axis, in_db
 from .limits import LIMIT, Limits
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....runtime.flight.results import Flight
-from ...common.quantities import display_factor
+from ...runtime.flight.results import Flight
+from ..common.quantities import display_factor
 from .values import Arc, BaseFigure, Rows, Signal, Unavailable
 
 

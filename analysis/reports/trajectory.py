@@ -10,12 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ...runtime.flight.results import Result
-from ..common.panels import HALF_WIDTH, Panel, far, panel
-from ..common.quantities import number
-from ..common.round_body import altitude_over, radius_of, track_angles
-from ..common.signals import SignalGroup, position_groups
-from ..common.style import FAINT, GRID, INK, Look, house_style, look, new_figure, plain_ticks
+from ..runtime.flight.results import Result
+from .common.panels import HALF_WIDTH, Panel, far, panel
+from .common.quantities import number
+from .common.round_body import altitude_over, radius_of, track_angles
+from .common.signals import SignalGroup, position_groups
+from .common.style import FAINT, GRID, INK, Look, house_style, look, new_figure, plain_ticks
 
 HEIGHT = 3.2  # in
 MAXIMUM_RATIO = 4.0  # of the ranges of both axes, up to which their scales are equal

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ....stability.loops.margin_values import Quantity
-from ....stability.results.report import StabilityReport
-from ..tables import Table, link
-from ..words import NO_CROSSING, gain_margin, numeral, phase_margin, size, state, verdict
-from .words import order_loops, order_sentences
+from ...stability.loops.margin_values import Quantity
+from ...stability.results.report import StabilityReport
+from .orders import order_loops, order_sentences
+from .tables import Table, link
+from .words import NO_CROSSING, gain_margin, numeral, phase_margin, size, state, verdict
 
 HEAD = (
     "loop", "operating point", "feedthrough", "gain margin, dB", "phase margin, deg", "delay margin, s",

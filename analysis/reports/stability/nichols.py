@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
-from ....stability.loops.readings import Crossing, decibel_size, decibels
-from ....stability.results.report import LoopReport
-from ...common.quantities import number, tick
-from ...common.style import BLUE, VERMILION
+from ...stability.loops.readings import Crossing, decibel_size, decibels
+from ...stability.results.report import LoopReport
+from ..common.quantities import number, tick
+from ..common.style import BLUE, VERMILION
 from .frequency import (
     DECISIVE,
     GAIN_MARK,

@@ -1,1 +1,0 @@
-"""What figures a system asks for: its annotation, read into plain values."""

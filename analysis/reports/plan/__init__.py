@@ -1,1 +1,0 @@
-"""The pages of plans: a hover transfer, the bound of a landing."""

@@ -1,1 +1,0 @@
-"""Diagrams of loops: what is drawn in axes, free of the page."""
