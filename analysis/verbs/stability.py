@@ -11,9 +11,9 @@ from matplotlib.figure import Figure as Plot
 
 from ..common.errors import suggestion
 from ..reports.common.notebook import Grid, notebook_view
+from ..reports.stability.figures import Diagram, loop_plot
 from ..reports.stability.orders import order_sentences
 from ..reports.stability.page import write_stability_page
-from ..reports.stability.plots import Diagram, loop_plot
 from ..reports.stability.words import gain_margin, phase_margin, size, verdict
 from ..runtime.flight.results import require_pandas
 from ..runtime.system.options import system_options

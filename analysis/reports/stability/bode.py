@@ -13,8 +13,10 @@ from ...stability.results.report import LoopReport
 from ..common.quantities import number, tick
 from ..common.style import BLUE, FAINT, INK, VERMILION
 from .frequency import (
+    BEHIND,
     DECISIVE,
     GAIN_MARK,
+    LIMIT,
     MARGIN,
     MEASURED,
     OTHER,
@@ -24,11 +26,11 @@ from .frequency import (
     gain_words,
     has_measurement,
     in_db,
+    limits_of,
     margin_crossings,
     phase_of,
     phase_words,
 )
-from .limits import BEHIND, LIMIT, limits_of
 
 FAR, NEAR = 60.0, 80.0  # dB below and above 1, from where on a gain says nothing about margins
 REACH = 0.07  # of the frequency axis, to either side of a crossover, over which a limit is drawn

@@ -1,12 +1,14 @@
-"""The figures of a stability page as panels: which a loop has, their names, and what a screen reader says."""
+"""The figures of a stability page as panels with what a screen reader says, and single figures by their names."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from enum import StrEnum
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ...stability.loops.margin_values import MARGINS, UNSTABLE, Quantity
 from ...stability.loops.readings import decibels
@@ -17,10 +19,8 @@ from ..common.quantities import number
 from ..common.style import house_style, new_figure
 from ..common.svg import inline_svg
 from .bode import draw_bode
-from .frequency import draw_sensitivity, margin_words
-from .limits import Limits, limits_of
-from .nichols import draw_nichols
-from .nyquist import INVERSE, draw_harmonic_balance, draw_nyquist
+from .frequency import Limits, draw_sensitivity, limits_of, margin_words
+from .nyquist import INVERSE, draw_harmonic_balance, draw_nichols, draw_nyquist
 from .poles import are_crowded, draw_cloud, draw_poles, poles_of
 from .sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
 
@@ -177,3 +177,45 @@ def sweep_panel(sweep: SweepReport, report: StabilityReport, name: str) -> Panel
         words += f", {unstable} of them unstable"
     label = f"{sweep.loop} over {sweep.parameter}"
     return stack(label, name, words, lambda g, p: draw_sweep(sweep, limits, g, p))
+
+
+SIZE = 4.6  # in
+
+
+class Diagram(StrEnum):
+    """What can be drawn of a loop."""
+
+    BODE = "bode"
+    NYQUIST = "nyquist"
+    NICHOLS = "nichols"
+    SENSITIVITY = "sensitivity"
+    POLES = "poles"
+    STEP = "step"
+
+
+SINGLE: dict[Diagram, Callable[[LoopReport, Axes], None]] = {
+    Diagram.NYQUIST: draw_nyquist,
+    Diagram.NICHOLS: draw_nichols,
+    Diagram.SENSITIVITY: lambda loop, axes: draw_sensitivity(loop, axes, limits_of(loop).modulus),
+    Diagram.POLES: lambda loop, axes: draw_poles(loop, axes, near=False),
+    Diagram.STEP: draw_step,
+}
+
+
+def loop_plot(loop: LoopReport, diagram: Diagram) -> Figure:
+    """One diagram of a loop. Raises ValueError where the study has not what it takes."""
+    lacking = {
+        Diagram.POLES: "no poles: it has no linear model" if not poles_of(loop).size else "",
+        Diagram.STEP: "no step response: it is unstable or has no linear model" if loop.step is None else "",
+    }
+    if words := lacking.get(diagram):
+        raise ValueError(f"{loop.name} at {loop.point}: {words}")
+    with house_style():
+        if diagram is Diagram.BODE:
+            figure = new_figure(SIZE, 1.2 * SIZE)
+            draw_bode(loop, *figure.subplots(2, 1, sharex=True))
+        else:
+            figure = new_figure(SIZE, SIZE)
+            SINGLE[diagram](loop, figure.subplots())
+        figure.suptitle(f"{loop.name} at {loop.point}", fontsize=9.0)
+    return figure

@@ -1,4 +1,4 @@
-"""Responses over frequency: what Bode diagrams and sensitivities share, and the sensitivities, in dB over rad/s.
+"""Responses over frequency in dB over rad/s: what diagrams of a loop share, the limits they show, and sensitivities.
 
 The axes are ours and not python-control's `bode_plot`, `nyquist_plot` and the like: those draw through pyplot's
 current figure, which is global, bring titles, legends and mathematical type of their own, cannot show a measured
@@ -8,13 +8,14 @@ response beside a computed one, and know no exclusion zone. What is drawn are th
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator
 
+from ...stability.loops.margin_values import Quantity
 from ...stability.loops.readings import Classical, Curve, decibel_size, decibels, degree_size
 from ...stability.results.report import LoopReport
 from ..common.quantities import log_tick, number, tick
@@ -132,3 +133,23 @@ def phase_words(loop: LoopReport) -> str:
 def faint_line(axes: Axes, x: np.ndarray, y: np.ndarray) -> None:
     """A line in the background: circles, lines of damping."""
     axes.plot(x, y, color=FAINT, linewidth=0.7, linestyle=(0, (1.2, 1.6)), zorder=1.5)
+
+
+LIMIT: Any = {"color": VERMILION, "linewidth": 1.0, "linestyle": (0, (4, 2))}
+FORBIDDEN = "#f6d5c0"  # fill of where a response or a margin must not be
+BEHIND: Any = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.8}  # of words over a line
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The limits that figures show, as they are required of the loop; None: not required."""
+
+    gain: float | None  # dB
+    phase: float | None  # deg
+    modulus: float | None
+
+
+def limits_of(loop: LoopReport) -> Limits:
+    """The limits among a loop's requirements."""
+    limits = {item.quantity: item.limit for item in loop.requirements}
+    return Limits(limits.get(Quantity.GAIN), limits.get(Quantity.PHASE), limits.get(Quantity.MODULUS))

@@ -1,19 +1,145 @@
-"""The figure at the top of a stability page: margins over the time of flight, of loops studied at several times."""
+"""Margins over the time of flight: a loop's margins at several operating points, with the margins that are required."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
 from markupsafe import Markup
+from matplotlib.axes import Axes
 
-from ...stability.loops.margin_values import Quantity
-from ...stability.results.report import StabilityReport
+from ...stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
+from ...stability.loops.readings import decibels
+from ...stability.results.report import LoopReport, StabilityReport
 from ..common.panels import Panel, panel, swatch
 from ..common.quantities import number
-from .courses import QUANTITIES, Course, course_look, courses, draw_over_time
+from ..common.style import COLOURS, INK, VERMILION, Look, look, plain_ticks
+from .frequency import FORBIDDEN
 from .shared import together
 from .words import numeral
+
+QUANTITIES = (Quantity.GAIN, Quantity.PHASE, Quantity.MODULUS)
+SAME = 1e-3  # relative: margins that differ by less are one line
+BEYOND = 1.15  # of the largest decisive margin, up to which axes reach
+
+
+@dataclass(frozen=True)
+class Course:
+    """Loops with the same margins over time: each one's reports, ascending in time (s).
+
+    By quantity ``upper`` are the nearest margins upwards or in lag and ``lower``, below 0, those downwards or in lead,
+    nan where there is none; ``sizes`` are those of the nearer of both, `UNSTABLE` and `UNLIMITED` among them.
+    """
+
+    loops: tuple[tuple[LoopReport, ...], ...]
+    times: np.ndarray
+    upper: dict[Quantity, np.ndarray]
+    lower: dict[Quantity, np.ndarray]
+    sizes: dict[Quantity, np.ndarray]
+
+
+def _sides(loop: LoopReport, quantity: Quantity) -> tuple[float, float]:
+    """The nearest margin up or in lag, and the nearest down or in lead, in the quantity's unit."""
+    if loop.margins.unstable:
+        return math.nan, math.nan
+    if quantity is Quantity.MODULUS:
+        return loop.robust.modulus_margin, math.nan
+    if quantity is Quantity.GAIN:
+        signed = [float(decibels(crossing.value)) for crossing in loop.classical.gain]
+    else:
+        signed = [math.degrees(crossing.value) for crossing in loop.classical.phase]
+    return (
+        min((value for value in signed if value >= 0.0), default=math.nan),
+        max((value for value in signed if value < 0.0), default=math.nan),
+    )
+
+
+def courses(report: StabilityReport) -> list[Course]:
+    """Loops that are studied at several times of the same flight: with the same settings, at different times."""
+    points = {point.name: point for point in report.points}
+    flights: dict[tuple[str, str], list[LoopReport]] = {}
+    for loop in report.loops:
+        settings = repr(sorted((name, str(value)) for name, value in points[loop.point].settings.items()))
+        flights.setdefault((loop.name, settings), []).append(loop)
+    histories: list[Course] = []
+    for loops in flights.values():
+        ordered = tuple(sorted(loops, key=lambda loop: points[loop.point].time))
+        times = np.array([points[loop.point].time for loop in ordered])
+        if np.unique(times).size < 2:
+            continue
+        sizes = {key: np.array([loop.margins.size(key) for loop in ordered]) for key in QUANTITIES}
+        sides = {key: np.array([_sides(loop, key) for loop in ordered]) for key in QUANTITIES}
+        upper, lower = ({key: pairs[:, side] for key, pairs in sides.items()} for side in (0, 1))
+        one = Course((ordered,), times, upper, lower, sizes)
+        same = next((index for index, other in enumerate(histories) if _alike(one, other)), None)
+        if same is None:
+            histories.append(one)
+        else:
+            other = histories[same]
+            histories[same] = replace(other, loops=(*other.loops, ordered))
+    return histories
+
+
+def _alike(one: Course, other: Course) -> bool:
+    if not np.array_equal(one.times, other.times) or _draw_requirement(one) != _draw_requirement(other):
+        return False
+    pairs = [(a[key], b[key]) for key in QUANTITIES for a, b in ((one.upper, other.upper), (one.lower, other.lower))]
+    return all(np.allclose(*pair, rtol=SAME, atol=0.0, equal_nan=True) for pair in pairs)
+
+
+def _draw_requirement(course: Course) -> set[tuple[Quantity, float]]:
+    return {(item.quantity, item.limit) for loops in course.loops for loop in loops for item in loop.requirements}
+
+
+def course_look(index: int) -> Look:
+    """The look of the index-th course; vermilion is the limits'."""
+    return look(index + (index >= COLOURS.index(VERMILION)))
+
+
+def draw_over_time(histories: Sequence[Course], quantity: Quantity, axes: Axes) -> None:
+    """One margin of all loops over time, downwards or in lead below 0; what is less than required is shaded.
+
+    The nearer margin of each loop is filled, the other hollow. A cross at 0 is an unstable loop, a triangle at the top
+    one without a crossover.
+    """
+    limits = {limit for course in histories for key, limit in _draw_requirement(course) if key is quantity}
+    below = any(np.any(np.isclose(-course.lower[quantity], course.sizes[quantity])) for course in histories)
+    every = np.concatenate([course.sizes[quantity] for course in histories])
+    top = BEYOND * max([1e-6, *every[np.isfinite(every)].tolist(), *limits])
+    for index, course in enumerate(histories):
+        _draw_course(course, quantity, course_look(index), top, axes)
+    unit = "" if quantity.unit == "1" else quantity.unit
+    for limit in sorted(limits):
+        axes.axhspan(-limit if below else 0.0, limit, facecolor=FORBIDDEN, zorder=0.4)
+        for edge in (limit, -limit) if below else (limit,):
+            axes.axhline(edge, color=VERMILION, linewidth=1.2, zorder=1.6)
+        axes.annotate(
+            f"required {number(limit)} {unit}".strip(), (1.0, limit), (-2, -3), xycoords=("axes fraction", "data"),
+            textcoords="offset points", ha="right", va="top", fontsize=8.0, color=VERMILION,
+        )  # fmt: skip
+    axes.axhline(0.0, color=INK, linewidth=0.8)
+    axes.set_ylim(-top if below else 0.0, top)
+    plain_ticks(axes, x=5, y=5)
+    axes.set_title(unit or "1", loc="left", fontsize=8.5)
+    axes.set_xlabel("time of flight, s")
+
+
+def _draw_course(course: Course, quantity: Quantity, style: Look, top: float, axes: Axes) -> None:
+    colour, dashes, marker = style
+    sizes = course.sizes[quantity]
+    for values in (course.upper[quantity], course.lower[quantity]):
+        line: Any = {"color": colour, "marker": marker, "markersize": 4.5, "markerfacecolor": "white"}
+        axes.plot(course.times, values, linestyle=dashes, **line)
+        nearer = np.isclose(abs(values), sizes)
+        axes.plot(course.times[nearer], values[nearer], **{**line, "linestyle": "", "markerfacecolor": colour})
+    at_edge: Any = {"linestyle": "", "clip_on": False, "zorder": 5, "markersize": 7, "markeredgewidth": 1.8}
+    for kind, mark, height, displayed in ((UNSTABLE, "x", 0.0, VERMILION), (UNLIMITED, "^", top, colour)):
+        here = course.times[sizes == kind]
+        if here.size:
+            axes.plot(here, np.full(here.size, height), **{**at_edge, "marker": mark, "color": displayed})
 
 
 @dataclass(frozen=True)

@@ -15,11 +15,10 @@ from ..common.page import write_page
 from ..common.panels import Panel
 from ..common.quantities import label_with_unit
 from .figures import joint_panel, loop_panels, part_panels, sight_panels, sweep_panel
-from .order_section import order_section
+from .orders import order_loops, order_sentences
 from .over_time import over_time
-from .paper import Paper, paper_of
 from .parts import Part, parts, without
-from .shared import TOLERANCE, Panels, Shared, share
+from .shared import TOLERANCE, Panels, Paper, Shared, paper_of, share
 from .tables import (
     Table,
     about,
@@ -36,7 +35,7 @@ from .tables import (
     verdict_rows,
     verdict_table,
 )
-from .words import UNSTABLE_WORD, gain_margin, left_out, numeral, phase_margin, size, verdict
+from .words import NO_CROSSING, UNSTABLE_WORD, gain_margin, left_out, numeral, phase_margin, size, state, verdict
 
 SEEN = ("Bode", "Nichols")  # labels of the figures that are seen at first sight
 SIGHT = "sight"  # key of the figures that are seen at first sight
@@ -189,3 +188,34 @@ def _sweep(report: StabilityReport, sweep: SweepReport, name: str) -> Sweep:
 
 def _cross(crossing: SweepCrossing) -> str:
     return UNSTABLE_WORD if crossing.quantity is Quantity.STABILITY else f"{crossing.quantity} misses its limit"
+
+
+@dataclass(frozen=True)
+class OrderSection:
+    """Sentences, and a table with two rows for each loop; ``rows`` are none where there is one order only."""
+
+    sentences: list[str]
+    table: Table
+
+
+def order_section(report: StabilityReport) -> OrderSection:
+    """What a study says of both orders; no sentence where every FMU on a loop declares its dependencies."""
+    others = {(loop.name, loop.point): loop for loop in order_loops(report)}
+    rows = []
+    for index, loop in enumerate(report.loops):
+        other = others.get((loop.name, loop.point))
+        for name, each in (("none", loop), ("all", other)) if others else ():
+            if each is None:
+                continue
+            delay = state(each.margins) or numeral(each.classical.delay_margin, infinite=NO_CROSSING)
+            margins = [size(each.margins.size(quantity)) for quantity in (Quantity.MODULUS, Quantity.DISK)]
+            ends = link(report, index), loop.point, name, gain_margin(each.margins), phase_margin(each.margins)
+            rows.append((*ends, delay, *margins, verdict(loop.verdict)))
+    sentences = [f"{sentence[0].upper()}{sentence[1:]}." for sentence in order_sentences(report)]
+    if report.orders is None:  # of FMUs that no loop passes
+        sentences = [f"Assumed: {note}." for note in report.provenance.get("assumptions", ())]
+    head = (
+        "loop", "operating point", "feedthrough", "gain margin, dB", "phase margin, deg", "delay margin, s",
+        "modulus margin", "disk margin", "verdict",
+    )  # fmt: skip
+    return OrderSection(sentences, Table(head, "sssnnnnns", rows, "margins in both orders"))

@@ -18,8 +18,7 @@ from ...stability.results.responses import Nonlinearity
 from ...stability.results.varied import SweepReport
 from ..common.quantities import display_factor, label_with_unit, tick
 from ..common.style import BLUE, FAILED, GREEN, INK, VERMILION, log_ticks_x, plain_ticks
-from .frequency import PHASE_MARK, frequency_axis, in_db
-from .limits import LIMIT, Limits
+from .frequency import LIMIT, PHASE_MARK, Limits, frequency_axis, in_db
 
 BINS = 24
 UNSTABLE_BAND: Any = {"facecolor": "white", "edgecolor": VERMILION, "hatch": "////", "zorder": 0.5}

@@ -10,7 +10,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from perilune.analysis.reports.common.style import VERMILION
-from perilune.analysis.reports.stability.courses import courses, draw_over_time
+from perilune.analysis.reports.stability.over_time import courses, draw_over_time
 from perilune.analysis.reports.stability.page import write_stability_page
 from perilune.analysis.stability.loops.margin_values import Quantity
 from perilune.analysis.stability.loops.readings import Crossing

@@ -18,10 +18,8 @@ from perilune.analysis.cli import main
 from perilune.analysis.reports.common.quantities import NONE
 from perilune.analysis.reports.common.style import FAINT, VERMILION
 from perilune.analysis.reports.stability.bode import draw_bode
-from perilune.analysis.reports.stability.frequency import beside, draw_sensitivity, phase_of
-from perilune.analysis.reports.stability.limits import limits_of
-from perilune.analysis.reports.stability.nichols import draw_nichols
-from perilune.analysis.reports.stability.nyquist import draw_harmonic_balance, draw_nyquist
+from perilune.analysis.reports.stability.frequency import beside, draw_sensitivity, limits_of, phase_of
+from perilune.analysis.reports.stability.nyquist import draw_harmonic_balance, draw_nichols, draw_nyquist
 from perilune.analysis.reports.stability.page import write_stability_page
 from perilune.analysis.reports.stability.parts import modes
 from perilune.analysis.reports.stability.poles import thin
