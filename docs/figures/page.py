@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from perilune.analysis.campaigns.fly.results import BatchResult
-from perilune.analysis.reports.campaign.distributions import distribution_panels, legend_of
-from perilune.analysis.reports.campaign.rates import rates_figure
+from perilune.analysis.reports.campaign.distributions import distribution_panels, legend_of, rates_figure
 from perilune.analysis.reports.campaign.scatters import failure_panels
 from perilune.analysis.reports.common.page import write_page
 from perilune.analysis.reports.common.panels import both_widths

@@ -1,8 +1,9 @@
-"""Empirical distributions of metrics over the trials of each variant: panels of a page, and one figure."""
+"""Success probabilities of the variants of a batch, and empirical distributions of their metrics."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from markupsafe import Markup
@@ -13,9 +14,10 @@ from matplotlib.lines import Line2D
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.spec.campaign import Metric
 from ...campaigns.verdicts.order_statistics import quantiles
-from ..common.panels import Panel, panel, swatch
+from ...common.percent import percent
+from ..common.panels import Panel, Widths, both_widths, is_slim, panel, swatch
 from ..common.quantities import display_factor, label_with_unit
-from ..common.style import WIDTH, Look, house_style, log_ticks_x, look, new_figure, plain_ticks
+from ..common.style import INK, WIDTH, Look, house_style, log_ticks_x, look, new_figure, plain_ticks
 
 CUMULATIVE = "cumulative probability (CDF), %"
 DECADES = 2.0  # range of a metric from which its axis is logarithmic
@@ -129,3 +131,69 @@ def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], looks:
         figure.legend(lines, list(looks), loc="outside upper left", ncols=columns, handlelength=3.2)
         figure.supylabel(CUMULATIVE, fontsize=9.0)
     return figure
+
+
+LANE, SLIM_LANE = 0.36, 0.52  # in
+RING: dict[str, Any] = {
+    "linestyle": "", "marker": "o", "markersize": 11, "markerfacecolor": "none", "markeredgecolor": INK,
+    "markeredgewidth": 1.2, "clip_on": False, "zorder": 4,
+}  # fmt: skip
+
+
+def rates_figure(result: BatchResult, published: Mapping[str, float] | None = None) -> Widths:
+    """A mark per variant at its success probability, a bar over the interval, both labelled.
+
+    ``published`` are rates to compare with, as fractions of 1, plotted as rings.
+    """
+    names = list(result.summary)
+    others = [100.0 * rate for rate in (published or {}).values()]
+    intervals = [[100.0 * end for end in result.summary[name].success_interval] for name in names]
+    lowest = min([low for low, _ in intervals] + others)
+
+    def draw(figure: Figure) -> None:
+        slim = is_slim(figure)
+        axes = figure.subplots()
+        for index, (name, (low, high)) in enumerate(zip(names, intervals, strict=True)):
+            rate = 100.0 * result.summary[name].success_rate
+            _draw_rate(axes, index, rate, low, high)
+            _write_rate(
+                axes,
+                index,
+                name,
+                f"{percent(rate / 100.0)} % ({percent(low / 100.0)} to {percent(high / 100.0)})",
+                slim,
+            )
+            if published is not None and name in published:
+                axes.plot(100.0 * published[name], index, **RING)
+        axes.set_yticks(range(len(names)), [""] * len(names) if slim else names)
+        axes.set_ylim(len(names) - 0.4, -0.8 if slim else -0.6)
+        axes.set_xlim(max(-2.0, lowest - 0.06 * (100.0 - lowest) - 1.0), 100.0)
+        axes.grid(visible=False, axis="y")
+        axes.tick_params(axis="y", length=0, labelsize=9)
+        plain_ticks(axes, x=5 if slim else 8)
+        axes.set_xlabel(
+            f"success probability, %, with {100.0 * result.summary[names[0]].confidence:g} % confidence interval"
+        )
+        if others:
+            figure.legend([Line2D([], [], **RING)], ["published rate"], loc="outside upper right", borderpad=0.1)
+
+    remainder = 0.75 + (0.25 if others else 0.0)
+    description = "Success probabilities of " + ", ".join(names)
+    return both_widths("rates", description, draw, remainder + LANE * len(names), remainder + SLIM_LANE * len(names))
+
+
+def _draw_rate(axes: Axes, index: int, rate: float, low: float, high: float) -> None:
+    colour, _, marker = look(index)
+    axes.plot([low, high], [index, index], color=colour, linewidth=2.2, solid_capstyle="butt")
+    for end in (low, high):
+        axes.plot([end, end], [index - 0.16, index + 0.16], color=colour, linewidth=1.3, clip_on=False)
+    axes.plot(rate, index, color=colour, marker=marker, markersize=7, clip_on=False, zorder=3)
+
+
+def _write_rate(axes: Axes, index: int, name: str, label: str, slim: bool) -> None:
+    """Write the rate next to its bar; on a narrow figure, name and rate above it."""
+    if not slim:
+        axes.annotate(label, (1.02, index), xycoords=("axes fraction", "data"), va="center")
+        return
+    for text, x, side in ((name, 0.0, "left"), (label, 1.0, "right")):
+        axes.annotate(text, (x, index - 0.32), xycoords=("axes fraction", "data"), ha=side, va="bottom", fontsize=8.5)

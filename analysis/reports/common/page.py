@@ -1,16 +1,18 @@
-"""Pages from templates: jinja2, one style sheet, nothing fetched from outside."""
+"""Pages from templates, and their tables: jinja2, one style sheet, nothing fetched from outside."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from ...common.atomic import write_atomically
 from ...common.percent import percent
-from .quantities import display_unit, in_shown_unit, number
+from .quantities import MINUS, display_unit, in_shown_unit, number
 
 FOLDER = Path(__file__).parent
 
@@ -56,3 +58,32 @@ def render_page(template: Path, **content: Any) -> str:
 def write_page(path: Path, template: Path, **content: Any) -> None:
     """Write a page, and the folder it lies in."""
     write_atomically(path, render_page(template, **content).encode())
+
+
+PLACES = 3  # decimals of a fraction
+
+
+class Table(NamedTuple):
+    """Headings and rows of cells; the columns ``numbers`` are aligned right."""
+
+    heads: Sequence[str]
+    rows: Sequence[Sequence[Markup | str]]
+    numbers: Sequence[int]
+
+
+def cell(value: Any, digits: int = 4, unit: str | None = None) -> Markup:
+    """A number with so many significant digits and the exact value in the markup, or a word as it is."""
+    return exact(value, unit, digits)
+
+
+def fraction(value: float | None) -> Markup:
+    """A number of the order of 1 with `PLACES` decimals and the exact value in the markup."""
+    if value is None or not math.isfinite(value):
+        return exact(value)
+    displayed = f"{round(value, PLACES) + 0.0:.{PLACES}f}".replace("-", MINUS)
+    return Markup('<data value="{}">{}</data>').format(repr(value), displayed)
+
+
+def fractions(low: float | None, high: float | None) -> Markup:
+    """The two ends of an interval."""
+    return Markup("{} to {}").format(fraction(low), fraction(high))

@@ -12,9 +12,8 @@ from ..common.page import exact
 from ..common.panels import HALF_WIDTH, Panel, panel
 from ..common.quantities import display_factor, display_unit
 from ..common.style import FAINT, GREEN, INK, look
-from .declared import Band
+from .declared import Band, Signal
 from .section import HEIGHT, Section, history_panel, legend_of, seconds, sentence
-from .values import Signal
 
 SETTLED = "settled"  # a band's name that a settling time needs not repeat
 ZOOM = 3.0  # widths of the band that the zoom shows

@@ -9,14 +9,13 @@ from markupsafe import Markup
 
 from ...runtime.flight.results import Result
 from .band_figure import band_section, inside, settling_text
-from .curve_figure import curve_section
 from .declared import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses
-from .error_figure import error_section
+from .history_figures import curve_section, error_section
+from .limits import limit_section
 from .path_figure import path_section
-from .phase_figure import phase_section
+from .phase_figure import budget_section, phase_section
 from .pulse_figure import pulse_section
 from .section import Section, sentence
-from .tables import budget_section, limit_section
 
 
 def figure_sections(figures: Sequence[Figure], result: Result) -> list[Section]:

@@ -7,9 +7,8 @@ from dataclasses import replace
 from lxml import etree
 
 from ...runtime.ssp.conversions import BASE_UNITS, Unit
-from .declared import Band, Curve, Error, Path, Point, Pulses
+from .declared import Arc, Band, Curve, Error, Path, Point, Pulses, Signal
 from .signal_reader import ROWS, SignalReader
-from .values import Arc, Signal
 
 SECOND, METRE = (Unit(unit, tuple(int(name == unit) for name in BASE_UNITS)) for unit in ("s", "m"))
 INSIDE = "within the band"

@@ -1,4 +1,4 @@
-"""Limits on values at the end of a run: verdicts, and rows of the tables that show them."""
+"""Limits on values at the end of a run: verdicts, and the tables, lines and JSON that show them."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Any
 
 from markupsafe import Markup
 
-from ...runtime.flight.results import Flight
-from ..common.page import exact
+from ...runtime.flight.results import Flight, Result
+from ..common.page import Table, exact
 from ..common.quantities import NONE, display_unit
-from .declared import Figure, Limit, Limits
-from .values import Unavailable
+from .declared import Figure, Limit, Limits, Unavailable
+from .section import Section, sentence
 
 
 class Verdict(StrEnum):
@@ -102,3 +102,23 @@ def _limit(limit: Limit, unit: str | None) -> Markup:
         token, value = ("at most", limit.most) if limit.least is None else ("at least", limit.least)
         return Markup("{} {}").format(token, exact(value, unit))
     return Markup("{} to {}").format(exact(limit.least, unit), exact(limit.most, unit))
+
+
+def limit_section(limits: Limits, result: Result) -> Section:
+    """The table of limits, with how many are met and which are violated, or why none is evaluated."""
+    violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is Verdict.VIOLATED]
+    obstacle = limits.obstacle(result)
+    total = len(limits.limits)
+    verdicts = Markup("{} of {} limits met").format(total - len(violated), total)
+    if violated:
+        verdicts = Markup("{}; violated: {}").format(verdicts, ", ".join(violated))
+    return Section(
+        title=limits.title,
+        table=Table(
+            heads=("", "final value", "limit", "unit", ""),
+            rows=limit_rows(limits, result),
+            numbers=(1, 2),
+        ),
+        findings=[sentence(Markup("not evaluated: {}").format(obstacle) if obstacle else verdicts)],
+        notes=[Markup("{}").format(note) for note in limits.notes],
+    )

@@ -11,9 +11,8 @@ from ...runtime.flight.results import Result
 from ..common.panels import both_widths, far, is_slim
 from ..common.quantities import display_unit, label_with_unit
 from ..common.style import BLUE, INK, look, plain_ticks
-from .declared import Path, Point
+from .declared import Arc, Path, Point, Signal
 from .section import Section, condition_text, empty_section, select_rows, sentence, span_of
-from .values import Arc, Signal
 
 HEIGHT = 3.6  # in
 EQUAL_HEIGHT = 4.6  # in, with equal scales

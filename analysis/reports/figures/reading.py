@@ -8,11 +8,10 @@ from lxml import etree
 
 from ...runtime.ssp.documents import tag
 from ...runtime.system.prepared import PreparedSystem
-from .declared import Figure
+from .declared import Figure, Unavailable
 from .history_readers import read_band, read_curve, read_error, read_path, read_pulses
 from .signal_reader import MissingSignalError, SignalReader
 from .stage_readers import read_budget, read_limits, read_phases
-from .values import Unavailable
 
 ANNOTATION = "org.perilune.report"
 BUDGET, LIMITS = "Budget", "Limits"

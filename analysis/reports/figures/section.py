@@ -12,12 +12,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...runtime.flight.results import Result
-from ..common.page import exact
+from ..common.page import Table, exact
 from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel, swatch
 from ..common.quantities import MINUS, in_shown_unit
 from ..common.style import look, plain_ticks
-from ..common.tables import Table
-from .values import Rows
+from .declared import Rows
 
 HEIGHT = 2.6  # in
 

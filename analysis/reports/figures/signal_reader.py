@@ -13,7 +13,7 @@ from ...runtime.ssp.annotations import AnnotationReader
 from ...runtime.ssp.conversions import Unit
 from ...runtime.system.names import elements, split_name
 from ...runtime.system.prepared import PreparedSystem
-from .values import Rows, Signal
+from .declared import Rows, Signal
 
 NUMBERS = ("Real", "Integer")
 ROWS = ("where", "from", "to")

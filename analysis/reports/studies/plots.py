@@ -9,7 +9,7 @@ from ...studies.sensitivity import SensitivityResult
 from ...studies.worst.outcome import WorstResult
 from ..common.style import WIDTH, house_style, new_figure
 from .rare_figures import draw_design_points, draw_exceedance, draw_limit_state, influence
-from .sensitivity_figures import LANE, MOST, bars_of, draw_indices
+from .sensitivity_page import LANE, MOST, bars_of, draw_indices
 from .worst_figures import draw_search, draw_trials
 
 HEIGHT = 3.2  # in

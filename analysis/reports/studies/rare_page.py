@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...studies.rare.outcome import RareResult
-from ..common.page import write_page
+from ..common.page import Table, cell, fraction, write_page
 from ..common.quantities import label_with_unit
-from ..common.tables import Table, cell, fraction
 from .conditions import conditions_of
 from .rare_figures import (
     PERCENT,

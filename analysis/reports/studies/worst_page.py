@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 from markupsafe import Markup
 
+from ...campaigns.draws.declared import input_names
+from ...campaigns.draws.given import GivenDraws, part_streams, stream_component
+from ...campaigns.fly.flyer import Flyer
+from ...campaigns.spec.campaign import Record
+from ...campaigns.spec.plan import BatchPlan
 from ...runtime.flight.results import Result
 from ...studies.worst.outcome import WorstResult
-from ..common.page import write_page
+from ..common.page import Table, cell, fraction, write_page
 from ..common.panels import Panel
 from ..common.quantities import display_unit, label_with_unit
-from ..common.tables import Table, cell, fraction
 from ..figures.declared import Figure
 from ..figures.figure_sections import figure_sections, joint_findings
+from ..figures.reading import read_figures
 from ..figures.section import Section
 from ..time_histories import Histories, time_histories
 from ..trajectory import trajectory_panels, trajectory_reading
@@ -164,3 +170,15 @@ def flight_part(flight: Result, figures: Sequence[Figure]) -> FlightPart:
         own=figure_sections(figures, flight),
         histories=time_histories(flight),
     )
+
+
+def worst_flight(result: WorstResult, plan: BatchPlan) -> tuple[Result, list[Figure]]:
+    """The flight of the worst case with the bits of the search; ``plan`` is that of the study. Raises InputError."""
+    plotted = result.flown.draws
+    names = [*input_names(plan.campaign), *(name for name in plotted if stream_component(name) is not None)]
+    given = GivenDraws(*part_streams({name: plotted[name][[result.row]] for name in names}))
+    plain = replace(plan, campaign=replace(plan.campaign, record=Record(), group=None, scatters=()))
+    flyer = Flyer(plain.of_samples(given))
+    (variant,) = flyer.variants
+    flight, _ = flyer.replay(variant, 0)
+    return flight, read_figures(plain.prepare(flyer.variants[variant]))

@@ -6,9 +6,8 @@ import re
 from collections.abc import Sequence
 
 from ....fmus_src.paths import SYSTEMS
-from ...reports.figures.declared import Figure, Limits
+from ...reports.figures.declared import Figure, Limits, Unavailable
 from ...reports.figures.limits import Verdict, evaluate, limit_lines
-from ...reports.figures.values import Unavailable
 from ...runtime.flight.results import Flight, Result, status_lines
 from ...runtime.system.prepared import PreparedSystem
 

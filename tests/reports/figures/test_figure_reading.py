@@ -11,9 +11,8 @@ import pytest
 
 from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.reports.figures.declared import Band, Error, Pulses
+from perilune.analysis.reports.figures.declared import Band, Error, Pulses, Unavailable
 from perilune.analysis.reports.figures.reading import read_figures
-from perilune.analysis.reports.figures.values import Unavailable
 from perilune.analysis.runtime.flight.program import layout_of
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions

@@ -12,9 +12,8 @@ import perilune
 from perilune.analysis.reports.figures.declared import Budget, Limits, Phases
 from perilune.analysis.reports.figures.figure_sections import figure_sections
 from perilune.analysis.reports.figures.limits import is_met
-from perilune.analysis.reports.figures.phase_figure import spans_of, statuses_of
+from perilune.analysis.reports.figures.phase_figure import amount, consumption_by_phase, spans_of, statuses_of
 from perilune.analysis.reports.figures.reading import read_figures
-from perilune.analysis.reports.figures.tables import amount, consumption_by_phase
 from perilune.analysis.runtime.system.prepared import prepare_system
 
 pytestmark = pytest.mark.usefixtures("fmus")

@@ -12,10 +12,9 @@ import pytest
 from lxml import etree, html
 
 import perilune
-from perilune.analysis.reports.figures.declared import Pulses
+from perilune.analysis.reports.figures.declared import Pulses, Signal, Unavailable
 from perilune.analysis.reports.figures.figure_sections import figure_sections, joint_findings
 from perilune.analysis.reports.figures.reading import read_figures
-from perilune.analysis.reports.figures.values import Signal, Unavailable
 from perilune.analysis.reports.run_report import write_run_report
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of

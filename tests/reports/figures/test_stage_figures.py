@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 from lxml import etree, html
 
-from perilune.analysis.reports.figures.declared import BoundValues
+from perilune.analysis.reports.figures.declared import Arc, BoundValues, Rows
 from perilune.analysis.reports.figures.figure_sections import figure_sections
 from perilune.analysis.reports.figures.limits import limit_entries, limit_lines
 from perilune.analysis.reports.figures.phase_figure import spans_of, statuses_of
 from perilune.analysis.reports.figures.section import align
-from perilune.analysis.reports.figures.values import Arc, Rows
 from perilune.analysis.reports.run_report import write_run_report
 from tests.support.pages.checks import assert_self_contained, parse
 from tests.support.pages.mission_samples import (  # fmt: skip

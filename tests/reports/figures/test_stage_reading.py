@@ -14,9 +14,18 @@ from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.trajectories.stored_bound import MissingBound, StoredBound
 from perilune.analysis.reports.figures import stage_readers
-from perilune.analysis.reports.figures.declared import BoundValues, Budget, Curve, Item, Limits, Path, Phases
+from perilune.analysis.reports.figures.declared import (
+    Arc,
+    BoundValues,
+    Budget,
+    Curve,
+    Item,
+    Limits,
+    Path,
+    Phases,
+    Unavailable,
+)
 from perilune.analysis.reports.figures.reading import read_figures
-from perilune.analysis.reports.figures.values import Arc, Unavailable
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.fmus_src.paths import SYSTEMS

@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from perilune.analysis.reports.studies.sensitivity_figures import bars_of
+from perilune.analysis.reports.studies.sensitivity_page import bars_of
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 from tests.support.pages.studies import SHARES
 

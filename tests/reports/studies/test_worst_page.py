@@ -17,7 +17,7 @@ from perilune.analysis.reports.studies.worst_figures import (
     objective_of,
     point_values,
 )
-from perilune.analysis.reports.studies.worst_flight import worst_flight
+from perilune.analysis.reports.studies.worst_page import worst_flight
 from perilune.analysis.studies.flown import Flown
 from perilune.analysis.studies.noise import Noise
 from perilune.analysis.studies.worst.realisations import Fresh, Realisations

@@ -16,8 +16,8 @@ from perilune.analysis.reports.figures.declared import (
     Phase,
     Phases,
     Point,
+    Rows,
 )
-from perilune.analysis.reports.figures.values import Rows
 from perilune.analysis.runtime.ssp.conversions import Unit
 from tests.support.pages.own_samples import DEG, DEGREE, TIME, flown, scalar
 
