@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import body, sampling
 from ..mathlib.vectors import clip, is_finite, vector
 
 GOOD = 0
@@ -25,24 +26,18 @@ class PulseAllocation(Block):
 
     default_step = 0.2
 
-    jet_torque = Parameter(
-        [60.0, 120.0, 120.0], unit="N.m", minimum=1e-9, frame="body", description="of a jet about x, y, z, both ways"
-    )
-    shortest_pulse = Parameter(0.03, unit="s", minimum=0.0, description="shortest pulse that is fired")
+    jet_torque = body.JET_TORQUE.parameter()
+    shortest_pulse = body.SHORTEST_PULSE.parameter()
     rest_kept = Parameter(
         1.0, unit="1", minimum=0.0, maximum=1.0, description="share of the rest that a tick without a demand leaves"
     )
     mean = Parameter(False, description="pass the mean torque instead of pulses")
-    sample_period = Parameter(0.2, unit="s", minimum=1e-3, description="tick")
-    torque_command = Input([0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque wanted over the tick")
-    pulse_lengths = Output(
-        [0.0, 0.0, 0.0], unit="s", frame="body", direct=True, description="lengths of the pulses, with their sign"
-    )
-    pulse_count = Output(0, description="pulses so far; a change tells new ones")
-    mean_torque = Output([0.0, 0.0, 0.0], unit="N.m", frame="body", direct=True, description="torque instead of pulses")
-    remainder = Output(
-        [0.0, 0.0, 0.0], unit="s", frame="body", direct=True, description="demanded and not fired, with its sign"
-    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick", minimum=1e-3)
+    torque_command = body.TORQUE.input("torque wanted over the tick")
+    pulse_lengths = body.PULSES.output(direct=True)
+    pulse_count = body.PULSE_COUNT.output()
+    mean_torque = body.TORQUE.output("torque instead of pulses", direct=True)
+    remainder = body.PULSES.output("demanded and not fired, with its sign", direct=True)
     status = Output(
         GOOD, minimum=0, maximum=2, direct=True, description="0 good, 1 a demand beyond the tick, 2 demand not finite"
     )

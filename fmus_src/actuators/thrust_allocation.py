@@ -2,6 +2,7 @@
 
 from ..block import Parameter, State
 from ..interfaces.allocation import Allocation
+from ..interfaces.ports import landing, sampling
 from ..kernel.functions import exp
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.rotation import turn_towards
@@ -30,9 +31,9 @@ class ThrustAllocation(Allocation):
     Assumes thrust through the centre of mass. Vehicle and leads are ours: docs/systems/lunar_landing.md.
     """
 
-    minimum_thrust = Parameter(0.0, unit="N", minimum=0.0, description="least thrust while burning")
-    maximum_thrust = Parameter(0.0, unit="N", minimum=0.0, description="largest thrust; 0: no limit")
-    thrust_lag = Parameter(0.0, unit="s", minimum=0.0, description="time constant of thrust; 0: none")
+    minimum_thrust = landing.MINIMUM_THRUST.parameter()
+    maximum_thrust = landing.MAXIMUM_THRUST.parameter(0.0, "largest thrust; 0: no limit")
+    thrust_lag = landing.THRUST_LAG.parameter()
     slew_rate_limit = Parameter(
         0.0, unit="rad/s", minimum=0.0, description="largest rate of the direction; 0: no limit"
     )
@@ -41,9 +42,9 @@ class ThrustAllocation(Allocation):
     )
     thrust_lead = Parameter(0.0, unit="s", minimum=0.0, description="the burn ends so much earlier than demanded")
     direction_lead = Parameter(0.0, unit="s", minimum=0.0, description="the direction is that of so much later")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    generator = sampling.GENERATOR.state()
     thrust_factor = State(1.0, unit="1", description="thrust given over thrust commanded")
     commanded_thrust = State(0.0, unit="N", description="thrust commanded at the last communication point")
 

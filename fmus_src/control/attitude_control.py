@@ -3,6 +3,7 @@
 import math
 
 from ..block import Block, Input, Output, Parameter, State
+from ..interfaces.ports import body, sampling
 from ..mathlib.lead import advance_lead, lead_output, tustin_lead
 from ..mathlib.quaternion import quaternion, to_body
 from ..mathlib.vectors import Vector3, cross, dot, is_finite, vector
@@ -37,28 +38,20 @@ class AttitudeControl(Block):
     natural_frequency = Parameter(1.0, unit="rad/s", minimum=0.0, description="of law 1")
     damping = Parameter(0.9, unit="1", minimum=0.0, description="of law 1")
     feed_forward = Parameter(True, description="take jet_torque and disturbance off")
-    sample_period = Parameter(0.25, unit="s", minimum=0.0, description="between ticks; 0: every communication point")
-    attitude_error = Input(
-        [0.0, 0.0, 0.0], unit="rad", frame="body", description="from planned to true: axis times sine of the angle"
-    )
-    rate_error = Input(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="true angular velocity less the planned"
-    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "between ticks; 0: every communication point")
+    attitude_error = body.ROTATION.input("from planned to true: axis times sine of the angle")
+    rate_error = body.ANGULAR_VELOCITY.input("true angular velocity less the planned")
     planned_angular_velocity = Input([0.0, 0.0, 0.0], unit="rad/s", frame="body of the plan", description="now")
     planned_angular_acceleration = Input(
         [0.0, 0.0, 0.0], unit="rad/s2", frame="body of the plan", description="half a sample_period from now"
     )
-    gyro_momentum = Input([0.0, 0.0, 0.0], unit="N.m.s", frame="body", description="of the gyro cluster")
-    jet_torque = Input([0.0, 0.0, 0.0], unit="N.m", frame="body", description="of the jets from now on")
-    disturbance = Input(
-        [0.0, 0.0, 0.0], unit="rad/s2", frame="body", description="angular acceleration by neither gyros nor jet_torque"
-    )
-    torque_command = Output(
-        [0.0, 0.0, 0.0], unit="N.m", frame="body", direct=True, description="torque on the body wanted from the gyros"
-    )
+    gyro_momentum = body.ANGULAR_MOMENTUM.input("of the gyro cluster")
+    jet_torque = body.TORQUE.input("of the jets from now on")
+    disturbance = body.ANGULAR_ACCELERATION.input("angular acceleration by neither gyros nor jet_torque")
+    torque_command = body.TORQUE.output("torque on the body wanted from the gyros", direct=True)
     status = Output(0, minimum=0, maximum=1, direct=True, description="0 good, 1 last inputs not finite, torque held")
     period = State(0.0, unit="s", description="to the next tick")
-    lead_state = State([0.0, 0.0, 0.0], unit="rad", frame="body", description="of the lead compensator")
+    lead_state = body.ROTATION.state("of the lead compensator")
 
     def initialize(self) -> None:
         self.period = self.sample_period

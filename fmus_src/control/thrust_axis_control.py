@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, Parameter
+from ..interfaces.ports import landing, sampling
 from ..mathlib.rotation import rotation_between
 from ..mathlib.vectors import Vector3, across, cross, limit_length, norm, vector
 
@@ -39,22 +40,16 @@ class ThrustAxisControl(Block):
     maximum_angular_acceleration = Parameter(
         0.017453292519943295, unit="rad/s2", minimum=0.0, description="largest acceleration; 0: no limit"
     )
-    thrust_direction = Input(
-        [0.0, 0.0, 1.0], unit="1", frame="landing site", description="commanded direction at command_time"
-    )
-    thrust_direction_rate = Input([0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="its derivative")
-    command_time = Input(0.0, unit="s", description="time that the direction counts from")
-    angular_acceleration_feed = Input(
-        [0.0, 0.0, 0.0], unit="rad/s2", frame="landing site", description="that the command itself needs"
-    )
-    attitude = Input([0.0, 0.0, 1.0], unit="1", frame="landing site", description="measured unit vector of thrust")
-    angular_rate = Input([0.0, 0.0, 0.0], unit="rad/s", frame="landing site", description="measured angular rate")
-    angular_acceleration = Output(
-        [0.0, 0.0, 0.0], unit="rad/s2", frame="landing site", direct=True, description="commanded angular acceleration"
-    )
+    thrust_direction = landing.DIRECTION.input("commanded direction at command_time")
+    thrust_direction_rate = landing.DIRECTION_RATE.input()
+    command_time = landing.COMMAND_TIME.input("time that the direction counts from")
+    angular_acceleration_feed = landing.ANGULAR_ACCELERATION.input("that the command itself needs")
+    attitude = landing.DIRECTION.input("measured unit vector of thrust")
+    angular_rate = landing.ANGULAR_RATE.input("measured angular rate")
+    angular_acceleration = landing.ANGULAR_ACCELERATION.output("commanded angular acceleration", direct=True)
     direction_error = Output(0.0, unit="rad", direct=True, description="angle from measured attitude to the command")
     status = Output(0, minimum=0, maximum=1, direct=True, description="0 good, 1 shortened to the limit")
-    start_time = State(0.0, unit="s", description="start of the flight")
+    start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:
         self.control(self.start_time)

@@ -1,6 +1,7 @@
 """From the error of position and velocity to the force wanted."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import inertial, landing, robot
 from ..mathlib.lead import LeadLaw, advance_lead, change_lead, is_same, lead_output, tustin_lead
 from ..mathlib.vectors import Vector3, is_finite
 
@@ -26,25 +27,23 @@ class TranslationControl(Block):
     default_step = 0.125
 
     law = Parameter(1, minimum=0, maximum=1, description="0 lead compensator, 1 position and velocity")
-    mass = Parameter(1000.0, unit="kg", minimum=1e-3, description="of the robot")
+    mass = landing.MASS.parameter(1000.0, "of the robot", minimum=1e-3)
     design_period = Parameter([8.0, 4.0], unit="s", minimum=1e-3, description="translation_period of the two designs")
     lead_gain = Parameter([1.5625e-4, 6.25e-4], minimum=0.0, description="of the lead at rest, per design, 1/s2")
     lead_time = Parameter([160.0, 80.0], unit="s", minimum=0.0, description="lead, per design")
     lag_time = Parameter([13.3, 6.67], unit="s", minimum=0.0, description="lag, per design")
     natural_frequency = Parameter([0.03, 0.05], unit="rad/s", minimum=0.0, description="of law 1, per design")
     damping = Parameter([0.9, 0.9], unit="1", minimum=0.0, description="of law 1, per design")
-    position_error = Input([0.0, 0.0, 0.0], unit="m", frame="inertial", description="of the robot from its plan")
-    velocity_error = Input([0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="of the robot from its plan")
-    planned_acceleration = Input(
-        [0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="mean over the time in which the force acts"
-    )
-    translation_period = Input(8.0, unit="s", minimum=1e-3, description="to the next tick")
-    translation_count = Input(0, description="ticks so far; a change tells a new one")
-    force_command = Output([0.0, 0.0, 0.0], unit="N", frame="inertial", direct=True, description="wanted force")
-    command_count = Output(0, direct=True, description="forces commanded; a change tells a new one")
+    position_error = inertial.POSITION.input("of the robot from its plan")
+    velocity_error = inertial.VELOCITY.input("of the robot from its plan")
+    planned_acceleration = inertial.ACCELERATION.input("mean over the time in which the force acts")
+    translation_period = robot.TRANSLATION_PERIOD.input()
+    translation_count = robot.TRANSLATION_COUNT.input()
+    force_command = inertial.FORCE.output(direct=True)
+    command_count = robot.COMMAND_COUNT.output(direct=True)
     status = Output(0, minimum=0, maximum=1, direct=True, description="0 good, 1 last inputs not finite, force held")
     ticks = State(0, description="translation_count of the last tick")
-    lead_state = State([0.0, 0.0, 0.0], unit="m", frame="inertial", description="of the lead compensator")
+    lead_state = inertial.POSITION.state("of the lead compensator")
     last_law = State(LeadLaw, description="lead of the last tick")
     started = State(False, description="last_law is set")
 

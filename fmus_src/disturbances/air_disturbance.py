@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Output, Parameter, State
+from ..block import Block, Output, Parameter
+from ..interfaces.ports import entry, sampling
 from ..kernel.functions import cos
 
 
@@ -14,7 +15,7 @@ class AirDisturbance(Block):
 
     default_step = 0.2
 
-    wind = Parameter([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="of the air throughout")
+    wind = entry.WIND.parameter(description="of the air throughout")
     gust = Parameter([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="height of the gust over that")
     gust_time = Parameter(0.0, unit="s", description="its begin after the start")
     gust_duration = Parameter(10.0, unit="s", minimum=1e-3, description="from its begin to its end")
@@ -22,8 +23,8 @@ class AirDisturbance(Block):
     density_time = Parameter(1e9, unit="s", description="of the change after the start")
     later_density = Parameter(1.0, unit="1", minimum=0.0, description="factor on the density from then on")
     air_velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="of the air over the ground")
-    density_factor = Output(1.0, unit="1", description="on the density of the standard atmosphere")
-    start_time = State(0.0, unit="s", description="start of the flight")
+    density_factor = entry.DENSITY_FACTOR.output()
+    start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:
         self.put_out(0.0)

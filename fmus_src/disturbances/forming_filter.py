@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Output, Parameter, State
+from ..block import Block, Output, Parameter
+from ..interfaces.ports import sampling
 from ..kernel.functions import cos, cosh, exp, sin, sinh
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import Vector4, vector
@@ -24,11 +25,11 @@ class FormingFilter(Block):
     damping = Parameter(0.5, unit="1", minimum=1e-3, description="damping ratio")
     natural_frequency = Parameter(1.0, unit="rad/s", minimum=1e-4, description="undamped natural frequency")
     intensity = Parameter(1.0, unit="s", minimum=0.0, description="two-sided spectral density of the white noise")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
     disturbance = Output(0.0, unit="1", description="filtered noise")
     disturbance_rate = Output(0.0, unit="1/s", description="its derivative")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    generator = sampling.GENERATOR.state()
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -1,6 +1,7 @@
 """What is left of the torque of each jet."""
 
-from ..block import Block, Output, Parameter
+from ..block import Block, Parameter
+from ..interfaces.ports import entry
 
 
 class JetHealth(Block):
@@ -12,7 +13,7 @@ class JetHealth(Block):
     default_step = 0.2
 
     factors = Parameter([1.0] * 6, unit="1", minimum=0.0, description="of +x, -x, +y, -y, +z, -z")
-    jet_factor = Output([1.0] * 6, unit="1", description="likewise")
+    jet_factor = entry.JET_FACTOR.output("likewise")
 
     def initialize(self) -> None:
         for k in range(6):

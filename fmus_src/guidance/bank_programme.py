@@ -3,6 +3,7 @@
 import math
 
 from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import entry, sampling
 from ..mathlib.vectors import clip
 
 IDEAL = 0
@@ -31,12 +32,12 @@ class BankProgramme(Block):
     bank_rate = Parameter(12.0 * math.pi / 180.0, unit="rad/s", minimum=1e-6, description="largest rate, time-optimal")
     bank_acceleration = Parameter(0.06, unit="rad/s2", minimum=1e-6, description="acceleration, time-optimal")
     largest_error = Parameter(48.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="of the limited method")
-    sample_period = Parameter(0.2, unit="s", minimum=0.0, description="tick; 0: every communication point")
-    target_bank = Output(60.0 * math.pi / 180.0, unit="rad", description="target")
-    reference_bank = Output(60.0 * math.pi / 180.0, unit="rad", description="bank to be at now")
-    reference_bank_rate = Output(0.0, unit="rad/s", description="its rate")
-    reference_bank_acceleration = Output(0.0, unit="rad/s2", description="its second derivative")
-    error_limit = Output(math.pi, unit="rad", description="largest error of bank that the regulator acts on")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick; 0: every communication point")
+    target_bank = entry.TARGET_BANK.output()
+    reference_bank = entry.REFERENCE_BANK.output()
+    reference_bank_rate = entry.REFERENCE_BANK_RATE.output()
+    reference_bank_acceleration = entry.REFERENCE_BANK_ACCELERATION.output()
+    error_limit = entry.ERROR_LIMIT.output()
     time_since_reversal = Output(NEVER, unit="s", description="since the last reversal was commanded; 1e9 before")
     start_time = State(0.0, unit="s", description="start of the flight")
 

@@ -1,6 +1,7 @@
 """Guidance from hover to hover: plans, and the law that tracks them."""
 
 from ..block import Input, Output, Parameter, State
+from ..interfaces.ports import landing, sampling
 from ..kernel.functions import expm1, tan
 from ..mathlib.gravity import STANDARD_GRAVITY
 from ..mathlib.lagged_thrust import lagged_thrust
@@ -59,52 +60,32 @@ class HoverGuidance(HoverPlan):
     estimate_thrust = Parameter(True, description="false: thrust_factor stays 1")
     descent_acceleration = Parameter(0.3, unit="m/s2", minimum=1e-3, description="with which a descent begins")
     descent_speed = Parameter(1.0, unit="m/s", minimum=1e-3, description="of a descent")
-    sample_period = Parameter(0.1, unit="s", minimum=0.0, description="guidance cycle; 0: every communication point")
-    active = Input(True, description="false: no command; where it becomes true, a plan starts")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.1, "guidance cycle; 0: every communication point")
+    active = landing.ACTIVE.input()
     mode = Input(
         2,
         minimum=0,
         maximum=5,
         description="0 idle, 1 hold, 2 programme, 3 slow transfer, 4 capture, 5 descend; a change starts a plan",
     )
-    plan_number = Input(0, description="of the plan requested; a change starts it")
-    thrust_acceleration = Output(0.0, unit="m/s2", direct=True, description="commanded thrust over mass")
-    thrust_direction = Output(
-        [0.0, 0.0, 1.0],
-        unit="1",
-        frame="landing site",
-        direct=True,
-        description="commanded unit vector at command_time",
-    )
-    thrust_direction_rate = Output(
-        [0.0, 0.0, 0.0],
-        unit="1/s",
-        frame="landing site",
-        direct=True,
-        description="its derivative, perpendicular to it",
-    )
-    command_time = Output(0.0, unit="s", direct=True, description="when the command was computed")
-    burn_duration = Output(UNLIMITED, unit="s", direct=True, description="how long to thrust from command_time on")
-    time_to_go = Output(0.0, unit="s", direct=True, description="time left to the end of the plan")
-    finished = Output(False, direct=True, description="the plan is over")
-    angular_acceleration_feed = Output(
-        [0.0, 0.0, 0.0],
-        unit="rad/s2",
-        frame="landing site",
-        direct=True,
-        description="of the plan's direction, mean over the next cycle",
+    plan_number = landing.PLAN_NUMBER.input()
+    thrust_acceleration = landing.THRUST_ACCELERATION.output(direct=True)
+    thrust_direction = landing.DIRECTION.output("commanded unit vector at command_time", direct=True)
+    thrust_direction_rate = landing.DIRECTION_RATE.output("its derivative, perpendicular to it", direct=True)
+    command_time = landing.COMMAND_TIME.output("when the command was computed", direct=True)
+    burn_duration = landing.BURN_DURATION.output(start=UNLIMITED, direct=True)
+    time_to_go = landing.TIME_TO_GO.output("time left to the end of the plan", direct=True)
+    finished = landing.FINISHED.output("the plan is over", direct=True)
+    angular_acceleration_feed = landing.ANGULAR_ACCELERATION.output(
+        "of the plan's direction, mean over the next cycle", direct=True
     )
     answered_plan = Output(
         0, direct=True, description="plan_number of the plan that the outputs belong to; idle: of the last one"
     )
     plan_time = Output(0.0, unit="s", direct=True, description="since the plan's start")
     thrust_factor = Output(1.0, unit="1", direct=True, description="estimated thrust over commanded thrust")
-    reference_position = Output(
-        [0.0, 0.0, 0.0], unit="m", frame="landing site", direct=True, description="of the plan, now"
-    )
-    reference_velocity = Output(
-        [0.0, 0.0, 0.0], unit="m/s", frame="landing site", direct=True, description="of the plan, now"
-    )
+    reference_position = landing.POSITION.output("of the plan, now", direct=True)
+    reference_velocity = landing.VELOCITY.output("of the plan, now", direct=True)
     saturated = Output(
         False, direct=True, description="the demand is outside the engine's limits, or an error is shortened"
     )

@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import landing
 from ..kernel.functions import cos, expm1, sin
 from ..mathlib.gravity import STANDARD_GRAVITY, from_centre, vertical_at
 from ..mathlib.hover_motion import HoverVehicle, motion, propellant, thrust_impulse
@@ -36,9 +37,9 @@ class HoverPlan(Block, interface=True):
     Assumes gravity that is uniform over a plan, and a thrust axis that turns with a limited angular acceleration.
     """
 
-    specific_impulse = Parameter(300.0, unit="s", minimum=1e-3, description="of the engine")
-    maximum_thrust = Parameter(4707.192, unit="N", minimum=1e-3, description="of the engine")
-    minimum_thrust = Parameter(313.8128, unit="N", minimum=0.0, description="of the engine while it burns")
+    specific_impulse = landing.SPECIFIC_IMPULSE.parameter(300.0)
+    maximum_thrust = landing.MAXIMUM_THRUST.parameter(4707.192, "of the engine", minimum=1e-3)
+    minimum_thrust = landing.MINIMUM_THRUST.parameter(313.8128, "of the engine while it burns")
     planned_maximum = Parameter(
         0.9, unit="1", minimum=1e-3, maximum=1.0, description="largest thrust of plans over maximum_thrust"
     )
@@ -50,21 +51,16 @@ class HoverPlan(Block, interface=True):
     )
     slow_speed = Parameter(4.0, unit="m/s", minimum=1e-3, description="largest of a slow transfer")
     slow_acceleration = Parameter(0.3, unit="m/s2", minimum=1e-3, description="largest of a slow transfer")
-    uniform_gravity = Parameter(0.0, unit="m/s2", minimum=0.0, description="gravity along -z; 0: central field")
-    gravitational_parameter = Parameter(4.9028e12, unit="m3/s2", minimum=0.0, description="of the Moon")
-    moon_radius = Parameter(1.7374e6, unit="m", minimum=1.0, description="from the Moon's centre to the site")
-    target_position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="where to hover")
-    position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimated position")
-    velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimated velocity")
-    mass = Input(1.0, unit="kg", description="estimated mass")
-    attitude = Input([0.0, 0.0, 1.0], unit="1", frame="landing site", description="measured unit vector of thrust")
-    angular_rate = Input([0.0, 0.0, 0.0], unit="rad/s", frame="landing site", description="measured angular rate")
-    velocity_increment = Input(
-        [0.0, 0.0, 0.0],
-        unit="m/s",
-        frame="landing site",
-        description="measured integral of specific force over the last cycle",
-    )
+    uniform_gravity = landing.UNIFORM_GRAVITY.parameter()
+    gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter()
+    moon_radius = landing.MOON_RADIUS.parameter(description="from the Moon's centre to the site")
+    target_position = landing.POSITION.input("where to hover")
+    position = landing.POSITION.input("estimated position")
+    velocity = landing.VELOCITY.input("estimated velocity")
+    mass = landing.MASS.input("estimated mass")
+    attitude = landing.DIRECTION.input("measured unit vector of thrust")
+    angular_rate = landing.ANGULAR_RATE.input("measured angular rate")
+    velocity_increment = landing.VELOCITY.input("measured integral of specific force over the last cycle")
     status = Output(
         0,
         minimum=0,
@@ -79,7 +75,7 @@ class HoverPlan(Block, interface=True):
         direct=True,
         description="0 none, 1 vertical, 2 without first burn, 3 with first burn, 4 polynomial",
     )
-    predicted_propellant = Output(0.0, unit="kg", direct=True, description="that the plan takes")
+    predicted_propellant = landing.PREDICTED_PROPELLANT.output(direct=True)
     programme = Output([0.0] * 5, unit="s", direct=True, description="t2, t5, w, tp, t7 of the programme; 0 where none")
     origin = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="where the plan starts")
     goal = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="where the plan ends")

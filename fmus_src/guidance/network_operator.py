@@ -1,7 +1,8 @@
 """Descent in space by a network operator."""
 
-from ..block import Parameter, State
+from ..block import State
 from ..interfaces.network_operator_law import NetworkOperatorLaw
+from ..interfaces.ports import landing
 from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION, UNLIMITED, TerminalGuidance
 from ..kernel.functions import atan2, cos, expm1, sin
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, from_centre
@@ -32,11 +33,11 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     """
 
     target_position = TerminalGuidance.target_position.with_start([0.0, 0.0, 1500.0])
-    specific_impulse = Parameter(319.0, unit="s", minimum=1e-3, description="of the engine, for time_to_go")
+    specific_impulse = landing.SPECIFIC_IMPULSE.parameter(description="of the engine, for time_to_go")
     # 6 m/s is what a hand-over is judged by; navigation does not know the speed better than 0.1 m/s
-    handover_speed = Parameter(5.9, unit="m/s", minimum=0.0, description="finished below it")
-    handover_altitude_low = Parameter(1200.0, unit="m", description="lowest altitude to finish at")
-    handover_altitude_high = Parameter(1800.0, unit="m", description="highest altitude to finish at")
+    handover_speed = landing.HANDOVER_SPEED.parameter()
+    handover_altitude_low = landing.HANDOVER_ALTITUDE_LOW.parameter()
+    handover_altitude_high = landing.HANDOVER_ALTITUDE_HIGH.parameter()
     final_altitude = State(0.0, unit="m", description="hf, the target's altitude")
     altitude = State(0.0, unit="m", description="altitude")
     forward = State([1.0, 0.0, 0.0], unit="1", frame="landing site", description="horizontal direction of flight")

@@ -1,7 +1,8 @@
 """Descent in a plane by a network operator."""
 
-from ..block import Input, Output, Parameter
+from ..block import Output, Parameter
 from ..interfaces.network_operator_law import NetworkOperatorLaw
+from ..interfaces.ports import landing, sampling
 
 BAD_LAW = 1
 
@@ -16,11 +17,11 @@ class PlanarNetworkOperator(NetworkOperatorLaw):
     """
 
     final_altitude = Parameter(1500.0, unit="m", description="hf, where to arrive")
-    sample_period = Parameter(0.0, unit="s", minimum=0.0, description="guidance cycle; 0: every communication point")
-    measured_path_angle = Input(-1.6, unit="rad", description="from the local vertical to the velocity, unwrapped")
-    measured_altitude = Input(18148.0, unit="m", description="altitude")
-    thrust_angle = Output(0.0, unit="rad", direct=True, description="from the local vertical to the thrust")
-    thrust = Output(0.0, unit="N", direct=True, description="commanded thrust")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.0, "guidance cycle; 0: every communication point")
+    measured_path_angle = landing.MEASURED_PATH_ANGLE.input()
+    measured_altitude = landing.MEASURED_ALTITUDE.input("altitude", start=18148.0)
+    thrust_angle = landing.THRUST_ANGLE.output(direct=True)
+    thrust = landing.THRUST.output(direct=True)
     status = Output(
         0, minimum=0, maximum=1, direct=True, description="0 good, 1 the matrix is no network operator: no thrust"
     )

@@ -3,6 +3,7 @@
 import math
 
 from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import body, inertial, robot
 from ..mathlib.quaternion import from_rotation_vector
 from ..mathlib.rotation import rotation_between
 from ..mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
@@ -36,16 +37,11 @@ class RendezvousGuidance(Block):
 
     default_step = 0.125
 
-    target_position = Parameter(
-        [469.8463103929542, 171.01007166283436, 0.0],
-        unit="m",
-        frame="inertial",
-        description="the object's centre at the start, as known",
+    target_position = inertial.POSITION.parameter(
+        [469.8463103929542, 171.01007166283436, 0.0], "the object's centre at the start, as known"
     )
-    target_velocity = Parameter(
-        [-0.05, 0.05, 0.075], unit="m/s", frame="inertial", description="of the object, as known"
-    )
-    spin_axis = Parameter([-0.608, 0.228, 0.760], unit="1", frame="inertial", description="of the object, any length")
+    target_velocity = inertial.VELOCITY.parameter([-0.05, 0.05, 0.075], "of the object, as known")
+    spin_axis = robot.SPIN_AXIS.parameter()
     turn_start = Parameter(1420.0, unit="s", minimum=0.0, description="end of the acceleration")
     turn_end = Parameter(1520.0, unit="s", minimum=0.0, description="end of the turn")
     arrival_time = Parameter(4250.0, unit="s", minimum=0.0, description="end of the spline")
@@ -53,29 +49,18 @@ class RendezvousGuidance(Block):
     spline_degree = Parameter(5, minimum=5, maximum=6, description="6: without jerk at the end, too")
     slow_period = Parameter(8.0, unit="s", minimum=1e-3, description="of translation control until turn_end")
     fast_period = Parameter(4.0, unit="s", minimum=1e-3, description="of translation control from then on")
-    delay_fraction = Parameter(
-        0.25, unit="1", minimum=0.0, maximum=1.0, description="delay of the jets over the period of translation control"
-    )
+    delay_fraction = robot.DELAY_FRACTION.parameter()
     attitude_period = Parameter(0.25, unit="s", minimum=0.0, description="of attitude control")
-    planned_position = Output([0.0, 0.0, 0.0], unit="m", frame="inertial", description="of the robot")
-    planned_velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="of the robot")
-    planned_acceleration = Output(
-        [0.0, 0.0, 0.0],
-        unit="m/s2",
-        frame="inertial",
-        description="mean over the time in which the last tick's force acts",
-    )
-    planned_relative_position = Output(
-        [0.0, 0.0, 0.0], unit="m", frame="inertial", description="from the robot to the object's centre"
-    )
-    planned_quaternion = Output([1.0, 0.0, 0.0, 0.0], unit="1", description="from body to inertial, scalar first")
-    planned_angular_velocity = Output([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="of the plan")
-    planned_angular_acceleration = Output(
-        [0.0, 0.0, 0.0], unit="rad/s2", frame="body", description="of the plan, half an attitude_period later"
-    )
+    planned_position = inertial.POSITION.output("of the robot")
+    planned_velocity = inertial.VELOCITY.output("of the robot")
+    planned_acceleration = inertial.ACCELERATION.output("mean over the time in which the last tick's force acts")
+    planned_relative_position = inertial.POSITION.output("from the robot to the object's centre")
+    planned_quaternion = robot.PLANNED_QUATERNION.output("from body to inertial, scalar first")
+    planned_angular_velocity = body.ANGULAR_VELOCITY.output("of the plan")
+    planned_angular_acceleration = body.ANGULAR_ACCELERATION.output("of the plan, half an attitude_period later")
     phase = Output(1, minimum=1, maximum=4, description="1 accelerate, 2 turn, 3 approach, 4 hold")
     translation_period = Output(8.0, unit="s", description="of translation control, from the last tick on")
-    translation_count = Output(0, description="ticks of translation control so far; a change tells a new one")
+    translation_count = robot.TRANSLATION_COUNT.output("ticks of translation control so far; a change tells a new one")
     status = Output(0, minimum=0, maximum=1, description="0 good, 1 no plan: phases out of order")
     start_time = State(0.0, unit="s", description="start of the flight")
     acceleration = State([0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="of phase 1")

@@ -1,6 +1,7 @@
 """The slot of allocation: from a guidance command to what engine and attitude do."""
 
 from ..block import Block, Input, Output
+from .ports import landing
 
 
 class Allocation(Block, interface=True):
@@ -9,23 +10,17 @@ class Allocation(Block, interface=True):
     Directions are unit vectors of the landing-site frame at command_time with their rates.
     """
 
-    thrust_acceleration = Input(0.0, unit="m/s2", description="demanded thrust over mass")
-    demanded_direction = Input(
-        [0.0, 0.0, 1.0], unit="1", frame="landing site", description="demanded direction at demand_time"
-    )
-    demanded_direction_rate = Input([0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="its derivative")
+    thrust_acceleration = landing.THRUST_ACCELERATION.input("demanded thrust over mass")
+    demanded_direction = landing.DIRECTION.input("demanded direction at demand_time")
+    demanded_direction_rate = landing.DIRECTION_RATE.input()
     demand_time = Input(0.0, unit="s", description="when the demand was computed")
     demanded_duration = Input(0.0, unit="s", description="how long to thrust from demand_time on")
-    mass = Input(1.0, unit="kg", description="mass of the vehicle")
-    thrust = Output(0.0, unit="N", direct=True, description="thrust")
-    thrust_direction = Output(
-        [0.0, 0.0, 1.0], unit="1", frame="landing site", direct=True, description="unit vector at command_time"
-    )
-    thrust_direction_rate = Output(
-        [0.0, 0.0, 0.0], unit="1/s", frame="landing site", direct=True, description="its derivative"
-    )
-    command_time = Output(0.0, unit="s", direct=True, description="time that direction and duration count from")
-    burn_duration = Output(0.0, unit="s", direct=True, description="how long to thrust from command_time on")
+    mass = landing.MASS.input("mass of the vehicle")
+    thrust = landing.THRUST.output("thrust", direct=True)
+    thrust_direction = landing.DIRECTION.output(direct=True)
+    thrust_direction_rate = landing.DIRECTION_RATE.output(direct=True)
+    command_time = landing.COMMAND_TIME.output(direct=True)
+    burn_duration = landing.BURN_DURATION.output(direct=True)
     status = Output(
         0,
         minimum=0,

@@ -8,6 +8,7 @@ from ..kernel.records import replace
 from ..mathlib.orbital import AttitudeState
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
 from .orbital_body import OrbitalBody
+from .ports import body, sampling
 
 GOOD = 0
 HELD = 1
@@ -50,33 +51,19 @@ class AttitudeObserver(OrbitalBody, interface=True):
     gyro_bias_sigma = Parameter(
         4.84813681109536e-09, unit="rad/s", minimum=1e-12, description="of a gyro's bias, 1 sigma, for a filter"
     )
-    sample_period = Parameter(0.2, unit="s", minimum=1e-3, description="tick")
-    measured_roll = Input(0.0, unit="rad", description="roll")
-    measured_pitch = Input(0.0, unit="rad", description="pitch")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick", minimum=1e-3)
+    measured_roll = body.MEASURED_ROLL.input()
+    measured_pitch = body.MEASURED_PITCH.input()
     vertical_count = Input(0, description="samples of roll and pitch so far; a change tells a new one")
-    measured_angular_velocity = Input(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity, absolute"
-    )
+    measured_angular_velocity = body.ANGULAR_VELOCITY.input()
     gyro_count = Input(0, description="samples of the gyros so far; a change tells a new one")
-    fired_pulses = Input(
-        [0.0, 0.0, 0.0], unit="s", frame="body", description="pulses of the tick that has passed, with their sign"
-    )
-    held_torque = Input(
-        [0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque beside the pulses over that tick"
-    )
+    fired_pulses = body.PULSES.input("pulses of the tick that has passed, with their sign")
+    held_torque = body.TORQUE.input("torque beside the pulses over that tick")
     true_angles = Input([0.0, 0.0, 0.0], unit="rad", description="for the observer that is told")
-    true_angular_velocity = Input([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="likewise, absolute")
-    estimated_angles = Output([0.0, 0.0, 0.0], unit="rad", direct=True, description="roll, yaw, pitch")
-    estimated_angular_velocity = Output(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body", direct=True, description="angular velocity, absolute"
-    )
-    estimated_gyro_bias = Output(
-        [0.0, 0.0, 0.0],
-        unit="rad/s",
-        frame="body",
-        direct=True,
-        description="bias of the gyros; 0 where it is not sought",
-    )
+    true_angular_velocity = body.ANGULAR_VELOCITY.input("likewise, absolute")
+    estimated_angles = body.ESTIMATED_ANGLES.output(direct=True)
+    estimated_angular_velocity = body.ANGULAR_VELOCITY.output(direct=True)
+    estimated_gyro_bias = body.ANGULAR_VELOCITY.output("bias of the gyros; 0 where it is not sought", direct=True)
     yaw_sigma = Output(0.0, unit="rad", direct=True, description="of the estimated yaw, 1 sigma; 0 where there is none")
     status = Output(
         GOOD,
@@ -88,7 +75,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
     estimate = State(AttitudeState, description="estimate of now")
     last_roll = State(0.0, unit="rad", description="roll measured at the tick before")
     last_pitch = State(0.0, unit="rad", description="pitch measured at the tick before")
-    last_rates = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="rates measured at the tick before")
+    last_rates = body.ANGULAR_VELOCITY.state("rates measured at the tick before")
     vertical_counted = State(0, description="vertical_count of the last sample")
     gyro_counted = State(0, description="gyro_count of the last sample")
     ticks = State(0, description="ticks since the start")

@@ -2,8 +2,9 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter
+from ..block import Block, Output, Parameter
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
+from .ports import body, entry, sampling
 
 GOOD = 0
 NOT_FINITE = 1
@@ -23,32 +24,20 @@ class EntryControl(Block, interface=True):
 
     default_step = 0.2
 
-    inertia = Parameter(
-        [1400.0, -40.0, 0.0, -40.0, 1250.0, 0.0, 0.0, 0.0, 1200.0],
-        columns=3,
-        unit="kg.m2",
-        frame="body",
-        description="matrix of inertia, as known on board",
-    )
-    jet_torque = Parameter(
-        [100.0, 80.0, 80.0], unit="N.m", minimum=1e-9, frame="body", description="levels as known on board, both ways"
-    )
+    inertia = body.INERTIA.parameter(description="matrix of inertia, as known on board")
+    jet_torque = body.JET_TORQUE.parameter([100.0, 80.0, 80.0], "levels as known on board, both ways")
     trim_attack = Parameter(-20.0 * math.pi / 180.0, unit="rad", description="attack at which the capsule trims")
     dead_zone = Parameter(0.0, unit="1", minimum=0.0, description="share of a level below which nothing is demanded")
-    sample_period = Parameter(0.2, unit="s", minimum=1e-3, description="tick")
-    measured_bank = Input(0.0, unit="rad", description="bank")
-    measured_angular_velocity = Input(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity, absolute"
-    )
-    target_bank = Input(0.0, unit="rad", description="target of the programme")
-    reference_bank = Input(0.0, unit="rad", description="bank to be at now")
-    reference_bank_rate = Input(0.0, unit="rad/s", description="its rate")
-    reference_bank_acceleration = Input(0.0, unit="rad/s2", description="its second derivative")
-    error_limit = Input(math.pi, unit="rad", description="largest error of bank to act on")
-    dynamic_pressure = Input(1000.0, unit="Pa", description="for regulators that are told")
-    torque_command = Output(
-        [0.0, 0.0, 0.0], unit="N.m", frame="body", direct=True, description="torque wanted over the tick"
-    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick", minimum=1e-3)
+    measured_bank = entry.MEASURED_BANK.input()
+    measured_angular_velocity = body.ANGULAR_VELOCITY.input()
+    target_bank = entry.TARGET_BANK.input("target of the programme", start=0.0)
+    reference_bank = entry.REFERENCE_BANK.input(start=0.0)
+    reference_bank_rate = entry.REFERENCE_BANK_RATE.input()
+    reference_bank_acceleration = entry.REFERENCE_BANK_ACCELERATION.input()
+    error_limit = entry.ERROR_LIMIT.input("largest error of bank to act on")
+    dynamic_pressure = entry.DYNAMIC_PRESSURE.input("for regulators that are told", start=1000.0)
+    torque_command = body.TORQUE.output("torque wanted over the tick", direct=True)
     status = Output(GOOD, minimum=0, maximum=1, direct=True, description="0 good, 1 inputs not finite")
 
     def regulate(self) -> Vector3:

@@ -7,6 +7,7 @@ from ..mathlib.gravity import from_centre
 from ..mathlib.inertial import sensor_addition
 from ..mathlib.vectors import Vector3, norm, vector
 from .inertial_navigation import InertialNavigation
+from .ports import landing, sampling
 
 GOOD = 0
 REJECTED = 1
@@ -39,18 +40,12 @@ class FilteredNavigation(InertialNavigation, interface=True):
 
     to_write = ("predict", "weigh", "take_in")
 
-    bias_sigma = Parameter(
-        1e-3, unit="m/s2", minimum=0.0, description="inertial sensor: bias at the start, 1 sigma per axis"
-    )
-    scale_factor_sigma = Parameter(
-        3e-4, unit="1", minimum=0.0, description="inertial sensor: scale factor error, 1 sigma per axis, constant"
-    )
+    bias_sigma = landing.BIAS_SIGMA.parameter()
+    scale_factor_sigma = landing.SCALE_FACTOR_SIGMA.parameter()
     attitude_sigma = Parameter(
         0.02 * math.pi / 180.0, unit="rad", minimum=0.0, description="attitude knowledge, 1 sigma per axis, constant"
     )
-    velocity_random_walk = Parameter(
-        1e-4, minimum=0.0, description="inertial sensor: random walk of velocity, m/s per square root of s"
-    )
+    velocity_random_walk = landing.VELOCITY_RANDOM_WALK.parameter()
     bias_random_walk = Parameter(
         0.0, minimum=0.0, description="inertial sensor: random walk of bias, m/s2 per square root of s"
     )
@@ -61,30 +56,22 @@ class FilteredNavigation(InertialNavigation, interface=True):
     velocity_relative_sigma = Parameter(
         0.001, unit="1", minimum=0.0, description="error of a measured velocity per axis, part of the speed"
     )
-    velocity_sigma = Parameter(
-        0.05, unit="m/s", minimum=0.0, description="error of a measured velocity per axis, constant part"
-    )
+    velocity_sigma = landing.VELOCITY_SIGMA.parameter()
     position_relative_sigma = Parameter(
         0.0015, unit="1", minimum=0.0, description="error of a measured position per axis, part of the altitude"
     )
-    position_sigma = Parameter(
-        2.0, unit="m", minimum=0.0, description="error of a measured position per axis, constant part"
-    )
+    position_sigma = landing.POSITION_SIGMA.parameter()
     gravity_gradient = Parameter(False, description="the covariance grows by the gradient of gravity, too")
     innovation_gate = Parameter(
         5.0, unit="1", minimum=0.0, description="reject scalars beyond so many sigmas of the innovation; 0: none"
     )
     rejection_limit = Parameter(5, minimum=1, description="samples of a sensor rejected in a row until status is 2")
     reacquire = Parameter(False, description="then let the covariance grow to fit the sensor, and believe it")
-    estimated_bias = Output(
-        [0.0, 0.0, 0.0],
-        unit="m/s2",
-        frame="landing site",
-        direct=True,
-        description="constant part of what the inertial sensor adds to the specific force",
+    estimated_bias = landing.ACCELERATION.output(
+        "constant part of what the inertial sensor adds to the specific force", direct=True
     )
-    innovation_square = Output(
-        0.0, unit="1", direct=True, description="normalised innovation squared of the last scalar, rejected or not"
+    innovation_square = sampling.INNOVATION_SQUARE.output(
+        "normalised innovation squared of the last scalar, rejected or not", direct=True
     )
     altitude_innovation_square = Output(
         0.0, unit="1", direct=True, description="normalised innovation squared of the last altitude, one scalar"

@@ -1,8 +1,9 @@
 """The slot of gyro steering: from the torque wanted of the gyro cluster to its gimbal rates."""
 
-from ..block import Block, Input, Output, Parameter, State
-from ..mathlib.gyros import ISOTROPIC_ANGLES, singularity_measure
+from ..block import Block, Output, Parameter
+from ..mathlib.gyros import singularity_measure
 from ..mathlib.vectors import Vector3, Vector4, all_below, vector
+from .ports import body, robot, sampling
 
 GOOD = 0
 NEAR_SINGULAR = 1
@@ -28,7 +29,7 @@ class GyroSteering(Block, interface=True):
 
     default_step = 0.125
 
-    rotor_momentum = Parameter(30.0, unit="N.m.s", minimum=1e-3, description="angular momentum of one rotor")
+    rotor_momentum = robot.ROTOR_MOMENTUM.parameter()
     torque_lead = Parameter(
         0.0, unit="s", minimum=0.0, description="from the sample to the instant at which the torque is exact"
     )
@@ -42,12 +43,10 @@ class GyroSteering(Block, interface=True):
         description="what makes E (over 4 s) and W differ from unit matrices",
     )
     gimbal_rate_limit = Parameter(1.0, unit="rad/s", minimum=0.0, description="largest gimbal rate; 0: no limit")
-    sample_period = Parameter(0.25, unit="s", minimum=0.0, description="steering cycle; 0: every communication point")
-    torque_command = Input(
-        [0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque wanted of the cluster on the body"
-    )
-    gimbal_angles = Input(ISOTROPIC_ANGLES, unit="rad", description="gimbal angles")
-    gimbal_rates = Output([0.0] * 4, unit="rad/s", direct=True, description="commanded gimbal rates")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "steering cycle; 0: every communication point")
+    torque_command = body.TORQUE.input("torque wanted of the cluster on the body")
+    gimbal_angles = robot.GIMBAL_ANGLES.input()
+    gimbal_rates = robot.GIMBAL_RATES.output(direct=True)
     singularity = Output(
         1.5396007178390021, unit="1", direct=True, description="root of det(A A'), A = dh/dbeta; 0 in a singular state"
     )
@@ -59,7 +58,7 @@ class GyroSteering(Block, interface=True):
         description="0 good, 1 near a singular state of cluster or law, 2 rates limited, 3 command not finite",
     )
 
-    start_time = State(0.0, unit="s", description="start of the flight")
+    start_time = sampling.START_TIME.state()
 
     def steer(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
         """Set gimbal_rates (rad/s) and status for a rate of the momentum (1/s, in units of one rotor's)."""

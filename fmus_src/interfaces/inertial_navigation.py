@@ -1,10 +1,11 @@
 """What navigations that integrate an inertial sensor have in common."""
 
-from ..block import Parameter, State
+from ..block import State
 from ..mathlib.inertial import dead_reckon
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import vector
 from .navigation import Navigation
+from .ports import sampling
 
 
 class InertialNavigation(Navigation, interface=True):
@@ -21,8 +22,8 @@ class InertialNavigation(Navigation, interface=True):
     docs/systems/lunar_navigation.md.
     """
 
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
     force = State([0.0] * 3, unit="m/s2", description="mean specific force of the last step, as assumed")
     force_before = State([0.0] * 3, unit="m/s2", description="that of the step before")
     under_way = State(False, description="a step has been taken")

@@ -1,11 +1,10 @@
 """The slot of jet allocation: from the force and torque wanted to the thrusts of eight jets."""
 
-import math
-
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, State
 from ..mathlib.jets import JETS, jet_strengths, jet_wrench
 from ..mathlib.quaternion import normalise, to_body
 from ..mathlib.vectors import vector
+from .ports import body, inertial, robot, sampling
 
 GOOD = 0
 SATURATED = 1
@@ -34,25 +33,19 @@ class JetAllocation(Block, interface=True):
 
     default_step = 0.125
 
-    jet_tilt = Parameter(35.25 * math.pi / 180.0, unit="rad", description="nozzles above the body's xy plane")
-    jet_azimuth = Parameter(math.pi / 4.0, unit="rad", description="nozzles from x in the xy plane")
-    jet_arm = Parameter([1.0, 0.7, 0.6], unit="m", frame="body", description="place of the first jet")
-    maximum_thrust = Parameter(0.5, unit="N", minimum=0.0, description="of one jet")
-    delay_fraction = Parameter(
-        0.25, unit="1", minimum=0.0, maximum=1.0, description="delay of the jets over the period of translation control"
-    )
-    force_command = Input([0.0, 0.0, 0.0], unit="N", frame="inertial", description="wanted force")
-    torque_command = Input([0.0, 0.0, 0.0], unit="N.m", frame="body", description="wanted torque of the jets")
-    quaternion = Input(
-        [1.0, 0.0, 0.0, 0.0], unit="1", description="estimated attitude, from body to inertial, scalar first"
-    )
-    command_count = Input(0, description="commands so far; a change tells a new one")
-    translation_period = Input(8.0, unit="s", minimum=0.001, description="how long the new command is to hold")
-    jet_thrust = Output([0.0] * 8, unit="N", direct=True, description="thrust of each jet, from now on")
-    allocated_force = Output([0.0, 0.0, 0.0], unit="N", frame="body", direct=True, description="force of jet_thrust")
-    allocated_torque = Output(
-        [0.0, 0.0, 0.0], unit="N.m", frame="body", direct=True, description="torque of jet_thrust"
-    )
+    jet_tilt = robot.JET_TILT.parameter()
+    jet_azimuth = robot.JET_AZIMUTH.parameter()
+    jet_arm = robot.JET_ARM.parameter()
+    maximum_thrust = robot.MAXIMUM_THRUST.parameter()
+    delay_fraction = robot.DELAY_FRACTION.parameter()
+    force_command = inertial.FORCE.input()
+    torque_command = body.TORQUE.input("wanted torque of the jets")
+    quaternion = robot.QUATERNION.input()
+    command_count = robot.COMMAND_COUNT.input("commands so far; a change tells a new one")
+    translation_period = robot.TRANSLATION_PERIOD.input("how long the new command is to hold")
+    jet_thrust = robot.JET_THRUST.output(direct=True)
+    allocated_force = body.FORCE.output("force of jet_thrust", direct=True)
+    allocated_torque = body.TORQUE.output("torque of jet_thrust", direct=True)
     status = Output(
         0,
         minimum=0,
@@ -60,7 +53,7 @@ class JetAllocation(Block, interface=True):
         direct=True,
         description="0 good, 1 saturated, 2 a torque or what the geometry cannot give left out, 3 command unusable",
     )
-    start_time = State(0.0, unit="s", description="start of the flight")
+    start_time = sampling.START_TIME.state()
     strength = State([0.0] * 6, description="force (N/N) and torque (N.m/N) of the jets, by rows of signs")
     attitude = State([1.0, 0.0, 0.0, 0.0], unit="1", description="quaternion, of length one")
     wanted_wrench = State([0.0] * 6, description="wanted force (N) and torque (N.m), body")

@@ -2,13 +2,14 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, State
 from ..kernel.functions import log1p
 from ..kernel.integrators import Forcing, Translation, gain_of, runge_kutta_nystrom
 from ..kernel.records import Field, Record
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity
 from ..mathlib.lagged_thrust import lagged_thrust
 from ..mathlib.vectors import Vector3, norm, vector
+from .ports import landing, sampling
 
 
 class Burn(Record):
@@ -45,36 +46,28 @@ class MoonLander(Block, interface=True):
     Assumes a Moon without rotation and terrain, and propellant that neither sloshes nor moves the centre of mass.
     """
 
-    initial_position = Parameter(
-        [266731.0, 0.0, -2233.0], unit="m", frame="landing site", description="position at the start"
-    )
-    initial_velocity = Parameter(
-        [-1676.0, 0.0, 208.0], unit="m/s", frame="landing site", description="velocity at the start"
-    )
-    initial_mass = Parameter(940.0, unit="kg", minimum=1e-3, description="mass at the start")
-    specific_impulse = Parameter(319.0, unit="s", minimum=1e-3, description="of the engine")
-    moon_radius = Parameter(1.7374e6, unit="m", minimum=1.0, description="of the sphere that the site lies on")
-    gravitational_parameter = Parameter(4.9028e12, unit="m3/s2", minimum=0.0, description="of the Moon")
-    thrust_lag = Parameter(0.1, unit="s", minimum=0.0, description="time constant of thrust; 0: none")
-    internal_step = Parameter(0.1, unit="s", minimum=1e-4, description="longest integration step")
-    thrust = Input(0.0, unit="N", description="commanded thrust; below 0 counts as 0")
-    command_time = Input(0.0, unit="s", description="time that direction and duration count from")
-    burn_duration = Input(0.0, unit="s", description="how long to thrust from command_time on")
-    position = Output([0.0, 0.0, 0.0], unit="m", frame="landing site", description="position")
-    velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="velocity")
+    initial_position = landing.POSITION.parameter([266731.0, 0.0, -2233.0], "position at the start")
+    initial_velocity = landing.VELOCITY.parameter([-1676.0, 0.0, 208.0], "velocity at the start")
+    initial_mass = landing.INITIAL_MASS.parameter()
+    specific_impulse = landing.SPECIFIC_IMPULSE.parameter()
+    moon_radius = landing.MOON_RADIUS.parameter()
+    gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter()
+    thrust_lag = landing.THRUST_LAG.parameter(0.1)
+    internal_step = sampling.INTERNAL_STEP.parameter()
+    thrust = landing.THRUST.input("commanded thrust; below 0 counts as 0")
+    command_time = landing.COMMAND_TIME.input()
+    burn_duration = landing.BURN_DURATION.input()
+    position = landing.POSITION.output()
+    velocity = landing.VELOCITY.output()
     speed = Output(0.0, unit="m/s", description="length of velocity")
-    mass = Output(940.0, unit="kg", description="mass")
-    altitude = Output(0.0, unit="m", description="above the sphere of moon_radius")
-    specific_force = Output(
-        [0.0, 0.0, 0.0], unit="m/s2", frame="landing site", description="mean of thrust over mass in the last step"
-    )
-    sensed_velocity = Output(
-        [0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="integral of specific force from the start"
-    )
+    mass = landing.MASS.output(start=940.0)
+    altitude = landing.ALTITUDE.output()
+    specific_force = landing.ACCELERATION.output("mean of thrust over mass in the last step")
+    sensed_velocity = landing.VELOCITY.output("integral of specific force from the start")
     delivered_thrust = Output(0.0, unit="N", description="thrust of the engine")
-    attitude = Output([0.0, 0.0, 1.0], unit="1", frame="landing site", description="unit vector of thrust, as flown")
+    attitude = landing.DIRECTION.output("unit vector of thrust, as flown")
     coast_time = Output(0.0, unit="s", description="time since the commanded burn ended; 0 while it goes on")
-    ground_contact = Output(False, description="the ground was reached")
+    ground_contact = landing.GROUND_CONTACT.output()
     longest_step = State(0.1, unit="s", description="internal_step or the part of it that is taken")
 
     def place(self) -> None:

@@ -7,6 +7,7 @@ from ..kernel.integrators import runge_kutta_4
 from ..mathlib.matrices import inverse
 from ..mathlib.orbital import AttitudeState, angle_rates, angular_acceleration
 from ..mathlib.vectors import Vector3, vector
+from .ports import body
 
 STEP_ROUNDING = 1e-9  # of a longest step, by which a step may exceed it
 
@@ -23,16 +24,8 @@ class OrbitalBody(Block, interface=True):
 
     default_step = 0.2
 
-    inertia = Parameter(
-        [6500.0, -150.0, -100.0, -150.0, 30000.0, -200.0, -100.0, -200.0, 29000.0],
-        columns=3,
-        unit="kg.m2",
-        frame="body",
-        description="matrix of inertia",
-    )
-    jet_torque = Parameter(
-        [60.0, 120.0, 120.0], unit="N.m", minimum=1e-9, frame="body", description="of a jet about x, y, z, both ways"
-    )
+    inertia = body.INERTIA.parameter([6500.0, -150.0, -100.0, -150.0, 30000.0, -200.0, -100.0, -200.0, 29000.0])
+    jet_torque = body.JET_TORQUE.parameter()
     orbital_rate = Parameter(0.0011, unit="rad/s", minimum=1e-9, description="turn of the orbital frame")
     inverse_inertia = State([0.0] * 9, columns=3, description="inverse of inertia, 1/(kg m2)")
 

@@ -2,9 +2,10 @@
 
 import math
 
-from ..block import Input, Output, Parameter, State
+from ..block import Output, Parameter, State
 from ..mathlib.vectors import is_finite, vector
 from .orbital_body import OrbitalBody
+from .ports import body, sampling
 
 GOOD = 0
 NOT_FINITE = 1
@@ -37,19 +38,15 @@ class OrbitalControl(OrbitalBody, interface=True):
     turn_rate = Parameter(0.8 * math.pi / 180.0, unit="rad/s", minimum=1e-6, description="of that turn")
     turn_start = Parameter(45.0, unit="s", minimum=0.0, description="when it begins, after the start")
     turn_stay = Parameter(120.0, unit="s", minimum=0.0, description="how long the body stays turned")
-    shortest_pulse = Parameter(0.03, unit="s", minimum=0.0, description="shortest pulse that is fired")
-    sample_period = Parameter(0.2, unit="s", minimum=1e-3, description="tick")
-    estimated_angles = Input([0.0, 0.0, 0.0], unit="rad", description="roll, yaw, pitch")
-    estimated_angular_velocity = Input(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity, absolute"
-    )
-    torque_command = Output(
-        [0.0, 0.0, 0.0], unit="N.m", frame="body", direct=True, description="torque wanted over the tick"
-    )
+    shortest_pulse = body.SHORTEST_PULSE.parameter()
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick", minimum=1e-3)
+    estimated_angles = body.ESTIMATED_ANGLES.input()
+    estimated_angular_velocity = body.ANGULAR_VELOCITY.input()
+    torque_command = body.TORQUE.output("torque wanted over the tick", direct=True)
     status = Output(
         GOOD, minimum=0, maximum=2, direct=True, description="0 good, 1 estimate not finite, 2 parameters unusable"
     )
-    start_time = State(0.0, unit="s", description="start of the flight")
+    start_time = sampling.START_TIME.state()
     usable = State(True, description="what the regulator needs could be made")
 
     def begin(self) -> None:

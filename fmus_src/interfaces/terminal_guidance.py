@@ -1,8 +1,9 @@
 """The slot of terminal guidance: bring the vehicle to a position and velocity at time_to_go."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, Parameter, State
 from ..mathlib.gravity import central_gravity
 from ..mathlib.vectors import Vector3, vector
+from .ports import landing, sampling
 
 GOOD = 0
 CLAMPED = 1
@@ -43,21 +44,19 @@ class TerminalGuidance(Block, interface=True):
 
     to_write = ("solve",)
 
-    target_position = Parameter([0.0, 0.0, 2000.0], unit="m", frame="landing site", description="where to arrive")
-    target_velocity = Parameter(
-        [0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="velocity to arrive with"
-    )
-    gravity = Parameter(1.62, unit="m/s2", minimum=0.0, description="gravity, constant, along -z")
+    target_position = landing.POSITION.parameter([0.0, 0.0, 2000.0], "where to arrive")
+    target_velocity = landing.VELOCITY.parameter(description="velocity to arrive with")
+    gravity = landing.GRAVITY.parameter()
     gravity_correction = Parameter(
         False, description="aim with a central field's gravity, linear in time between here and the target"
     )
-    gravitational_parameter = Parameter(
-        4.9028e12, unit="m3/s2", minimum=0.0, description="of the Moon, for gravity_correction"
+    gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter(
+        description="of the Moon, for gravity_correction"
     )
-    moon_radius = Parameter(
-        1.7374e6, unit="m", minimum=1.0, description="from the Moon's centre, which is straight below, to the site"
+    moon_radius = landing.MOON_RADIUS.parameter(
+        description="from the Moon's centre, which is straight below, to the site"
     )
-    sample_period = Parameter(0.0, unit="s", minimum=0.0, description="guidance cycle; 0: every communication point")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.0, "guidance cycle; 0: every communication point")
     terminal_step = Parameter(
         0,
         minimum=0,
@@ -77,36 +76,24 @@ class TerminalGuidance(Block, interface=True):
         description="0: computed in every cycle; else the plan is held: command for this time_to_go all along, "
         "for linear stability",
     )
-    position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimated position")
-    velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimated velocity")
-    mass = Input(1.0, unit="kg", description="estimated mass")
-    active = Input(True, description="false: no command; the first sample at which it is true is the start")
-    thrust_acceleration = Output(0.0, unit="m/s2", direct=True, description="commanded thrust over mass")
-    thrust_direction = Output(
-        [0.0, 0.0, 1.0],
-        unit="1",
-        frame="landing site",
-        direct=True,
-        description="commanded unit vector at command_time",
-    )
-    thrust_direction_rate = Output(
-        [0.0, 0.0, 0.0],
-        unit="1/s",
-        frame="landing site",
-        direct=True,
-        description="its derivative, perpendicular to it",
-    )
-    command_time = Output(0.0, unit="s", direct=True, description="when the command was computed")
-    burn_duration = Output(UNLIMITED, unit="s", direct=True, description="how long to thrust from command_time on")
-    time_to_go = Output(0.0, unit="s", direct=True, description="time left to the target state")
+    position = landing.POSITION.input("estimated position")
+    velocity = landing.VELOCITY.input("estimated velocity")
+    mass = landing.MASS.input("estimated mass")
+    active = landing.ACTIVE.input("false: no command; the first sample at which it is true is the start")
+    thrust_acceleration = landing.THRUST_ACCELERATION.output(direct=True)
+    thrust_direction = landing.DIRECTION.output("commanded unit vector at command_time", direct=True)
+    thrust_direction_rate = landing.DIRECTION_RATE.output("its derivative, perpendicular to it", direct=True)
+    command_time = landing.COMMAND_TIME.output("when the command was computed", direct=True)
+    burn_duration = landing.BURN_DURATION.output(start=UNLIMITED, direct=True)
+    time_to_go = landing.TIME_TO_GO.output(direct=True)
     status = Output(
         0, minimum=0, maximum=3, direct=True, description="0 good, 1 clamped, 2 not converged, 3 no solution"
     )
-    finished = Output(False, direct=True, description="the flight is over")
+    finished = landing.FINISHED.output(direct=True)
     cycle = State(0.0, unit="s", description="time to the next sample; 0 until the first step")
     under_way = State(False, description="active at the last sample")
     started = State(False, description="a command with time left has been given")
-    start_time = State(0.0, unit="s", description="start of the flight")
+    start_time = sampling.START_TIME.state()
     expected_time = State(
         0.0, unit="s", description="time_to_go of the cycle before less the cycle; 0 or less: not known"
     )

@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import body, robot, sampling
 from ..mathlib.quaternion import (
     angle_error,
     difference,
@@ -67,46 +68,21 @@ class AttitudeFilter(Block):
     jet_torque_error = Parameter(
         1e-4, unit="m", minimum=0.0, description="error of jet_torque per change of jet_force, 1 sigma per axis"
     )
-    sample_period = Parameter(0.125, unit="s", minimum=0.0, description="between steps; 0: every communication point")
-    measured_quaternion = Input([1.0, 0.0, 0.0, 0.0], unit="1", description="measured, body to inertial, scalar first")
-    sample_count = Input(0, description="samples taken by the sensor; a change tells a new one")
-    planned_quaternion = Input([1.0, 0.0, 0.0, 0.0], unit="1", description="planned, body to inertial, scalar first")
-    planned_angular_velocity = Input([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="of the plan")
-    gyro_momentum = Input(
-        [0.0, 0.0, 0.0], unit="N.m.s", frame="body", description="of the gyro cluster, from its angles"
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "between steps; 0: every communication point")
+    measured_quaternion = robot.MEASURED_QUATERNION.input()
+    sample_count = sampling.SAMPLE_COUNT.input("samples taken by the sensor; a change tells a new one")
+    planned_quaternion = robot.PLANNED_QUATERNION.input()
+    planned_angular_velocity = body.ANGULAR_VELOCITY.input("of the plan")
+    gyro_momentum = body.ANGULAR_MOMENTUM.input("of the gyro cluster, from its angles")
+    jet_torque = body.TORQUE.input("of the jets since the last communication point")
+    jet_force = body.FORCE.input("of the jets since the last communication point")
+    attitude_error = body.ROTATION.output(
+        "from planned to estimated attitude: axis times sine of the angle", direct=AT_ONCE
     )
-    jet_torque = Input(
-        [0.0, 0.0, 0.0], unit="N.m", frame="body", description="of the jets since the last communication point"
-    )
-    jet_force = Input(
-        [0.0, 0.0, 0.0], unit="N", frame="body", description="of the jets since the last communication point"
-    )
-    attitude_error = Output(
-        [0.0, 0.0, 0.0],
-        unit="rad",
-        frame="body",
-        direct=AT_ONCE,
-        description="from planned to estimated attitude: axis times sine of the angle",
-    )
-    rate_error = Output(
-        [0.0, 0.0, 0.0],
-        unit="rad/s",
-        frame="body",
-        direct=AT_ONCE,
-        description="estimated angular velocity less the planned one",
-    )
-    quaternion = Output(
-        [1.0, 0.0, 0.0, 0.0],
-        unit="1",
-        direct=AT_ONCE,
-        description="estimated attitude, from body to inertial, scalar first",
-    )
-    disturbance = Output(
-        [0.0, 0.0, 0.0],
-        unit="rad/s2",
-        frame="body",
-        direct=AT_ONCE,
-        description="estimated angular acceleration by neither gyros nor commanded jets",
+    rate_error = body.ANGULAR_VELOCITY.output("estimated angular velocity less the planned one", direct=AT_ONCE)
+    quaternion = robot.QUATERNION.output(direct=AT_ONCE)
+    disturbance = body.ANGULAR_ACCELERATION.output(
+        "estimated angular acceleration by neither gyros nor commanded jets", direct=AT_ONCE
     )
     attitude_error_sigma = Output(
         0.0, unit="rad", direct=AT_ONCE, description="standard deviation of the estimate, per axis; 0: not known"
@@ -114,22 +90,20 @@ class AttitudeFilter(Block):
     rate_error_sigma = Output(
         0.0, unit="rad/s", direct=AT_ONCE, description="standard deviation of the estimate, per axis; 0: not known"
     )
-    innovation_square = Output(
-        0.0, unit="1", direct=AT_ONCE, description="normalised innovation squared of the last sample, three components"
-    )
-    samples_taken = Output(0, direct=AT_ONCE, description="samples taken in")
+    innovation_square = sampling.INNOVATION_SQUARE.output(direct=AT_ONCE)
+    samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
     status = Output(
         0, minimum=0, maximum=1, direct=AT_ONCE, description="0 good, 1 last sample not finite and left out"
     )
-    angular_velocity = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="estimate of the Kalman filter")
+    angular_velocity = body.ANGULAR_VELOCITY.state("estimate of the Kalman filter")
     covariance = State([0.0] * 9, frozen=True, description="of attitude, rate and disturbance, row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
-    start_time = State(0.0, unit="s", description="start of the flight")
-    last_momentum = State([0.0, 0.0, 0.0], unit="N.m.s", frame="body", description="gyro_momentum at the last step")
-    last_force = State([0.0, 0.0, 0.0], unit="N", frame="body", description="jet_force at the last step")
+    start_time = sampling.START_TIME.state()
+    last_momentum = body.ANGULAR_MOMENTUM.state("gyro_momentum at the last step")
+    last_force = body.FORCE.state("jet_force at the last step")
     counted = State(0, description="sample_count of the last sample")
     mean_time = State(0.0, unit="s", description="time of the last mean")
-    total = State([0.0, 0.0, 0.0], unit="rad", frame="body", description="sum of the errors since the last mean")
+    total = body.ROTATION.state("sum of the errors since the last mean")
     summed = State(0, description="number of samples in the sum")
     means = State(0, description="means put out")
 

@@ -4,6 +4,7 @@ import math
 
 from ..block import Parameter, State
 from ..interfaces.navigation import Navigation
+from ..interfaces.ports import landing, sampling
 from ..kernel.functions import exp, expm1
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import vector
@@ -21,13 +22,13 @@ class ColouredNavigation(Navigation):
     Assumes errors that do not depend on the motion, nor one axis on another.
     """
 
-    position_sigma = Parameter(2.0, unit="m", minimum=0.0, description="wandering error, 1 sigma per axis")
-    velocity_sigma = Parameter(0.1, unit="m/s", minimum=0.0, description="wandering error, 1 sigma per axis")
+    position_sigma = landing.POSITION_SIGMA.parameter(description="wandering error, 1 sigma per axis")
+    velocity_sigma = landing.VELOCITY_SIGMA.parameter(0.1, "wandering error, 1 sigma per axis")
     correlation_time = Parameter(10.0, unit="s", minimum=1e-3, description="after which 1/e of an error is left")
     white_share = Parameter(0.3, unit="1", minimum=0.0, description="white error over sigma")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    generator = sampling.GENERATOR.state()
     wandering = State([0.0] * 6, frozen=True, description="errors of position and velocity over their sigmas")
 
     def initialize(self) -> None:

@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output
+from ..block import Block, Output
+from ..interfaces.ports import landing
 from ..mathlib.kalman import normalised_square
 from ..mathlib.vectors import vector
 
@@ -15,14 +16,12 @@ class EstimateMonitor(Block):
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 5.4.2.
     """
 
-    position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="true position")
-    velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="true velocity")
-    estimated_position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimate")
-    estimated_velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimate")
-    estimate_covariance = Input(
-        [0.0] * 21,
-        frame="landing site",
-        description="covariance of the error of position and velocity, SI; rows of the upper triangle",
+    position = landing.POSITION.input("true position")
+    velocity = landing.VELOCITY.input("true velocity")
+    estimated_position = landing.POSITION.input("estimate")
+    estimated_velocity = landing.VELOCITY.input("estimate")
+    estimate_covariance = landing.ESTIMATE_COVARIANCE.input(
+        "covariance of the error of position and velocity, SI; rows of the upper triangle"
     )
     normalised_error_square = Output(
         0.0,
@@ -30,19 +29,11 @@ class EstimateMonitor(Block):
         direct=True,
         description="squared error of the six states, normalised; 0 while the covariance is not positive definite",
     )
-    position_error_ratio = Output(
-        [0.0, 0.0, 0.0],
-        unit="1",
-        frame="landing site",
-        direct=True,
-        description="estimate minus truth over standard deviation; 0 where that is 0",
+    position_error_ratio = landing.DIRECTION.output(
+        "estimate minus truth over standard deviation; 0 where that is 0", start=[0.0, 0.0, 0.0], direct=True
     )
-    velocity_error_ratio = Output(
-        [0.0, 0.0, 0.0],
-        unit="1",
-        frame="landing site",
-        direct=True,
-        description="estimate minus truth over standard deviation; 0 where that is 0",
+    velocity_error_ratio = landing.DIRECTION.output(
+        "estimate minus truth over standard deviation; 0 where that is 0", start=[0.0, 0.0, 0.0], direct=True
     )
 
     def initialize(self) -> None:

@@ -2,8 +2,9 @@
 
 import math
 
-from ..block import Output, Parameter, State
+from ..block import Parameter, State
 from ..interfaces.navigation import Navigation
+from ..interfaces.ports import landing, sampling
 from ..mathlib.kalman import predict, update
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import Vector3, vector
@@ -23,27 +24,23 @@ class NoisyNavigation(Navigation):
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2 (discretised white acceleration noise).
     """
 
-    gravity = Parameter(1.62, unit="m/s2", minimum=0.0, description="gravity assumed, constant, along -z")
+    gravity = landing.GRAVITY.parameter(description="gravity assumed, constant, along -z")
     position_period = Parameter(1.0, unit="s", minimum=1e-3, description="time between position fixes")
-    position_sigma = Parameter(
-        0.0, unit="m", minimum=0.0, description="error of a position fix, 1 sigma per axis; 0: none taken"
-    )
+    position_sigma = landing.POSITION_SIGMA.parameter(0.0, "error of a position fix, 1 sigma per axis; 0: none taken")
     velocity_period = Parameter(0.2, unit="s", minimum=1e-3, description="time between velocity fixes")
-    velocity_sigma = Parameter(
-        0.0, unit="m/s", minimum=0.0, description="error of a velocity fix, 1 sigma per axis; 0: none taken"
-    )
+    velocity_sigma = landing.VELOCITY_SIGMA.parameter(0.0, "error of a velocity fix, 1 sigma per axis; 0: none taken")
     first_position_sigma = Navigation.first_position_sigma.with_start(0.0)
     first_velocity_sigma = Navigation.first_velocity_sigma.with_start(0.0)
     process_noise = Parameter(1e-6, unit="m2/s3", minimum=0.0, description="density of white acceleration noise")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    innovation_square = Output(
-        0.0, unit="1", direct=True, description="normalised innovation squared of the last scalar fix"
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    innovation_square = sampling.INNOVATION_SQUARE.output(
+        "normalised innovation squared of the last scalar fix", direct=True
     )
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    generator = sampling.GENERATOR.state()
     estimate = State([0.0] * 6, description="position (m) and velocity (m/s), landing-site frame")
     covariance = State([0.0] * 36, frozen=True, description="covariance of the estimate, row order, m and m/s")
-    start_time = State(0.0, unit="s", description="start of the flight")
+    start_time = sampling.START_TIME.state()
     position_fixes = State(0, description="position fixes taken")
     velocity_fixes = State(0, description="velocity fixes taken")
 

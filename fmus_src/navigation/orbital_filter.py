@@ -4,6 +4,7 @@ import math
 
 from ..block import Parameter, State
 from ..interfaces.attitude_observer import NOT_POSITIVE, AttitudeObserver
+from ..interfaces.ports import body
 from ..kernel.records import replace
 from ..mathlib.kalman import predict, update
 from ..mathlib.orbital import angle_rate_derivatives, angle_rates, apply_matrix
@@ -22,7 +23,7 @@ class OrbitalFilter(AttitudeObserver):
 
     first_yaw_sigma = Parameter(10.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="of yaw at the start")
     rate_gain = Parameter(0.15, unit="1", minimum=0.0, maximum=1.0, description="of a sample in the estimated rates")
-    bias = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="estimated bias of the gyros")
+    bias = body.ANGULAR_VELOCITY.state("estimated bias of the gyros")
     covariance = State([0.0] * 36, columns=6, frozen=True, description="of angles and biases, SI")
 
     def begin(self) -> bool:

@@ -1,6 +1,7 @@
 """How well an approach is flown: true motion against the plan."""
 
-from ..block import Block, Input, Output
+from ..block import Block, Output
+from ..interfaces.ports import body, inertial, robot
 from ..mathlib.quaternion import difference, to_rodrigues, to_rotation_vector
 from ..mathlib.vectors import norm
 
@@ -15,35 +16,24 @@ class RendezvousMonitor(Block):
 
     default_step = 0.125
 
-    robot_position = Input([0.0, 0.0, 0.0], unit="m", frame="inertial", description="true position of the robot")
-    target_position = Input([0.0, 0.0, 0.0], unit="m", frame="inertial", description="true position of the object")
-    quaternion = Input([1.0, 0.0, 0.0, 0.0], unit="1", description="true attitude, body to inertial, scalar first")
-    planned_relative_position = Input(
-        [0.0, 0.0, 0.0], unit="m", frame="inertial", description="from the robot to the object"
-    )
-    planned_quaternion = Input([1.0, 0.0, 0.0, 0.0], unit="1", description="planned, body to inertial, scalar first")
-    position_error = Output(
-        [0.0, 0.0, 0.0],
-        unit="m",
-        frame="inertial",
+    robot_position = inertial.POSITION.input("true position of the robot")
+    target_position = inertial.POSITION.input("true position of the object")
+    quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
+    planned_relative_position = inertial.POSITION.input("from the robot to the object")
+    planned_quaternion = robot.PLANNED_QUATERNION.input()
+    position_error = inertial.POSITION.output(
+        "of the robot from its planned place beside the object",
         direct=("robot_position", "target_position", "planned_relative_position"),
-        description="of the robot from its planned place beside the object",
     )
-    range = Output(
-        0.0, unit="m", direct=("robot_position", "target_position"), description="from the robot to the object's centre"
-    )
+    range = robot.RANGE.output(direct=("robot_position", "target_position"))
     range_error = Output(
         0.0,
         unit="m",
         direct=("robot_position", "target_position", "planned_relative_position"),
         description="range less the planned one",
     )
-    attitude_error = Output(
-        [0.0, 0.0, 0.0],
-        unit="rad",
-        frame="body",
-        direct=("quaternion", "planned_quaternion"),
-        description="rotation vector from the planned to the true attitude",
+    attitude_error = body.ROTATION.output(
+        "rotation vector from the planned to the true attitude", direct=("quaternion", "planned_quaternion")
     )
     attitude_error_angle = Output(
         0.0, unit="rad", direct=("quaternion", "planned_quaternion"), description="length of attitude_error"

@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import body, inertial, landing, robot, sampling
 from ..mathlib.quaternion import normalise, to_reference
 from ..mathlib.tracking import measure_chain, predict_chain
 from ..mathlib.vectors import Vector3, is_finite, norm, vector
@@ -40,10 +41,10 @@ class TranslationFilter(Block):
     default_step = 0.125
 
     method = Parameter(1, minimum=0, maximum=1, description="0 mean since the last tick, 1 Kalman filter")
-    mass = Parameter(1000.0, unit="kg", minimum=1e-3, description="of the robot")
-    far_sigma = Parameter(0.025, unit="m", minimum=1e-9, description="error of a sample far away, 1 sigma per axis")
-    near_sigma = Parameter(0.01, unit="m", minimum=1e-9, description="error of a sample nearby, 1 sigma per axis")
-    near_range = Parameter(300.0, unit="m", minimum=0.0, description="nearby is below this range")
+    mass = landing.MASS.parameter(1000.0, "of the robot", minimum=1e-3)
+    far_sigma = robot.FAR_SIGMA.parameter()
+    near_sigma = robot.NEAR_SIGMA.parameter()
+    near_range = robot.NEAR_RANGE.parameter()
     first_velocity_sigma = Parameter(
         0.02, unit="m/s", minimum=0.0, description="error of the velocity at the start, 1 sigma per axis"
     )
@@ -52,34 +53,16 @@ class TranslationFilter(Block):
         0.001, unit="1", minimum=0.0, description="error of the commanded force over its size, 1 sigma"
     )
     force_error_time = Parameter(10.0, unit="s", minimum=0.0, description="for how long such an error stays the same")
-    sample_period = Parameter(0.125, unit="s", minimum=0.0, description="between steps; 0: every communication point")
-    relative_position = Input(
-        [0.0, 0.0, 0.0], unit="m", frame="inertial", description="measured, from the robot to the object"
-    )
-    sample_count = Input(0, description="samples taken by the sensor; a change tells a new one")
-    planned_relative_position = Input(
-        [0.0, 0.0, 0.0], unit="m", frame="inertial", description="from the robot to the object"
-    )
-    planned_velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="of the robot")
-    translation_count = Input(0, description="ticks of translation control; a change tells a new one")
-    quaternion = Input([1.0, 0.0, 0.0, 0.0], unit="1", description="estimated attitude, body to inertial, scalar first")
-    allocated_force = Input(
-        [0.0, 0.0, 0.0], unit="N", frame="body", description="of the jets since the last communication point"
-    )
-    position_error = Output(
-        [0.0, 0.0, 0.0],
-        unit="m",
-        frame="inertial",
-        direct=AT_ONCE,
-        description="of the robot from its plan",
-    )
-    velocity_error = Output(
-        [0.0, 0.0, 0.0],
-        unit="m/s",
-        frame="inertial",
-        direct=AT_ONCE,
-        description="of the robot from its plan",
-    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "between steps; 0: every communication point")
+    relative_position = inertial.POSITION.input("measured, from the robot to the object")
+    sample_count = sampling.SAMPLE_COUNT.input("samples taken by the sensor; a change tells a new one")
+    planned_relative_position = inertial.POSITION.input("from the robot to the object")
+    planned_velocity = inertial.VELOCITY.input("of the robot")
+    translation_count = robot.TRANSLATION_COUNT.input("ticks of translation control; a change tells a new one")
+    quaternion = robot.QUATERNION.input("estimated attitude, body to inertial, scalar first")
+    allocated_force = body.FORCE.input("of the jets since the last communication point")
+    position_error = inertial.POSITION.output("of the robot from its plan", direct=AT_ONCE)
+    velocity_error = inertial.VELOCITY.output("of the robot from its plan", direct=AT_ONCE)
     position_error_sigma = Output(
         0.0,
         unit="m",
@@ -92,27 +75,20 @@ class TranslationFilter(Block):
         direct=AT_ONCE,
         description="standard deviation of the estimate, per axis; 0: not known",
     )
-    innovation_square = Output(
-        0.0,
-        unit="1",
-        direct=AT_ONCE,
-        description="normalised innovation squared of the last sample, three components",
-    )
-    samples_taken = Output(0, direct=AT_ONCE, description="samples taken in")
+    innovation_square = sampling.INNOVATION_SQUARE.output(direct=AT_ONCE)
+    samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
     status = Output(
         0, minimum=0, maximum=1, direct=AT_ONCE, description="0 good, 1 last sample not finite and left out"
     )
     covariance = State([0.0] * 4, vector=False, frozen=True, description="of position and velocity, row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
-    start_time = State(0.0, unit="s", description="start of the flight")
-    last_velocity = State(
-        [0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="planned_velocity at the last step"
-    )
+    start_time = sampling.START_TIME.state()
+    last_velocity = inertial.VELOCITY.state("planned_velocity at the last step")
     last_quaternion = State([1.0, 0.0, 0.0, 0.0], unit="1", description="quaternion at the last step")
     counted = State(0, description="sample_count of the last sample")
     ticks = State(0, description="translation_count of the last tick")
     tick_time = State(0.0, unit="s", description="time of the last mean")
-    total = State([0.0, 0.0, 0.0], unit="m", frame="inertial", description="of the samples since the last tick")
+    total = inertial.POSITION.state("of the samples since the last tick")
     summed = State(0, description="number of samples in the sum")
     means = State(0, description="means put out")
 

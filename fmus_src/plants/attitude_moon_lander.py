@@ -1,7 +1,8 @@
 """A lander over the Moon whose thrust axis is turned by commanded angular accelerations."""
 
-from ..block import Input, Output, Parameter
+from ..block import Parameter
 from ..interfaces.moon_lander import MoonLander
+from ..interfaces.ports import landing
 from ..kernel.functions import atan2
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity, vertical_at
 from ..mathlib.lagged_thrust import lagged_thrust
@@ -32,33 +33,24 @@ class AttitudeMoonLander(MoonLander):
     initial_mass = MoonLander.initial_mass.with_start(600.0)
     specific_impulse = MoonLander.specific_impulse.with_start(300.0)
     internal_step = MoonLander.internal_step.with_start(0.05)
-    initial_attitude = Parameter(
-        [0.0, 0.0, 1.0], unit="1", frame="landing site", description="thrust axis at the start, of any length"
-    )
-    initial_angular_rate = Parameter(
-        [0.0, 0.0, 0.0],
-        unit="rad/s",
-        frame="landing site",
-        description="angular rate at the start; its part along the thrust axis is dropped",
+    initial_attitude = landing.DIRECTION.parameter(description="thrust axis at the start, of any length")
+    initial_angular_rate = landing.ANGULAR_RATE.parameter(
+        description="angular rate at the start; its part along the thrust axis is dropped"
     )
     thrust_factor = Parameter(1.0, unit="1", minimum=0.0, description="thrust given over thrust commanded")
-    uniform_gravity = Parameter(0.0, unit="m/s2", minimum=0.0, description="gravity along -z; 0: central field")
+    uniform_gravity = landing.UNIFORM_GRAVITY.parameter()
     dry_mass = Parameter(1.0, unit="kg", minimum=1e-3, description="mass without propellant")
-    probe_length = Parameter(1.5, unit="m", minimum=0.0, description="altitude at which the probe touches the ground")
+    probe_length = landing.PROBE_LENGTH.parameter()
     maximum_angular_acceleration = Parameter(
         0.017453292519943295, unit="rad/s2", minimum=0.0, description="largest of the attitude jets; 0: no limit"
     )
-    angular_acceleration = Input(
-        [0.0, 0.0, 0.0], unit="rad/s2", frame="landing site", description="commanded angular acceleration"
-    )
+    angular_acceleration = landing.ANGULAR_ACCELERATION.input("commanded angular acceleration")
     mass = MoonLander.mass.with_start(600.0)
-    angular_rate = Output(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="landing site", description="of the thrust axis, perpendicular to it"
-    )
-    tilt = Output(0.0, unit="rad", description="angle of the thrust axis from the local vertical")
-    vertical_speed = Output(0.0, unit="m/s", description="velocity along the local vertical, upwards")
-    horizontal_speed = Output(0.0, unit="m/s", description="length of velocity across the local vertical")
-    probe_contact = Output(False, description="the probe has touched the ground")
+    angular_rate = landing.ANGULAR_RATE.output("of the thrust axis, perpendicular to it")
+    tilt = landing.TILT.output()
+    vertical_speed = landing.VERTICAL_SPEED.output()
+    horizontal_speed = landing.HORIZONTAL_SPEED.output()
+    probe_contact = landing.PROBE_CONTACT.output()
 
     def initialize(self) -> None:
         self.place()

@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Output, Parameter, State
+from ..block import Block, Parameter, State
+from ..interfaces.ports import inertial, robot
 from ..kernel.functions import cos, fmod, sin
 from ..mathlib.quaternion import from_rotation_vector
 from ..mathlib.vectors import norm, vector
@@ -19,22 +20,15 @@ class DriftingTarget(Block):
 
     default_step = 0.125
 
-    initial_position = Parameter(
-        [500.0 * cos(math.pi / 9.0), 500.0 * sin(math.pi / 9.0), 0.0],
-        unit="m",
-        frame="inertial",
-        description="centre of mass at the start",
+    initial_position = inertial.POSITION.parameter(
+        [500.0 * cos(math.pi / 9.0), 500.0 * sin(math.pi / 9.0), 0.0], "centre of mass at the start"
     )
-    constant_velocity = Parameter([-0.05, 0.05, 0.075], unit="m/s", frame="inertial", description="velocity")
-    spin_axis = Parameter(
-        [-0.608, 0.228, 0.760], unit="1", frame="inertial", description="axis of the spin, of any length"
-    )
+    constant_velocity = inertial.VELOCITY.parameter([-0.05, 0.05, 0.075])
+    spin_axis = robot.SPIN_AXIS.parameter(description="axis of the spin, of any length")
     spin_rate = Parameter(math.pi / 180.0, unit="rad/s", description="angular velocity about it")
-    position = Output([0.0, 0.0, 0.0], unit="m", frame="inertial", description="centre of mass")
-    velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="velocity")
-    quaternion = Output(
-        [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude, from body to inertial, scalar first, not negative"
-    )
+    position = inertial.POSITION.output("centre of mass")
+    velocity = inertial.VELOCITY.output()
+    quaternion = robot.QUATERNION.output("attitude, from body to inertial, scalar first, not negative")
     start_time = State(0.0, unit="s", description="start of the flight")
 
     def initialize(self) -> None:

@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import body, entry, landing, sampling
 from ..kernel.functions import atan2
 from ..kernel.integrators import runge_kutta_4
 from ..mathlib.cubic_spline import cubic_value, curvatures
@@ -45,14 +46,8 @@ class EntryCapsule(Block):
 
     default_step = 0.2
 
-    mass = Parameter(2900.0, unit="kg", minimum=1e-3, description="mass")
-    inertia = Parameter(
-        [1400.0, -40.0, 0.0, -40.0, 1250.0, 0.0, 0.0, 0.0, 1200.0],
-        columns=3,
-        unit="kg.m2",
-        frame="body",
-        description="matrix of inertia",
-    )
+    mass = landing.MASS.parameter(2900.0, minimum=1e-3)
+    inertia = body.INERTIA.parameter()
     reference_area = Parameter(3.8, unit="m2", minimum=0.0, description="of the coefficients")
     reference_length = Parameter(2.2, unit="m", minimum=0.0, description="of the damping")
     pressure_arm = Parameter(
@@ -67,7 +62,7 @@ class EntryCapsule(Block):
     jet_torque = Parameter(
         [100.0, 100.0, 80.0, 80.0, 80.0, 80.0], unit="N.m", minimum=0.0, description="of each jet, a level of its own"
     )
-    gravitational_parameter = Parameter(3.986e14, unit="m3/s2", minimum=0.0, description="of the Earth")
+    gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter(3.986e14, "of the Earth")
     earth_rate = Parameter(7.29e-5, unit="rad/s", description="turn of the Earth")
     earth_radius = Parameter(6371000.0, unit="m", minimum=1.0, description="of the sphere under the height")
     initial_height = Parameter(100000.0, unit="m", description="height at the start")
@@ -79,33 +74,31 @@ class EntryCapsule(Block):
     initial_bank = Parameter(60.0 * math.pi / 180.0, unit="rad", description="bank at the start")
     initial_sideslip = Parameter(0.0, unit="rad", description="sideslip at the start")
     initial_attack = Parameter(-20.0 * math.pi / 180.0, unit="rad", description="attack at the start")
-    initial_angular_velocity = Parameter(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity at the start, absolute"
-    )
+    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="angular velocity at the start, absolute")
     final_height = Parameter(25000.0, unit="m", description="height below which the flight ends")
-    internal_step = Parameter(0.025, unit="s", minimum=1e-4, description="longest integration step")
-    pulse_lengths = Input([0.0, 0.0, 0.0], unit="s", frame="body", description="lengths of the pulses, with their sign")
-    pulse_count = Input(0, description="pulses so far; a change tells new ones")
-    mean_torque = Input([0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque beside the pulses, held")
-    wind = Input([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="of the air over the turning Earth")
-    density_factor = Input(1.0, unit="1", description="on the density of the standard atmosphere")
-    jet_factor = Input([1.0] * 6, unit="1", description="on the torque of each jet")
+    internal_step = sampling.INTERNAL_STEP.parameter(0.025)
+    pulse_lengths = body.PULSES.input()
+    pulse_count = body.PULSE_COUNT.input()
+    mean_torque = body.TORQUE.input("torque beside the pulses, held")
+    wind = entry.WIND.input()
+    density_factor = entry.DENSITY_FACTOR.input()
+    jet_factor = entry.JET_FACTOR.input()
     height = Output(100000.0, unit="m", description="above the sphere")
     longitude = Output(0.0, unit="rad", description="longitude")
     latitude = Output(0.0, unit="rad", description="latitude")
     speed = Output(0.0, unit="m/s", description="over the turning Earth")
     path_angle = Output(0.0, unit="rad", description="of the velocity over the horizon")
     course = Output(0.0, unit="rad", description="of the velocity, from east, counter-clockwise from above")
-    bank = Output(0.0, unit="rad", description="bank")
+    bank = entry.BANK.output()
     sideslip = Output(0.0, unit="rad", description="sideslip")
     attack = Output(0.0, unit="rad", description="attack")
-    angular_velocity = Output([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity, absolute")
-    dynamic_pressure = Output(0.0, unit="Pa", description="of the standard atmosphere at rest")
+    angular_velocity = body.ANGULAR_VELOCITY.output()
+    dynamic_pressure = entry.DYNAMIC_PRESSURE.output()
     mach = Output(0.0, unit="1", description="Mach number against the air")
-    fired_pulses = Output([0.0, 0.0, 0.0], unit="s", frame="body", description="the last pulses, with their sign")
-    jet_seconds = Output([0.0, 0.0, 0.0], unit="s", frame="body", description="time that jets have fired about x, y, z")
+    fired_pulses = body.PULSES.output("the last pulses, with their sign")
+    jet_seconds = body.PULSES.output("time that jets have fired about x, y, z")
     total_jet_seconds = Output(0.0, unit="s", description="their sum: the propellant")
-    finished = Output(False, description="below final_height")
+    finished = landing.FINISHED.output("below final_height")
     status = Output(GOOD, minimum=0, maximum=2, description="0 good, 1 beyond the tables, 2 inertia cannot be inverted")
     state = State(EntryState, radius=6471000.0, speed=7620.0)
     inverse_inertia = State([0.0] * 9, columns=3, description="inverse of inertia, 1/(kg m2)")

@@ -1,6 +1,7 @@
 """A point-mass lander over a flat Moon."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Parameter, State
+from ..interfaces.ports import landing, sampling
 from ..mathlib.vectors import Vector3, norm, vector
 
 
@@ -15,27 +16,21 @@ class FlatMoonLander(Block):
     Assumes an attitude and an engine without lag.
     """
 
-    initial_position = Parameter(
-        [1.0e5, 0.0, 1.05e4], unit="m", frame="landing site", description="position at the start"
-    )
-    initial_velocity = Parameter(
-        [-950.0, 0.0, 0.0], unit="m/s", frame="landing site", description="velocity at the start"
-    )
-    initial_mass = Parameter(940.0, unit="kg", minimum=1e-3, description="mass, constant")
-    gravity = Parameter(1.62, unit="m/s2", minimum=0.0, description="gravity, constant, along -z")
-    internal_step = Parameter(0.1, unit="s", minimum=1e-4, description="longest integration step")
+    initial_position = landing.POSITION.parameter([1.0e5, 0.0, 1.05e4], "position at the start")
+    initial_velocity = landing.VELOCITY.parameter([-950.0, 0.0, 0.0], "velocity at the start")
+    initial_mass = landing.INITIAL_MASS.parameter(description="mass, constant")
+    gravity = landing.GRAVITY.parameter()
+    internal_step = sampling.INTERNAL_STEP.parameter()
     latch_at_burn_end = Parameter(False, description="keep position and velocity as they are when thrust ends")
-    thrust = Input(0.0, unit="N", description="thrust of the engine")
-    thrust_direction = Input([0.0, 0.0, 1.0], unit="1", frame="landing site", description="unit vector at command_time")
-    thrust_direction_rate = Input([0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="its derivative")
-    command_time = Input(0.0, unit="s", description="time that direction and duration count from")
-    burn_duration = Input(0.0, unit="s", description="how long to thrust from command_time on")
-    position = Output([0.0, 0.0, 0.0], unit="m", frame="landing site", description="position")
-    velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="velocity")
-    mass = Output(940.0, unit="kg", description="mass")
-    specific_force = Output(
-        [0.0, 0.0, 0.0], unit="m/s2", frame="landing site", description="mean of thrust over mass in the last step"
-    )
+    thrust = landing.THRUST.input("thrust of the engine")
+    thrust_direction = landing.DIRECTION.input()
+    thrust_direction_rate = landing.DIRECTION_RATE.input()
+    command_time = landing.COMMAND_TIME.input()
+    burn_duration = landing.BURN_DURATION.input()
+    position = landing.POSITION.output()
+    velocity = landing.VELOCITY.output()
+    mass = landing.MASS.output(start=940.0)
+    specific_force = landing.ACCELERATION.output("mean of thrust over mass in the last step")
     latched = State(False, description="thrust has ended and the motion is kept")
     under_thrust = State(False, description="thrust was on at the end of the last step")
 

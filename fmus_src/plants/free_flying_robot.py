@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import body, inertial, landing, robot, sampling
 from ..mathlib.gyros import ISOTROPIC_ANGLES, cluster_momentum
 from ..mathlib.jets import JETS, jet_strengths, jet_wrench
 from ..mathlib.quaternion import multiply, normalise, quaternion, to_body, to_reference
@@ -29,40 +30,36 @@ class FreeFlyingRobot(Block):
 
     default_step = 0.125
 
-    mass = Parameter(1000.0, unit="kg", minimum=1e-3, description="mass")
+    mass = landing.MASS.parameter(1000.0, minimum=1e-3)
     inertia = Parameter([812.0, 587.0, 910.0], unit="kg.m2", minimum=1e-3, frame="body", description="principal")
-    jet_tilt = Parameter(35.25 * math.pi / 180.0, unit="rad", description="nozzles above the body's xy plane")
-    jet_azimuth = Parameter(math.pi / 4.0, unit="rad", description="nozzles from x in the xy plane")
-    jet_arm = Parameter([1.0, 0.7, 0.6], unit="m", frame="body", description="place of the first jet")
-    maximum_thrust = Parameter(0.5, unit="N", minimum=0.0, description="of one jet")
+    jet_tilt = robot.JET_TILT.parameter()
+    jet_azimuth = robot.JET_AZIMUTH.parameter()
+    jet_arm = robot.JET_ARM.parameter()
+    maximum_thrust = robot.MAXIMUM_THRUST.parameter()
     thrust_error = Parameter(
         0.0, unit="1", minimum=0.0, description="relative error of thrust, 1 sigma per jet, constant over a flight"
     )
-    rotor_momentum = Parameter(30.0, unit="N.m.s", minimum=0.0, description="angular momentum of one rotor")
-    initial_position = Parameter([0.0, 0.0, 0.0], unit="m", frame="inertial", description="position at the start")
-    initial_velocity = Parameter([0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="velocity at the start")
+    rotor_momentum = robot.ROTOR_MOMENTUM.parameter(minimum=0.0)
+    initial_position = inertial.POSITION.parameter(description="position at the start")
+    initial_velocity = inertial.VELOCITY.parameter(description="velocity at the start")
     initial_quaternion = Parameter(
         [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude at the start, from body to inertial, scalar first"
     )
-    initial_angular_velocity = Parameter(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity at the start"
-    )
+    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="angular velocity at the start")
     initial_gimbal_angles = Parameter(ISOTROPIC_ANGLES, unit="rad", description="gimbal angles at the start")
-    internal_step = Parameter(0.0625, unit="s", minimum=1e-3, description="longest integration step")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    jet_thrust = Input([0.0] * 8, unit="N", description="thrust of each jet")
-    gimbal_rates = Input([0.0] * 4, unit="rad/s", description="gimbal rates")
-    position = Output([0.0, 0.0, 0.0], unit="m", frame="inertial", description="centre of mass")
-    velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="velocity")
-    quaternion = Output(
-        [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude, from body to inertial, scalar first, continuous"
-    )
-    angular_velocity = Output([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity")
-    gimbal_angles = Output(ISOTROPIC_ANGLES, unit="rad", description="gimbal angles, not wrapped")
-    gyro_momentum = Output([0.0, 0.0, 0.0], unit="N.m.s", frame="body", description="angular momentum H of the cluster")
-    jet_force = Output([0.0, 0.0, 0.0], unit="N", frame="body", description="force of the jets over the last step")
-    jet_torque = Output([0.0, 0.0, 0.0], unit="N.m", frame="body", description="their torque over the last step")
+    internal_step = sampling.INTERNAL_STEP.parameter(0.0625, minimum=1e-3)
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    jet_thrust = robot.JET_THRUST.input("thrust of each jet")
+    gimbal_rates = robot.GIMBAL_RATES.input("gimbal rates")
+    position = inertial.POSITION.output("centre of mass")
+    velocity = inertial.VELOCITY.output()
+    quaternion = robot.QUATERNION.output("attitude, from body to inertial, scalar first, continuous")
+    angular_velocity = body.ANGULAR_VELOCITY.output("angular velocity")
+    gimbal_angles = robot.GIMBAL_ANGLES.output("gimbal angles, not wrapped")
+    gyro_momentum = body.ANGULAR_MOMENTUM.output("angular momentum H of the cluster")
+    jet_force = body.FORCE.output("force of the jets over the last step")
+    jet_torque = body.TORQUE.output("their torque over the last step")
     impulse = Output(0.0, unit="N.s", description="thrusts of all jets, summed and integrated: the propellant")
     generator = State([0.0] * 6, frozen=True, description="random number generator")
     thrust_factor = State([1.0] * 8, unit="1", description="thrust of each jet over the commanded one")

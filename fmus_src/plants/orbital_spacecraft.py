@@ -1,7 +1,8 @@
 """A spacecraft on a circular orbit, turned by jets in pulses."""
 
-from ..block import Input, Output, Parameter, State
+from ..block import Output, Parameter, State
 from ..interfaces.orbital_body import OrbitalBody
+from ..interfaces.ports import body, sampling
 from ..mathlib.orbital import AttitudeState
 from ..mathlib.vectors import Vector3, vector
 
@@ -20,17 +21,17 @@ class OrbitalSpacecraft(OrbitalBody):
     """
 
     initial_angles = Parameter([0.0, 0.0, 0.0], unit="rad", description="roll, yaw, pitch at the start")
-    initial_angular_velocity = Parameter(
-        [0.0, 0.0, -0.0011], unit="rad/s", frame="body", description="angular velocity at the start, absolute"
+    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(
+        [0.0, 0.0, -0.0011], "angular velocity at the start, absolute"
     )
-    internal_step = Parameter(0.1, unit="s", minimum=1e-3, description="longest integration step")
-    pulse_lengths = Input([0.0, 0.0, 0.0], unit="s", frame="body", description="lengths of the pulses, with their sign")
-    pulse_count = Input(0, description="pulses so far; a change tells new ones")
-    mean_torque = Input([0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque beside the pulses, held")
-    angles = Output([0.0, 0.0, 0.0], unit="rad", description="roll, yaw, pitch against the orbital frame")
-    angular_velocity = Output([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity, absolute")
-    fired_pulses = Output([0.0, 0.0, 0.0], unit="s", frame="body", description="the last pulses, with their sign")
-    held_torque = Output([0.0, 0.0, 0.0], unit="N.m", frame="body", description="mean_torque over the last step")
+    internal_step = sampling.INTERNAL_STEP.parameter(minimum=1e-3)
+    pulse_lengths = body.PULSES.input()
+    pulse_count = body.PULSE_COUNT.input()
+    mean_torque = body.TORQUE.input("torque beside the pulses, held")
+    angles = body.ANGLES.output()
+    angular_velocity = body.ANGULAR_VELOCITY.output()
+    fired_pulses = body.PULSES.output("the last pulses, with their sign")
+    held_torque = body.TORQUE.output("mean_torque over the last step")
     jet_seconds = Output(0.0, unit="s", description="time that jets have fired, summed over the axes: the propellant")
     status = Output(GOOD, minimum=0, maximum=1, description="0 good, 1 inertia cannot be inverted, nothing moves")
     left = State([0.0, 0.0, 0.0], unit="s", frame="body", description="what is left of the pulses, with their sign")

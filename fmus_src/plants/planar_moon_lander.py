@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import landing, sampling
 from ..kernel.functions import atan2, cos, sin
 from ..kernel.integrators import runge_kutta_4
 from ..kernel.records import Field, Record
@@ -39,21 +40,21 @@ class PlanarMoonLander(Block):
     initial_path_angle = Parameter(-1.6, unit="rad", description="path angle at the start")
     initial_altitude = Parameter(18148.0, unit="m", description="altitude at the start")
     initial_central_angle = Parameter(0.0, unit="rad", description="angle flown over the Moon at the start")
-    initial_mass = Parameter(940.0, unit="kg", minimum=1e-3, description="mass at the start")
-    specific_impulse = Parameter(319.0, unit="s", minimum=1e-3, description="of the engine")
+    initial_mass = landing.INITIAL_MASS.parameter()
+    specific_impulse = landing.SPECIFIC_IMPULSE.parameter()
     surface_gravity = Parameter(1.623, unit="m/s2", minimum=0.0, description="gravity at altitude 0")
-    moon_radius = Parameter(1.7384e6, unit="m", minimum=1.0, description="of the Moon, at altitude 0")
+    moon_radius = landing.MOON_RADIUS.parameter(1.7384e6, "of the Moon, at altitude 0")
     curvature = Parameter(False, description="the vertical turns with the vehicle; false: as published")
     thrust_factor = Parameter(1.0, unit="1", minimum=0.0, description="thrust given over thrust commanded")
-    internal_step = Parameter(0.1, unit="s", minimum=1e-4, description="longest integration step")
-    thrust_angle = Input(0.0, unit="rad", description="from the local vertical to the thrust")
-    thrust = Input(0.0, unit="N", description="commanded thrust")
-    altitude = Output(18148.0, unit="m", description="altitude")
+    internal_step = sampling.INTERNAL_STEP.parameter()
+    thrust_angle = landing.THRUST_ANGLE.input()
+    thrust = landing.THRUST.input()
+    altitude = landing.ALTITUDE.output("altitude", start=18148.0)
     path_angle = Output(-1.6, unit="rad", description="from the local vertical to the velocity, unwrapped")
     speed = Output(1689.0, unit="m/s", description="speed")
     central_angle = Output(0.0, unit="rad", description="angle flown over the Moon")
-    mass = Output(940.0, unit="kg", description="mass")
-    ground_contact = Output(False, description="the ground was reached")
+    mass = landing.MASS.output(start=940.0)
+    ground_contact = landing.GROUND_CONTACT.output()
     motion = State(PlanarMotion)
 
     def initialize(self) -> None:

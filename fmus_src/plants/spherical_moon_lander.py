@@ -1,7 +1,8 @@
 """A point-mass lander over a spherical Moon, with an engine and an attitude that take time."""
 
-from ..block import Input, Parameter, State
+from ..block import Parameter, State
 from ..interfaces.moon_lander import MoonLander
+from ..interfaces.ports import landing
 from ..mathlib.pursuit import follow, goal_at
 from ..mathlib.vectors import Vector3
 
@@ -34,10 +35,8 @@ class SphericalMoonLander(MoonLander):
     latch_at_burn_end = Parameter(
         False, description="keep the motion as it is when a burn ends inside a step, whatever thrust is left by a lag"
     )
-    thrust_direction = Input(
-        [0.0, 0.0, 1.0], unit="1", frame="landing site", description="commanded direction at command_time"
-    )
-    thrust_direction_rate = Input([0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="its derivative")
+    thrust_direction = landing.DIRECTION.input("commanded direction at command_time")
+    thrust_direction_rate = landing.DIRECTION_RATE.input()
     latched = State(False, description="a burn has ended and the motion is kept")
     aligned = State(False, description="the attitude has been put on the first command")
     response = State(0.5, unit="s", description="direction_response, 0 where it is too short to count")

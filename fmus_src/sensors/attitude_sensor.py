@@ -1,6 +1,7 @@
 """Thrust axis and its angular rate, as an attitude system measures them."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Parameter, State
+from ..interfaces.ports import landing, sampling
 from ..mathlib.rng import normals, seed_streams
 from ..mathlib.vectors import Vector3, cross, norm
 
@@ -24,19 +25,15 @@ class AttitudeSensor(Block):
     rate_sigma = Parameter(
         3.490658503988659e-4, unit="rad/s", minimum=0.0, description="white error of the rate, 1 sigma per axis"
     )
-    sample_period = Parameter(0.0, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    attitude = Input([0.0, 0.0, 1.0], unit="1", frame="landing site", description="true unit vector of thrust")
-    angular_rate = Input([0.0, 0.0, 0.0], unit="rad/s", frame="landing site", description="true angular rate")
-    measured_attitude = Output(
-        [0.0, 0.0, 1.0], unit="1", frame="landing site", direct=True, description="measured unit vector of thrust"
-    )
-    measured_angular_rate = Output(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="landing site", direct=True, description="measured angular rate"
-    )
-    sample_count = Output(0, description="samples taken; tells a new one from a held one")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.0)
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    attitude = landing.DIRECTION.input("true unit vector of thrust")
+    angular_rate = landing.ANGULAR_RATE.input("true angular rate")
+    measured_attitude = landing.DIRECTION.output("measured unit vector of thrust", direct=True)
+    measured_angular_rate = landing.ANGULAR_RATE.output("measured angular rate", direct=True)
+    sample_count = sampling.SAMPLE_COUNT.output()
+    generator = sampling.GENERATOR.state()
     misalignment = State(
         [0.0] * 3, unit="rad", frame="landing site", description="rotation vector of the constant error"
     )

@@ -1,6 +1,7 @@
 """Bank from the navigation system."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Parameter
+from ..interfaces.ports import entry, sampling
 from ..mathlib.rng import normal, seed_streams
 
 
@@ -15,13 +16,13 @@ class BankSensor(Block):
 
     sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error, 1 sigma")
     bias = Parameter(0.0, unit="rad", description="constant error")
-    sample_period = Parameter(0.2, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    bank = Input(0.0, unit="rad", description="true bank")
-    measured_bank = Output(0.0, unit="rad", direct=True, description="measured bank")
-    sample_count = Output(0, description="samples taken; tells a new one from a held one")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    sample_period = sampling.SAMPLE_PERIOD.parameter()
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    bank = entry.BANK.input("true bank")
+    measured_bank = entry.MEASURED_BANK.output("measured bank", direct=True)
+    sample_count = sampling.SAMPLE_COUNT.output()
+    generator = sampling.GENERATOR.state()
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

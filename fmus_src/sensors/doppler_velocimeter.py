@@ -1,6 +1,7 @@
 """A Doppler velocimeter."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Parameter
+from ..interfaces.ports import landing, sampling
 from ..mathlib.gravity import altitude_of
 from ..mathlib.rng import normals, seed_streams
 from ..mathlib.vectors import norm
@@ -19,18 +20,18 @@ class DopplerVelocimeter(Block):
 
     speed_error = Parameter(0.001, unit="1", minimum=0.0, description="error over speed, 1 sigma per axis")
     noise_sigma = Parameter(0.05, unit="m/s", minimum=0.0, description="constant part of the error, 1 sigma per axis")
-    maximum_altitude = Parameter(5e3, unit="m", description="measures at this altitude and below")
-    moon_radius = Parameter(1.7374e6, unit="m", minimum=1.0, description="of the sphere that the site lies on")
-    sample_period = Parameter(0.2, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="true position")
-    velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="true velocity")
-    measured_velocity = Output(
-        [0.0, 0.0, 0.0], unit="m/s", frame="landing site", direct=True, description="measured velocity"
+    maximum_altitude = landing.MAXIMUM_ALTITUDE.parameter(5e3)
+    moon_radius = landing.MOON_RADIUS.parameter()
+    sample_period = sampling.SAMPLE_PERIOD.parameter()
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    position = landing.POSITION.input("true position")
+    velocity = landing.VELOCITY.input("true velocity")
+    measured_velocity = landing.VELOCITY.output("measured velocity", direct=True)
+    sample_count = sampling.SAMPLE_COUNT.output(
+        "samples in range; tells a new one from a held one", direct=("position",)
     )
-    sample_count = Output(0, direct=("position",), description="samples in range; tells a new one from a held one")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    generator = sampling.GENERATOR.state()
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

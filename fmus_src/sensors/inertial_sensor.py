@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Parameter, State
+from ..interfaces.ports import landing, sampling
 from ..mathlib.rng import normal, normals, seed_streams
 from ..mathlib.vectors import vector
 
@@ -22,37 +23,31 @@ class InertialSensor(Block):
     Assumes accelerometers at the centre of mass, and an attitude error that is constant over a flight.
     """
 
-    bias_sigma = Parameter(1e-3, unit="m/s2", minimum=0.0, description="bias, 1 sigma per axis, constant")
-    scale_factor_sigma = Parameter(
-        3e-4, unit="1", minimum=0.0, description="relative error, 1 sigma per axis, constant"
+    bias_sigma = landing.BIAS_SIGMA.parameter(description="bias, 1 sigma per axis, constant")
+    scale_factor_sigma = landing.SCALE_FACTOR_SIGMA.parameter(description="relative error, 1 sigma per axis, constant")
+    velocity_random_walk = landing.VELOCITY_RANDOM_WALK.parameter(
+        description="in m/s per square root of s, 1 sigma per axis"
     )
-    velocity_random_walk = Parameter(1e-4, minimum=0.0, description="in m/s per square root of s, 1 sigma per axis")
     attitude_sigma = Parameter(
         3.490658503988659e-4, unit="rad", minimum=0.0, description="error of attitude, 1 sigma per axis, constant"
     )
-    sample_period = Parameter(0.1, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    sensed_velocity = Input(
-        [0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="true integral of specific force"
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.1)
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    sensed_velocity = landing.VELOCITY.input("true integral of specific force")
+    velocity_increment = landing.VELOCITY.output(
+        "measured integral of specific force between the last two samples", direct=True
     )
-    velocity_increment = Output(
-        [0.0, 0.0, 0.0],
-        unit="m/s",
-        frame="landing site",
-        direct=True,
-        description="measured integral of specific force between the last two samples",
-    )
-    sample_count = Output(0, description="samples with an increment; tells a new one from a held one")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
-    bias = State([0.0] * 3, unit="m/s2", frame="landing site", description="error of specific force")
-    scale_factor = State([0.0] * 3, unit="1", frame="landing site", description="relative error of specific force")
+    sample_count = sampling.SAMPLE_COUNT.output("samples with an increment; tells a new one from a held one")
+    generator = sampling.GENERATOR.state()
+    bias = landing.ACCELERATION.state("error of specific force")
+    scale_factor = landing.DIRECTION.state("relative error of specific force", start=[0.0] * 3)
     misalignment = State(
         [0.0] * 3, unit="rad", frame="landing site", description="rotation vector of the attitude error"
     )
-    last_sensed = State([0.0] * 3, unit="m/s", frame="landing site", description="sensed_velocity at the last sample")
+    last_sensed = landing.VELOCITY.state("sensed_velocity at the last sample")
     last_time = State(0.0, unit="s", description="time of the last sample")
-    start_time = State(0.0, unit="s", description="start of the flight")
+    start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Parameter, State
+from ..interfaces.ports import body, sampling
 from ..kernel.functions import exp
 from ..mathlib.rng import normals, seed_streams
 from ..mathlib.vectors import vector
@@ -22,14 +23,14 @@ class InfraredVertical(Block):
     sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error, 1 sigma per angle")
     bias = Parameter([0.0, 0.0], unit="rad", description="constant error of roll and pitch")
     correlation_time = Parameter(0.0, unit="s", minimum=0.0, description="of the errors; 0: white")
-    sample_period = Parameter(0.2, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    angles = Input([0.0, 0.0, 0.0], unit="rad", description="true roll, yaw, pitch")
-    measured_roll = Output(0.0, unit="rad", direct=True, description="measured roll")
-    measured_pitch = Output(0.0, unit="rad", direct=True, description="measured pitch")
-    sample_count = Output(0, description="samples taken; tells a new one from a held one")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    sample_period = sampling.SAMPLE_PERIOD.parameter()
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    angles = body.ANGLES.input("true roll, yaw, pitch")
+    measured_roll = body.MEASURED_ROLL.output("measured roll", direct=True)
+    measured_pitch = body.MEASURED_PITCH.output("measured pitch", direct=True)
+    sample_count = sampling.SAMPLE_COUNT.output()
+    generator = sampling.GENERATOR.state()
     error = State([0.0, 0.0], unit="1", frozen=True, description="errors of roll and pitch, in sigmas")
 
     def initialize(self) -> None:

@@ -1,6 +1,7 @@
 """Relative position from laser range finders."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block
+from ..interfaces.ports import inertial, robot, sampling
 from ..mathlib.rng import normals, seed_streams
 from ..mathlib.vectors import norm
 
@@ -17,20 +18,18 @@ class LaserRanger(Block):
 
     default_step = 0.125
 
-    far_sigma = Parameter(0.025, unit="m", minimum=0.0, description="error far away, 1 sigma per axis")
-    near_sigma = Parameter(0.01, unit="m", minimum=0.0, description="error nearby, 1 sigma per axis")
-    near_range = Parameter(300.0, unit="m", minimum=0.0, description="nearby is below this range")
-    sample_period = Parameter(1.0, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    robot_position = Input([0.0, 0.0, 0.0], unit="m", frame="inertial", description="true position of the robot")
-    target_position = Input([0.0, 0.0, 0.0], unit="m", frame="inertial", description="true position of the object")
-    relative_position = Output(
-        [0.0, 0.0, 0.0], unit="m", frame="inertial", direct=True, description="measured, from the robot to the object"
-    )
-    range = Output(0.0, unit="m", direct=True, description="length of relative_position")
-    sample_count = Output(0, description="samples taken; tells a new one from a held one")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    far_sigma = robot.FAR_SIGMA.parameter(description="error far away, 1 sigma per axis", minimum=0.0)
+    near_sigma = robot.NEAR_SIGMA.parameter(description="error nearby, 1 sigma per axis", minimum=0.0)
+    near_range = robot.NEAR_RANGE.parameter()
+    sample_period = sampling.SAMPLE_PERIOD.parameter(1.0)
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    robot_position = inertial.POSITION.input("true position of the robot")
+    target_position = inertial.POSITION.input("true position of the object")
+    relative_position = inertial.POSITION.output("measured, from the robot to the object", direct=True)
+    range = robot.RANGE.output("length of relative_position", direct=True)
+    sample_count = sampling.SAMPLE_COUNT.output()
+    generator = sampling.GENERATOR.state()
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

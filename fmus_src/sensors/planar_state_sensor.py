@@ -1,6 +1,7 @@
 """Path angle and altitude with relative errors."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Input, Parameter
+from ..interfaces.ports import landing, sampling
 from ..mathlib.rng import seed_streams, uniform
 
 
@@ -18,15 +19,15 @@ class PlanarStateSensor(Block):
 
     path_angle_noise = Parameter(0.0, unit="1", minimum=0.0, description="largest relative error of the path angle")
     altitude_noise = Parameter(0.0, unit="1", minimum=0.0, description="largest relative error of the altitude")
-    sample_period = Parameter(0.01, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.01)
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
     path_angle = Input(0.0, unit="rad", description="true angle from the local vertical to the velocity")
-    altitude = Input(0.0, unit="m", description="true altitude")
-    measured_path_angle = Output(0.0, unit="rad", direct=("path_angle",), description="measured path angle")
-    measured_altitude = Output(0.0, unit="m", direct=("altitude",), description="measured altitude")
-    sample_count = Output(0, description="samples taken; tells a new one from a held one")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    altitude = landing.ALTITUDE.input("true altitude")
+    measured_path_angle = landing.MEASURED_PATH_ANGLE.output("measured path angle", start=0.0, direct=("path_angle",))
+    measured_altitude = landing.MEASURED_ALTITUDE.output("measured altitude", direct=("altitude",))
+    sample_count = sampling.SAMPLE_COUNT.output()
+    generator = sampling.GENERATOR.state()
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -1,6 +1,7 @@
 """Angular velocity from three rate gyros."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Parameter
+from ..interfaces.ports import body, sampling
 from ..mathlib.rng import normals, seed_streams, uniform
 from ..mathlib.vectors import vector
 
@@ -17,18 +18,16 @@ class RateGyros(Block):
     default_step = 0.2
 
     sigma = Parameter(0.0, unit="rad/s", minimum=0.0, description="error, 1 sigma per axis")
-    bias = Parameter([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="constant error beside the drawn one")
+    bias = body.ANGULAR_VELOCITY.parameter(description="constant error beside the drawn one")
     bias_limit = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest drawn bias per axis")
-    sample_period = Parameter(0.2, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    angular_velocity = Input([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="true angular velocity, absolute")
-    measured_angular_velocity = Output(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body", direct=True, description="measured angular velocity, absolute"
-    )
-    true_bias = Output([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="whole bias of this flight")
-    sample_count = Output(0, description="samples taken; tells a new one from a held one")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    sample_period = sampling.SAMPLE_PERIOD.parameter()
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity, absolute")
+    measured_angular_velocity = body.ANGULAR_VELOCITY.output("measured angular velocity, absolute", direct=True)
+    true_bias = body.ANGULAR_VELOCITY.output("whole bias of this flight")
+    sample_count = sampling.SAMPLE_COUNT.output()
+    generator = sampling.GENERATOR.state()
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

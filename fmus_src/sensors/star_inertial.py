@@ -1,6 +1,7 @@
 """Attitude from star trackers and gyroscopes together."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Parameter
+from ..interfaces.ports import robot, sampling
 from ..mathlib.quaternion import from_rotation_vector, multiply, normalise
 from ..mathlib.rng import normals, seed_streams
 
@@ -19,15 +20,13 @@ class StarInertial(Block):
     attitude_sigma = Parameter(
         4.84813681109536e-6, unit="rad", minimum=0.0, description="error, 1 sigma per axis; 1 arcsec"
     )
-    sample_period = Parameter(0.125, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    quaternion = Input([1.0, 0.0, 0.0, 0.0], unit="1", description="true attitude, body to inertial, scalar first")
-    measured_quaternion = Output(
-        [1.0, 0.0, 0.0, 0.0], unit="1", direct=True, description="measured, from body to inertial, scalar first"
-    )
-    sample_count = Output(0, description="samples taken; tells a new one from a held one")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125)
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
+    measured_quaternion = robot.MEASURED_QUATERNION.output("measured, from body to inertial, scalar first", direct=True)
+    sample_count = sampling.SAMPLE_COUNT.output()
+    generator = sampling.GENERATOR.state()
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

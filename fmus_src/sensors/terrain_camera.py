@@ -1,6 +1,7 @@
 """A camera that finds its place over mapped terrain."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Parameter
+from ..interfaces.ports import landing, sampling
 from ..mathlib.gravity import altitude_of
 from ..mathlib.rng import normals, seed_streams
 
@@ -16,19 +17,17 @@ class TerrainCamera(Block):
     """
 
     altitude_error = Parameter(0.0015, unit="1", minimum=0.0, description="error over altitude, 1 sigma per axis")
-    noise_sigma = Parameter(2.0, unit="m", minimum=0.0, description="constant part of the error, 1 sigma per axis")
+    noise_sigma = landing.NOISE_SIGMA.parameter(2.0, "constant part of the error, 1 sigma per axis")
     minimum_altitude = Parameter(500.0, unit="m", description="measures at this altitude and above")
-    maximum_altitude = Parameter(2e4, unit="m", description="measures at this altitude and below")
-    moon_radius = Parameter(1.7374e6, unit="m", minimum=1.0, description="of the sphere that the site lies on")
-    sample_period = Parameter(5.0, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="true position")
-    measured_position = Output(
-        [0.0, 0.0, 0.0], unit="m", frame="landing site", direct=True, description="measured position"
-    )
-    sample_count = Output(0, direct=True, description="samples in the band; tells a new one from a held one")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    maximum_altitude = landing.MAXIMUM_ALTITUDE.parameter()
+    moon_radius = landing.MOON_RADIUS.parameter()
+    sample_period = sampling.SAMPLE_PERIOD.parameter(5.0)
+    seed = sampling.SEED.parameter()
+    stream = sampling.STREAM.parameter()
+    position = landing.POSITION.input("true position")
+    measured_position = landing.POSITION.output("measured position", direct=True)
+    sample_count = sampling.SAMPLE_COUNT.output("samples in the band; tells a new one from a held one", direct=True)
+    generator = sampling.GENERATOR.state()
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

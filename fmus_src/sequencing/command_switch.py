@@ -1,6 +1,7 @@
 """Passes on the command of the guidance that is in charge."""
 
-from ..block import Block, Input, Output
+from ..block import Block, Input
+from ..interfaces.ports import landing
 from ..mathlib.vectors import vector
 from .landing_sequence import BRAKING_GUIDANCE, HOVER_GUIDANCE, OWN
 
@@ -15,55 +16,40 @@ class CommandSwitch(Block):
     Ours: docs/systems/landing_mission.md.
     """
 
-    source = Input(0, description="0 none, 1 own, 2 braking, 3 hover")
-    engine_on = Input(False, description="thrust is given")
-    plan_number = Input(0, description="of the plan requested from the hover guidance")
-    hover_plan = Input(0, description="plan_number that the hover guidance's command belongs to")
+    source = landing.SOURCE.input()
+    engine_on = landing.ENGINE_ON.input()
+    plan_number = landing.PLAN_NUMBER.input("of the plan requested from the hover guidance")
+    hover_plan = landing.HOVER_PLAN.input()
     own_thrust_acceleration = Input(0.0, unit="m/s2", description="the sequencer's own command: thrust over mass")
-    own_thrust_direction = Input(
-        [0.0, 0.0, 0.0],
-        unit="1",
-        frame="landing site",
-        description="the sequencer's own command: unit vector at its time",
+    own_thrust_direction = landing.DIRECTION.input(
+        "the sequencer's own command: unit vector at its time", start=[0.0, 0.0, 0.0]
     )
-    own_thrust_direction_rate = Input(
-        [0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="the sequencer's own command: the derivative"
-    )
+    own_thrust_direction_rate = landing.DIRECTION_RATE.input("the sequencer's own command: the derivative")
     own_command_time = Input(0.0, unit="s", description="the sequencer's own command: when it was computed")
     own_burn_duration = Input(0.0, unit="s", description="the sequencer's own command: how long to thrust from then on")
     braking_thrust_acceleration = Input(0.0, unit="m/s2", description="the braking guidance: thrust over mass")
-    braking_thrust_direction = Input(
-        [0.0, 0.0, 0.0], unit="1", frame="landing site", description="the braking guidance: unit vector at its time"
+    braking_thrust_direction = landing.DIRECTION.input(
+        "the braking guidance: unit vector at its time", start=[0.0, 0.0, 0.0]
     )
-    braking_thrust_direction_rate = Input(
-        [0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="the braking guidance: the derivative"
-    )
+    braking_thrust_direction_rate = landing.DIRECTION_RATE.input("the braking guidance: the derivative")
     braking_command_time = Input(0.0, unit="s", description="the braking guidance: when it was computed")
     braking_burn_duration = Input(0.0, unit="s", description="the braking guidance: how long to thrust from then on")
     hover_thrust_acceleration = Input(0.0, unit="m/s2", description="the hover guidance: thrust over mass")
-    hover_thrust_direction = Input(
-        [0.0, 0.0, 0.0], unit="1", frame="landing site", description="the hover guidance: unit vector at its time"
+    hover_thrust_direction = landing.DIRECTION.input(
+        "the hover guidance: unit vector at its time", start=[0.0, 0.0, 0.0]
     )
-    hover_thrust_direction_rate = Input(
-        [0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="the hover guidance: the derivative"
-    )
+    hover_thrust_direction_rate = landing.DIRECTION_RATE.input("the hover guidance: the derivative")
     hover_command_time = Input(0.0, unit="s", description="the hover guidance: when it was computed")
     hover_burn_duration = Input(0.0, unit="s", description="the hover guidance: how long to thrust from then on")
-    hover_angular_acceleration_feed = Input(
-        [0.0, 0.0, 0.0], unit="rad/s2", frame="landing site", description="the hover guidance: of its plan"
+    hover_angular_acceleration_feed = landing.ANGULAR_ACCELERATION.input("the hover guidance: of its plan")
+    thrust_acceleration = landing.THRUST_ACCELERATION.output("thrust over mass", direct=True)
+    thrust_direction = landing.DIRECTION.output(
+        "unit vector at command_time; 0: none", start=[0.0, 0.0, 0.0], direct=True
     )
-    thrust_acceleration = Output(0.0, unit="m/s2", direct=True, description="thrust over mass")
-    thrust_direction = Output(
-        [0.0, 0.0, 0.0], unit="1", frame="landing site", direct=True, description="unit vector at command_time; 0: none"
-    )
-    thrust_direction_rate = Output(
-        [0.0, 0.0, 0.0], unit="1/s", frame="landing site", direct=True, description="its derivative"
-    )
-    command_time = Output(0.0, unit="s", direct=True, description="time that direction and duration count from")
-    burn_duration = Output(0.0, unit="s", direct=True, description="how long to thrust from command_time on")
-    angular_acceleration_feed = Output(
-        [0.0, 0.0, 0.0], unit="rad/s2", frame="landing site", direct=True, description="that the command itself needs"
-    )
+    thrust_direction_rate = landing.DIRECTION_RATE.output(direct=True)
+    command_time = landing.COMMAND_TIME.output(direct=True)
+    burn_duration = landing.BURN_DURATION.output(direct=True)
+    angular_acceleration_feed = landing.ANGULAR_ACCELERATION.output("that the command itself needs", direct=True)
 
     def initialize(self) -> None:
         self.switch()

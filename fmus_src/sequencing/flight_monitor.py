@@ -1,6 +1,7 @@
 """Ends a flight: by guidance, at the hand-over, or on the ground."""
 
-from ..block import Block, Input, Output, Parameter
+from ..block import Block, Input, Output
+from ..interfaces.ports import landing
 
 
 class FlightMonitor(Block):
@@ -11,15 +12,15 @@ class FlightMonitor(Block):
     Ours: docs/systems/lunar_landing.md.
     """
 
-    handover_speed = Parameter(0.0, unit="m/s", minimum=0.0, description="hand over below it; 0: no hand-over here")
-    handover_altitude_low = Parameter(1200.0, unit="m", description="lowest altitude of the hand-over")
-    handover_altitude_high = Parameter(1800.0, unit="m", description="highest altitude of the hand-over")
+    handover_speed = landing.HANDOVER_SPEED.parameter(0.0, "hand over below it; 0: no hand-over here")
+    handover_altitude_low = landing.HANDOVER_ALTITUDE_LOW.parameter(description="lowest altitude of the hand-over")
+    handover_altitude_high = landing.HANDOVER_ALTITUDE_HIGH.parameter(description="highest altitude of the hand-over")
     guidance_finished = Input(False, description="guidance says that the flight is over")
-    altitude = Input(1.0, unit="m", description="altitude above the ground")
+    altitude = landing.ALTITUDE.input("altitude above the ground", start=1.0)
     speed = Input(0.0, unit="m/s", description="speed")
-    finished = Output(False, direct=True, description="the flight is over")
+    finished = landing.FINISHED.output(direct=True)
     handed_over = Output(False, direct=True, description="the hand-over was reached")
-    ground_contact = Output(False, direct=True, description="the ground was reached")
+    ground_contact = landing.GROUND_CONTACT.output(direct=True)
 
     def initialize(self) -> None:
         self.judge()

@@ -1,6 +1,7 @@
 """What the landing sequencer reads, sampled once in every cycle of its own."""
 
 from ..block import Block, Input, Parameter, State
+from ..interfaces.ports import landing
 
 CYCLE_TOLERANCE = 1e-6  # of a cycle: communication points carry rounding
 TIME_TOLERANCE = 1e-15  # of the time
@@ -16,25 +17,23 @@ class LandingInputs(Block, interface=True):
     """
 
     cycle = Parameter(0.1, unit="s", minimum=0.0, description="time between decisions; 0: every communication point")
-    estimated_position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="position")
-    estimated_velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="velocity")
-    mass = Input(1.0, unit="kg", description="mass of the vehicle")
-    attitude = Input([0.0, 0.0, 1.0], unit="1", frame="landing site", description="measured unit vector of thrust")
-    braking_direction = Input(
-        [0.0, 0.0, 1.0], unit="1", frame="landing site", description="thrust direction of the braking guidance"
-    )
+    estimated_position = landing.POSITION.input()
+    estimated_velocity = landing.VELOCITY.input()
+    mass = landing.MASS.input("mass of the vehicle")
+    attitude = landing.DIRECTION.input("measured unit vector of thrust")
+    braking_direction = landing.DIRECTION.input("thrust direction of the braking guidance")
     braking_command_time = Input(
         0.0, unit="s", description="of the braking guidance; what it puts out counts only from the braking's start on"
     )
     braking_time_to_go = Input(0.0, unit="s", description="of the braking guidance")
     braking_status = Input(0, description="of the braking guidance; 2 and more: no solution of its own")
     braking_finished = Input(False, description="the braking guidance has ended its flight")
-    hover_plan = Input(0, description="plan_number that the hover guidance's outputs belong to")
+    hover_plan = landing.HOVER_PLAN.input("plan_number that the hover guidance's outputs belong to")
     hover_finished = Input(False, description="the plan of the hover guidance is over")
     hover_status = Input(0, description="of the hover guidance; 0 good")
-    predicted_propellant = Input(0.0, unit="kg", description="propellant that the hover guidance's plan needs")
-    probe_contact = Input(False, description="the probe has touched the ground")
-    ground_contact = Input(False, description="the ground was reached")
+    predicted_propellant = landing.PREDICTED_PROPELLANT.input("propellant that the hover guidance's plan needs")
+    probe_contact = landing.PROBE_CONTACT.input()
+    ground_contact = landing.GROUND_CONTACT.input()
     redesignation_1 = Input(
         [0.0, 0.0], unit="m", frame="landing site", description="move of the site, x and y, read when hover 1 ends"
     )

@@ -1,6 +1,7 @@
 """What the phases of a landing share: connectors, the order of phases, what is remembered of each, statuses."""
 
 from ..block import Output, Parameter, State
+from ..interfaces.ports import landing
 from ..mathlib.vectors import vector
 from .landing_inputs import LandingInputs
 
@@ -56,12 +57,12 @@ class LandingSequence(LandingInputs, interface=True):
     """
 
     start_phase = Parameter(1, description="phase to begin with, 1 to 9")
-    moon_radius = Parameter(1.7374e6, unit="m", minimum=1.0, description="of the sphere that the site lies on")
-    gravitational_parameter = Parameter(4.9028e12, unit="m3/s2", minimum=0.0, description="of the Moon")
-    minimum_thrust = Parameter(340.0, unit="N", minimum=0.0, description="least thrust of the engine")
-    maximum_thrust = Parameter(5099.0, unit="N", minimum=0.0, description="largest thrust of the engine")
+    moon_radius = landing.MOON_RADIUS.parameter()
+    gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter()
+    minimum_thrust = landing.MINIMUM_THRUST.parameter(340.0, "least thrust of the engine")
+    maximum_thrust = landing.MAXIMUM_THRUST.parameter(description="largest thrust of the engine")
     dry_mass = Parameter(440.0, unit="kg", minimum=0.0, description="mass without propellant")
-    probe_length = Parameter(1.5, unit="m", minimum=0.0, description="altitude at which the probe touches the ground")
+    probe_length = landing.PROBE_LENGTH.parameter()
     preliminary_altitude = Parameter(2400.0, unit="m", description="altitude of hover 1, to which braking goes")
     final_altitude = Parameter(100.0, unit="m", description="altitude of hover 2, to which the transfer goes")
     cutoff_altitude = Parameter(4.0, unit="m", description="altitude of the hover that the approach goes to")
@@ -71,23 +72,23 @@ class LandingSequence(LandingInputs, interface=True):
     hover_mode = Output(
         IDLE, minimum=0, maximum=5, description="0 idle, 1 hold, 2 programme, 3 slow, 4 capture, 5 sink"
     )
-    plan_number = Output(0, description="of the plan requested from the hover guidance; a change requests a new one")
-    target_position = Output([0.0, 0.0, 0.0], unit="m", frame="landing site", description="of the hover guidance")
-    site = Output([0.0, 0.0, 0.0], unit="m", frame="landing site", description="where to land, on the sphere")
-    source = Output(
-        NO_SOURCE, minimum=0, maximum=3, description="whose command counts: 0 nobody's, 1 own, 2 braking, 3 hover"
+    plan_number = landing.PLAN_NUMBER.output(
+        "of the plan requested from the hover guidance; a change requests a new one"
     )
-    engine_on = Output(False, description="the command's thrust is given")
-    thrust_acceleration = Output(0.0, unit="m/s2", description="own command: thrust over mass")
-    thrust_direction = Output(
-        [0.0, 0.0, 0.0], unit="1", frame="landing site", description="own command: unit vector at command_time; 0: none"
+    target_position = landing.POSITION.output("of the hover guidance")
+    site = landing.POSITION.output("where to land, on the sphere")
+    source = landing.SOURCE.output(
+        "whose command counts: 0 nobody's, 1 own, 2 braking, 3 hover", start=NO_SOURCE, minimum=0, maximum=3
     )
-    thrust_direction_rate = Output(
-        [0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="own command: its derivative"
+    engine_on = landing.ENGINE_ON.output("the command's thrust is given")
+    thrust_acceleration = landing.THRUST_ACCELERATION.output("own command: thrust over mass")
+    thrust_direction = landing.DIRECTION.output(
+        "own command: unit vector at command_time; 0: none", start=[0.0, 0.0, 0.0]
     )
-    command_time = Output(0.0, unit="s", description="own command: when it was computed")
-    burn_duration = Output(0.0, unit="s", description="own command: how long to thrust from command_time on")
-    free_flight = Output(False, description="no thrust acts; for navigation")
+    thrust_direction_rate = landing.DIRECTION_RATE.output("own command: its derivative")
+    command_time = landing.COMMAND_TIME.output("own command: when it was computed")
+    burn_duration = landing.BURN_DURATION.output("own command: how long to thrust from command_time on")
+    free_flight = landing.FREE_FLIGHT.output("no thrust acts; for navigation")
     status = Output(
         GOOD,
         minimum=0,
@@ -103,7 +104,7 @@ class LandingSequence(LandingInputs, interface=True):
     phase_mass = Output(
         [0.0] * 9, unit="kg", description="mass at the start of each phase, known a cycle later; 0: never"
     )
-    finished = Output(False, description="the flight is over")
+    finished = landing.FINISHED.output()
     mass_is_known = State(False, description="phase_mass of the phase has been set")
 
     def note(self, status: int, time: float) -> None:

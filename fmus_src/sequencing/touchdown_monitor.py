@@ -2,7 +2,8 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import landing
 from ..mathlib.vectors import norm
 
 
@@ -18,13 +19,13 @@ class TouchdownMonitor(Block):
     tilt_limit = Parameter(5.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="largest tilt")
     rate_limit = Parameter(2.0 * math.pi / 180.0, unit="rad/s", minimum=0.0, description="largest angular rate")
     distance_limit = Parameter(10.0, unit="m", minimum=0.0, description="largest distance from the site")
-    ground_contact = Input(False, description="the ground was reached")
-    vertical_speed = Input(0.0, unit="m/s", description="true velocity along the local vertical, upwards")
-    horizontal_speed = Input(0.0, unit="m/s", description="true velocity across it")
-    tilt = Input(0.0, unit="rad", description="true angle of the thrust axis from the local vertical")
-    angular_rate = Input([0.0, 0.0, 0.0], unit="rad/s", frame="landing site", description="true angular rate")
-    position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="true position")
-    site = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="where to land")
+    ground_contact = landing.GROUND_CONTACT.input()
+    vertical_speed = landing.VERTICAL_SPEED.input("true velocity along the local vertical, upwards")
+    horizontal_speed = landing.HORIZONTAL_SPEED.input("true velocity across it")
+    tilt = landing.TILT.input("true angle of the thrust axis from the local vertical")
+    angular_rate = landing.ANGULAR_RATE.input("true angular rate")
+    position = landing.POSITION.input("true position")
+    site = landing.POSITION.input("where to land")
     contact = Output(False, direct=True, description="the ground was reached; what follows is kept")
     contact_time = Output(-1.0, unit="s", direct=True, description="when; -1: not yet")
     contact_vertical_speed = Output(0.0, unit="m/s", direct=True, description="vertical speed at contact, downwards")

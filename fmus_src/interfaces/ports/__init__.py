@@ -1,0 +1,1 @@
+"""Ports by domain: what is connected, declared once."""

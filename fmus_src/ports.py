@@ -1,0 +1,49 @@
+"""Ports: what is connected, declared once for the outputs that give it and the inputs that take it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .block import Input, Output, Parameter, State
+
+
+class Port:
+    """Start, unit, frame, bounds and description of a quantity, from which blocks declare their variables.
+
+    A variable may have a start, a description or bounds of its own; what it is and its unit are the port's.
+    """
+
+    def __init__(self, start: Any, **declaration: Any) -> None:
+        self.start = start
+        self.declaration = declaration
+
+    def input(self, description: str | None = None, *, start: Any = None, **changes: Any) -> Input:
+        """An input for it."""
+        return Input(*self._start(start), **self._changed(description, changes))
+
+    def output(
+        self,
+        description: str | None = None,
+        *,
+        start: Any = None,
+        direct: bool | tuple[str, ...] = False,
+        **changes: Any,
+    ) -> Output:
+        """An output of it."""
+        return Output(*self._start(start), direct=direct, **self._changed(description, changes))
+
+    def parameter(self, start: Any = None, description: str | None = None, **changes: Any) -> Parameter:
+        """A parameter that sets it."""
+        return Parameter(*self._start(start), **self._changed(description, changes))
+
+    def state(self, description: str | None = None, *, start: Any = None, **changes: Any) -> State:
+        """A state that keeps it."""
+        return State(*self._start(start), **self._changed(description, changes))
+
+    def _start(self, start: Any) -> tuple[Any]:
+        return (self.start if start is None else start,)
+
+    def _changed(self, description: str | None, changes: dict[str, Any]) -> dict[str, Any]:
+        if description is not None:
+            changes["description"] = description
+        return {**self.declaration, **changes}
