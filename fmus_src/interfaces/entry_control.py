@@ -29,7 +29,7 @@ class EntryControl(Block, interface=True):
     trim_attack = Parameter(-20.0 * math.pi / 180.0, unit="rad", description="attack at which the capsule trims")
     dead_zone = Parameter(0.0, unit="1", minimum=0.0, description="share of a level below which nothing is demanded")
     sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick", minimum=1e-3)
-    measured_bank = entry.MEASURED_BANK.input()
+    measured_bank = entry.BANK.input()
     measured_angular_velocity = body.ANGULAR_VELOCITY.input()
     target_bank = entry.TARGET_BANK.input("target of the programme", start=0.0)
     reference_bank = entry.REFERENCE_BANK.input(start=0.0)

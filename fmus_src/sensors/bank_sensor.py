@@ -20,7 +20,7 @@ class BankSensor(Block):
     seed = sampling.SEED.parameter()
     stream = sampling.STREAM.parameter()
     bank = entry.BANK.input("true bank")
-    measured_bank = entry.MEASURED_BANK.output("measured bank", direct=True)
+    measured_bank = entry.BANK.output("measured bank", direct=True)
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
 

@@ -9,7 +9,6 @@ DENSITY_FACTOR = Port(1.0, unit="1", description="on the density of the standard
 DYNAMIC_PRESSURE = Port(0.0, unit="Pa", description="of the standard atmosphere at rest")
 ERROR_LIMIT = Port(math.pi, unit="rad", description="largest error of bank that the regulator acts on")
 JET_FACTOR = Port([1.0] * 6, unit="1", description="on the torque of each jet")
-MEASURED_BANK = Port(0.0, unit="rad", description="bank")
 REFERENCE_BANK = Port(60.0 * math.pi / 180.0, unit="rad", description="bank to be at now")
 REFERENCE_BANK_ACCELERATION = Port(0.0, unit="rad/s2", description="its second derivative")
 REFERENCE_BANK_RATE = Port(0.0, unit="rad/s", description="its rate")

@@ -1,0 +1,79 @@
+"""Ports: a variable declared from one has the port's unit, frame and bounds, and its own start and description."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from perilune.fmus_src.block import Block, DeclarationError, Input, Output, Parameter, State
+from perilune.fmus_src.interfaces import ports as package
+from perilune.fmus_src.interfaces.ports import body, entry, inertial, landing, robot, sampling
+from perilune.fmus_src.ports import Port
+
+FORCE = Port([0.0, 0.0, 0.0], unit="N", frame="body", description="force")
+LEVEL = Port(1.0, unit="1", minimum=0.0, description="level")
+
+
+class Winch(Block):
+    """Has a port of every kind."""
+
+    demanded_force = FORCE.input("demanded force")
+    force = FORCE.output(start=[1.0, 2.0, 3.0], direct=True)
+    level = LEVEL.parameter(0.5)
+    least_level = LEVEL.parameter(description="least", maximum=2.0)
+    last_force = FORCE.state("of the last step", frozen=True)
+
+    def step(self, t: float, h: float) -> None:
+        self.force = self.demanded_force
+
+
+def test_variables_have_what_the_port_declares_and_their_changes() -> None:
+    of = Winch.variables
+    kinds = {name: type(variable).__name__ for name, variable in of.items()}
+    assert list(kinds.items()) == [
+        ("demanded_force", Input.__name__), ("force", Output.__name__), ("level", Parameter.__name__),
+        ("least_level", Parameter.__name__), ("last_force", State.__name__),
+    ]  # fmt: skip
+    assert {of[name].unit for name in ("demanded_force", "force", "last_force")} == {"N"}
+    assert of["demanded_force"].descriptions() == ["demanded force (body frame)"] * 3
+    assert of["force"].descriptions() == ["force (body frame)"] * 3
+    assert of["force"].start == [1.0, 2.0, 3.0]
+    assert of["demanded_force"].start == [0.0, 0.0, 0.0]
+    assert of["force"].direct
+    assert (of["level"].start, of["level"].minimum, of["level"].maximum) == (0.5, 0.0, None)
+    assert (of["least_level"].start, of["least_level"].maximum, of["least_level"].description) == (1.0, 2.0, "least")
+    assert of["last_force"].frozen
+
+
+def test_variables_of_one_port_are_their_own() -> None:
+    one, other = Winch(), Winch()
+    one.demanded_force = [1.0, 2.0, 3.0]
+    one.step(0.0, 0.1)
+    assert list(one.force) == [1.0, 2.0, 3.0]
+    assert list(other.demanded_force) == [0.0, 0.0, 0.0]
+    assert FORCE.start == [0.0, 0.0, 0.0]
+
+
+def test_bounds_of_the_port_hold_for_a_start_of_ones_own() -> None:
+    with pytest.raises((DeclarationError, RuntimeError)):
+
+        class Low(Block):
+            """Starts below the port's minimum."""
+
+            level = LEVEL.parameter(-1.0)
+
+
+def test_every_port_is_declared_once_and_used() -> None:
+    """No two ports of a domain say the same, and every port has at least two users."""
+    assert package.__doc__
+    source = "\n".join(
+        path.read_text(encoding="utf-8") for path in (Path(__file__).parents[2] / "fmus_src").rglob("*.py")
+    )
+    for domain in (body, entry, inertial, landing, robot, sampling):
+        ports = {name: port for name, port in vars(domain).items() if isinstance(port, Port)}
+        said = [(str(port.start), str(port.declaration)) for port in ports.values()]
+        assert len(said) == len(set(said)), domain.__name__
+        for name in ports:
+            uses = source.count(f"{domain.__name__.rpartition('.')[2]}.{name}.")
+            assert uses > 1, f"{domain.__name__}: {name} is used {uses} times; declare it where it is used"
