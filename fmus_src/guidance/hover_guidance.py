@@ -5,7 +5,8 @@ from ..interfaces.ports import landing, sampling
 from ..kernel.functions import expm1, tan
 from ..mathlib.gravity import STANDARD_GRAVITY
 from ..mathlib.lagged_thrust import lagged_thrust
-from ..mathlib.vectors import Vector3, across, clip, dot, limit_length, norm, vector
+from ..mathlib.rotation import TurningDirection
+from ..mathlib.vectors import across, clip, dot, limit_length, norm, vector
 from .hover_plan import GOOD, HOLDING, POLYNOMIAL, HoverPlan
 
 # Modes
@@ -192,7 +193,9 @@ class HoverGuidance(HoverPlan):
 
     def reference(self, t: float) -> None:
         """Set reference_position and reference_velocity at the time t (s) after the plan's start."""
-        self.reference_position, self.reference_velocity = self.plan_motion(t)
+        planned = self.plan_motion(t)
+        self.reference_position = planned.position
+        self.reference_velocity = planned.velocity
         if self.sinking():
             speed = self.sink_speed(t)
             sunk = speed * t - 0.5 * speed * speed / self.descent_acceleration
@@ -230,14 +233,15 @@ class HoverGuidance(HoverPlan):
         self.time_to_go = clip(self.duration - t, 0.0, self.duration)
         self.finished = t >= self.duration and not self.sinking()
         self.reference(t)
-        direction, rate = self.plan_direction(t)
+        planned = self.plan_direction(t)
         # beyond the end the plan's rate is 0
         self.angular_acceleration_feed = (self.plan_rate(t + self.cycle) - self.plan_rate(t)) / self.cycle
         ahead = self.reference_thrust(t + self.engine_lag, t + self.engine_lag + self.cycle)
-        self.command(direction, rate, ahead, self.frequency(t))
+        self.command(planned, ahead, self.frequency(t))
 
-    def command(self, direction: Vector3, rate: Vector3, planned: float, frequency: float) -> None:
-        """The law, from direction, its derivative (1/s) and thrust over mass (m/s2) of the plan."""
+    def command(self, plan: TurningDirection, planned: float, frequency: float) -> None:
+        """The law, from direction and thrust over mass (m/s2) of the plan."""
+        direction = plan.direction
         error = self.reference_position - self.position
         near = limit_length(error, self.largest_error)
         push = frequency * (frequency * near + 2.0 * self.damping * (self.reference_velocity - self.velocity))
@@ -258,7 +262,7 @@ class HoverGuidance(HoverPlan):
         leaning = direction + self.tilt
         length = norm(leaning)
         self.thrust_direction = leaning / length
-        self.thrust_direction_rate = across(rate, self.thrust_direction) / length
+        self.thrust_direction_rate = across(plan.rate, self.thrust_direction) / length
         self.thrust_acceleration = wanted * length / self.thrust_factor
         demand = self.mass * self.thrust_acceleration
         self.commanded_thrust = clip(demand, self.minimum_thrust, self.maximum_thrust)

@@ -5,12 +5,23 @@ import math
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import landing
 from ..kernel.functions import cos, expm1, sin
+from ..kernel.integrators import Translation
 from ..mathlib.gravity import STANDARD_GRAVITY, from_centre, vertical_at
 from ..mathlib.hover_motion import HoverVehicle, motion, propellant, thrust_impulse
 from ..mathlib.hover_programme import programme
 from ..mathlib.hover_shape import HoverProgramme, HoverShape, pitch, shape_of, without_programme
 from ..mathlib.hover_solution import NONE, VERTICAL
-from ..mathlib.transfer_polynomial import TRANSFER, capture, derivative, expense, slow_duration, thrust_along, transfer
+from ..mathlib.rotation import TurningDirection
+from ..mathlib.transfer_polynomial import (
+    TRANSFER,
+    TransferLimits,
+    capture,
+    derivative,
+    expense,
+    slow_duration,
+    thrust_along,
+    transfer,
+)
 from ..mathlib.vectors import Vector3, add_along, clip, cross, dot, is_finite, norm, smallest_component, vector
 
 HOLDING = 0  # kinds of plans besides those of mathlib.hover_solution
@@ -187,10 +198,8 @@ class HoverPlan(Block, interface=True):
         duration = slow_duration(longer, speed, acceleration)
         rest = vector(0.0, 0.0, 0.0)
         transfer(self.origin, rest, rest, rest, self.goal, duration, self.coefficients)
-        limits = [0.0] * 4
-        self.fill_limits(limits)
-        spent, _ = expense(self.coefficients, duration, self.lift(), self.mass, limits, math.inf)
-        self.take_polynomial(duration, spent)
+        spent = expense(self.coefficients, duration, self.lift(), self.mass, self.limits(), math.inf)
+        self.take_polynomial(duration, spent.impulse)
 
     def plan_capture(self, cycle: float) -> None:
         """A polynomial from flight, with the thrust measured over the last cycle (s).
@@ -204,21 +213,22 @@ class HoverPlan(Block, interface=True):
             force = clip(dot(self.lift(), self.attitude), self.planned_minimum * full, self.planned_maximum * full)
         pull = force * self.attitude - self.lift()
         jerk = force * cross(self.angular_rate, self.attitude) + force * force / exhaust * self.attitude
-        limits = [0.0] * 4
-        self.fill_limits(limits)
-        duration, spent, excess = capture(
+        limits = self.limits()
+        best = capture(
             self.origin, self.velocity, pull, jerk, self.goal, self.lift(), self.mass, limits, self.coefficients
         )
-        self.take_polynomial(duration, spent)
-        if self.status == GOOD and excess > 0.0:
+        self.take_polynomial(best.duration, best.expense.impulse)
+        if self.status == GOOD and best.expense.excess > 0.0:
             self.status = BEYOND_LIMITS
 
-    def fill_limits(self, limits: list) -> None:
-        """limits = those of plans, as mathlib.transfer_polynomial has them."""
-        limits[0] = self.planned_maximum * self.maximum_thrust
-        limits[1] = self.planned_minimum * self.maximum_thrust
-        limits[2] = self.planned_angular_acceleration
-        limits[3] = STANDARD_GRAVITY * self.specific_impulse
+    def limits(self) -> TransferLimits:
+        """Those of plans."""
+        return TransferLimits(
+            maximum_thrust=self.planned_maximum * self.maximum_thrust,
+            minimum_thrust=self.planned_minimum * self.maximum_thrust,
+            angular_acceleration=self.planned_angular_acceleration,
+            exhaust_speed=STANDARD_GRAVITY * self.specific_impulse,
+        )
 
     def take_polynomial(self, duration: float, spent: float) -> None:
         """Fly the polynomial, which takes a duration (s) and spends so much (m/s); status 3 if these are not finite."""
@@ -234,44 +244,44 @@ class HoverPlan(Block, interface=True):
         """Thrust over mass (m/s2) that holds the plan's gravity."""
         return self.plan_gravity * self.up
 
-    def plan_motion(self, t: float) -> tuple[Vector3, Vector3]:
-        """Position (m) and velocity (m/s) of the plan at the time t (s) after its start."""
+    def plan_motion(self, t: float) -> Translation:
+        """Motion of the plan at the time t (s) after its start."""
         rest = vector(0.0, 0.0, 0.0)
         if t >= self.duration:
-            return self.goal, rest
+            return Translation(position=self.goal, velocity=rest)
         if self.plan_kind == POLYNOMIAL:
             place = derivative(self.coefficients, 0, t, self.duration)
-            return place, derivative(self.coefficients, 1, t, self.duration)
+            return Translation(position=place, velocity=derivative(self.coefficients, 1, t, self.duration))
         s, moved = motion(self.shape, self.vehicle, t)
         if not moved:
-            return self.goal, rest
+            return Translation(position=self.goal, velocity=rest)
         place = self.origin + s.x * self.along + s.y * self.up
-        return place, s.x_rate * self.along + s.y_rate * self.up
+        return Translation(position=place, velocity=s.x_rate * self.along + s.y_rate * self.up)
 
-    def plan_direction(self, t: float) -> tuple[Vector3, Vector3]:
-        """Thrust direction of the plan at the time t (s) after its start, and its derivative (1/s)."""
+    def plan_direction(self, t: float) -> TurningDirection:
+        """Thrust direction of the plan at the time t (s) after its start."""
         rest = vector(0.0, 0.0, 0.0)
         if t >= self.duration:
-            return self.up, rest
+            return TurningDirection(direction=self.up, rate=rest)
         if self.plan_kind == POLYNOMIAL:
-            _, direction, rate, _ = thrust_along(self.coefficients, t, self.duration, self.lift())
-            return direction, rate
-        angle, speed = pitch(self.shape, self.vehicle.swing, t)
-        sine = sin(angle)
-        cosine = cos(angle)
+            thrust = thrust_along(self.coefficients, t, self.duration, self.lift())
+            return TurningDirection(direction=thrust.direction, rate=thrust.rate)
+        turn = pitch(self.shape, self.vehicle.swing, t)
+        sine = sin(turn.deviation)
+        cosine = cos(turn.deviation)
         direction = cosine * self.up - sine * self.along
-        return direction, -speed * (sine * self.up + cosine * self.along)
+        return TurningDirection(direction=direction, rate=-turn.rate * (sine * self.up + cosine * self.along))
 
     def plan_rate(self, t: float) -> Vector3:
         """Angular rate (rad/s) of the thrust axis of the plan at the time t (s) after its start."""
-        direction, rate = self.plan_direction(t)
-        return cross(direction, rate)
+        turning = self.plan_direction(t)
+        return cross(turning.direction, turning.rate)
 
     def plan_impulse(self, begin: float, end: float) -> float:
         """Integral (m/s) of the plan's thrust over mass between two times (s) after its start, within its duration."""
         if self.plan_kind != POLYNOMIAL:
             return thrust_impulse(self.shape, self.vehicle, begin, end)
-        first, _, _, _ = thrust_along(self.coefficients, begin, self.duration, self.lift())
-        middle, _, _, _ = thrust_along(self.coefficients, 0.5 * (begin + end), self.duration, self.lift())
-        last, _, _, _ = thrust_along(self.coefficients, end, self.duration, self.lift())
-        return (end - begin) * (first + 4.0 * middle + last) / 6.0
+        first = thrust_along(self.coefficients, begin, self.duration, self.lift())
+        middle = thrust_along(self.coefficients, 0.5 * (begin + end), self.duration, self.lift())
+        last = thrust_along(self.coefficients, end, self.duration, self.lift())
+        return (end - begin) * (first.size + 4.0 * middle.size + last.size) / 6.0

@@ -41,6 +41,17 @@ class Translation(Record):
     velocity = Field(Vector3, unit="m/s", description="velocity")
 
 
+def simpson(acceleration: Derivatives, t: float, s: Translation, h: float) -> Translation:
+    """The motion at t + h under x'' = acceleration(t): Simpson's rule, to which `runge_kutta_4` reduces then."""
+    a1 = acceleration(t)
+    a2 = acceleration(t + 0.5 * h)
+    a4 = acceleration(t + h)
+    return Translation(
+        position=s.position + h * (s.velocity + h * (a1 + 2.0 * a2) / 6.0),
+        velocity=s.velocity + h * (a1 + 4.0 * a2 + a4) / 6.0,
+    )
+
+
 class Forcing(Record):
     """An acceleration over a step that does not depend on the motion."""
 

@@ -7,6 +7,7 @@ import math
 
 from ..kernel.functions import atan2, cos, sin
 from .gravity import from_centre, vertical_at
+from .rotation import TurningDirection
 from .vectors import Vector3, across, dot, norm, vector
 
 
@@ -24,8 +25,8 @@ def ground_range(position: Vector3, radius: float) -> float:
     return radius * atan2(math.sqrt(centred.x * centred.x + centred.y * centred.y), centred.z)
 
 
-def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> tuple[Vector3, Vector3]:
-    """The unit vector against the horizontal velocity and its rate (1/s) as it turns with the vertical.
+def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> TurningDirection:
+    """The direction against the horizontal velocity, which turns with the vertical.
 
     Both are 0 where there is no horizontal velocity.
     """
@@ -34,8 +35,8 @@ def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> t
     speed = norm(horizontal)
     distance = norm(from_centre(position, radius))
     if not speed > 0.0 or not distance > 0.0:
-        return vector(0.0, 0.0, 0.0), vector(0.0, 0.0, 0.0)
-    return -horizontal / speed, speed / distance * up
+        return TurningDirection(direction=vector(0.0, 0.0, 0.0), rate=vector(0.0, 0.0, 0.0))
+    return TurningDirection(direction=-horizontal / speed, rate=speed / distance * up)
 
 
 def apocentre_speed(apocentre: float, pericentre: float, mu: float) -> float:

@@ -51,6 +51,13 @@ class PitchSegment(Record):
     half_acceleration = Field(unit="rad/s2", description="half its acceleration")
 
 
+class Pitch(Record):
+    """Deviation of the thrust from the vertical."""
+
+    deviation = Field(unit="rad", description="angle, positive against the way to go")
+    rate = Field(unit="rad/s", description="its rate")
+
+
 def without_programme() -> HoverProgramme:
     """No programme: all its times are 0."""
     return HoverProgramme(t2=0.0, t5=0.0, width=0.0, last_burn=0.0, t7=0.0)
@@ -120,12 +127,12 @@ def shape_of(p: HoverProgramme, acceleration: float) -> tuple[HoverShape, bool]:
     return s, s.first_burn_end <= s.last_burn_begin
 
 
-def pitch(s: HoverShape, acceleration: float, t: float) -> tuple[float, float]:
-    """Deviation (rad) and its rate (rad/s) at the time t (s); 0 before the start and from the end on."""
+def pitch(s: HoverShape, acceleration: float, t: float) -> Pitch:
+    """The deviation at the time t (s); 0 before the start and from the end on."""
     segment = pitch_segment(s, acceleration, t)
     since = t - segment.begin
     deviation = segment.value + since * (segment.rate + since * segment.half_acceleration)
-    return deviation, segment.rate + 2.0 * since * segment.half_acceleration
+    return Pitch(deviation=deviation, rate=segment.rate + 2.0 * since * segment.half_acceleration)
 
 
 def pitch_segment(s: HoverShape, acceleration: float, t: float) -> PitchSegment:

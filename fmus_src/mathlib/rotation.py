@@ -1,9 +1,17 @@
 """Rotations from one direction to another. Kernel functions; no frame implied."""
 
 from ..kernel.functions import atan2, cos, sin
+from ..kernel.records import Field, Record
 from .vectors import Vector3, add_along, clip, cross, dot, norm, smallest_component
 
 ALIGNED = 1e-12  # sine below which two directions count as parallel
+
+
+class TurningDirection(Record):
+    """A direction that turns."""
+
+    direction = Field(Vector3, unit="1", description="unit vector")
+    rate = Field(Vector3, unit="1/s", description="its derivative")
 
 
 def turn_towards(direction: Vector3, goal: Vector3, largest: float) -> tuple[Vector3, float]:

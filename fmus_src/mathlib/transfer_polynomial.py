@@ -8,6 +8,7 @@ over the transfer. Frame: any that does not rotate. Equations: docs/systems/hove
 import math
 
 from ..kernel.functions import exp
+from ..kernel.records import Field, Record
 from .vectors import Vector3, clip, cross, dot, norm, vector
 
 TRANSFER = 24
@@ -24,11 +25,37 @@ GROWTH = 1.02
 TRIALS = 150
 EXCESS_PRICE = 1000.0  # m/s for a limit exceeded by all of itself
 
-# Limits of a transfer: a list of four.
-LARGEST_THRUST = 0  # N
-LEAST_THRUST = 1  # N
-LARGEST_SWING = 2  # rad/s2
-EXHAUST_SPEED = 3  # m/s
+
+class TransferLimits(Record):
+    """What a transfer should keep to, and the engine that flies it."""
+
+    maximum_thrust = Field(unit="N", description="largest thrust")
+    minimum_thrust = Field(unit="N", description="least thrust")
+    angular_acceleration = Field(unit="rad/s2", description="largest of the thrust's direction")
+    exhaust_speed = Field(unit="m/s", description="of the engine")
+
+
+class ThrustAlong(Record):
+    """Thrust over mass at a time of a transfer."""
+
+    size = Field(unit="m/s2", description="thrust over mass")
+    direction = Field(Vector3, unit="1", description="unit vector")
+    rate = Field(Vector3, unit="1/s", description="first derivative of the direction")
+    bend = Field(Vector3, unit="1/s2", description="its second derivative")
+
+
+class Expense(Record):
+    """What a transfer takes."""
+
+    impulse = Field(unit="m/s", description="integral of thrust over mass")
+    excess = Field(unit="1", description="largest relative excess over a limit, 0 within all of them")
+
+
+class Capture(Record):
+    """The transfer that a capture flies."""
+
+    duration = Field(unit="s", description="duration; 0: there is no transfer that is finite")
+    expense = Field(Expense, description="what it takes")
 
 
 def transfer(
@@ -71,8 +98,8 @@ def derivative(c: list, order: int, t: float, duration: float) -> Vector3:
     return vector(*part)
 
 
-def thrust_along(c: list, t: float, duration: float, lift: Vector3) -> tuple[float, Vector3, Vector3, Vector3]:
-    """Thrust over mass (m/s2) at the time t (s), its direction and the direction's first two derivatives.
+def thrust_along(c: list, t: float, duration: float, lift: Vector3) -> ThrustAlong:
+    """Thrust at the time t (s).
 
     Where there is no thrust, the direction is that of lift, at rest.
     """
@@ -82,14 +109,14 @@ def thrust_along(c: list, t: float, duration: float, lift: Vector3) -> tuple[flo
         rest = vector(0.0, 0.0, 0.0)
         weight = norm(lift)
         if weight == 0.0:
-            return 0.0, vector(0.0, 0.0, 1.0), rest, rest
-        return 0.0, lift / weight, rest, rest
+            return ThrustAlong(size=0.0, direction=vector(0.0, 0.0, 1.0), rate=rest, bend=rest)
+        return ThrustAlong(size=0.0, direction=lift / weight, rate=rest, bend=rest)
     jerk = derivative(c, 3, t, duration)
     snap = derivative(c, 4, t, duration)
     d = f / size
     rate = (jerk - dot(jerk, d) * d) / size
     bend = (snap - (dot(d, snap) + dot(rate, jerk)) * d - 2.0 * dot(jerk, d) * rate) / size
-    return size, d, rate, bend
+    return ThrustAlong(size=size, direction=d, rate=rate, bend=bend)
 
 
 def slow_duration(way: float, speed: float, acceleration: float) -> float:
@@ -103,36 +130,34 @@ def slow_duration(way: float, speed: float, acceleration: float) -> float:
     return time
 
 
-def expense(c: list, duration: float, lift: Vector3, mass: float, limits: list, bearable: float) -> tuple[float, float]:
-    """Integral of thrust over mass (m/s) over a transfer, and by how much it exceeds a limit at most.
+def expense(c: list, duration: float, lift: Vector3, mass: float, limits: TransferLimits, bearable: float) -> Expense:
+    """What a transfer takes, as far as it is not dearer than ``bearable`` (m/s).
 
-    Both only as far as it is not dearer than ``bearable`` (m/s).
-
-    The excess is relative, 0 within all limits; angular acceleration counts but at the start, which is given.
-    By the trapezoidal rule, mass (kg) from that at the start by the rocket equation.
+    Angular acceleration counts but at the start, which is given. By the trapezoidal rule, mass (kg) from that at the
+    start by the rocket equation.
     """
     h = duration / float(SAMPLES - 1)
     spent = 0.0
     before = 0.0
     excess = 0.0
     for k in range(SAMPLES):
-        size, d, _, bend = thrust_along(c, float(k) * h, duration, lift)
+        thrust = thrust_along(c, float(k) * h, duration, lift)
         if k > 0:
-            spent = spent + 0.5 * h * (before + size)
-            swing = norm(cross(d, bend)) / limits[LARGEST_SWING] - 1.0
+            spent = spent + 0.5 * h * (before + thrust.size)
+            swing = norm(cross(thrust.direction, thrust.bend)) / limits.angular_acceleration - 1.0
             if swing > excess:
                 excess = swing
-        before = size
-        force = mass * exp(-clip(spent / limits[EXHAUST_SPEED], 0.0, 700.0)) * size
-        over = force / limits[LARGEST_THRUST] - 1.0
+        before = thrust.size
+        force = mass * exp(-clip(spent / limits.exhaust_speed, 0.0, 700.0)) * thrust.size
+        over = force / limits.maximum_thrust - 1.0
         if over > excess:
             excess = over
-        under = 1.0 - force / limits[LEAST_THRUST]
+        under = 1.0 - force / limits.minimum_thrust
         if under > excess:
             excess = under
         if spent + EXCESS_PRICE * excess > bearable:
-            return spent, excess
-    return spent, excess
+            return Expense(impulse=spent, excess=excess)
+    return Expense(impulse=spent, excess=excess)
 
 
 def capture(
@@ -143,29 +168,22 @@ def capture(
     goal: Vector3,
     lift: Vector3,
     mass: float,
-    limits: list,
+    limits: TransferLimits,
     c: list,
-) -> tuple[float, float, float]:
-    """c[24] = the transfer from flight to rest at goal that takes least thrust, with a price on limits exceeded.
-
-    Returns its duration (s), 0 where there is none that is finite, and what `expense` says of it.
-    """
+) -> Capture:
+    """c[24] = the transfer from flight to rest at goal that takes least thrust, with a price on limits exceeded."""
     trial = [0.0] * TRANSFER
-    best = 0.0
+    best = Capture(duration=0.0, expense=Expense(impulse=0.0, excess=0.0))
     minimum = math.inf
-    spent_best = 0.0
-    excess_best = 0.0
     duration = FIRST
     for _ in range(TRIALS):
         transfer(place, speed, acceleration, jerk, goal, duration, trial)
-        spent, excess = expense(trial, duration, lift, mass, limits, minimum)
-        price = spent + EXCESS_PRICE * excess
+        spent = expense(trial, duration, lift, mass, limits, minimum)
+        price = spent.impulse + EXCESS_PRICE * spent.excess
         if price < minimum:
             minimum = price
-            best = duration
-            spent_best = spent
-            excess_best = excess
+            best = Capture(duration=duration, expense=spent)
             for i in range(TRANSFER):
                 c[i] = trial[i]
         duration = GROWTH * duration
-    return best, spent_best, excess_best
+    return best

@@ -2,6 +2,7 @@
 
 from ..block import Block, Parameter, State
 from ..interfaces.ports import landing, sampling
+from ..kernel.integrators import Translation, simpson
 from ..mathlib.vectors import Vector3, norm, vector
 
 
@@ -10,8 +11,8 @@ class FlatMoonLander(Block):
 
     The thrust direction at time t is (d + d' (t - command_time)) normalised; thrust ends at
     command_time + burn_duration, inside a step if need be. No mass flow. Fourth-order
-    Runge-Kutta with a fixed step of its own; the acceleration depends on time only, so its
-    slopes are one at each end and two in the middle. Frame: landing site (x north, y west, z up).
+    Runge-Kutta with a fixed step of its own; the acceleration depends on time only, which makes it Simpson's
+    rule. Frame: landing site (x north, y west, z up).
     Source: Fomichev and Li 2017, equations of motion.
     Assumes an attitude and an engine without lag.
     """
@@ -40,7 +41,7 @@ class FlatMoonLander(Block):
         self.velocity = self.initial_velocity
 
     def acceleration(self, t: float) -> Vector3:
-        """Thrust over mass and gravity at time t (m/s2), landing-site frame."""
+        """r'' = W d/|d| - g k at time t (m/s2), with thrust over mass W and d = thrust_direction moved on to t."""
         direction = self.thrust_direction + (t - self.command_time) * self.thrust_direction_rate
         length = norm(direction)
         scale = 0.0
@@ -51,11 +52,9 @@ class FlatMoonLander(Block):
 
     def burn(self, t: float, h: float) -> None:
         """Move by h (s) under thrust and gravity."""
-        a1 = self.acceleration(t)
-        a2 = self.acceleration(t + 0.5 * h)
-        a4 = self.acceleration(t + h)
-        self.position = self.position + h * (self.velocity + h * (a1 + 2.0 * a2) / 6.0)
-        self.velocity = self.velocity + h * (a1 + 4.0 * a2 + a4) / 6.0
+        end = simpson(self.acceleration, t, Translation(position=self.position, velocity=self.velocity), h)
+        self.position = end.position
+        self.velocity = end.velocity
 
     def fall(self, h: float) -> None:
         """Move by h (s) under gravity alone."""

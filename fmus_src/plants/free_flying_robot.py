@@ -4,11 +4,19 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, landing, robot, sampling
+from ..kernel.records import Field, Record
 from ..mathlib.gyros import ISOTROPIC_ANGLES, cluster_momentum
 from ..mathlib.jets import JETS, jet_strengths, jet_wrench
 from ..mathlib.quaternion import multiply, normalise, quaternion, to_body, to_reference
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import Vector3, Vector4, clip, vector
+
+
+class RobotRotation(Record):
+    """Rotation of the robot; its rates are one more of the same kind."""
+
+    quaternion = Field(Vector4, unit="1", description="attitude, from body to inertial, scalar first")
+    angular_momentum = Field(Vector3, unit="N.m.s", frame="inertial", description="G of body and gyros")
 
 
 class FreeFlyingRobot(Block):
@@ -96,30 +104,45 @@ class FreeFlyingRobot(Block):
         self.gimbal_angles = self.gimbal_angles + h * self.gimbal_rates
         self.measure_gyros()
 
-    def slopes(self, q: Vector4, momentum: Vector3) -> tuple[Vector4, Vector3, Vector3]:
-        """q', torque (N m, inertial) and force (N, inertial) for attitude and momentum G."""
-        q_rate = multiply(q, quaternion(0.0, 0.5 * self.rate(q, momentum)))
-        return q_rate, to_reference(q, self.jet_torque), to_reference(q, self.jet_force)
+    def slopes(self, s: RobotRotation) -> RobotRotation:
+        """q' = q w/2 and G' = R(q) M, at the gyros' present state."""
+        return RobotRotation(
+            quaternion=multiply(s.quaternion, quaternion(0.0, 0.5 * self.rate(s.quaternion, s.angular_momentum))),
+            angular_momentum=to_reference(s.quaternion, self.jet_torque),
+        )
+
+    def force(self, s: RobotRotation) -> Vector3:
+        """R(q) P = m r'' (N, inertial)."""
+        return to_reference(s.quaternion, self.jet_force)
 
     def move(self, h: float) -> None:
-        """Move by h (s) under the jets' force and torque."""
-        q = self.quaternion
-        momentum = self.angular_momentum
-        q1, torque1, force1 = self.slopes(q, momentum)
+        """Move by h (s) under the jets' force and torque.
+
+        The stages of `runge_kutta_4` are written out: gimbals turn between them by halves of h, and r'' is integrated
+        by Nystrom's form from the forces of all stages. As derivatives of one state both would round otherwise.
+        """
+        s1 = RobotRotation(quaternion=self.quaternion, angular_momentum=self.angular_momentum)
+        k1 = self.slopes(s1)
         self.turn_gimbals(0.5 * h)
-        q2, torque2, force2 = self.slopes(q + 0.5 * h * q1, momentum + 0.5 * h * torque1)
-        q3, torque3, force3 = self.slopes(q + 0.5 * h * q2, momentum + 0.5 * h * torque2)
+        s2 = s1 + 0.5 * h * k1
+        k2 = self.slopes(s2)
+        s3 = s1 + 0.5 * h * k2
+        k3 = self.slopes(s3)
         self.turn_gimbals(0.5 * h)
-        q4, torque4, force4 = self.slopes(q + h * q3, momentum + h * torque3)
+        s4 = s1 + h * k3
+        k4 = self.slopes(s4)
         # the zeros make no sum of them -0
-        force = vector(0.0, 0.0, 0.0) + force1
-        torque = vector(0.0, 0.0, 0.0) + torque1 + 2.0 * torque2 + 2.0 * torque3 + torque4
-        turning = vector(0.0, 0.0, 0.0, 0.0) + q1 + 2.0 * q2 + 2.0 * q3 + q4
-        # Nystroem's form of the method, for r'' without r'
-        self.position = self.position + h * (self.velocity + h * (force + force2 + force3) / (6.0 * self.mass))
-        self.velocity = self.velocity + h * (force + 2.0 * force2 + 2.0 * force3 + force4) / (6.0 * self.mass)
-        self.angular_momentum = momentum + h * torque / 6.0
-        self.quaternion = normalise(q + h * turning / 6.0)
+        zero = vector(0.0, 0.0, 0.0)
+        still = RobotRotation(quaternion=vector(0.0, 0.0, 0.0, 0.0), angular_momentum=zero)
+        end = s1 + h * (still + k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
+        force1 = zero + self.force(s1)
+        force2 = self.force(s2)
+        force3 = self.force(s3)
+        self.position = self.position + h * (self.velocity + h * (force1 + force2 + force3) / (6.0 * self.mass))
+        total = force1 + 2.0 * force2 + 2.0 * force3 + self.force(s4)
+        self.velocity = self.velocity + h * total / (6.0 * self.mass)
+        self.angular_momentum = end.angular_momentum
+        self.quaternion = normalise(end.quaternion)
         self.angular_velocity = self.rate(self.quaternion, self.angular_momentum)
 
     def step(self, t: float, h: float) -> None:

@@ -64,9 +64,9 @@ class OrbitPhases(LandingSequence, interface=True):
 
     def face_back(self, time: float) -> None:
         """Own command: against the horizontal velocity, without thrust."""
-        self.thrust_direction, self.thrust_direction_rate = against_horizontal(
-            self.sampled_position, self.sampled_velocity, self.moon_radius
-        )
+        turning = against_horizontal(self.sampled_position, self.sampled_velocity, self.moon_radius)
+        self.thrust_direction = turning.direction
+        self.thrust_direction_rate = turning.rate
         self.thrust_acceleration = 0.0
         self.command_time = time
         self.burn_duration = 0.0

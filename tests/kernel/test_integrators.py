@@ -9,8 +9,9 @@ import math
 
 import pytest
 
-from perilune.fmus_src.kernel.integrators import runge_kutta_4
+from perilune.fmus_src.kernel.integrators import Translation, runge_kutta_4, simpson
 from perilune.fmus_src.kernel.records import Field, Record
+from perilune.fmus_src.kernel.vector_types import vector
 
 
 class Oscillator(Record):
@@ -46,3 +47,11 @@ def test_polynomials_of_time_are_exact(power):
 
 def test_inputs_are_passed_on():
     assert runge_kutta_4(lambda t, x, a, b: a + b, 0.0, 1.0, 2.0, 3.0, 4.0) == 15.0
+
+
+def test_simpsons_rule_is_exact_for_accelerations_of_the_second_degree():
+    """x'' = (2, 6 t, 12 t^2) from t = 1 on: x = (t^2, t^3, t^4)."""
+    start = Translation(position=vector(1.0, 1.0, 1.0), velocity=vector(2.0, 3.0, 4.0))
+    end = simpson(lambda t: vector(2.0, 6.0 * t, 12.0 * t * t), 1.0, start, 0.5)
+    assert end.position == pytest.approx([1.5**2, 1.5**3, 1.5**4], rel=1e-15)
+    assert end.velocity == pytest.approx([2.0 * 1.5, 3.0 * 1.5**2, 4.0 * 1.5**3], rel=1e-15)

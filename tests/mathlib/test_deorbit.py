@@ -53,21 +53,20 @@ def test_the_ground_range_is_the_angle_from_the_site(angle, azimuth, altitude):
 def test_against_the_horizontal_velocity_turns_with_the_vertical():
     """Along a circle, by finite differences of the closed form; vertical velocity plays no part."""
     rate = 8.9e-4
-    direction, turning = against_horizontal(
-        *(vector(*each) for each in on_orbit(2.0, speed=rate * (RADIUS + 1e5))), RADIUS
-    )
+    turning = against_horizontal(*(vector(*each) for each in on_orbit(2.0, speed=rate * (RADIUS + 1e5))), RADIUS)
     place, backwards = on_orbit(2.0, speed=-1.0)
-    assert direction == pytest.approx(backwards, abs=1e-12)
+    assert turning.direction == pytest.approx(backwards, abs=1e-12)
     _, later = on_orbit(2.0 - rate, speed=-1.0)
     _, earlier = on_orbit(2.0 + rate, speed=-1.0)
-    assert turning == pytest.approx((later - earlier) / 2.0, abs=1e-9)
+    assert turning.rate == pytest.approx((later - earlier) / 2.0, abs=1e-9)
     up = (place - CENTRE) / np.linalg.norm(place - CENTRE)
-    climbing, _ = against_horizontal(vector(*place), vector(*(-1600.0 * backwards + 50.0 * up)), RADIUS)
-    assert climbing == pytest.approx(backwards, abs=1e-12)
+    climbing = against_horizontal(vector(*place), vector(*(-1600.0 * backwards + 50.0 * up)), RADIUS)
+    assert climbing.direction == pytest.approx(backwards, abs=1e-12)
 
 
 def test_without_horizontal_velocity_there_is_no_direction():
-    assert against_horizontal(vector(0.0, 0.0, 1e3), vector(0.0, 0.0, -5.0), RADIUS) == ((0.0,) * 3, (0.0,) * 3)
+    turning = against_horizontal(vector(0.0, 0.0, 1e3), vector(0.0, 0.0, -5.0), RADIUS)
+    assert (turning.direction, turning.rate) == ((0.0,) * 3, (0.0,) * 3)
 
 
 def test_the_published_orbit_needs_19_46_metres_per_second():

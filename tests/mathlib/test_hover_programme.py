@@ -66,10 +66,10 @@ def test_published_pitch():
     _, p, _ = planned(1600.0)
     s, room = shape_of(p, PAPER.swing)
     assert room
-    angles = [90.0 + math.degrees(pitch(s, PAPER.swing, t)[0]) for t in np.linspace(0.0, p.t7, 4001)]
+    angles = [90.0 + math.degrees(pitch(s, PAPER.swing, t).deviation) for t in np.linspace(0.0, p.t7, 4001)]
     assert min(angles) == pytest.approx(31.7, abs=0.05)
     assert max(angles) == pytest.approx(135.7, abs=0.05)
-    assert math.degrees(pitch(s, PAPER.swing, 40.0)[1]) == pytest.approx(2.254, abs=5e-4)
+    assert math.degrees(pitch(s, PAPER.swing, 40.0).rate) == pytest.approx(2.254, abs=5e-4)
 
 
 def test_control_margins():
@@ -169,8 +169,8 @@ def test_motion_pitch_and_propellant_on_the_way(t):
     assert room
     state, exists = motion(s, PAPER, t)
     assert exists
-    deviation, rate = pitch(s, PAPER.swing, t)
-    actual = [*state.elements(), propellant(s, PAPER, t), 0.5 * math.pi + deviation, rate]
+    turn = pitch(s, PAPER.swing, t)
+    actual = [*state.elements(), propellant(s, PAPER, t), 0.5 * math.pi + turn.deviation, turn.rate]
     assert actual == pytest.approx(flown(p.elements(), PAPER, until=t), abs=1e-7)
 
 

@@ -19,6 +19,7 @@ from perilune.fmus_src.mathlib.transfer_polynomial import (
     GROWTH,
     TRANSFER,
     TRIALS,
+    TransferLimits,
     capture,
     derivative,
     expense,
@@ -31,7 +32,7 @@ from perilune.fmus_src.mathlib.vectors import vector
 triples = st.lists(st.floats(-100.0, 100.0), min_size=3, max_size=3)
 durations = st.floats(5.0, 200.0)
 LIFT = vector(0.1, -0.05, 1.6)
-LIMITS = [0.9 * 5099.0, 0.1 * 5099.0, math.radians(0.7), 319.0 * 9.80665]
+LIMITS = TransferLimits.of_elements([0.9 * 5099.0, 0.1 * 5099.0, math.radians(0.7), 319.0 * 9.80665])
 
 
 def made(start, goal, duration):
@@ -64,24 +65,25 @@ def test_thrust_its_direction_and_rates(t):
         f = truth.derivative(2)(time) + np.array(LIFT)
         return f / np.linalg.norm(f)
 
-    size, d, rate, bend = thrust_along(c, t, 40.0, LIFT)
+    thrust = thrust_along(c, t, 40.0, LIFT)
     h = 1e-3
     points = [direction(t + k * h) for k in (-2, -1, 0, 1, 2)]
-    assert size == pytest.approx(np.linalg.norm(truth.derivative(2)(t) + np.array(LIFT)), rel=1e-12)
-    assert d == pytest.approx(points[2], abs=1e-12)
+    assert thrust.size == pytest.approx(np.linalg.norm(truth.derivative(2)(t) + np.array(LIFT)), rel=1e-12)
+    assert thrust.direction == pytest.approx(points[2], abs=1e-12)
     slope = (points[0] - 8.0 * points[1] + 8.0 * points[3] - points[4]) / (12.0 * h)
     curve = (-points[0] + 16.0 * points[1] - 30.0 * points[2] + 16.0 * points[3] - points[4]) / (12.0 * h * h)
-    assert rate == pytest.approx(slope, abs=1e-9)
-    assert bend == pytest.approx(curve, abs=1e-6)
+    assert thrust.rate == pytest.approx(slope, abs=1e-9)
+    assert thrust.bend == pytest.approx(curve, abs=1e-6)
 
 
 def test_no_thrust_points_up():
     c = [0.0] * TRANSFER
     transfer(*[vector(0.0, 0.0, 0.0)] * 5, 10.0, c)
-    assert thrust_along(c, 5.0, 10.0, vector(0.0, 0.0, 0.0))[:2] == (0.0, (0.0, 0.0, 1.0))
+    thrust = thrust_along(c, 5.0, 10.0, vector(0.0, 0.0, 0.0))
+    assert (thrust.size, thrust.direction) == (0.0, (0.0, 0.0, 1.0))
     c[18] = -0.5 * 1.6 * 100.0  # falls freely at the start
-    size, d, rate, _ = thrust_along(c, 0.0, 10.0, vector(0.0, 0.0, 1.6))
-    assert (size, d, rate) == (0.0, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
+    thrust = thrust_along(c, 0.0, 10.0, vector(0.0, 0.0, 1.6))
+    assert (thrust.size, thrust.direction, thrust.rate) == (0.0, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
 
 
 @given(st.floats(1.0, 1e4), st.floats(0.1, 100.0), st.floats(0.01, 5.0))
@@ -108,29 +110,30 @@ def excess_by_hand(truth, duration, mass):
     spent = solve_ivp(lambda t, _: [push(t)], (0.0, duration), [0.0], t_eval=times, rtol=1e-9, atol=1e-9).y[0]
     actual = 0.0
     for k, t in enumerate(times):
-        force = mass * math.exp(-spent[k] / LIMITS[3]) * push(t)
-        actual = max(actual, force / LIMITS[0] - 1.0, 1.0 - force / LIMITS[1])
+        force = mass * math.exp(-spent[k] / LIMITS.exhaust_speed) * push(t)
+        actual = max(actual, force / LIMITS.maximum_thrust - 1.0, 1.0 - force / LIMITS.minimum_thrust)
         if k:
             f, df, ddf = (truth.derivative(n)(t) for n in (2, 3, 4))
             d, a = (f + up) / push(t), push(t)
             swing = np.cross(d, ddf / a - 2.0 * (df @ d) / a * (df / a - (df @ d) / a * d))
-            actual = max(actual, np.linalg.norm(swing) / LIMITS[2] - 1.0)
+            actual = max(actual, np.linalg.norm(swing) / LIMITS.angular_acceleration - 1.0)
     return spent[-1], actual
 
 
 @pytest.mark.parametrize("duration", [15.0, 40.0, 120.0])
 def test_expense(duration):
     c, truth = made(START, GOAL, duration)
-    spent, excess = expense(c, duration, LIFT, 560.0, LIMITS, math.inf)
+    actual = expense(c, duration, LIFT, 560.0, LIMITS, math.inf)
     expected, worst = excess_by_hand(truth, duration, 560.0)
-    assert spent == pytest.approx(expected, rel=2e-3)
-    assert excess == pytest.approx(worst, abs=3e-3 * (1.0 + worst))
+    assert actual.impulse == pytest.approx(expected, rel=2e-3)
+    assert actual.excess == pytest.approx(worst, abs=3e-3 * (1.0 + worst))
 
 
 def test_capture_is_the_cheapest_of_all_durations():
     c = [0.0] * TRANSFER
     start = [vector(*v) for v in START]
-    duration, spent, excess = capture(*start, vector(*GOAL), LIFT, 560.0, LIMITS, c)
+    flown = capture(*start, vector(*GOAL), LIFT, 560.0, LIMITS, c)
+    duration, price = flown.duration, flown.expense.impulse + 1000.0 * flown.expense.excess
     prices = {}
     for k in range(TRIALS):
         trial = FIRST * GROWTH**k
@@ -138,12 +141,12 @@ def test_capture_is_the_cheapest_of_all_durations():
         other = [0.0] * TRANSFER
         transfer(*start, vector(*GOAL), trial, other)
         actual = expense(other, trial, LIFT, 560.0, LIMITS, math.inf)
-        prices[trial] = actual[0] + 1000.0 * actual[1]
+        prices[trial] = actual.impulse + 1000.0 * actual.excess
         if expected is not None:
-            assert spent + 1000.0 * excess <= (expected + 1000.0 * worst) * 1.01
+            assert price <= (expected + 1000.0 * worst) * 1.01
     best = min(prices, key=prices.__getitem__)
     assert duration == pytest.approx(best, rel=1e-12)
-    assert spent + 1000.0 * excess == pytest.approx(prices[best], rel=1e-12)
+    assert price == pytest.approx(prices[best], rel=1e-12)
     assert derivative(c, 0, duration, duration) == pytest.approx(GOAL, abs=1e-9)
     assert derivative(c, 3, 0.0, duration) == pytest.approx(START[3], abs=1e-12)
 
@@ -152,4 +155,4 @@ def test_capture_is_the_cheapest_of_all_durations():
 def test_no_capture(bad):
     c = [0.0] * TRANSFER
     start = [vector(bad, 0.0, 0.0), *(vector(*v) for v in START[1:])]
-    assert capture(*start, vector(*GOAL), LIFT, 560.0, LIMITS, c)[0] == 0.0
+    assert capture(*start, vector(*GOAL), LIFT, 560.0, LIMITS, c).duration == 0.0

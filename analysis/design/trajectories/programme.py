@@ -83,8 +83,8 @@ class Programme:
         for index, value in enumerate(map(float, time)):
             state, _ = hover_motion.motion(shape, vehicle, value)
             motion[index] = state.elements()
-            turn, rate = hover_shape.pitch(shape, self.vehicle.angular_acceleration, value)
-            remainder[index] = 0.5 * math.pi + turn, rate, hover_motion.propellant(shape, vehicle, value)
+            turn = hover_shape.pitch(shape, self.vehicle.angular_acceleration, value)
+            remainder[index] = 0.5 * math.pi + turn.deviation, turn.rate, hover_motion.propellant(shape, vehicle, value)
         return motion, remainder
 
     def thrust(self, time: np.ndarray) -> np.ndarray:

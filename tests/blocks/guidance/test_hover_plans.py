@@ -57,9 +57,9 @@ def test_the_reference_is_the_programme_in_space(t):
     x, vx, y, vy, _, pitch, rate = flown(block.programme, vehicle, until=t)
     assert block.reference_position == pytest.approx(start + x * along + y * up, abs=1e-5)
     assert block.reference_velocity == pytest.approx(vx * along + vy * up, abs=1e-6)
-    direction, change = block.plan_direction(t)
-    assert direction == pytest.approx(math.cos(pitch) * along + math.sin(pitch) * up, abs=1e-8)
-    assert change == pytest.approx(rate * (-math.sin(pitch) * along + math.cos(pitch) * up), abs=1e-8)
+    turning = block.plan_direction(t)
+    assert turning.direction == pytest.approx(math.cos(pitch) * along + math.sin(pitch) * up, abs=1e-8)
+    assert turning.rate == pytest.approx(rate * (-math.sin(pitch) * along + math.cos(pitch) * up), abs=1e-8)
     end = flown(block.programme, vehicle)
     assert [end[0], end[2]] == pytest.approx([np.linalg.norm(side), way @ up], abs=1e-5)
 
@@ -77,7 +77,7 @@ def test_the_feed_turns_the_planned_direction(mode):
         rate = rate + H * np.array(block.angular_acceleration_feed)
         block.step(n * H, H)
         t = (n + 1) * H
-        before, after = (np.array(block.plan_direction(t + k)[0]) for k in (-1e-4, 1e-4))
+        before, after = (np.array(block.plan_direction(t + k).direction) for k in (-1e-4, 1e-4))
         truth = np.cross(before, after) / 2e-4
         assert rate == pytest.approx(truth, abs=1e-5)
 
@@ -142,15 +142,15 @@ def capturing(**changes):
 def test_capture_begins_as_it_flies_and_ends_in_a_hover():
     block = capturing()
     assert (block.plan_kind, block.status) == (4, 0)
-    assert block.plan_motion(0.0)[0] == pytest.approx([1700.0, 20.0, 2769.0])
-    assert block.plan_motion(0.0)[1] == pytest.approx([-120.0, -1.0, -25.0])
-    direction, rate = block.plan_direction(0.0)
-    assert direction == pytest.approx(block.attitude, abs=1e-9)
-    assert np.cross(direction, rate) == pytest.approx([0.0, -0.004, 0.0], abs=1e-9)
+    assert block.plan_motion(0.0).position == pytest.approx([1700.0, 20.0, 2769.0])
+    assert block.plan_motion(0.0).velocity == pytest.approx([-120.0, -1.0, -25.0])
+    turning = block.plan_direction(0.0)
+    assert turning.direction == pytest.approx(block.attitude, abs=1e-9)
+    assert np.cross(turning.direction, turning.rate) == pytest.approx([0.0, -0.004, 0.0], abs=1e-9)
     assert block.plan_impulse(0.0, 1e-4) == pytest.approx(4.9e-4, rel=1e-4)
     end = block.duration
-    assert block.plan_motion(end - 1e-6)[0] == pytest.approx([0.0, 0.0, 2400.0], abs=1e-6)
-    assert block.plan_direction(end - 1e-6)[0] == pytest.approx([0.0, 0.0, 1.0], abs=1e-6)
+    assert block.plan_motion(end - 1e-6).position == pytest.approx([0.0, 0.0, 2400.0], abs=1e-6)
+    assert block.plan_direction(end - 1e-6).direction == pytest.approx([0.0, 0.0, 1.0], abs=1e-6)
     impulse = quad(lambda t: block.plan_impulse(t, t + 1e-6) * 1e6, 0.0, end)[0]
     spent = 560.0 * (1.0 - math.exp(-impulse / (319.0 * 9.80665)))
     assert block.predicted_propellant == pytest.approx(spent, rel=2e-3)
@@ -208,4 +208,4 @@ def test_a_capture_at_rest_with_the_engine_off_is_short():
     # the weight over the time of the plan, and no more
     assert block.predicted_propellant == pytest.approx(560.0 * gravity * block.duration / (319.0 * 9.80665), rel=0.01)
     for n in range(int(block.duration / H)):
-        assert block.plan_motion(n * H)[0] == pytest.approx([0.0, 0.0, 2400.0], abs=0.2)
+        assert block.plan_motion(n * H).position == pytest.approx([0.0, 0.0, 2400.0], abs=0.2)
