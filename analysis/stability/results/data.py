@@ -14,13 +14,12 @@ import io
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from scipy.io import savemat
 
 from ...common.atomic import write_atomically
-from .document import document
+from .document import document, joint_margin, loop_margins
 from .report import JointReport, LoopReport, Orders, StabilityReport
 from .responses import Measured, StateSpace
 
@@ -39,7 +38,6 @@ MODEL = (
 COLUMNS = ("loop", "operating_point", "response", "frequency_rad_s", "real", "imaginary")
 LINEARISED, MEASURED = "linearised", "measured"
 DIRECT = "with_feedthrough"  # ending of what is of the other order, where FMUs leave their dependencies undeclared
-MARGINS = ("gain_margin_db", "phase_margin_deg", "modulus_margin", "disk_margin", "delay_margin_s")
 Curves = tuple[tuple[str, np.ndarray, np.ndarray], ...]  # which response, frequency (rad/s), L
 
 
@@ -58,13 +56,12 @@ def write_data(report: StabilityReport, folder: Path) -> None:
     write_atomically(folder / CSV, _table(report).encode())
 
 
-def _results(report: StabilityReport) -> dict[str, list[dict[str, Any]]]:
+def _results(report: StabilityReport) -> dict[str, list[dict[str, object]]]:
     """The records of one study, in one order."""
-    facts = document(report)
     times = {point.name: point.time for point in report.points}
     return {
-        "loops": [_loop(loop, content, times) for loop, content in zip(report.loops, facts["loops"], strict=True)],
-        "joint": [_joint(item, content, times) for item, content in zip(report.joint, facts["joint"], strict=True)],
+        "loops": [_loop(loop, times[loop.point]) for loop in report.loops],
+        "joint": [_joint(joint, times[joint.point]) for joint in report.joint],
     }
 
 
@@ -78,8 +75,8 @@ def _assumption(orders: Orders) -> str:
     return words
 
 
-def _loop(loop: LoopReport, entry: dict[str, Any], times: dict[str, float]) -> dict[str, Any]:
-    """One channel, ``found`` being what the document says of it."""
+def _loop(loop: LoopReport, time: float) -> dict[str, object]:
+    """One channel at a point of this time (s)."""
     curves = {name: (frequency, value) for name, frequency, value in _curves(loop)}
     empty = np.zeros(0), np.zeros(0, dtype=complex)
     linearised, measured = (curves.get(name, empty) for name in (LINEARISED, MEASURED))
@@ -87,7 +84,7 @@ def _loop(loop: LoopReport, entry: dict[str, Any], times: dict[str, float]) -> d
         "name": loop.name,
         "loop": loop.loop,
         "operating_point": loop.point,
-        "time_s": times[loop.point],
+        "time_s": time,
         "broken_at": loop.cut,
         "returned": loop.returned,
         "unit": loop.unit or "1",
@@ -95,7 +92,7 @@ def _loop(loop: LoopReport, entry: dict[str, Any], times: dict[str, float]) -> d
         "other_loops_closed": list(loop.closed),
         "stable": "not known" if loop.stable is None else "yes" if loop.stable else "no",
         "verdict": str(loop.verdict),
-        **{key: _margin(entry[key]) for key in MARGINS},
+        **{key: _margin(value) for key, value in loop_margins(loop).items()},
         "frequency_rad_s": linearised[0],
         "L": linearised[1],
         "measured_frequency_rad_s": measured[0],
@@ -105,15 +102,15 @@ def _loop(loop: LoopReport, entry: dict[str, Any], times: dict[str, float]) -> d
     }
 
 
-def _joint(joint: JointReport, entry: dict[str, Any], times: dict[str, float]) -> dict[str, Any]:
+def _joint(joint: JointReport, time: float) -> dict[str, object]:
     """All channels of one loop open at once."""
     return {
         "name": joint.name,
         "operating_point": joint.point,
-        "time_s": times[joint.point],
+        "time_s": time,
         "channels": list(joint.channels),
         "stable": "yes" if joint.stable else "no",
-        "disk_margin": _margin(entry["disk_margin"]),
+        "disk_margin": _margin(joint_margin(joint)),
         **_model(joint.open_loop),
     }
 
@@ -133,7 +130,7 @@ def _curves(loop: LoopReport) -> Curves:
     return tuple(curves)
 
 
-def _model(model: StateSpace | None) -> dict[str, Any]:
+def _model(model: StateSpace | None) -> dict[str, object]:
     if model is None:
         nothing = np.zeros((0, 0))
         model = StateSpace(nothing, nothing, nothing, nothing, 0.0, 0, (), (), (), (), (), 0.0)
@@ -168,7 +165,7 @@ def _table(report: StabilityReport) -> str:
     return text.getvalue()
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> object:
     """Arrays for JSON; complex numbers are [real, imaginary]."""
     if isinstance(value, np.ndarray):
         return np.stack([value.real, value.imag], axis=-1).tolist() if np.iscomplexobj(value) else value.tolist()
@@ -178,14 +175,14 @@ def _plain(value: Any) -> Any:
 HEADER = b"MATLAB 5.0 MAT-file, written by Perilune".ljust(116)
 
 
-def mat_bytes(variables: Mapping[str, Any]) -> bytes:
+def mat_bytes(variables: Mapping[str, object]) -> bytes:
     """The file with these variables; names are at most 63 letters, digits and underscores."""
     file = io.BytesIO()
     savemat(file, dict(variables), long_field_names=True, oned_as="column")
     return HEADER + file.getvalue()[len(HEADER) :]
 
 
-def struct_array(records: Sequence[Mapping[str, Any]]) -> np.ndarray:
+def struct_array(records: Sequence[Mapping[str, object]]) -> np.ndarray:
     """Records with the same keys as a MATLAB struct array, one by n; lists of texts are cell arrays."""
     names = list(records[0]) if records else []
     array = np.empty((1, len(records)), dtype=[(name, object) for name in names])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict
-from typing import Any
 
 import numpy as np
 
@@ -23,12 +22,12 @@ KEYS = {
 }
 
 
-def document(report: StabilityReport) -> dict[str, Any]:
+def document(report: StabilityReport) -> dict[str, object]:
     """The whole report without the linearisation's curves, ready for strict JSON.
 
     No number is infinite: a margin is a number, "unstable", "unlimited", or null where it is not known.
     """
-    content: dict[str, Any] = {
+    content: dict[str, object] = {
         "system": report.system,
         "verdict": report.verdict,
         "limits": report.limits,
@@ -47,10 +46,10 @@ def document(report: StabilityReport) -> dict[str, Any]:
             "cuts": list(orders.cuts),
             "as_feedthrough": None if orders.report is None else document(orders.report),
         }
-    return _finite(content)
+    return {name: _finite(item) for name, item in content.items()}
 
 
-def _finite(value: Any) -> Any:
+def _finite(value: object) -> object:
     """The same with null for every number that is none or infinite."""
     if isinstance(value, dict):
         return {name: _finite(item) for name, item in value.items()}
@@ -59,15 +58,28 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _size(value: float | None) -> float | str | None:
-    """The size of a margin: a number, or what it is instead of one."""
-    if value is None:
+def _size(value: float | None, *, stable: bool = True) -> float | str | None:
+    """The size of a margin: a number, what it is instead of one, or None where it is not known."""
+    if not stable:
+        return "unstable"
+    if value is None or math.isnan(value):
         return None
     return {UNSTABLE: "unstable", UNLIMITED: "unlimited"}.get(value, float(value))
 
 
-def _margins(margins: Margins | None) -> dict[str, Any]:
-    """The four margins; null where there are none to be had."""
+def loop_margins(loop: LoopReport) -> dict[str, float | str | None]:
+    """The four margins and the delay margin of a loop, by their keys."""
+    delay = _size(loop.classical.delay_margin, stable=not loop.margins.unstable)
+    return {**_margins(loop.margins), "delay_margin_s": delay}
+
+
+def joint_margin(joint: JointReport) -> float | str | None:
+    """The simultaneous disk margin of a loop's channels."""
+    return _size(joint.disk_margin, stable=joint.stable)
+
+
+def _margins(margins: Margins | None) -> dict[str, float | str | None]:
+    """The four margins; None where they are not known."""
     return {name: _size(None if margins is None else margins.size(quantity)) for name, quantity in KEYS.items()}
 
 
@@ -75,13 +87,9 @@ def _complex(values: np.ndarray) -> list[list[float]]:
     return [[float(value.real), float(value.imag)] for value in values]
 
 
-def _loop(loop: LoopReport) -> dict[str, Any]:
-    margins = loop.margins
-
-    def json_holds(value: float) -> float | str | None:
-        return _size(UNSTABLE if margins.unstable else value)
-
-    entry: dict[str, Any] = {
+def _loop(loop: LoopReport) -> dict[str, object]:
+    stable = not loop.margins.unstable
+    entry: dict[str, object] = {
         "name": loop.name,
         "loop": loop.loop,
         "point": loop.point,
@@ -93,10 +101,9 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
         "verdict": loop.verdict,
         "stable": loop.stable,
         "outside": list(loop.outside),
-        **_margins(margins),
-        "delay_margin_s": json_holds(loop.classical.delay_margin),
-        "disk_gain_db": json_holds(decibels(loop.robust.disk_gain)),
-        "disk_phase_deg": json_holds(degree_size(loop.robust.disk_phase)),
+        **loop_margins(loop),
+        "disk_gain_db": _size(decibels(loop.robust.disk_gain), stable=stable),
+        "disk_phase_deg": _size(degree_size(loop.robust.disk_phase), stable=stable),
         "sensitivity_peak": loop.robust.sensitivity_peak,
         "complementary_peak": loop.robust.complementary_peak,
         "gain_crossings": [
@@ -126,25 +133,23 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
             for item in loop.amplitudes
         ],
     }
-    if loop.linearised is not None:
-        facts = loop.linearised
+    if (linearised := loop.linearised) is not None:
         entry["linearised"] = {
-            "states": facts.states,
-            "period_s": facts.period,
-            "plateau": facts.plateau,
-            "doubtful": list(facts.doubtful),
-            "periodicity": facts.periodicity,
+            "states": linearised.states,
+            "period_s": linearised.period,
+            "plateau": linearised.plateau,
+            "doubtful": list(linearised.doubtful),
+            "periodicity": linearised.periodicity,
         }
-    if loop.measured_response is not None:
-        facts_b = loop.measured_response
+    if (measured := loop.measured_response) is not None:
         entry["measured_response"] = {
-            "amplitude": facts_b.amplitude,
-            "lines": facts_b.lines,
-            "period_s": facts_b.period,
-            "half_amplitude_change": facts_b.half_amplitude_change,
-            "unexcited": facts_b.unexcited,
-            "frequency_rad_s": [float(value) for value in facts_b.curve.frequency],
-            "L": _complex(facts_b.curve.value),
+            "amplitude": measured.amplitude,
+            "lines": measured.lines,
+            "period_s": measured.period,
+            "half_amplitude_change": measured.half_amplitude_change,
+            "unexcited": measured.unexcited,
+            "frequency_rad_s": [float(value) for value in measured.curve.frequency],
+            "L": _complex(measured.curve.value),
         }
     if loop.agreement is not None:
         entry["agreement"] = {
@@ -157,7 +162,7 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
     return entry
 
 
-def _requirement(item: Requirement) -> dict[str, Any]:
+def _requirement(item: Requirement) -> dict[str, object]:
     return {
         "scope": item.scope,
         "quantity": item.quantity,
@@ -171,7 +176,7 @@ def _requirement(item: Requirement) -> dict[str, Any]:
     }
 
 
-def _element(item: Nonlinearity) -> dict[str, Any]:
+def _element(item: Nonlinearity) -> dict[str, object]:
     return {
         "name": item.name,
         "kind": item.kind,
@@ -190,7 +195,7 @@ def _element(item: Nonlinearity) -> dict[str, Any]:
     }
 
 
-def _dispersion(item: Dispersion) -> dict[str, Any]:
+def _dispersion(item: Dispersion) -> dict[str, object]:
     levels = {
         name: {level: _size(value) for level, value in item.levels(quantity).items()} for name, quantity in KEYS.items()
     }
@@ -205,25 +210,22 @@ def _dispersion(item: Dispersion) -> dict[str, Any]:
     }
 
 
-def _joint(joint: JointReport) -> dict[str, Any]:
-    def json_holds(value: float) -> float | str | None:
-        return _size(value if joint.stable else UNSTABLE)
-
+def _joint(joint: JointReport) -> dict[str, object]:
     return {
         "name": joint.name,
         "point": joint.point,
         "channels": list(joint.channels),
         "stable": joint.stable,
         "verdict": joint.verdict,
-        "disk_margin": json_holds(joint.disk_margin),
-        "disk_gain_db": json_holds(decibels(joint.disk_gain)),
-        "disk_phase_deg": json_holds(degree_size(joint.disk_phase)),
+        "disk_margin": joint_margin(joint),
+        "disk_gain_db": _size(decibels(joint.disk_gain), stable=joint.stable),
+        "disk_phase_deg": _size(degree_size(joint.disk_phase), stable=joint.stable),
         "frequency_rad_s": joint.disk_frequency,
         "requirements": [_requirement(item) for item in joint.requirements],
     }
 
 
-def _sweep(sweep: SweepReport) -> dict[str, Any]:
+def _sweep(sweep: SweepReport) -> dict[str, object]:
     return {
         "name": sweep.name,
         "loop": sweep.loop,
@@ -237,7 +239,7 @@ def _sweep(sweep: SweepReport) -> dict[str, Any]:
     }
 
 
-def _point(point: PointReport) -> dict[str, Any]:
+def _point(point: PointReport) -> dict[str, object]:
     return {
         "name": point.name,
         "phase": point.phase,

@@ -112,7 +112,7 @@ class PointReport:
     name: str
     phase: str
     time: float
-    settings: dict[str, Any]
+    settings: dict[str, object]
     trim: tuple[tuple[str, float, float, str | None], ...]
     drift: float | None
     holds: float | None
