@@ -8,11 +8,11 @@ from functools import partial
 import numpy as np
 
 from ..campaigns.spec.plan import BatchPlan
-from .loops.margin_values import Margins, Quantity, worst_of
+from .loops.margin_values import Margins, Quantity
 from .point.bench import OperatingPoint
 from .point.linearise import linearise
 from .point.point_study import PointStudy
-from .point.responses import ONE_STEP, LoopModel, margins_of, model_of, poles_of
+from .point.responses import ONE_STEP, LoopModel, loop_model
 from .request.declaration import Limits, Loop, Point
 from .request.request import Subject
 from .results.requirement import Requirement, Scope
@@ -43,8 +43,8 @@ def disperse(
     with PointStudy(flown, point, loops, vary(plan)) as study:
         for trial in range(plan.campaign.trials):
             for name, model in models_of_trial(study, plan, trial, cells).items():
-                rows.setdefault(name, []).append(margins_of(model))
-                poles.setdefault(name, []).append(poles_of(model))
+                rows.setdefault(name, []).append(model.margins())
+                poles.setdefault(name, []).append(model.poles)
             tell(0, 1)
         loop_of = {channel.name: channel.loop for channel in study.channels}
     return {
@@ -64,7 +64,7 @@ def models_of_trial(study: PointStudy, plan: BatchPlan, trial: int, cells: Seque
         linear = linearise(start, cells, ONE_STEP)
     finally:
         start.release()
-    return {channel.name: model_of(linear, channel.name) for channel in study.channels}
+    return {port.channel.name: loop_model(linear, port) for port in linear.model.ports}
 
 
 def vary(plan: BatchPlan) -> list[str]:
@@ -77,7 +77,8 @@ def vary(plan: BatchPlan) -> list[str]:
 def _dispersion(
     plan: BatchPlan, items: Sequence[Margins], poles: np.ndarray, limits: Limits, replay: Callable[[int], str]
 ) -> Dispersion:
-    worst = worst_of(items)
+    # the least disk margin; among unstable loops the largest multiplier
+    worst = min(range(len(items)), key=lambda k: (items[k].size(Quantity.DISK), -(items[k].largest or 0.0)))
     unstable = sum(item.unstable for item in items)
     note = f"{unstable} of {len(items)} trials unstable; the worst again: {replay(worst)}" if unstable else ""
     fraction = Requirement(Scope.DISPERSED, Quantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note)

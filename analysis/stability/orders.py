@@ -57,7 +57,8 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityReport])
         try:
             other = make(replace(request, options=options, declaration=declaration))
         except StudyError as error:
-            other = _merge_unstudied(report, str(error))
+            lost = tuple(Unstudied(report.system, point.name, "system", str(error)) for point in report.points)
+            other = replace(report, loops=(), joint=(), sweeps=(), unstudied=lost)
     else:
         direct, without = [], list(fmus)
     orders = Orders(fmus, tuple(direct), tuple(without), tuple(cuts), other)
@@ -74,12 +75,6 @@ def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> 
     except InputError:  # the system itself has been prepared before
         return False
     return True
-
-
-def _merge_unstudied(report: StabilityReport, reason: str) -> StabilityReport:
-    """A study with the points of ``report`` that has no results, for this reason."""
-    lost = tuple(Unstudied(report.system, point.name, "system", reason) for point in report.points)
-    return replace(report, loops=(), joint=(), sweeps=(), unstudied=lost)
 
 
 def _on_loops(prepared: PreparedSystem) -> set[str]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import chdir, contextmanager
+from collections.abc import Sequence
+from contextlib import chdir
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from loky import ProcessPoolExecutor
-from loky.backend.queues import SimpleQueue
 
 from ..campaigns.fly.workers import worker_count
 from ..common.errors import InputError
@@ -56,8 +56,11 @@ def _study(request: Request, count: int, tell: Tell) -> StabilityReport:
     begun = time.monotonic()
     points = [point for point in request.declaration.points if request.loops_at(point)]
     if min(count, len(points)) > 1:
-        with listen(tell) as queue, _processes(min(count, len(points)), queue) as pool:
-            results = list(pool.map(_study_in_process, [request] * len(points), points))
+        with (
+            listen(tell) as queue,
+            ProcessPoolExecutor(min(count, len(points)), initializer=begin, initargs=(queue,)) as pool,
+        ):
+            results = list(pool.map(partial(study_point, request, tell=tell_parent), points))
     else:
         results = [study_point(request, point, tell) for point in points]
     cells = {point.name: result.cells for point, result in zip(points, results, strict=True)}
@@ -88,19 +91,6 @@ def _study(request: Request, count: int, tell: Tell) -> StabilityReport:
         unstudied=tuple(unstudied),
         seconds=time.monotonic() - begun,
     )
-
-
-@contextmanager
-def _processes(count: int, queue: SimpleQueue) -> Iterator[ProcessPoolExecutor]:
-    pool = ProcessPoolExecutor(count, initializer=begin, initargs=(queue,))
-    try:
-        yield pool
-    finally:
-        pool.shutdown()
-
-
-def _study_in_process(request: Request, point: Point) -> PointResult:
-    return study_point(request, point, tell_parent)
 
 
 def study_point(request: Request, point: Point, tell: Tell) -> PointResult:

@@ -15,7 +15,6 @@ from ..runtime.system.prepared import PreparedSystem
 from .loops.margin_values import Margins, Quantity
 from .point.bench import StudyError
 from .point.point_study import PointStudy
-from .point.responses import ONE_STEP, margins_of, model_of
 from .request.declaration import Limits, Loop, Point, Sweep
 from .request.request import Subject
 from .results.varied import Sampled, SweepCrossing, SweepReport
@@ -45,22 +44,14 @@ def run_sweep(
     @cache
     def at(value: float) -> Margins:
         with PointStudy(subject.with_options(study=Layer(set={sweep.parameter: value})), point, [loop]) as study:
-            study.linearise(cells, ONE_STEP)
-            if study.linear is None:
-                raise StudyError(study.why_not)
-            return margins_of(model_of(study.linear, study.channels[0].name))
+            return study.margins(cells, [study.channels[0].name])[0]
 
     spread = np.geomspace if sweep.low > 0.0 else np.linspace
     values = [float(value) for value in spread(sweep.low, sweep.high, VALUES)]
-    wanted = {
-        Quantity.GAIN: limits.gain_margin_db,
-        Quantity.PHASE: limits.phase_margin_deg,
-        Quantity.MODULUS: limits.modulus_margin,
-    }
     crossings: list[SweepCrossing] = []
     tell(len(values) - 1, 0)
     for low, high in itertools.pairwise(values):
-        crossings += _crossings(at, low, high, wanted)
+        crossings += _crossings(at, low, high, limits.nominal)
         tell(0, 1)
     return SweepReport(
         name=sweep.name,
@@ -138,10 +129,7 @@ def vary_step(
     for factor in FACTORS:
         try:
             with PointStudy(subject.with_options(step=factor * step), point, loops) as study:
-                study.linearise(cells, ONE_STEP)
-                if study.linear is None:
-                    raise StudyError(study.why_not)
-                rows = [Sampled(factor * step, margins_of(model_of(study.linear, name))) for name in names]
+                rows = [Sampled(factor * step, margins) for margins in study.margins(cells, names)]
         except (InputError, StudyError) as error:
             rows = [Sampled(factor * step, None, str(error))] * len(names)
         for name, row in zip(names, rows, strict=True):

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from numbers import Real
 
 import numpy as np
@@ -41,14 +41,14 @@ class Element:
 
     gain: Callable[[np.ndarray, Parameters], np.ndarray]
     required: Mapping[str, str]
-    optional: Mapping[str, str]
-    defaults: Parameters
     positive: tuple[str, ...]
-    check: Callable[[Parameters], str]
     kinks: Callable[[Parameters], np.ndarray]
-    farthest: Callable[[Parameters], float]
-    output: Callable[[Parameters], float]
     note: str
+    optional: Mapping[str, str] = field(default_factory=dict)
+    defaults: Parameters = field(default_factory=dict)
+    check: Callable[[Parameters], str] = lambda parameters: ""
+    farthest: Callable[[Parameters], float] = lambda parameters: math.inf
+    output: Callable[[Parameters], float] = lambda parameters: math.inf
     of_integral: bool = False
 
 
@@ -71,14 +71,6 @@ def _relay(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     real = 2.0 * level / (math.pi * amplitude) * (_share(on, amplitude) + _share(off, amplitude))
     imaginary = -4.0 * level * hysteresis / (math.pi * amplitude**2)
     return np.where(amplitude >= on, real + 1j * imaginary, 0.0)
-
-
-def _dead_zone(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
-    return 1.0 - _saturation_function(parameters["dead_zone"], amplitude) + 0j
-
-
-def _saturation(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
-    return _saturation_function(parameters["limit"], amplitude) + 0j
 
 
 def _quantiser(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
@@ -140,59 +132,41 @@ ELEMENTS: dict[str, Element] = {
         optional={"dead_zone": INPUT, "hysteresis": INPUT},
         defaults={"dead_zone": 0.0, "hysteresis": 0.0},
         positive=("level",),
-        check=lambda parameters: "",
         kinks=lambda parameters: _thresholds(parameters["dead_zone"] + parameters["hysteresis"]),
-        farthest=lambda parameters: math.inf,
         output=lambda parameters: parameters["level"],
         note="on where the input leaves +-(dead_zone + hysteresis), off where it is back within "
         "+-(dead_zone - hysteresis); without a dead zone it changes over at +-hysteresis",
     ),
     "dead zone": Element(
-        gain=_dead_zone,
+        gain=lambda amplitude, parameters: 1.0 - _saturation_function(parameters["dead_zone"], amplitude) + 0j,
         required={"dead_zone": INPUT},
-        optional={},
-        defaults={},
         positive=("dead_zone",),
-        check=lambda parameters: "",
         kinks=lambda parameters: _thresholds(parameters["dead_zone"]),
         farthest=lambda parameters: _DEAD_ZONES * parameters["dead_zone"],
-        output=lambda parameters: math.inf,
         note="0 within +-dead_zone, outside the input less the dead zone (slope 1)",
     ),
     "saturation": Element(
-        gain=_saturation,
+        gain=lambda amplitude, parameters: _saturation_function(parameters["limit"], amplitude) + 0j,
         required={"limit": INPUT},
-        optional={},
-        defaults={},
         positive=("limit",),
-        check=lambda parameters: "",
         kinks=lambda parameters: _thresholds(parameters["limit"]),
-        farthest=lambda parameters: math.inf,
         output=lambda parameters: parameters["limit"],
         note="the input within +-limit (slope 1), else the limit",
     ),
     "quantiser": Element(
         gain=_quantiser,
         required={"step": INPUT},
-        optional={},
-        defaults={},
         positive=("step",),
-        check=lambda parameters: "",
         kinks=lambda parameters: (np.arange(_QUANTISER_LEVELS) + 0.5) * parameters["step"],
         farthest=lambda parameters: _QUANTISER_LEVELS * parameters["step"],
-        output=lambda parameters: math.inf,
         note="the nearest whole multiple of step",
     ),
     "carried pulses": Element(
         gain=_staircase,
         required={"least_pulse": INTEGRAL},
-        optional={},
-        defaults={},
         positive=("least_pulse",),
-        check=lambda parameters: "",
         kinks=lambda parameters: (np.arange(_PULSE_STEPS) + 0.5) * parameters["least_pulse"],
         farthest=lambda parameters: _PULSE_STEPS * parameters["least_pulse"],
-        output=lambda parameters: math.inf,
         note="pulses no shorter than a least one, what is not fired carried over: the amplitude is that of the demand "
         "integrated over time, and what is fired is a staircase in steps of least_pulse, one behind at the most",
         of_integral=True,
@@ -205,7 +179,6 @@ ELEMENTS: dict[str, Element] = {
         positive=("level", "gain"),
         check=_pulse_width_check,
         kinks=lambda parameters: _thresholds(parameters["dead_zone"], parameters["level"] / parameters["gain"]),
-        farthest=lambda parameters: math.inf,
         output=lambda parameters: parameters["level"],
         note="its mean over a modulation period, quasi-static: the signal is slow against the modulation period, "
         "whose ripple the loop filters out and whose delay (that of a hold) is counted in the linear rest; the mean "

@@ -91,10 +91,3 @@ class Margins:
 def order_statistic(sizes: Sequence[float], level: float) -> float:
     """The least size that a share ``level`` of all do not exceed (0: the least), `UNSTABLE` before all numbers."""
     return sorted(sizes)[quantile_rank(level, len(sizes))]
-
-
-def worst_of(margins: Sequence[Margins]) -> int:
-    """The place of the least disk margin; among unstable loops that of the largest multiplier."""
-    return min(
-        range(len(margins)), key=lambda place: (margins[place].size(Quantity.DISK), -(margins[place].largest or 0.0))
-    )

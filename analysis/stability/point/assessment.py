@@ -88,12 +88,7 @@ def requirements(margins: Margins, limits: Limits, outside: Sequence[str] = ()) 
     else:
         note = "" if margins.stable else grows(outside) or "the closed loop is unstable"
         stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, margins.largest, 1.0, margins.stable, note)
-    wanted = {
-        Quantity.GAIN: limits.gain_margin_db,
-        Quantity.PHASE: limits.phase_margin_deg,
-        Quantity.MODULUS: limits.modulus_margin,
-    }
     return stability, *(
         Requirement.at_least(Scope.NOMINAL, quantity, margins.size(quantity), limit)
-        for quantity, limit in wanted.items()
+        for quantity, limit in limits.nominal.items()
     )

@@ -19,7 +19,7 @@ from ..loops.multisine import Multisine, fraction_unexcited, line_spectrum, mult
 from ..loops.readings import Curve
 from ..request.channels import Channel
 from ..results.responses import Measured
-from .bench import Bench, StudyError
+from .bench import Bench
 
 SEED = 1  # of the multisine's phases
 PERIODS = 1  # measured at least, after those that the transient takes
@@ -144,11 +144,3 @@ class Injector:
         u = channel.injection_for(signals) - channel.injection_for(base)
         v = channel.back(signals, mine) - channel.back(base, nothing)
         return u[rows], v[rows]
-
-
-def measure_response(injector: Injector, peak: float) -> np.ndarray | None:
-    """L on the lines with this amplitude, None where it cannot be measured with it."""
-    try:
-        return injector.spectrum(peak)[0]
-    except (NotMeasurableError, StudyError):
-        return None

@@ -12,7 +12,7 @@ periodic responses).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -88,17 +88,13 @@ class LiftedModel:
 
     def _part(self, kept: np.ndarray) -> LiftedModel:
         """The model of some of the cells."""
-        return LiftedModel(
-            self.a[np.ix_(kept, kept)],
-            self.b[kept],
-            self.cu[:, kept],
-            self.du,
-            self.cv[:, kept],
-            self.dv,
-            tuple(self.names[place] for place in kept),
-            self.period,
-            self.ports,
-            self.variables,
+        return replace(
+            self,
+            a=self.a[np.ix_(kept, kept)],
+            b=self.b[kept],
+            cu=self.cu[:, kept],
+            cv=self.cv[:, kept],
+            names=tuple(self.names[place] for place in kept),
         )
 
     def _shares(self, port: Port) -> np.ndarray:
@@ -132,7 +128,7 @@ class LiftedModel:
                 break
             basis = left[:, :rank]
             a, b, cu, cv = basis.T @ a @ basis, basis.T @ b, cu @ basis, cv @ basis
-        return LiftedModel(a, b, cu, self.du, cv, self.dv, (), self.period, self.ports)
+        return replace(self, a=a, b=b, cu=cu, cv=cv, names=(), variables={})
 
     def poles(self) -> np.ndarray:
         """Closed-loop multipliers over the hyperperiod, those at 0 left out, largest first."""
@@ -148,8 +144,7 @@ class LiftedModel:
         rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
         inside = np.linalg.solve(self.du[np.ix_(rows, rows)], self.cu[rows])
         a = self.a - self.b[:, rows] @ inside
-        model = LiftedModel(a, self.b, self.cu, self.du, self.cv, self.dv, (), self.period, self.ports)
-        return model.poles()
+        return replace(self, a=a, names=(), variables={}).poles()
 
     def closed_response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """What goes in (u) and comes back (v) at each frequency for a unit of d, both (n, m, m) for m ports."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -16,10 +17,10 @@ from ..results.report import LoopReport
 from ..results.responses import AmplitudePoint, Measured
 from .assessment import Assessment, assess, requirements
 from .bench import Bench, StudyError
-from .injection import Injector, NotMeasurableError, measure_response
+from .injection import Injector, NotMeasurableError
 from .modes import structure
 from .open_loop import open_loop
-from .responses import DOUBTFUL, NOT_LINEAR, LoopModel, agreement, disagreement
+from .responses import NOT_LINEAR, LoopModel, agreement, disagreement
 
 SILENT = "nothing of what is added comes back: L is 0"
 FACTORS = (0.25, 4.0, 16.0)  # of the declared amplitude, beside itself
@@ -69,7 +70,7 @@ class LoopStudy:
 
     @property
     def _doubtful(self) -> bool:
-        return self.model is not None and self.model.facts.plateau > DOUBTFUL
+        return self.model is not None and not self.model.has_plateau
 
     @property
     def _bent(self) -> bool:
@@ -203,9 +204,8 @@ class LoopStudy:
         line = int(np.argmin(abs(np.log(self.injector.frequency / frequency))))
         by_amplitude = {1.0: self.measured.curve.value}
         for factor in FACTORS:
-            value = measure_response(self.injector, factor * peak)
-            if value is not None:
-                by_amplitude[factor] = value
+            with suppress(NotMeasurableError, StudyError):
+                by_amplitude[factor], _ = self.injector.spectrum(factor * peak)
         reference = by_amplitude[min(by_amplitude)][line]
         points = tuple(
             AmplitudePoint(factor * peak, complex(value[line]), float(abs(quotient(value[line], reference) - 1.0)))

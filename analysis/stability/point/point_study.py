@@ -8,7 +8,7 @@ import numpy as np
 
 from ...common.errors import InputError
 from ..loops.disk import joint_disk_margin
-from ..loops.margin_values import UNSTABLE, Quantity
+from ..loops.margin_values import UNSTABLE, Margins, Quantity
 from ..loops.readings import decibel_size, degree_size
 from ..request.channels import Channel, channels_of
 from ..request.declaration import Limits, Loop, Point
@@ -21,7 +21,7 @@ from .jacobian import STEPS
 from .linearise import Linearisation, linearise
 from .loop_study import LoopStudy
 from .open_loop import open_loop
-from .responses import DOUBTFUL, LoopModel, loop_model
+from .responses import ONE_STEP, LoopModel, loop_model
 
 MOST_TRIM = 8  # of the memory that changes most
 TENTH = 0.1  # relative change of L at which the frozen-time linearisation is no longer valid
@@ -62,6 +62,14 @@ class PointStudy:
             port = next(port for port in self.linear.model.ports if port.channel is channel)
             self._models[channel.name] = loop_model(self.linear, port)
         return self._models[channel.name]
+
+    def margins(self, cells: Sequence[int], names: Sequence[str]) -> list[Margins]:
+        """Margins of channels by name where the memory that matters is known. Raises StudyError."""
+        self.linearise(cells, ONE_STEP)
+        if self.linear is None:
+            raise StudyError(self.why_not)
+        ports = {port.channel.name: port for port in self.linear.model.ports}
+        return [loop_model(self.linear, ports[name]).margins() for name in names]
 
     def loop_study(self, channel: Channel, limits: Limits) -> LoopStudy:
         notes = {} if self.linear is not None else {"linearisation": self.why_not}
@@ -132,8 +140,8 @@ class PointStudy:
             margin = joint_disk_margin(lambda frequency: model.response(ports, frequency), low, np.pi / seconds)
         except ValueError as error:
             raise StudyError(str(error)) from error
-        models = [self.model(port.channel) for port in ports]
-        stable = all(item is not None and item.stable for item in models)
+        models = [item for port in ports if (item := self.model(port.channel)) is not None]
+        stable = all(item.stable for item in models)
         wanted = {
             Quantity.DISK_GAIN: (decibel_size(margin.gain), limits.dispersed_gain_margin_db),
             Quantity.DISK_PHASE: (degree_size(margin.phase), limits.dispersed_phase_margin_deg),
@@ -149,7 +157,7 @@ class PointStudy:
             disk_frequency=margin.frequency,
             frequency=margin.frequencies,
             disk_margins=margin.alphas,
-            open_loop=open_loop(model, ports) if all(map(_has_plateau, models)) else None,
+            open_loop=open_loop(model, ports) if all(item.has_plateau for item in models) else None,
             requirements=tuple(
                 Requirement.at_least(Scope.JOINT, quantity, size if stable else UNSTABLE, limit)
                 for quantity, (size, limit) in wanted.items()
@@ -166,8 +174,3 @@ class PointStudy:
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-
-def _has_plateau(model: LoopModel | None) -> bool:
-    """Whether the derivatives of a loop's linear model can be trusted."""
-    return model is not None and model.facts.plateau <= DOUBTFUL

@@ -26,6 +26,7 @@ LEAST_LOOK = 0.03
 MOST_BLUR = 1e-3
 INTEGRATOR = 0.1  # of the lowest frequency that is looked at: 0.002 of the lowest gain crossover
 SLOW_ANGLE = np.pi / 8  # rad
+ONE_STEP = (1e-6,)  # of differences, where a plateau has been seen at the same point already
 BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped oscillations
 
 
@@ -64,13 +65,23 @@ class LoopModel:
         return int(np.sum(self._unstable < frequency))
 
     @property
+    def poles(self) -> np.ndarray:
+        """The multipliers of the closed-loop modes that the cut moves and sees."""
+        return np.array([mode.z for mode in self.modes if mode.kind == "loop"])
+
+    @property
+    def has_plateau(self) -> bool:
+        """Whether its derivatives can be trusted."""
+        return self.facts.plateau <= DOUBTFUL
+
+    @property
     def largest(self) -> float:
         """The largest multiplier of a closed-loop mode that the cut moves and sees, or that is unstable outside.
 
         0 where none lasts.
         """
-        own = max((abs(mode.z) for mode in self.modes if mode.kind == "loop"), default=0.0)
-        return max([own, *(float(abs(block.multipliers[0])) for block in self.outside)])
+        own = [abs(mode.z) for mode in self.modes if mode.kind == "loop"]
+        return max([0.0, *own, *(float(abs(block.multipliers[0])) for block in self.outside)])
 
     @property
     def stable(self) -> bool:
@@ -94,6 +105,16 @@ class LoopModel:
         frequencies = np.angle(oscillating) / self.model.period
         near = (abs(oscillating) > 0.9) & ~on_circle
         return [float(w) for w in frequencies[on_circle]], [float(w) for w in frequencies[near]]
+
+    def margins(self) -> Margins:
+        """The nearest margins. Raises StudyError where they cannot be read."""
+        seconds = self.port.seconds
+        try:
+            undamped, near = self.lightly_damped()
+            assessment = assess(self.response, self.lowest, np.pi / seconds, seconds, None, (), [*undamped, *near])
+        except ValueError as error:
+            raise StudyError(f"{self.port.channel.name}: {error}") from error
+        return Margins.of(assessment.classical, assessment.robust, self.stable, self.largest)
 
 
 def loop_model(linearisation: Linearisation, port: Port) -> LoopModel:
@@ -174,28 +195,3 @@ def disagreement(compared: Agreement, a: Linearised, b: Measured) -> str:
         reasons.append(f"the loop changes from sample to sample ({a.periodicity:.2g} comes back at other frequencies)")
     size = f"{decibels(compared.gain):.2g} dB and {np.degrees(compared.phase):.2g} deg apart"
     return f"{size}: " + ("; ".join(reasons) or "neither method sees a reason; the operating point does not last")
-
-
-ONE_STEP = (1e-6,)  # of differences, where a plateau has been seen at the same point already
-
-
-def model_of(linear: Linearisation, name: str) -> LoopModel:
-    """The loop of one channel in a linear model."""
-    return loop_model(linear, next(port for port in linear.model.ports if port.channel.name == name))
-
-
-def margins_of(model: LoopModel) -> Margins:
-    """The nearest margins of one loop. Raises StudyError where they cannot be read."""
-    seconds = model.port.seconds
-    low = lowest_frequency(model.response, seconds)
-    try:
-        undamped, near = model.lightly_damped()
-        assessment = assess(model.response, low, np.pi / seconds, seconds, None, (), [*undamped, *near])
-    except ValueError as error:
-        raise StudyError(f"{model.port.channel.name}: {error}") from error
-    return Margins.of(assessment.classical, assessment.robust, model.stable, model.largest)
-
-
-def poles_of(model: LoopModel) -> np.ndarray:
-    """The multipliers of the closed-loop modes that the cut moves and sees."""
-    return np.array([mode.z for mode in model.modes if mode.kind == "loop"])

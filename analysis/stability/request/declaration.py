@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ...runtime.system.options import Layer
+from ..loops.margin_values import Quantity
 
 
 @dataclass(frozen=True)
@@ -16,6 +17,15 @@ class Limits:
     modulus_margin: float = 0.5
     dispersed_gain_margin_db: float = 3.0
     dispersed_phase_margin_deg: float = 20.0
+
+    @property
+    def nominal(self) -> dict[Quantity, float]:
+        """The limits of one loop."""
+        return {
+            Quantity.GAIN: self.gain_margin_db,
+            Quantity.PHASE: self.phase_margin_deg,
+            Quantity.MODULUS: self.modulus_margin,
+        }
 
 
 @dataclass(frozen=True)

@@ -139,8 +139,14 @@ def _select(description: Description, names: Sequence[str], at: Sequence[float])
         requested = {name for loop in wanted for name in loop.points}
         here = [point for point in declared.points if point.name in requested]
         points, sweeps = (*_shift(here, at), *cuts), ()
-        origins = {point.name: _with_settings_of(point, here) for point in here}
-        wanted = [_at_times(loop, at, origins) if loop.name in by_name else loop for loop in wanted]
+        # points that differ by their time only are one when times are given: the first with the same settings
+        same = {point.name: (point.layer, point.until) for point in here}
+        origins = {name: next(other for other in same if same[other] == same[name]) for name in same}
+        for index, loop in enumerate(wanted):
+            if loop.name in by_name:
+                different = dict.fromkeys(origins[name] for name in loop.points)
+                names_at = tuple(_name_at(name, time) for name in different for time in at)
+                wanted[index] = replace(loop, points=names_at)
     used = {point for loop in wanted for point in loop.points}
     retained = {loop.name for loop in wanted}
     return Declaration(
@@ -165,17 +171,6 @@ def _shift(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
             phase = f"settings of {point.name}"
             shifted.append(replace(point, name=name, time=time, signal=None, falls_to=None, phase=phase))
     return shifted
-
-
-def _with_settings_of(point: Point, points: Sequence[Point]) -> str:
-    """The first point with the same settings: points that differ by their time only are one when times are given."""
-    return next(other.name for other in points if other.layer == point.layer and other.until == point.until)
-
-
-def _at_times(loop: Loop, at: Sequence[float], origins: Mapping[str, str]) -> Loop:
-    """A declared loop at given times, with the settings of each of its points once."""
-    different = dict.fromkeys(origins[name] for name in loop.points)
-    return replace(loop, points=tuple(_name_at(name, time) for name in different for time in at))
 
 
 def _name_at(point: str, time: float) -> str:

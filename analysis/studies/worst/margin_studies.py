@@ -24,7 +24,6 @@ from ...stability.dispersion import models_of_trial
 from ...stability.loops.margin_values import Margins
 from ...stability.point.bench import StudyError
 from ...stability.point.point_study import PointStudy
-from ...stability.point.responses import margins_of
 from ..flights import OWN
 from ..noise import make_samples, noise_of
 from .objective import margin_columns
@@ -118,7 +117,7 @@ def _nominal(asked: MarginAsked) -> tuple[PointStudy, list[int]]:
 def _margins(study: PointStudy, cells: Sequence[int], plan: BatchPlan) -> list[Margins] | str:
     """The margins of every channel at a plan's one trial, or why there are none."""
     try:
-        return [margins_of(model) for model in models_of_trial(study, plan, 0, cells).values()]
+        return [model.margins() for model in models_of_trial(study, plan, 0, cells).values()]
     except (InputError, StudyError) as error:
         return str(error)
 
