@@ -82,10 +82,7 @@ def _dispersion(
     unstable = sum(item.unstable for item in items)
     note = f"{unstable} of {len(items)} trials unstable; the worst again: {replay(worst)}" if unstable else ""
     fraction = Requirement(Scope.DISPERSED, Quantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note)
-    wanted = {
-        Quantity.GAIN: limits.dispersed_gain_margin_db,
-        Quantity.PHASE: limits.dispersed_phase_margin_deg,
-    }
+    wanted = {Quantity.GAIN: limits.dispersed_gain_margin_db, Quantity.PHASE: limits.dispersed_phase_margin_deg}
     minimum = [
         Requirement.at_least(Scope.DISPERSED, quantity, min(item.size(quantity) for item in items), limit)
         for quantity, limit in wanted.items()

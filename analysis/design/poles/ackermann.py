@@ -57,23 +57,14 @@ def last_rows(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.
     """T (m, n), and cond(U). Raises PlacementError in the name of ``formula``: n no multiple of m, or U singular."""
     states, inputs = b.shape
     if states % inputs:
-        raise PlacementError(
-            formula,
-            Reason.CLASS,
-            f"n/m = {states}/{inputs} = {states / inputs:.3g} is not whole",
-            states / inputs,
-            "take method indices or multilevel",
-        )
+        problem = f"n/m = {states}/{inputs} = {states / inputs:.3g} is not whole"
+        raise PlacementError(formula, Reason.CLASS, problem, states / inputs, "take method indices or multilevel")
     matrix = controllability_matrix(a, b, states // inputs)
     condition = float(np.linalg.cond(matrix))
     if not condition < 1.0 / (states * np.finfo(float).eps):
-        raise PlacementError(
-            formula,
-            Reason.CLASS,
-            f"U = [B AB ..] of {states} columns is singular, cond(U) = {condition:.2g}",
-            condition,
-            "take method indices or multilevel, which say whether it is controllable",
-        )
+        problem = f"U = [B AB ..] of {states} columns is singular, cond(U) = {condition:.2g}"
+        remedy = "take method indices or multilevel, which say whether it is controllable"
+        raise PlacementError(formula, Reason.CLASS, problem, condition, remedy)
     return np.linalg.solve(matrix.T, np.eye(states, inputs, inputs - states)).T, condition
 
 

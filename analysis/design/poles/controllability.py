@@ -52,14 +52,12 @@ def controllability_indices(a: np.ndarray, b: np.ndarray, tolerance: float = TOL
             going.append((i, a @ basis[:, -1], step))
         chains = going
     if basis.shape[1] < states:
-        raise PlacementError(
-            "controllability indices",
-            Reason.NOT_CONTROLLABLE,
+        problem = (
             f"{states - basis.shape[1]} of {states} states are not reached: of what was left out at most {left_out:.2g}"
-            f" was new, less than {tolerance:g}",
-            left_out,
-            "leave these states out, or add an input",
+            f" was new, less than {tolerance:g}"
         )
+        remedy = "leave these states out, or add an input"
+        raise PlacementError("controllability indices", Reason.NOT_CONTROLLABLE, problem, left_out, remedy)
     return tuple(indices)
 
 

@@ -106,14 +106,11 @@ def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: floa
     levels = decompose(a, b, tolerance)
     parts = spectrum.rank([level.rank for level in levels])
     if parts is None:
-        raise PlacementError(
-            "multilevel placement",
-            Reason.SPREAD,
-            f"{len(spectrum.pairs)} conjugate pairs do not fit on levels of rank "
-            + ", ".join(str(level.rank) for level in levels),
-            len(spectrum.pairs),
-            "take method indices, or choice least_condition or least_norm",
+        problem = f"{len(spectrum.pairs)} conjugate pairs do not fit on levels of rank " + ", ".join(
+            str(level.rank) for level in levels
         )
+        remedy = "take method indices, or choice least_condition or least_norm"
+        raise PlacementError("multilevel placement", Reason.SPREAD, problem, len(spectrum.pairs), remedy)
     return place_on_levels(levels, [part.matrix for part in parts], spectrum.poles)
 
 
@@ -125,22 +122,18 @@ def _check_size(sizes: Sequence[int], level: int, rank: int, b: np.ndarray) -> N
     says = f"has {wanted} states where the rank is {rank}"
     if wanted == rank:
         says = f"leaves out {outside:.2g} of what drives it"
+    problem = f"the basis of level {level} {says}"
+    remedy = "give a basis of what B drives, then one of what these states drive, and so on"
     raise PlacementError(
-        "multilevel placement",
-        Reason.RANK,
-        f"the basis of level {level} {says}",
-        float(wanted) if wanted != rank else outside,
-        "give a basis of what B drives, then one of what these states drive, and so on",
+        "multilevel placement", Reason.RANK, problem, float(wanted) if wanted != rank else outside, remedy
     )
 
 
 def _unreachable(level: int, states: int, values: np.ndarray, scale: float, tolerance: float) -> PlacementError:
     largest = float(values[0]) if len(values) else 0.0
-    return PlacementError(
-        "multilevel placement",
-        Reason.NOT_CONTROLLABLE,
+    problem = (
         f"{states} states are left on level {level}, where the largest singular value left out is {largest:.2g}, "
-        f"no more than {tolerance:g} of {scale:.2g}",
-        largest,
-        "leave these states out, or add an input",
+        f"no more than {tolerance:g} of {scale:.2g}"
     )
+    remedy = "leave these states out, or add an input"
+    return PlacementError("multilevel placement", Reason.NOT_CONTROLLABLE, problem, largest, remedy)

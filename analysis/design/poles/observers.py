@@ -19,12 +19,7 @@ from .plant import input_matrix, output_matrix, state_matrix
 from .results import Observer, PlacementError, Reason, ReducedObserver, StateFeedback
 
 
-def observer(
-    a: ArrayLike,
-    c: ArrayLike,
-    poles: ArrayLike,
-    **options: Any,
-) -> Observer:
+def observer(a: ArrayLike, c: ArrayLike, poles: ArrayLike, **options: Any) -> Observer:
     """The gain L (n, p) of x_h' = A x_h + B u + L (y - C x_h) that gives A - L C the n ``poles``.
 
     ``a`` is A (n, n), ``c`` C (p, n); ``options`` are those of `place` (method, choice, tolerance, starts, seed), of
@@ -38,12 +33,7 @@ def observer(
 
 
 def reduced_observer(
-    a: ArrayLike,
-    c: ArrayLike,
-    poles: ArrayLike,
-    *,
-    b: ArrayLike | None = None,
-    **options: Any,
+    a: ArrayLike, c: ArrayLike, poles: ArrayLike, *, b: ArrayLike | None = None, **options: Any
 ) -> ReducedObserver:
     """The observer of order n - p for outputs without noise, with its n - p ``poles``.
 
@@ -57,13 +47,11 @@ def reduced_observer(
     sizes = np.linalg.svd(outputs, compute_uv=False)
     if len(outputs) > len(state) or sizes[-1] <= TOLERANCE * sizes[0]:
         ratio = float(sizes[-1] / sizes[0]) if sizes[0] else 0.0
-        raise PlacementError(
-            "reduced observer",
-            Reason.RANK,
-            f"C, {len(outputs)} by {len(state)}, has not full row rank: its singular values go down to {ratio:.2g}",
-            ratio,
-            "leave out what other outputs say already",
+        problem = (
+            f"C, {len(outputs)} by {len(state)}, has not full row rank: its singular values go down to {ratio:.2g}"
         )
+        remedy = "leave out what other outputs say already"
+        raise PlacementError("reduced observer", Reason.RANK, problem, ratio, remedy)
     if len(outputs) == len(state):
         raise InputError("modal", "C", "it measures every state", "take x = C^-1 y")
     hidden, inverse = null_space(outputs), np.linalg.pinv(outputs)

@@ -115,28 +115,16 @@ def _check_class(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> None:
     states, inputs, outputs = len(a), b.shape[1], len(c)
     sizes = f"n, m, p = {states}, {inputs}, {outputs}"
     if inputs + outputs < states:
-        raise PlacementError(
-            "output feedback",
-            Reason.CLASS,
-            f"{sizes}: m + p = {inputs + outputs} is less than n",
-            inputs + outputs,
-            "measure more, or take an observer",
-        )
+        problem = f"{sizes}: m + p = {inputs + outputs} is less than n"
+        remedy = "measure more, or take an observer"
+        raise PlacementError("output feedback", Reason.CLASS, problem, inputs + outputs, remedy)
     if inputs * outputs < states:
-        raise PlacementError(
-            "output feedback",
-            Reason.CLASS,
-            f"{sizes}: F has m p = {inputs * outputs} elements for n poles",
-            inputs * outputs,
-            "measure more, or take an observer",
-        )
+        problem = f"{sizes}: F has m p = {inputs * outputs} elements for n poles"
+        remedy = "measure more, or take an observer"
+        raise PlacementError("output feedback", Reason.CLASS, problem, inputs * outputs, remedy)
 
 
 def _no_spread(spectrum: Spectrum) -> PlacementError:
-    return PlacementError(
-        "output feedback",
-        Reason.SPREAD,
-        f"{len(spectrum.pairs)} conjugate pairs and {len(spectrum.real)} real poles do not split over the levels",
-        len(spectrum.pairs),
-        "take the other method, or two real poles for a pair",
-    )
+    problem = f"{len(spectrum.pairs)} conjugate pairs and {len(spectrum.real)} real poles do not split over the levels"
+    remedy = "take the other method, or two real poles for a pair"
+    return PlacementError("output feedback", Reason.SPREAD, problem, len(spectrum.pairs), remedy)

@@ -85,13 +85,9 @@ def output_feedback_set(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> OutputFeedb
     hidden = null_space(outputs)
     if hidden.shape[1] != len(state) - len(outputs):
         rank = len(state) - hidden.shape[1]
-        raise PlacementError(
-            "set of output feedbacks",
-            Reason.RANK,
-            f"C of {len(outputs)} rows has rank {rank}",
-            rank,
-            "leave out what other outputs say already",
-        )
+        problem = f"C of {len(outputs)} rows has rank {rank}"
+        remedy = "leave out what other outputs say already"
+        raise PlacementError("set of output feedbacks", Reason.RANK, problem, rank, remedy)
     # [N] V C^perp = -T A^p C^perp, each row of [N] by itself
     seen = stack @ hidden
     row = -power @ hidden @ np.linalg.pinv(seen)
@@ -157,21 +153,13 @@ def common_feedback(
         closed_poles[:, i, free[i]] = solution[len(outputs) :].reshape(len(states), -1)
     residual = float(np.sqrt(left_over / sides)) if sides else 0.0
     if residual > _RESIDUAL:
-        raise PlacementError(
-            "common output feedback",
-            Reason.RESIDUAL,
-            f"no F gives all {len(states)} plants what is prescribed: {residual:.2g} of the right side is left",
-            residual,
-            "prescribe less, or measure more",
-        )
+        problem = f"no F gives all {len(states)} plants what is prescribed: {residual:.2g} of the right side is left"
+        remedy = "prescribe less, or measure more"
+        raise PlacementError("common output feedback", Reason.RESIDUAL, problem, residual, remedy)
     coefficients = np.array([split(row, size) for row in closed_poles])
     loops = [
         OutputFeedback(
-            "common",
-            gain,
-            np.linalg.eigvals(block_companion(blocks)),
-            state + inputs @ gain @ outputs,
-            condition,
+            "common", gain, np.linalg.eigvals(block_companion(blocks)), state + inputs @ gain @ outputs, condition
         )
         for state, blocks, condition in zip(states, coefficients, conditions, strict=True)
     ]

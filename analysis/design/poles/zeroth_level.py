@@ -50,13 +50,9 @@ class ZerothLevel:
             sizes = np.linalg.svd(matrix, compute_uv=False)
             if len(sizes) < rank or sizes[-1] <= TOLERANCE * sizes[0]:
                 ratio = float(sizes[-1] / sizes[0]) if len(sizes) == rank and sizes[0] else 0.0
-                raise PlacementError(
-                    "output feedback",
-                    Reason.RANK,
-                    f"{name} has not full rank: its singular values go down to {ratio:.2g} of the largest",
-                    ratio,
-                    "leave out inputs or outputs that others stand for",
-                )
+                problem = f"{name} has not full rank: its singular values go down to {ratio:.2g} of the largest"
+                remedy = "leave out inputs or outputs that others stand for"
+                raise PlacementError("output feedback", Reason.RANK, problem, ratio, remedy)
         self.a, self.b, self.c = a, b, c
         self.inverse, self.down = np.linalg.pinv(b), null_space(b.T).T if basis is None else basis.T
         self.hidden, self.seen = null_space(c), np.linalg.pinv(c)
@@ -102,13 +98,9 @@ def under(level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lowe
     except PlacementError as error:
         if error.reason is not Reason.NOT_CONTROLLABLE:
             raise
-        raise PlacementError(
-            "output feedback",
-            Reason.NOT_OBSERVABLE,
-            f"(Y X^+, Q) is not, of its dual {error.problem}",
-            error.number,
-            "spread the poles in another way",
-        ) from None
+        problem = f"(Y X^+, Q) is not, of its dual {error.problem}"
+        remedy = "spread the poles in another way"
+        raise PlacementError("output feedback", Reason.NOT_OBSERVABLE, problem, error.number, remedy) from None
     feedback = level.feedback(inverse, own + z @ q, upper, lower, condition)
     return feedback if first is None else replace(feedback, levels=first.levels, condition_u=first.condition_u)
 
@@ -117,13 +109,8 @@ def condition_of(x: np.ndarray) -> float:
     """cond X; 1 without columns. Raises PlacementError where it has not full column rank."""
     condition = float(np.linalg.cond(x)) if x.size else 1.0
     if not condition < 1.0 / TOLERANCE:
-        raise PlacementError(
-            "output feedback",
-            Reason.RANK,
-            f"X has not full column rank, cond X = {condition:.2g}",
-            condition,
-            "spread the poles in another way",
-        )
+        problem = f"X has not full column rank, cond X = {condition:.2g}"
+        raise PlacementError("output feedback", Reason.RANK, problem, condition, "spread the poles in another way")
     return condition
 
 
@@ -175,10 +162,6 @@ def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, se
             phi = np.linalg.solve(x.T, y.T).T
             placed = replace(level.feedback(inverse, phi, upper, lower, condition_of(x)), levels=first.levels)
             return polish(placed, level.a, level.b, level.c)
-    raise PlacementError(
-        "output feedback",
-        Reason.RESIDUAL,
-        f"m + p = n, and of {starts} starts the nearest leaves {minimum:.2g} of the polynomial",
-        minimum,
-        "give more starts, spread the poles in another way, or measure more",
-    )
+    problem = f"m + p = n, and of {starts} starts the nearest leaves {minimum:.2g} of the polynomial"
+    remedy = "give more starts, spread the poles in another way, or measure more"
+    raise PlacementError("output feedback", Reason.RESIDUAL, problem, minimum, remedy)

@@ -65,10 +65,7 @@ def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
     ends = step.map(intervals)(states[:, :-1], controls, ca.repmat(time, 1, intervals))
     unknowns = ca.vertcat(time, ca.vec(states), ca.vec(controls))
     defects = ca.vec(states[:, 1:] - ends)
-    options = {
-        "print_time": False,
-        "ipopt": {"tol": TOLERANCE, "max_iter": ITERATIONS, "print_level": 0, "sb": "yes"},
-    }
+    options = {"print_time": False, "ipopt": {"tol": TOLERANCE, "max_iter": ITERATIONS, "print_level": 0, "sb": "yes"}}
     solver = ca.nlpsol("plan", "ipopt", {"x": unknowns, "f": states[-1, -1], "g": defects}, options)
 
     lowest = np.full((intervals + 1, problem.start.size), -np.inf)
