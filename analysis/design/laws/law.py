@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
 from ....fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
 from ....fmus_src.paths import LAWS
@@ -38,7 +38,7 @@ class Law:
     exp_saturation: str
     description: str = ""
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """The content of the law's file."""
         return {
             "format": FORMAT,
@@ -85,7 +85,7 @@ def read_law(path: Path) -> Law:
     return law_of(document, str(path))
 
 
-def law_of(document: Any, file: str) -> Law:
+def law_of(document: object, file: str) -> Law:
     """The law in the content of a JSON file called ``file`` in errors. Raises InputError."""
 
     def refuse(element: str, problem: str, remedy: str) -> NoReturn:
@@ -121,7 +121,7 @@ def law_of(document: Any, file: str) -> Law:
     )
 
 
-def _matrix(rows: Any, file: str) -> Matrix:
+def _matrix(rows: object, file: str) -> Matrix:
     if not isinstance(rows, list) or len(rows) != SIZE:
         actual = f"{len(rows)} row(s)" if isinstance(rows, list) else f"{rows!r}"
         raise InputError(file, "matrix", f"{actual} where {SIZE} are needed", f"give {SIZE} rows of {SIZE} integers")
@@ -137,7 +137,7 @@ def _matrix(rows: Any, file: str) -> Matrix:
     return tuple(tuple(entries) for entries in rows)
 
 
-def _wrong(row: int, column: int, entry: Any) -> tuple[str, str] | None:
+def _wrong(row: int, column: int, entry: object) -> tuple[str, str] | None:
     """What is wrong with a cell, and what to do; rows and columns from 1."""
     if isinstance(entry, bool) or not isinstance(entry, int):
         return f"{entry!r} is not a whole number", "write an integer"
@@ -152,7 +152,7 @@ def _wrong(row: int, column: int, entry: Any) -> tuple[str, str] | None:
     return f"{entry} is no unary operation", f"use 0 for no edge, or one of {known}"
 
 
-def _parameters(values: Any, file: str) -> tuple[float, ...]:
+def _parameters(values: object, file: str) -> tuple[float, ...]:
     if not isinstance(values, list) or len(values) != PARAMETERS:
         raise InputError(file, "q", f"{values!r} is not a list of {PARAMETERS} numbers", f"give {PARAMETERS} numbers")
     for index, value in enumerate(values, 1):
@@ -162,8 +162,8 @@ def _parameters(values: Any, file: str) -> tuple[float, ...]:
     return tuple(float(value) for value in values)
 
 
-def _pairs(pairs: Sequence[tuple[str, Any]]) -> dict[str, Any]:
-    content: dict[str, Any] = {}
+def _pairs(pairs: Sequence[tuple[str, object]]) -> dict[str, object]:
+    content: dict[str, object] = {}
     for key, value in pairs:
         if key in content:
             raise ValueError(f"{key} is there twice")

@@ -6,7 +6,7 @@ Luenberger, "Observers for multivariable systems", IEEE Transactions on Automati
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,12 +14,12 @@ from scipy.linalg import null_space
 
 from ...common.errors import InputError
 from .controllability import TOLERANCE
-from .place import place
+from .place import PlaceOptions, place
 from .plant import input_matrix, output_matrix, state_matrix
 from .results import Observer, PlacementError, Reason, ReducedObserver, StateFeedback
 
 
-def observer(a: ArrayLike, c: ArrayLike, poles: ArrayLike, **options: Any) -> Observer:
+def observer(a: ArrayLike, c: ArrayLike, poles: ArrayLike, **options: Unpack[PlaceOptions]) -> Observer:
     """The gain L (n, p) of x_h' = A x_h + B u + L (y - C x_h) that gives A - L C the n ``poles``.
 
     ``a`` is A (n, n), ``c`` C (p, n); ``options`` are those of `place` (method, choice, tolerance, starts, seed), of
@@ -33,7 +33,7 @@ def observer(a: ArrayLike, c: ArrayLike, poles: ArrayLike, **options: Any) -> Ob
 
 
 def reduced_observer(
-    a: ArrayLike, c: ArrayLike, poles: ArrayLike, *, b: ArrayLike | None = None, **options: Any
+    a: ArrayLike, c: ArrayLike, poles: ArrayLike, *, b: ArrayLike | None = None, **options: Unpack[PlaceOptions]
 ) -> ReducedObserver:
     """The observer of order n - p for outputs without noise, with its n - p ``poles``.
 
@@ -73,7 +73,7 @@ def reduced_observer(
     )
 
 
-def _dual(a: np.ndarray, c: np.ndarray, poles: ArrayLike, options: dict[str, Any]) -> StateFeedback:
+def _dual(a: np.ndarray, c: np.ndarray, poles: ArrayLike, options: PlaceOptions) -> StateFeedback:
     try:
         return place(a.T, c.T, poles, **options)
     except PlacementError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from enum import StrEnum
+from typing import TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -37,6 +38,16 @@ class Choice(StrEnum):
     DIAGONAL = "diagonal"  # nothing: diagonal matrices, blocks for pairs
     LEAST_CONDITION = "least_condition"  # of the eigenvectors
     LEAST_NORM = "least_norm"  # of the gain
+
+
+class PlaceOptions(TypedDict, total=False):
+    """The options of `place`."""
+
+    method: str | None
+    choice: str
+    tolerance: float | None
+    starts: int
+    seed: int
 
 
 def place(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,16 +17,18 @@ from .genetic import SearchState
 from .variations import Variation
 
 FORMAT, VERSION = "perilune-synthesis-checkpoint", 1
+EvaluationEntry = tuple[list[float | None], int, int]  # objectives, successes, flights
+CandidateEntry = tuple[int, Sequence[Sequence[int]], int, str]  # genes, key of the law
 REMEDY = "start anew in another folder"
 
 
-def write_checkpoint(path: Path, state: SearchState, facts: Mapping[str, Any]) -> None:
+def write_checkpoint(path: Path, state: SearchState, facts: Mapping[str, object]) -> None:
     """Write the state, with the ``facts`` that it depends on."""
     document = {"format": FORMAT, "version": VERSION, "facts": facts, "state": state_document(state)}
     write_atomically(path, json.dumps(document, allow_nan=False).encode())
 
 
-def read_checkpoint(path: Path, facts: Mapping[str, Any]) -> SearchState:
+def read_checkpoint(path: Path, facts: Mapping[str, object]) -> SearchState:
     """The state in a file that was written with the same facts. Raises InputError."""
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
@@ -45,7 +47,7 @@ def read_checkpoint(path: Path, facts: Mapping[str, Any]) -> SearchState:
         raise InputError(path, "", f"damaged: {type(error).__name__} {error}", REMEDY) from error
 
 
-def state_document(state: SearchState) -> dict[str, Any]:
+def state_document(state: SearchState) -> dict[str, object]:
     """A state as JSON can hold it; infinite objectives are null."""
     return {
         "random": state.random.bit_generator.state,
@@ -93,19 +95,19 @@ def _value(number: float | None) -> float:
     return math.inf if number is None else number
 
 
-def _evaluation(evaluation: Evaluation) -> list[Any]:
-    return [[_number(value) for value in evaluation.objectives], evaluation.successes, evaluation.flown]
+def _evaluation(evaluation: Evaluation) -> EvaluationEntry:
+    return [_number(value) for value in evaluation.objectives], evaluation.successes, evaluation.flown
 
 
-def _evaluation_of(entry: list[Any]) -> Evaluation:
+def _evaluation_of(entry: EvaluationEntry) -> Evaluation:
     objectives, successes, flown = entry
     return Evaluation(tuple(_value(value) for value in objectives), successes, flown)
 
 
-def _candidate(candidate: Candidate) -> list[Any]:
-    return [*candidate.genes, candidate.key]
+def _candidate(candidate: Candidate) -> CandidateEntry:
+    return *candidate.genes, candidate.key
 
 
-def _candidate_of(entry: list[Any], known: Mapping[str, Evaluation]) -> Candidate:
+def _candidate_of(entry: CandidateEntry, known: Mapping[str, Evaluation]) -> Candidate:
     basis, variations, code, key = entry
     return Candidate(Genes(basis, tuple(Variation(*each) for each in variations), code), key, known[key])

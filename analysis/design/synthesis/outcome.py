@@ -10,7 +10,6 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from ...common.atomic import write_atomically
 from ..laws.formula import formula, formula_text
@@ -29,7 +28,7 @@ class SynthesisResult:
 
     synthesis: Synthesis
     search: Search
-    provenance: Mapping[str, Any]
+    provenance: Mapping[str, object]
     ended: str
     folder: Path | None = None  # in which it is stored
 
@@ -78,7 +77,7 @@ class SynthesisResult:
             for name, value in self._objectives(candidate).items()
         )
 
-    def _member(self, candidate: Candidate) -> dict[str, Any]:
+    def _member(self, candidate: Candidate) -> dict[str, object]:
         objectives = {
             name: {kind: _plain(number) for kind, number in value.items()}
             for name, value in self._objectives(candidate).items()
@@ -90,7 +89,7 @@ class SynthesisResult:
             "law": self._law(candidate).document(),
         }
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """The result: provenance, counts, the chosen law with its formula, and the Pareto set."""
         state = self.search.state
         front = sorted(state.front, key=lambda candidate: candidate.evaluation.objectives)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -140,7 +139,7 @@ def _reason(search: Search) -> str:
     return "generations" if search.is_over else "evaluations"
 
 
-def provenance(synthesis: Synthesis, plan: BatchPlan, prepared: PreparedSystem) -> dict[str, Any]:
+def provenance(synthesis: Synthesis, plan: BatchPlan, prepared: PreparedSystem) -> dict[str, object]:
     """What the result depends on."""
     return {
         "system": prepared.archive.name,

@@ -115,7 +115,9 @@ def _settings(table: Table) -> SearchSettings:
     values: dict[str, Any] = {}
     for field in fields(SearchSettings):
         if field.name in table.content:
-            kind: Callable[[Table, str, Any], Any] = {"int": integer, "float": number, "bool": _truth}[str(field.type)]
+            kind: Callable[[Table, str, object], float] = {"int": integer, "float": number, "bool": _truth}[
+                str(field.type)
+            ]
             values[field.name] = table.get(field.name, kind)
     settings = SearchSettings(**values)
     for name, (low, high) in LIMITS.items():
@@ -160,13 +162,13 @@ def _check_basic(law: Law, settings: SearchSettings, path: Path) -> None:
         ) from error
 
 
-def _truth(table: Table, key: str, value: Any) -> bool:
+def _truth(table: Table, key: str, value: object) -> bool:
     if not isinstance(value, bool):
         raise table.error(key, f"{value!r} is neither true nor false", "write true or false")
     return value
 
 
-def _positive(table: Table, key: str, value: Any) -> float:
+def _positive(table: Table, key: str, value: object) -> float:
     positive = number(table, key, value)
     if positive <= 0.0:
         raise table.error(key, f"{positive:g} s", "give more than 0 s")

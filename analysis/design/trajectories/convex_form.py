@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -118,7 +117,7 @@ def _solve(
     constant = pull.ravel() / unit - field @ (about.ravel() / problem.length)
     mean = sparse.csr_array(before / 3.0 + after / 6.0)
     half = sparse.csr_array((before + after) / 2.0)
-    equal: list[tuple[Any, Any]] = [
+    equal: list[tuple[sparse.csr_array, np.ndarray]] = [
         ((after - before) @ r - h * before @ v - h**2 / 2.0 * u - h**2 * mean @ field @ r, h**2 * mean @ constant),
         ((after - before) @ v - h * u - h * half @ field @ r, h * half @ constant),
         ((there - here) @ z + (h / exhaust) * s, np.zeros(intervals)),
@@ -134,7 +133,8 @@ def _solve(
     away = sparse.csr_array((here + there) / 2.0) @ z  # y = away z - middle
     maximum = problem.most / unit * ratio
     below = [(s + sparse.diags_array(maximum) @ away, maximum * (1.0 + middle))]
-    cones: list[tuple[Any, Any]] = [(_interleave([s, *(u[axis::axes] for axis in range(axes))]), None)]
+    thrust = _interleave([s, *(u[axis::axes] for axis in range(axes))])
+    cones = [(thrust, np.zeros(thrust.shape[0]))]
     kinds = [clarabel().SecondOrderConeT(1 + axes)] * intervals
     if problem.least > 0.0:
         # q = s/(a1 e) - 1 + y >= y^2/2, as the cone |(y, q - 1/2)| <= q + 1/2
@@ -144,8 +144,7 @@ def _solve(
         kinds += [clarabel().SecondOrderConeT(3)] * intervals
 
     rows = [matrix for matrix, _ in equal + below] + [-matrix for matrix, _ in cones]
-    right = [value for _, value in equal + below]
-    right += [np.zeros(matrix.shape[0]) if value is None else value for matrix, value in cones]
+    right = [value for _, value in equal + below + cones]
     equalities = sum(matrix.shape[0] for matrix, _ in equal)
     cost = np.asarray((h / exhaust) * s.sum(axis=0)).ravel()
     solution = _clarabel(
@@ -163,14 +162,16 @@ def _solve(
     )
 
 
-def _interleave(parts: list[Any]) -> sparse.csr_array:
+def _interleave(parts: list[sparse.csr_array]) -> sparse.csr_array:
     """First rows of all parts, then second rows, and so on: one cone after another."""
     count = parts[0].shape[0]
     order = np.arange(count * len(parts)).reshape(len(parts), count).T.ravel()
     return sparse.csr_array(sparse.vstack(parts, format="csr")[order])
 
 
-def _clarabel(cost: np.ndarray, rows: list[Any], right: list[np.ndarray], cones: list[Any]) -> np.ndarray | None:
+def _clarabel(
+    cost: np.ndarray, rows: list[sparse.csr_array], right: list[np.ndarray], cones: list[object]
+) -> np.ndarray | None:
     """The minimiser of cost . x with right - rows x in the cones; None where there is none."""
     settings = clarabel().DefaultSettings()
     settings.verbose = False

@@ -6,7 +6,6 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from lxml import etree
@@ -100,13 +99,13 @@ def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
 
     The bound is that of an engine that can be off: its least thrust is 0.
     """
-    values: dict[str, Any] = dict(inputs)
-    arm = np.add(values["position"], (0.0, 0.0, values["moon_radius"]))
+    values = _numbers(inputs)
+    arm = np.add(inputs["position"], (0.0, 0.0, values["moon_radius"]))
     away, distance = math.hypot(arm[0], arm[1]), float(np.linalg.norm(arm))
     if not away > 0.0:
         raise InputError(file, "bound", "braking starts straight above the site", "start where it comes from")
     up, aside = arm / distance, np.array([-arm[1], arm[0], 0.0]) / away
-    velocity = np.array(values["velocity"])
+    velocity = np.array(inputs["velocity"])
     towards = float(velocity @ np.cross(up, aside))
     if not (abs(velocity @ aside) <= ACROSS and towards > 0.0):
         problem = "the velocity at the start of braking is not towards the site"
@@ -133,10 +132,10 @@ def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
 
 def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, float]]:
     """The pieces that a landing is cut into, by name: what is bounded, and the mass (kg) that its propellant is of."""
-    values: dict[str, Any] = dict(inputs)
+    values = _numbers(inputs)
     vehicle, landing = landing_of(inputs, file)
     pieces = {}
-    for name in dict.fromkeys(key.partition(".")[0] for key in values if "." in key):
+    for name in dict.fromkeys(key.partition(".")[0] for key in inputs if "." in key):
         if f"{name}.altitude" in values:
             stop = replace(landing, target_altitude=values[f"{name}.altitude"])
             pieces[name] = landing_problem(vehicle, stop), vehicle.mass
@@ -147,6 +146,10 @@ def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, fl
         radii = np.array([start, end]) + landing.radius
         gravity = float(np.mean(landing.gravitational_parameter / radii**2))
         lander = replace(vehicle, mass=mass, minimum_thrust=minimum)
-        transfer = Transfer(math.hypot(*values[f"{name}.{ASIDE}"]), start - end, gravity)
+        transfer = Transfer(math.hypot(*np.ravel(inputs[f"{name}.{ASIDE}"])), start - end, gravity)
         pieces[name] = transfer_problem(lander, transfer), mass
     return pieces
+
+
+def _numbers(inputs: Inputs) -> dict[str, float]:
+    return {name: value for name, value in inputs.items() if not isinstance(value, tuple)}

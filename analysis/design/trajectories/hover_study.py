@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass, replace
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 
@@ -62,7 +62,7 @@ class HoverStudy:
         """The programme's."""
         return self.programme.path(self.vehicle.maximum_thrust)
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """All of it for other programs; times in s, angles in deg, propellant over the initial mass and in kg."""
         programme = self.programme
         minimum, largest = (math.degrees(angle) for angle in programme.extremes)
@@ -92,7 +92,7 @@ class HoverStudy:
     def _propellant(self, fraction: float) -> dict[str, float]:
         return {"propellant_fraction": fraction, "propellant_kg": fraction * self.vehicle.mass}
 
-    def _path(self, path: PlannedPath | None) -> dict[str, Any] | None:
+    def _path(self, path: PlannedPath | None) -> dict[str, object] | None:
         if path is None:
             return None
         return {
@@ -154,7 +154,7 @@ def hover_study(
     )
 
 
-def vehicle_document(vehicle: Vehicle) -> dict[str, Any]:
+def vehicle_document(vehicle: Vehicle) -> dict[str, float]:
     """A vehicle for other programs: kg, s, N, deg/s2."""
     return _degrees(asdict(vehicle))
 
@@ -164,13 +164,13 @@ def _bound(vehicle: Vehicle, transfer: Transfer, intervals: int) -> PlannedPath:
     return least_propellant(problem, intervals).make_path(problem)
 
 
-def _degrees(values: dict[str, Any]) -> dict[str, Any]:
+def _degrees(values: dict[str, float]) -> dict[str, float]:
     """The angular acceleration in deg/s2, under a name that says so; none for a vehicle that has no such limit."""
     turn = math.degrees(values.pop("angular_acceleration"))
     return values | ({"angular_acceleration_deg_s2": turn} if math.isfinite(turn) else {})
 
 
-def _curve(curve: Curve | None, name: str) -> dict[str, Any] | None:
+def _curve(curve: Curve | None, name: str) -> dict[str, list[float] | list[float | None]] | None:
     if curve is None:
         return None
     values = [None if math.isnan(value) else float(value) for value in curve.propellant]

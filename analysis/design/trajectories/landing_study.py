@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Any
 
 from ...common.progress import progress_bar
 from .convex_form import least_propellant
@@ -57,7 +56,7 @@ class LandingStudy:
             inputs=inputs,
         )
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """All of it for other programs; SI, but angular acceleration."""
         direct = self.direct
         return {

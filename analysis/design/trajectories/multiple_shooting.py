@@ -10,13 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from .path import PlanError
 from .point_mass import PointMassProblem
-from .solvers import casadi
+from .solvers import Symbol, casadi
 
 TOLERANCE = 1e-9
 ITERATIONS = 1000
@@ -31,7 +30,7 @@ class ShootingProblem:
     ``low`` and ``high`` bound the controls.
     """
 
-    rate: Callable[[Any, Any], Any]
+    rate: Callable[[Symbol, Symbol], Symbol]
     start: np.ndarray
     end: np.ndarray
     low: np.ndarray
@@ -97,7 +96,7 @@ def direct_propellant(problem: PointMassProblem, intervals: int) -> tuple[float,
     length, speed = problem.length, problem.speed
     ca = casadi()
 
-    def rate(x: Any, u: Any) -> Any:
+    def rate(x: Symbol, u: Symbol) -> Symbol:
         push = problem.most * u[0] / (1.0 - x[4])
         along, up = problem.gravity.at(length * x[0], length * x[1])
         return ca.vertcat(

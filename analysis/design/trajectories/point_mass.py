@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from .solvers import Symbol
 from .vehicle import Landing, Transfer, Vehicle
 
 
@@ -17,7 +17,7 @@ class UniformGravity:
 
     value: float
 
-    def at(self, x: Any, y: Any) -> tuple[Any, Any]:
+    def at(self, x: Symbol, y: Symbol) -> tuple[Symbol, Symbol]:
         """Gravity (m/s2) along and up at places (m): numbers, arrays or CasADi's symbols."""
         return 0.0 * x, 0.0 * y - self.value
 
@@ -33,7 +33,7 @@ class CentralGravity:
     parameter: float
     radius: float
 
-    def at(self, x: Any, y: Any) -> tuple[Any, Any]:
+    def at(self, x: Symbol, y: Symbol) -> tuple[Symbol, Symbol]:
         """Gravity (m/s2) along and up at places (m): numbers, arrays or CasADi's symbols."""
         up = y + self.radius
         pull = self.parameter / (x**2 + up**2) ** 1.5

@@ -4,24 +4,27 @@ from __future__ import annotations
 
 import importlib
 from functools import cache
+from types import ModuleType
 from typing import Any
 
 from ...common.errors import InputError
 
+Symbol = Any  # of CasADi, which has no types; where one stands, a number or an array may
+
 
 @cache
-def casadi() -> Any:
+def casadi() -> ModuleType:
     """CasADi with IPOPT, for direct methods."""
     return _solver("casadi", "the true optimum")
 
 
 @cache
-def clarabel() -> Any:
+def clarabel() -> ModuleType:
     """Clarabel, for the convex form."""
     return _solver("clarabel", "the bound")
 
 
-def _solver(name: str, what: str) -> Any:
+def _solver(name: str, what: str) -> ModuleType:
     try:
         return importlib.import_module(name)
     except ImportError as error:

@@ -11,7 +11,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 from ...common.atomic import write_atomically
 from ...common.errors import InputError
@@ -106,11 +105,11 @@ def write_bound(bound: StoredBound, folder: Path) -> Path:
     return path
 
 
-def _plain(inputs: Inputs) -> dict[str, Any]:
+def _plain(inputs: Inputs) -> dict[str, object]:
     return {name: list(value) if isinstance(value, tuple) else value for name, value in inputs.items()}
 
 
-def _positive(value: Any) -> float:
+def _positive(value: float | str) -> float:
     number = float(value)
     if not (math.isfinite(number) and number > 0.0):
         raise ValueError(f"{value} is not a positive number")

@@ -7,14 +7,13 @@ the angular acceleration, which is therefore bang-bang at the ends of the arcs, 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
 from .multiple_shooting import Shooting, ShootingProblem, shoot
 from .path import PlannedPath
 from .programme import Programme
-from .solvers import casadi
+from .solvers import Symbol, casadi
 
 RATE = 0.1  # rad/s, the scale of the pitch's rate; pitch itself is not scaled
 SHARE = 0.05  # the scale of the propellant over the initial mass
@@ -30,7 +29,7 @@ def find_true_optimum(programme: Programme, intervals: int, engine: float) -> Pl
     speed = 0.4 * math.sqrt(2.0 * vehicle.full * length)
     scale = np.array([length, speed, length, speed, 1.0, RATE, SHARE])  # x, x', y, y', pitch, its rate, propellant
 
-    def rate(x: Any, u: Any) -> Any:
+    def rate(x: Symbol, u: Symbol) -> Symbol:
         push = vehicle.full * u[0] / (1.0 - SHARE * x[6])
         return ca.vertcat(
             speed / length * x[1],

@@ -63,9 +63,9 @@ class PointStudy:
             self._models[channel.name] = loop_model(self.linear, port)
         return self._models[channel.name]
 
-    def margins(self, cells: Sequence[int], names: Sequence[str]) -> list[Margins]:
+    def margins(self, states: Sequence[int], names: Sequence[str]) -> list[Margins]:
         """Margins of channels by name where the memory that matters is known. Raises StudyError."""
-        self.linearise(cells, ONE_STEP)
+        self.linearise(states, ONE_STEP)
         if self.linear is None:
             raise StudyError(self.why_not)
         ports = {port.channel.name: port for port in self.linear.model.ports}
