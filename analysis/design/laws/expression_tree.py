@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from ....fmus_src.mathlib.network_operator import LARGEST, LOG_LARGEST, SIZE, binary, neutral, unary
+from ....fmus_src.mathlib.network_operator import SIZE
 from ...reports.common.quantities import MINUS
-from .law import Law
 
 SOURCE_NAMES = ("pi + theta", "q1", "(hf - h)/h0", "q2", "theta", "q3")  # nodes 1 to 6
 OUTPUT_NUMBERS = (15, 16)  # counted from 1, as printed
@@ -53,26 +51,6 @@ def nodes_of(outputs: Sequence[Node]) -> list[Node]:
         for node in walk(output):
             nodes[node.number] = node
     return [nodes[number] for number in sorted(nodes)]
-
-
-def evaluate_tree(law: Law, theta: float, altitude_error: float) -> tuple[float, ...]:
-    """What the law's outputs come to, unclipped: thrust angle (rad) and thrust above nominal (kgf).
-
-    ``theta`` is the path angle (rad), ``altitude_error`` is (hf - h)/h0.
-    """
-    q1, q2, q3 = law.q
-    sources: Mapping[str, float] = dict(
-        zip(SOURCE_NAMES, (math.pi + theta, q1, altitude_error, q2, theta, q3), strict=True)
-    )
-    exp_saturation = LOG_LARGEST if law.exp_saturation == "legacy" else LARGEST
-    outputs = expression_tree(law.matrix)
-    values: dict[int, float] = {}
-    for node in nodes_of(outputs):
-        value = neutral(node.operation) if node.source is None else sources[node.source]
-        for operation, other in node.terms:
-            value = binary(node.operation, value, unary(operation, values[other.number], exp_saturation))
-        values[node.number] = value
-    return tuple(values[output.number] for output in outputs)
 
 
 SUM, PRODUCT, MAXIMUM, MINIMUM = range(4)

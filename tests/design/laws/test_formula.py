@@ -13,10 +13,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from perilune.analysis.design.laws.expression_tree import evaluate_tree, expression_tree, nodes_of
+from perilune.analysis.design.laws.expression_tree import expression_tree, nodes_of
 from perilune.analysis.design.laws.formula import formula, formula_text
 from perilune.analysis.design.laws.law import Law, find_law, read_law
 from perilune.fmus_src.mathlib import network_operator
+from tests.support.laws.evaluation import evaluate_tree
 from tests.support.laws.networks import SOURCES, depends, matrices, random_matrix
 from tests.support.lengths import either
 

@@ -10,12 +10,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from perilune.analysis.design.laws.expression_tree import evaluate_tree
 from perilune.analysis.design.laws.law import Law, find_law, read_law
 from perilune.analysis.design.synthesis.candidate import Phenotype
 from perilune.analysis.design.synthesis.genetic import Search, SearchState
 from perilune.analysis.design.synthesis.search_settings import SearchSettings
 from tests.design.synthesis.test_pareto import dominates
+from tests.support.laws.evaluation import evaluate_tree
 from tests.support.laws.regression import POINTS, TOLERANCE, FormulaEvaluator, near
 from tests.support.lengths import either
 

@@ -2,9 +2,9 @@
 
 import math
 
-from perilune.analysis.design.laws.expression_tree import evaluate_tree
 from perilune.analysis.design.laws.law import Law
 from perilune.analysis.design.synthesis.candidate import Evaluation
+from tests.support.laws.evaluation import evaluate_tree
 
 POINTS = [(-2.0 + 0.25 * place, 0.6 - 0.15 * place) for place in range(8)]  # theta (rad), (hf - h)/h0
 TOLERANCE = 0.15
