@@ -58,9 +58,7 @@ explore: build
 # Gains that follow from the capsule's aerodynamic table, into the parameter sets of entry_attitude; and the norm of the
 # gain of the whole model, which no regulator has.
 gains: .venv/ready
-	$(BIN)/python -m perilune.analysis.design.synthesis.entry_gains
-	@$(BIN)/python -c "import numpy; from perilune.analysis.design.synthesis.entry_gains import whole_gain; \
-		print(f'whole model: |F| = {numpy.linalg.norm(whole_gain()):.4g}')"
+	$(BIN)/python -m docs.figures.entry_gains
 
 # The pictures of docs/images, each below 100 kB; those of modal synthesis take two minutes.
 FIGURES := concept system_figures readme_figure rendezvous_figures modal_comparison

@@ -6,8 +6,7 @@ Truth: eigenvalues of the closed loop (1e-6), the gains and norms that another p
 import numpy as np
 import pytest
 
-from perilune import modal
-from perilune.analysis.design.synthesis.entry_gains import (
+from docs.figures.entry_gains import (
     DESIGN_PRESSURE,
     LOWER,
     SCHEDULE,
@@ -22,6 +21,7 @@ from perilune.analysis.design.synthesis.entry_gains import (
     whole_gain,
     whole_model,
 )
+from perilune import modal
 from perilune.fmus_src.control.output_feedback import OutputFeedback
 
 POLES = [-0.7 - 0.8j, -0.7 + 0.8j, -0.6, -0.35]

@@ -17,15 +17,15 @@ import math
 import numpy as np
 from scipy.optimize import fsolve
 
-from ....fmus_src.kernel.records import replace
-from ....fmus_src.mathlib.entry_motion import body_axes
-from ....fmus_src.mathlib.standard_atmosphere import air
-from ....fmus_src.mathlib.vectors import cross, vector
-from ....fmus_src.paths import ROOT
-from ....fmus_src.plants.entry_capsule import EntryCapsule
-from ...common.atomic import write_atomically
-from ...runtime.ssp.parameter_sets import write_parameter_set
-from ..poles.zeroth_level import output_feedback_levels
+from perilune.analysis.common.atomic import write_atomically
+from perilune.analysis.design.poles.zeroth_level import output_feedback_levels
+from perilune.analysis.runtime.ssp.parameter_sets import write_parameter_set
+from perilune.fmus_src.kernel.records import replace
+from perilune.fmus_src.mathlib.entry_motion import body_axes
+from perilune.fmus_src.mathlib.standard_atmosphere import air
+from perilune.fmus_src.mathlib.vectors import cross, vector
+from perilune.fmus_src.paths import ROOT
+from perilune.fmus_src.plants.entry_capsule import EntryCapsule
 
 TRIM = math.radians(-20.0)
 MACH = 25.9  # at 75 km, where one gain has to do for all
@@ -167,3 +167,4 @@ def whole_gain() -> np.ndarray:
 if __name__ == "__main__":
     for file, content in gain_files().items():
         write_atomically(SYSTEM / file, content)
+    print(f"whole model: |F| = {np.linalg.norm(whole_gain()):.4g}")
