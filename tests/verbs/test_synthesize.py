@@ -31,7 +31,7 @@ def test_prints_and_writes_what_was_found(file, tmp_path, capsys):
     out = tmp_path / "new" / "out"
     command = ["design", "search", str(file), "--seed", "5", "--workers", "1", "--output", str(out)]
     expected = run_synthesis(read_synthesis(file), seed=5, workers=1)
-    chosen = expected.search.chosen().evaluation
+    chosen = expected.search.choose().evaluation
     assert chosen.successes < chosen.flown == 4, "three generations have become enough: take fewer"
     assert main(command) == 1
     captured = capsys.readouterr()

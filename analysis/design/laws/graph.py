@@ -43,8 +43,9 @@ def law_figure(law: Law) -> Figure:
     axes.set_xlim(-0.7, columns + 0.5)
     axes.set_ylim(max(heights) + 0.8, min(heights) - 0.8)
     curves = {edge: _curve(path) for edge, path in layout.paths.items()}
+    style = "-|>,head_length=0.45,head_width=0.22"
     for curve in curves.values():
-        _edge(axes, curve)
+        axes.add_patch(FancyArrowPatch(path=curve, arrowstyle=style, mutation_scale=10, color=FAINT, linewidth=0.9))
     labels = {
         (other.number, node.number): UNARY[operation].edge
         for node in nodes.values()
@@ -67,11 +68,6 @@ def _curve(points: list[Point]) -> Path:
         vertices += [(middle, y0), (middle, y1), (x1, y1)]
         codes += [Path.CURVE4] * 3
     return Path(vertices, codes)
-
-
-def _edge(axes: Axes, curve: Path) -> None:
-    style = "-|>,head_length=0.45,head_width=0.22"
-    axes.add_patch(FancyArrowPatch(path=curve, arrowstyle=style, mutation_scale=10, color=FAINT, linewidth=0.9))
 
 
 def _label_places(curves: dict[Edge, Path], labelled: list[Edge], nodes: list[Point]) -> dict[Edge, Point]:

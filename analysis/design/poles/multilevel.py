@@ -106,9 +106,8 @@ def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: floa
     levels = decompose(a, b, tolerance)
     parts = spectrum.rank([level.rank for level in levels])
     if parts is None:
-        problem = f"{len(spectrum.pairs)} conjugate pairs do not fit on levels of rank " + ", ".join(
-            str(level.rank) for level in levels
-        )
+        ranks = ", ".join(str(level.rank) for level in levels)
+        problem = f"{len(spectrum.pairs)} conjugate pairs do not fit on levels of rank {ranks}"
         remedy = "take method indices, or choice least_condition or least_norm"
         raise PlacementError("multilevel placement", Reason.SPREAD, problem, len(spectrum.pairs), remedy)
     return place_on_levels(levels, [part.matrix for part in parts], spectrum.poles)

@@ -65,7 +65,7 @@ def output_feedback(
         raise InputError("modal", "upper", "how many there are depends on the method", "give method direct or dual")
     if starts < 1:
         raise InputError("modal", "starts", f"there are {starts}", "give 1 or more")
-    _check_class(*plant)
+    _check_class(len(state), plant[1].shape[1], len(plant[2]))
     refusals: list[PlacementError] = []
     placements = _placements(*plant, spectrum, method, upper, starts, seed, refusals)
     tried = [*islice(placements, 1)] if choice == Spread.FIRST else [*placements]
@@ -90,38 +90,28 @@ def _placements(
         if method not in (None, route):
             continue
         level = ZerothLevel(*plant)
-        for high, low in _spreads(spectrum, len(level.down), upper):
+        size = len(level.down)
+        named = None if upper is None else Spectrum.of(upper, size, "upper")
+        for high, low in spectrum.splits(size) if named is None else [(named, spectrum.without(named))]:
             try:
-                candidates = square(level, high, low, starts, seed) if level.meets else direct(level, high, low)
+                placed = square(level, high, low, starts, seed) if level.meets else direct(level, high, low)
             except PlacementError as error:
                 refusals.append(error)
                 continue
-            yield candidates if route is Route.DIRECT else _transpose(candidates)
+            if route is Route.DUAL:
+                placed = replace(placed, method=route, gain=placed.gain.T, closed_loop=placed.closed_loop.T)
+            yield placed
 
 
-def _transpose(feedback: OutputFeedback) -> OutputFeedback:
-    return replace(feedback, method=Route.DUAL, gain=feedback.gain.T, closed_loop=feedback.closed_loop.T)
-
-
-def _spreads(spectrum: Spectrum, size: int, upper: ArrayLike | None) -> Iterator[tuple[Spectrum, Spectrum]]:
-    if upper is None:
-        yield from spectrum.splits(size)
-        return
-    high = Spectrum.of(upper, size, "upper")
-    yield high, spectrum.without(high)
-
-
-def _check_class(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> None:
-    states, inputs, outputs = len(a), b.shape[1], len(c)
+def _check_class(states: int, inputs: int, outputs: int) -> None:
     sizes = f"n, m, p = {states}, {inputs}, {outputs}"
-    if inputs + outputs < states:
-        problem = f"{sizes}: m + p = {inputs + outputs} is less than n"
-        remedy = "measure more, or take an observer"
-        raise PlacementError("output feedback", Reason.CLASS, problem, inputs + outputs, remedy)
-    if inputs * outputs < states:
-        problem = f"{sizes}: F has m p = {inputs * outputs} elements for n poles"
-        remedy = "measure more, or take an observer"
-        raise PlacementError("output feedback", Reason.CLASS, problem, inputs * outputs, remedy)
+    for number, problem in (
+        (inputs + outputs, f"m + p = {inputs + outputs} is less than n"),
+        (inputs * outputs, f"F has m p = {inputs * outputs} elements for n poles"),
+    ):
+        if number < states:
+            remedy = "measure more, or take an observer"
+            raise PlacementError("output feedback", Reason.CLASS, f"{sizes}: {problem}", number, remedy)
 
 
 def _no_spread(spectrum: Spectrum) -> PlacementError:

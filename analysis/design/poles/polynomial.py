@@ -34,7 +34,9 @@ def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
             factor = coefficients[:, j, j].copy()
             coefficients[:, other, j] = sign * pair.imag * factor
             coefficients[:, j, j] = np.roll(factor, 1) - pair.real * factor
-    return coefficients[:-1] - _leading(degrees, coefficients.shape)[:-1]
+    for j, degree in enumerate(degrees):
+        coefficients[degree, j, j] -= 1.0  # the leading one, which is not stored
+    return coefficients[:-1]
 
 
 def polynomial_of_solvents(solvents: Sequence[ArrayLike]) -> np.ndarray:
@@ -56,10 +58,3 @@ def block_companion(coefficients: np.ndarray) -> np.ndarray:
     blocks, size, _ = coefficients.shape
     below = np.hstack(list(-coefficients))
     return np.vstack([np.eye((blocks - 1) * size, blocks * size, size), below])
-
-
-def _leading(degrees: Sequence[int], shape: tuple[int, ...]) -> np.ndarray:
-    ones = np.zeros(shape)
-    for j, degree in enumerate(degrees):
-        ones[degree, j, j] = 1.0
-    return ones

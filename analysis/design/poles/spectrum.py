@@ -40,10 +40,10 @@ class Spectrum:
             pairs.append(0.5 * (pole + partner))
         if conjugates:
             raise _alone(name, conjugates[0].conjugate())
-        return cls.sorted([float(pole.real) for pole in values if pole.imag == 0.0], pairs)
+        return cls.sort([float(pole.real) for pole in values if pole.imag == 0.0], pairs)
 
     @classmethod
-    def sorted(cls, real: Sequence[float], pairs: Sequence[complex]) -> Spectrum:
+    def sort(cls, real: Sequence[float], pairs: Sequence[complex]) -> Spectrum:
         return cls(tuple(sorted(real)), tuple(sorted(pairs, key=lambda pole: (pole.real, pole.imag))))
 
     @property
@@ -108,7 +108,7 @@ class Spectrum:
             place = max(range(len(room)), key=lambda i: (room[i], -i))
             real[place].append(pole)
             room[place] -= 1
-        return [Spectrum.sorted(*part) for part in zip(real, pairs, strict=True)]
+        return [Spectrum.sort(*part) for part in zip(real, pairs, strict=True)]
 
     def rank(self, sizes: Sequence[int]) -> list[Spectrum] | None:
         """Parts of the ``sizes``, the fastest poles in the first and so on as far as pairs let; None where they do not.
@@ -128,7 +128,7 @@ class Spectrum:
                     (real if size == 1 else pairs)[index].append(pole)
                     room = after
                     break
-        return [Spectrum.sorted(*part) for part in zip(real, pairs, strict=True)]
+        return [Spectrum.sort(*part) for part in zip(real, pairs, strict=True)]
 
     def _fits(self, sizes: Sequence[int]) -> bool:
         return len(self.pairs) <= sum(size // 2 for size in sizes)

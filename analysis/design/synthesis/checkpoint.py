@@ -17,7 +17,6 @@ from .genetic import SearchState
 from .variations import Variation
 
 FORMAT, VERSION = "perilune-synthesis-checkpoint", 1
-EvaluationEntry = tuple[list[float | None], int, int]  # objectives, successes, flights
 CandidateEntry = tuple[int, Sequence[Sequence[int]], int, str]  # genes, key of the law
 REMEDY = "start anew in another folder"
 
@@ -59,8 +58,8 @@ def state_document(state: SearchState) -> dict[str, object]:
         "population": [_candidate(candidate) for candidate in state.population],
         "front": [_candidate(candidate) for candidate in state.front],
         "champion": None if state.champion is None else _candidate(state.champion),
-        "known": {key: _evaluation(evaluation) for key, evaluation in state.known.items()},
-        "history": [{name: _number(value) for name, value in line.items()} for line in state.history],
+        "known": {key: ([*map(finite_or_none, sums)], *counts) for key, (sums, *counts) in state.known.items()},
+        "history": [{name: finite_or_none(value) for name, value in line.items()} for line in state.history],
         "succeeded": state.succeeded,
     }
 
@@ -69,7 +68,7 @@ def state_of(document: Mapping[str, Any]) -> SearchState:
     """The state in a document of `state_document`."""
     random = np.random.Generator(np.random.PCG64())
     random.bit_generator.state = document["random"]
-    known = {key: _evaluation_of(entry) for key, entry in document["known"].items()}
+    known = {key: Evaluation(tuple(map(_value, sums)), *counts) for key, (sums, *counts) in document["known"].items()}
     champion = document["champion"]
     return SearchState(
         random=random,
@@ -87,21 +86,12 @@ def state_of(document: Mapping[str, Any]) -> SearchState:
     )
 
 
-def _number(value: float) -> float | None:
+def finite_or_none(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
 def _value(number: float | None) -> float:
     return math.inf if number is None else number
-
-
-def _evaluation(evaluation: Evaluation) -> EvaluationEntry:
-    return [_number(value) for value in evaluation.objectives], evaluation.successes, evaluation.flown
-
-
-def _evaluation_of(entry: EvaluationEntry) -> Evaluation:
-    objectives, successes, flown = entry
-    return Evaluation(tuple(_value(value) for value in objectives), successes, flown)
 
 
 def _candidate(candidate: Candidate) -> CandidateEntry:

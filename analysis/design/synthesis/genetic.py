@@ -87,7 +87,7 @@ class Search:
         if not self.is_over:
             state.population += self._evaluate(self._random(0, state.code, self.settings.population - 1))
 
-    def chosen(self) -> Candidate:
+    def choose(self) -> Candidate:
         """The candidate to hand out: most successes, then the best compromise of the Pareto set."""
         state = self.state
         assert state.champion is not None  # there is one from the start on
@@ -139,7 +139,7 @@ class Search:
     def _renew(self) -> None:
         """The chosen candidate is the new basis; the elites stay as they are, the others are drawn anew."""
         state = self.state
-        best = self.chosen().genes
+        best = self.choose().genes
         state.bases.append(apply_variations(state.bases[best.basis], best.variations))
         basis = len(state.bases) - 1
         order = ParetoOrder(objectives_of(state.population)).order()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from ..laws.formula import formula, formula_text
 from ..laws.graph import law_svg
 from ..laws.law import Law, parameter_set
 from .candidate import Candidate
+from .checkpoint import finite_or_none
 from .genetic import Search
 from .synthesis_file import Synthesis
 
@@ -35,7 +35,7 @@ class SynthesisResult:
     @property
     def law(self) -> Law:
         """The law of the chosen candidate."""
-        return self._law(self.search.chosen())
+        return self._law(self.search.choose())
 
     def _law(self, candidate: Candidate) -> Law:
         law = self.search.law(candidate)
@@ -52,13 +52,13 @@ class SynthesisResult:
     @property
     def succeeded(self) -> bool:
         """Whether the chosen law has every trial a success."""
-        return self.search.chosen().evaluation.successes == self.search.evaluator.trials
+        return self.search.choose().evaluation.successes == self.search.evaluator.trials
 
     def problems(self) -> list[str]:
         """A line for a search that found no law, with what to do."""
         if self.succeeded:
             return []
-        evaluation = self.search.chosen().evaluation
+        evaluation = self.search.choose().evaluation
         return [
             f"{self.synthesis.campaign.file}: no law found: the chosen one succeeds in {evaluation.successes} of "
             f"{self.search.evaluator.trials} trials; give more generations, another `seed` or another basic solution"
@@ -79,7 +79,7 @@ class SynthesisResult:
 
     def _member(self, candidate: Candidate) -> dict[str, object]:
         objectives = {
-            name: {kind: _plain(number) for kind, number in value.items()}
+            name: {kind: finite_or_none(number) for kind, number in value.items()}
             for name, value in self._objectives(candidate).items()
         }
         return {
@@ -101,7 +101,7 @@ class SynthesisResult:
             "generations": state.generation,
             "evaluations": state.evaluations,
             "flights": state.flights,
-            "chosen": self._member(self.search.chosen()) | {"formula": formula(self.law)},
+            "chosen": self._member(self.search.choose()) | {"formula": formula(self.law)},
             "members": [self._member(candidate) for candidate in front],
         }
 
@@ -117,7 +117,7 @@ class SynthesisResult:
 
     def lines(self) -> list[str]:
         """The result for a terminal."""
-        state, chosen = self.search.state, self.search.chosen()
+        state, chosen = self.search.state, self.search.choose()
         return [
             f"laws evaluated: {state.evaluations}, in {state.flights} simulations, {state.generation} generations; "
             f"ended by {self.ended}; {len(state.front)} in the Pareto set",
@@ -137,7 +137,3 @@ def write_log(path: Path, synthesis: Synthesis, search: Search) -> None:
     writer.writerow([names.get(key, key) for key in history[0]])
     writer.writerows(line.values() for line in history)
     write_atomically(path, buffer.getvalue().encode())
-
-
-def _plain(value: float) -> float | None:
-    return value if math.isfinite(value) else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from importlib.metadata import version
 from pathlib import Path
 
@@ -50,7 +51,9 @@ def run_synthesis(
     prepared = _check(synthesis, plan)
     facts = provenance(synthesis, plan, prepared)
     stored = {name: fact for name, fact in facts.items() if name != "campaign"}  # the file may have moved
-    state = _first_state(synthesis, plan)
+    code = synthesis.settings.coding.encode(synthesis.basic.q)
+    random = np.random.Generator(np.random.PCG64(plan.campaign.seed))
+    state = SearchState(random=random, bases=[synthesis.basic.matrix], code=code)
     if resume and checkpoint is not None:
         state = read_checkpoint(checkpoint, stored)
     elif output is not None:
@@ -69,14 +72,16 @@ def run_synthesis(
         ) as evaluator,
     ):
         search = Search(synthesis.settings, evaluator, state)
-        while not state.population or not (search.is_over or _is_spent(state, evaluations)):
+        limit = math.inf if evaluations is None else evaluations
+        while not state.population or not (search.is_over or state.evaluations >= limit):
             search.advance()
             if checkpoint is not None:
                 write_checkpoint(checkpoint, state, stored)
                 write_log(checkpoint.with_name("log.csv"), synthesis, search)
             summary = f"{state.history[-1]['successes']} of {evaluator.trials} trials are successes"
             progress.set_postfix_str(f"generation {state.generation}, {summary}")
-    result = SynthesisResult(synthesis, search, facts, _reason(search))
+    reason = "success" if state.succeeded else "generations" if search.is_over else "evaluations"
+    result = SynthesisResult(synthesis, search, facts, reason)
     if output is not None:
         result.write(output)
     return result
@@ -121,22 +126,6 @@ def _rehearse(synthesis: Synthesis, plan: BatchPlan) -> None:
     if result.message:
         problem = f"the basic solution's first flight failed: {result.message}"
         raise InputError(plan.campaign.file, "trial 0", problem, "correct step, parameters or system")
-
-
-def _first_state(synthesis: Synthesis, plan: BatchPlan) -> SearchState:
-    code = synthesis.settings.coding.encode(synthesis.basic.q)
-    random = np.random.Generator(np.random.PCG64(plan.campaign.seed))
-    return SearchState(random=random, bases=[synthesis.basic.matrix], code=code)
-
-
-def _is_spent(state: SearchState, evaluations: int | None) -> bool:
-    return evaluations is not None and state.evaluations >= evaluations
-
-
-def _reason(search: Search) -> str:
-    if search.state.succeeded:
-        return "success"
-    return "generations" if search.is_over else "evaluations"
 
 
 def provenance(synthesis: Synthesis, plan: BatchPlan, prepared: PreparedSystem) -> dict[str, object]:

@@ -43,7 +43,7 @@ def test_spreads_use_every_pole_once_and_fail_only_where_pairs_cannot_fit(spectr
             assert len(spectrum.pairs) > sum(size // 2 for size in sizes)
             continue
         assert [part.size for part in parts] == sizes
-        joint = Spectrum.sorted(
+        joint = Spectrum.sort(
             [pole for part in parts for pole in part.real], [pole for part in parts for pole in part.pairs]
         )
         assert joint == spectrum

@@ -32,7 +32,7 @@ def test_resuming_after_every_generation_changes_nothing(tmp_path):
         write_checkpoint(path, parts.state, FACTS)
         parts = resumed(read_checkpoint(path, FACTS))
         assert state_document(parts.state) == state_document(whole.state)
-    assert parts.chosen() == whole.chosen()
+    assert parts.choose() == whole.choose()
     assert len(whole.state.bases) == 3
 
 

@@ -41,7 +41,7 @@ def test_it_finds_a_formula(seed):
     """Within some thousand evaluations, where one of 420 variations and three parameters have to be found."""
     actual = finished(seed, SearchSettings(population=64, generations=60, crossovers=48))
     assert actual.state.succeeded
-    chosen = actual.chosen()
+    chosen = actual.choose()
     assert chosen.evaluation.successes == chosen.evaluation.flown == FormulaEvaluator.trials
     law = actual.law(chosen)
     for point in POINTS:
@@ -110,7 +110,7 @@ def test_a_renewal_takes_the_chosen_law_as_basis_and_keeps_the_elites():
     renew = actual._renew
 
     def watched():
-        calls.append((actual.law(actual.chosen()), list(actual.state.population)))
+        calls.append((actual.law(actual.choose()), list(actual.state.population)))
         renew()
 
     actual._renew = watched
@@ -160,7 +160,7 @@ def test_stop_ends_the_search_at_the_first_law_without_failures():
     assert not actual.is_over
     assert easy.is_over
     assert easy.state.succeeded
-    assert easy.law(easy.chosen()).matrix == BASIC.matrix
+    assert easy.law(easy.choose()).matrix == BASIC.matrix
 
 
 def test_objectives_out_of_reach_are_infinite_and_lose():
@@ -172,5 +172,5 @@ def test_objectives_out_of_reach_are_infinite_and_lose():
     actual = search(1, replace(SMALL, generations=2), Failing(near))
     while not actual.is_over:
         actual.advance()
-    assert actual.chosen().evaluation.objectives < (1e9, 1e9)
+    assert actual.choose().evaluation.objectives < (1e9, 1e9)
     assert all(member.evaluation.objectives < (1e9, 1e9) for member in actual.state.front)

@@ -63,7 +63,7 @@ def test_objectives_are_sums_over_the_flights_of_a_batch(whole, tmp_path):
     rows = flown.table().to_pylist()
     altitude = [abs(row["metric.final_altitude"] - 1500) + 100 * row["metric.ground_hit"] for row in rows]
     speed = [row["metric.final_speed"] for row in rows]
-    chosen = result.search.chosen().evaluation
+    chosen = result.search.choose().evaluation
     assert chosen.objectives == (sum(altitude), sum(speed))
     assert chosen.successes == sum(row["success"] for row in rows)
     assert chosen.flown == len(rows) == 4
@@ -86,7 +86,7 @@ def test_what_is_written(whole):
     assert document["format"] == "perilune-pareto-set"
     assert document["chosen"]["law"] == law.document()
     members = [tuple(value["sum"] for value in member["objectives"].values()) for member in document["members"]]
-    chosen = result.search.chosen().evaluation.objectives
+    chosen = result.search.choose().evaluation.objectives
     assert [*document["chosen"]["objectives"].values()] == [{"sum": total, "mean": total / 4} for total in chosen]
     assert chosen in members
     for point in members:
