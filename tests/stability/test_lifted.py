@@ -60,7 +60,7 @@ def test_response_is_what_a_flight_with_a_wave_shows(periodic, axis, cycles, sam
 def test_a_periodic_loop_answers_at_other_frequencies_too(periodic):
     place, frequency = periodic.ports[0], np.array([0.8])
     assert periodic.periodicity(place, frequency) > 1e-4
-    u, v = periodic.closed_response((place,), frequency)
+    u, v = periodic.disturbance_response((place,), frequency)
     assert abs(u - v - 1.0).max() < 1e-12  # what goes in is what comes back and what is added
 
 
@@ -100,10 +100,10 @@ def test_sampled_at_once_two_ports_are_a_matrix(periodic):
     """What goes in at each cut does not depend on which other cuts are looked at."""
     frequency = np.array([0.3, 1.1])
     together = periodic.response(periodic.ports, frequency)
-    u, v = periodic.closed_response(periodic.ports, frequency)
+    u, v = periodic.disturbance_response(periodic.ports, frequency)
     assert together.shape == (2, 2, 2)
     assert -together @ u == pytest.approx(v, abs=1e-12)
-    alone, _ = periodic.closed_response(periodic.ports[:1], frequency)
+    alone, _ = periodic.disturbance_response(periodic.ports[:1], frequency)
     assert alone[:, 0, 0] == pytest.approx(u[:, 0, 0], abs=1e-14)
 
 
@@ -113,7 +113,7 @@ def test_reduced_to_what_lies_between():
     a[1, 0] = a[2, 0] = a[1, 3] = 1.0
     b, c = np.eye(5, 1), np.eye(1, 5, 1)
     model = LiftedModel(a, b, c, np.eye(1), c, np.zeros((1, 1)), tuple("abcde"), 0.5, (port(1),))
-    small = model.reduced(model.ports)
+    small = model.reduce(model.ports)
     assert small.names == ("a", "b")
     assert np.sort(small.poles()) == pytest.approx([0.4, 0.5])
     frequency = np.array([0.1, 1.0, 6.0])

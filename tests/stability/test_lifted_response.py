@@ -26,7 +26,7 @@ def test_equals_dense_solves(states: int) -> None:
     model = LiftedModel(a, b, cu, du, cv, dv, (), 0.4, ports)
     frequency = np.geomspace(1e-2, np.pi / 0.4, 150)
     for chosen in (ports, ports[:1], (ports[2], ports[0])):
-        u, v = model.closed_response(chosen, frequency)
+        u, v = model.disturbance_response(chosen, frequency)
         for index, w in enumerate(frequency):
             wave = np.zeros((rows, len(chosen)), dtype=complex)
             mean = np.zeros((len(chosen), rows), dtype=complex)

@@ -167,9 +167,9 @@ def test_withheld_where_no_flight_with_feedthrough_can_be_studied(folder, exact_
 
     report = in_both_orders(read_request(path, SystemOptions()), make)
     assert report.verdict is Verdict.WITHHELD
-    assert {item.requirement.as_feedthrough.note for item in report.judged()} == {"not studied"}
+    assert {item.requirement.as_feedthrough.note for item in report.judgements()} == {"not studied"}
     assert any(sentence.endswith(f"is not studied: {reason}") for sentence in order_sentences(report))
-    subject, requirement = next(report.judged())
+    subject, requirement = next(report.judgements())
     assert ", not studied with it, limit " in withheld_line(report, subject, requirement)
 
 

@@ -74,7 +74,7 @@ def verdict_rows(report: StabilityReport) -> list[Row]:
             subject.point,
             requirement,
         )
-        for subject, requirement in report.judged()
+        for subject, requirement in report.judgements()
     ]
 
 
@@ -181,7 +181,7 @@ def trim_table(points: tuple[PointReport, ...]) -> Table:
 def limit_table(report: StabilityReport) -> Table:
     """The limits that were used, each once."""
     rows: dict[tuple[str, ...], tuple[Cell, ...]] = {}
-    for _, item in report.judged():
+    for _, item in report.judgements():
         rows.setdefault((item.title, str(item.limit)), (SCOPES[item.scope], item.title, limit(item)))
     return Table(("scope", "quantity", "limit"), "ttn", list(rows.values()), "limits")
 

@@ -70,7 +70,7 @@ class LiftedModel:
     ports: tuple[Port, ...]
     variables: Mapping[str, StateVariable] = field(default_factory=dict)
 
-    def reduced(self, ports: tuple[Port, ...]) -> LiftedModel:
+    def reduce(self, ports: tuple[Port, ...]) -> LiftedModel:
         """The part of the memory that the ports both move and are moved by, through whatever lies between.
 
         Of that, cells whose share of what comes back is below SHARE at all frequencies are left out: they are moved by
@@ -146,7 +146,7 @@ class LiftedModel:
         a = self.a - self.b[:, rows] @ inside
         return replace(self, a=a, names=(), variables={}).poles()
 
-    def closed_response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def disturbance_response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """What goes in (u) and comes back (v) at each frequency for a unit of d, both (n, m, m) for m ports."""
         u = np.empty((frequency.size, len(ports), len(ports)), dtype=complex)
         v = np.empty_like(u)
@@ -185,7 +185,7 @@ class LiftedModel:
 
     def response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> np.ndarray:
         """L, minus the transfer from what goes in to what comes back, (n, m, m); other loops closed."""
-        u, v = self.closed_response(ports, np.asarray(frequency, dtype=float))
+        u, v = self.disturbance_response(ports, np.asarray(frequency, dtype=float))
         return -np.linalg.solve(np.swapaxes(u, 1, 2), np.swapaxes(v, 1, 2)).swapaxes(1, 2)
 
     def periodicity(self, port: Port, frequency: np.ndarray) -> float:

@@ -113,8 +113,8 @@ class PointStudy:
         worst = 0.0
         for before, after in zip(self.linear.model.ports, later.model.ports, strict=True):
             frequency = np.geomspace(1e-3, 1.0, 60) * np.pi / before.seconds
-            first = self.linear.model.reduced((before,)).response((before,), frequency)[:, 0, 0]
-            second = later.model.reduced((after,)).response((after,), frequency)[:, 0, 0]
+            first = self.linear.model.reduce((before,)).response((before,), frequency)[:, 0, 0]
+            second = later.model.reduce((after,)).response((after,), frequency)[:, 0, 0]
             near = (abs(first) > 0.1) & (abs(first) < 10.0)
             worst = max(worst, float(np.max(abs(second[near] / first[near] - 1.0), initial=0.0)))
         return worst
@@ -129,7 +129,7 @@ class PointStudy:
         ports = tuple(port for port in self.linear.model.ports if port.channel.loop == loop.name)
         if len(ports) < 2:
             return None
-        model = self.linear.model.reduced(ports)
+        model = self.linear.model.reduce(ports)
         seconds = ports[0].seconds
 
         def single(frequency: np.ndarray) -> np.ndarray:

@@ -119,8 +119,8 @@ class LoopModel:
 
 def loop_model(linearisation: Linearisation, port: Port) -> LoopModel:
     """The part of a linear model that belongs to one channel, and how far it can be trusted."""
-    model = linearisation.model.reduced((port,))
-    neighbour = linearisation.neighbour.reduced((port,))
+    model = linearisation.model.reduce((port,))
+    neighbour = linearisation.neighbour.reduce((port,))
     nyquist = np.pi / port.seconds
     look = np.geomspace(1e-3, 1.0, 40) * nyquist
     a, b = model.response((port,), look)[:, 0, 0], neighbour.response((port,), look)[:, 0, 0]

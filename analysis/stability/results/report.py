@@ -175,7 +175,7 @@ class StabilityReport:
     seconds: float
     orders: Orders | None = None
 
-    def judged(self) -> Iterator[Judged]:
+    def judgements(self) -> Iterator[Judged]:
         """Everything that is judged, with where it belongs."""
         for loop in self.loops:
             for requirement in loop.judged:
@@ -187,6 +187,6 @@ class StabilityReport:
     @property
     def verdict(self) -> Verdict:
         """What could not be studied, or what linearised and measured responses differ on, is not passed."""
-        verdict = combine([item.requirement for item in self.judged()])
+        verdict = combine([item.requirement for item in self.judgements()])
         open_to_doubt = self.unstudied or any(loop.doubted for loop in self.loops)
         return Verdict.NOT_APPLICABLE if verdict is Verdict.PASS and open_to_doubt else verdict

@@ -26,7 +26,7 @@ def stability_lines(report: StabilityReport) -> list[str]:
 
 def stability_problems(report: StabilityReport) -> list[str]:
     """A line for each requirement that is not met or withheld, and for everything that could not be studied."""
-    judged = list(report.judged())
+    judged = list(report.judgements())
     failures = [item for item in judged if item.requirement.verdict is Verdict.FAIL]
     lines = [
         _failure_line(subject, requirement)
