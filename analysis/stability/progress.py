@@ -55,6 +55,5 @@ def begin(queue: SimpleQueue) -> None:
 
 
 def tell_parent(expected: int, done: int) -> None:
-    """What a worker process tells its parent."""
     assert _queue is not None  # the process has begun with it
     _queue.put((expected, done))

@@ -24,7 +24,6 @@ Point = tuple[float, float]
 
 
 def law_svg(law: Law) -> bytes:
-    """The drawing as an SVG document."""
     with house_style():
         return svg_bytes(law_figure(law), law.name, text_as_paths=True)
 

@@ -39,7 +39,6 @@ class Law:
     description: str = ""
 
     def document(self) -> dict[str, object]:
-        """The content of the law's file."""
         return {
             "format": FORMAT,
             "version": VERSION,

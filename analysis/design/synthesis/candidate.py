@@ -140,5 +140,4 @@ def mutate(random: np.random.Generator, genes: Genes, bases: Sequence[Matrix], c
 
 
 def flip_bit(random: np.random.Generator, code: int, coding: Coding) -> int:
-    """The code with one random bit flipped."""
     return code ^ 1 << int(random.integers(coding.bits))

@@ -65,7 +65,6 @@ def state_document(state: SearchState) -> dict[str, object]:
 
 
 def state_of(document: Mapping[str, Any]) -> SearchState:
-    """The state in a document of `state_document`."""
     random = np.random.Generator(np.random.PCG64())
     random.bit_generator.state = document["random"]
     known = {key: Evaluation(tuple(map(_value, sums)), *counts) for key, (sums, *counts) in document["known"].items()}

@@ -97,7 +97,6 @@ class Search:
         return best[0] if best else state.champion
 
     def law(self, candidate: Candidate) -> Phenotype:
-        """The law of a candidate."""
         return phenotype(candidate.genes, self.state.bases, self.coding)
 
     def _random(self, basis: int, code: int, count: int) -> list[Genes]:
@@ -214,5 +213,4 @@ class Search:
 
 
 def objectives_of(candidates: Sequence[Candidate]) -> np.ndarray:
-    """Objectives, a row per candidate."""
     return np.array([candidate.evaluation.objectives for candidate in candidates])

@@ -34,7 +34,6 @@ class SynthesisResult:
 
     @property
     def law(self) -> Law:
-        """The law of the chosen candidate."""
         return self._law(self.search.choose())
 
     def _law(self, candidate: Candidate) -> Law:

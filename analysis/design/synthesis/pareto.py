@@ -60,7 +60,6 @@ class ParetoOrder:
         return np.sqrt(np.sum(np.square(np.maximum(points - self.ideal, 0.0) / self.extent), axis=-1))
 
     def standing(self, point: np.ndarray) -> Standing:
-        """The standing of any point (m,)."""
         return Standing(dominators(self.objectives, point), float(self.distances(point)))
 
     def order(self) -> np.ndarray:

@@ -38,12 +38,10 @@ class Coding:
 
     @property
     def width(self) -> int:
-        """Bits of one parameter."""
         return self.integer + self.fraction
 
     @property
     def bits(self) -> int:
-        """Bits of all parameters."""
         return self.count * self.width
 
     def encode(self, values: Sequence[float]) -> int:
@@ -87,5 +85,4 @@ class SearchSettings:
 
     @property
     def coding(self) -> Coding:
-        """How parameters are coded."""
         return Coding(PARAMETERS, self.integer_bits, self.fraction_bits)

@@ -56,7 +56,6 @@ def edges_out(matrix: Sequence[Sequence[int]], node: int) -> int:
 
 
 def apply_variations(matrix: Matrix, variations: Iterable[Variation]) -> Matrix:
-    """The matrix after variations, one after another."""
     rows = [list(row) for row in matrix]
     for kind, row, column, operation in variations:
         there = rows[row][column] != 0

@@ -43,7 +43,6 @@ class PointMassPath:
 
     @property
     def propellant_fraction(self) -> float:
-        """Propellant fraction: propellant over the initial mass."""
         return -math.expm1(self.log_mass[-1])
 
     @property
@@ -52,7 +51,6 @@ class PointMassPath:
         return float(np.max(self.size - np.linalg.norm(self.thrust_acceleration, axis=1)))
 
     def make_path(self, problem: PointMassProblem) -> PlannedPath:
-        """How it goes, for pages and tables."""
         force = self.thrust_acceleration
         throttle = self.size / problem.most * np.exp((self.log_mass[1:] + self.log_mass[:-1]) / 2.0)
         pitch = np.where(throttle > OFF, np.arctan2(force[:, 1], force[:, 0]), np.nan)

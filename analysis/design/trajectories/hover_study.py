@@ -59,7 +59,6 @@ class HoverStudy:
 
     @property
     def path(self) -> PlannedPath:
-        """The programme's."""
         return self.programme.path(self.vehicle.maximum_thrust)
 
     def document(self) -> dict[str, object]:

@@ -42,7 +42,6 @@ class PlannedPath:
 
     @property
     def propellant_fraction(self) -> float:
-        """Propellant fraction: propellant over the initial mass."""
         return float(self.propellant[-1])
 
     @property

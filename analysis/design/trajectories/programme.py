@@ -44,7 +44,6 @@ class Programme:
 
     @property
     def propellant_fraction(self) -> float:
-        """Propellant fraction: propellant over the initial mass."""
         return hover_solution.propellant_fraction(self.programme, _kernel_vehicle(self.vehicle, self.transfer))
 
     @property
@@ -72,7 +71,6 @@ class Programme:
         return self.vehicle.angular_acceleration * self.shape().d
 
     def shape(self) -> HoverShape:
-        """Its shape as the kernels have it, see `hover_shape`."""
         shape, _ = hover_shape.shape_of(self.programme, self.vehicle.angular_acceleration)
         return shape
 

@@ -14,13 +14,11 @@ Symbol = Any  # of CasADi, which has no types; where one stands, a number or an 
 
 @cache
 def casadi() -> ModuleType:
-    """CasADi with IPOPT, for direct methods."""
     return _solver("casadi", "the true optimum")
 
 
 @cache
 def clarabel() -> ModuleType:
-    """Clarabel, for the convex form."""
     return _solver("clarabel", "the bound")
 
 

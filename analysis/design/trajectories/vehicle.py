@@ -75,7 +75,6 @@ LANDING_VEHICLE = Vehicle(940.13, 440.0, 319.0, 5099.0, 0.0, math.inf)
 
 
 def check_vehicle(vehicle: Vehicle) -> Vehicle:
-    """Refuse what is no vehicle."""
     if not vehicle.minimum_thrust < vehicle.maximum_thrust:
         problem = f"not below the largest thrust, {vehicle.maximum_thrust:g} N"
         raise InputError("`minimum_thrust`", f"{vehicle.minimum_thrust:g}", problem, "give less")

@@ -20,8 +20,6 @@ UNLIMITED = math.inf
 
 
 class Quantity(StrEnum):
-    """What is judged."""
-
     STABILITY = "stability"
     GAIN = "gain margin"
     PHASE = "phase margin"

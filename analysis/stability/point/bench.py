@@ -81,7 +81,6 @@ class Bench:
         self.origin = self._origin()
 
     def columns(self, channel: Channel) -> list[int]:
-        """Columns of the excitation that belong to a channel."""
         return [self.connectors.index(name) for name in channel.connectors]
 
     def _hyperperiod(self) -> int:
@@ -177,7 +176,6 @@ class OperatingPoint:
         return later
 
     def release(self) -> None:
-        """Free what was saved."""
         self.memory.release(self.snapshot)
 
 

@@ -87,7 +87,6 @@ class LiftedModel:
         return connected._part(np.flatnonzero(fraction > SHARE))
 
     def _part(self, kept: np.ndarray) -> LiftedModel:
-        """The model of some of the cells."""
         return replace(
             self,
             a=self.a[np.ix_(kept, kept)],

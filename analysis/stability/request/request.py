@@ -43,7 +43,6 @@ class Request:
     at: tuple[float, ...] = ()
 
     def loops_at(self, point: Point) -> list[Loop]:
-        """The loops that are studied at a point."""
         return [loop for loop in self.declaration.loops if point.name in loop.points]
 
     def loop(self, name: str) -> Loop:

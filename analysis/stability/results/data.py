@@ -57,7 +57,6 @@ def write_data(report: StabilityReport, folder: Path) -> None:
 
 
 def _results(report: StabilityReport) -> dict[str, list[dict[str, object]]]:
-    """The records of one study, in one order."""
     times = {point.name: point.time for point in report.points}
     return {
         "loops": [_loop(loop, times[loop.point]) for loop in report.loops],
@@ -103,7 +102,6 @@ def _loop(loop: LoopReport, time: float) -> dict[str, object]:
 
 
 def _joint(joint: JointReport, time: float) -> dict[str, object]:
-    """All channels of one loop open at once."""
     return {
         "name": joint.name,
         "operating_point": joint.point,

@@ -42,7 +42,6 @@ class Dispersion:
 
     @property
     def unstable(self) -> int:
-        """How many trials are unstable."""
         return sum(item.unstable for item in self.margins)
 
     def sizes(self, quantity: Quantity) -> np.ndarray:
