@@ -31,9 +31,8 @@ def disperse(
 ) -> dict[str, Dispersion]:
     """Margins of every channel over the trials of a campaign, each linearised on its own flight.
 
-    The campaign's draws, seeds and streams are flown at the point.
-    ``cells`` is the memory that matters at the point; ``replay`` gives the command that studies one trial of one loop
-    again; ``tell`` is told how many trials are expected and done. Raises InputError, StudyError.
+    The campaign's draws, seeds and streams are flown at the point. ``cells`` is the memory that matters there;
+    ``replay`` gives the command that studies one trial of one loop again. Raises InputError, StudyError.
     """
     tell(plan.campaign.trials, 0)
     (variant,) = plan.campaign.variants()
@@ -78,7 +77,7 @@ def _dispersion(
     plan: BatchPlan, items: Sequence[Margins], poles: np.ndarray, limits: Limits, replay: Callable[[int], str]
 ) -> Dispersion:
     # the least disk margin; among unstable loops the largest multiplier
-    worst = min(range(len(items)), key=lambda k: (items[k].size(Quantity.DISK), -(items[k].largest or 0.0)))
+    worst = min(range(len(items)), key=lambda place: (items[place].size(Quantity.DISK), -(items[place].largest or 0.0)))
     unstable = sum(item.unstable for item in items)
     note = f"{unstable} of {len(items)} trials unstable; the worst again: {replay(worst)}" if unstable else ""
     fraction = Requirement(Scope.DISPERSED, Quantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note)

@@ -16,11 +16,11 @@ from .point.bench import StudyError
 from .request.request import Request, Subject
 from .results.report import JointReport, LoopReport, Orders, StabilityReport, Unstudied
 from .results.requirement import Requirement
+from .results.varied import Dispersion
 
-NOT_STUDIED, DIFFERENT = (
-    "not studied",
-    "not known, since linearised and measured responses differ",
-)  # notes of requirements without a verdict
+# notes of requirements without a verdict
+NOT_STUDIED, DIFFERENT = "not studied", "not known, since linearised and measured responses differ"
+Judgeable = LoopReport | JointReport | Dispersion
 
 
 def in_both_orders(request: Request, make: Callable[[Request], StabilityReport]) -> StabilityReport:
@@ -107,7 +107,9 @@ def _merge_verdicts(report: StabilityReport, orders: Orders) -> StabilityReport:
     return replace(
         report,
         loops=tuple(_loop(loop, loops.get((loop.name, loop.point))) for loop in report.loops),
-        joint=tuple(_joint(joint, joints.get((joint.name, joint.point))) for joint in report.joint),
+        joint=tuple(
+            replace(joint, requirements=_both(joint, joints.get((joint.name, joint.point)))) for joint in report.joint
+        ),
         orders=orders,
     )
 
@@ -115,22 +117,18 @@ def _merge_verdicts(report: StabilityReport, orders: Orders) -> StabilityReport:
 def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
     """A loop with the requirements of both orders; where the responses differ in the other order, nothing passes."""
     note = "" if other is None or not other.doubted else DIFFERENT
-    judged = replace(loop, requirements=_both(loop.requirements, () if other is None else other.requirements, note))
+    judged = replace(loop, requirements=_both(loop, other, note))
     if loop.dispersion is not None:
         spread = None if other is None else other.dispersion
-        both = _both(loop.dispersion.requirements, () if spread is None else spread.requirements, note)
-        judged.dispersion = replace(loop.dispersion, requirements=both)
+        judged.dispersion = replace(loop.dispersion, requirements=_both(loop.dispersion, spread, note))
     return judged
 
 
-def _joint(joint: JointReport, other: JointReport | None) -> JointReport:
-    return replace(joint, requirements=_both(joint.requirements, () if other is None else other.requirements))
-
-
-def _both(items: Sequence[Requirement], others: Sequence[Requirement], note: str = "") -> tuple[Requirement, ...]:
-    by_title = {other.title: other for other in others}
+def _both(one: Judgeable, another: Judgeable | None, note: str = "") -> tuple[Requirement, ...]:
+    """The requirements of one order, each with that of the other."""
+    by_title = {} if another is None else {other.title: other for other in another.requirements}
     paired = []
-    for item in items:
+    for item in one.requirements:
         other = by_title.get(item.title) or replace(item, value=None, passed=None, note=NOT_STUDIED)
         if note and other.passed:
             other = replace(other, passed=None, note=note)

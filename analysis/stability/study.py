@@ -177,5 +177,5 @@ def _vary(
         except (StudyError, InputError) as error:  # wrong input has been refused before; a trial may still end early
             unstudied.append(Unstudied(request.campaign or "", point.name, "campaign", str(error)))
     for report in reports:
-        report.sampling = tuple(steps.get(report.name, ()))
+        report.sampling = steps.get(report.name, ())
         report.dispersion = spread.get(report.name)

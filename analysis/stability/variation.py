@@ -37,8 +37,7 @@ def run_sweep(
 ) -> SweepReport:
     """Margins of a loop's first channel, at values in geometric order where they are positive.
 
-    ``cells`` is the memory that matters at the point; ``tell`` is told how many intervals between values are expected
-    and done. Raises StudyError where a flight breaks off.
+    ``cells`` is the memory that matters at the point. Raises StudyError where a flight breaks off.
     """
 
     @cache
@@ -118,21 +117,19 @@ def vary_step(
     cells: Sequence[int],
     names: Sequence[str],
     tell: Callable[[int, int], None],
-) -> dict[str, list[Sampled]]:
+) -> dict[str, tuple[Sampled, ...]]:
     """Margins of the channels ``names`` with half, the same and twice the communication step ``step`` (s).
 
-    ``cells`` is the memory that matters at this point. Where there are no margins the note says why. ``tell`` is told
-    how many steps are expected and done.
+    ``cells`` is the memory that matters at this point. Where there are no margins the note says why.
     """
     tell(len(FACTORS), 0)
-    by_name: dict[str, list[Sampled]] = {name: [] for name in names}
+    by_factor = []
     for factor in FACTORS:
         try:
             with PointStudy(subject.with_options(step=factor * step), point, loops) as study:
                 rows = [Sampled(factor * step, margins) for margins in study.margins(cells, names)]
         except (InputError, StudyError) as error:
             rows = [Sampled(factor * step, None, str(error))] * len(names)
-        for name, row in zip(names, rows, strict=True):
-            by_name[name].append(row)
+        by_factor.append(rows)
         tell(0, 1)
-    return by_name
+    return dict(zip(names, zip(*by_factor, strict=True), strict=True))

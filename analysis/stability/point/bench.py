@@ -30,7 +30,7 @@ class Bench:
 
     ``period`` is the hyperperiod in communication points: the least common multiple of the channels' and of the
     FMUs' sample periods. ``origin`` is the communication point just before the operating point, which is a
-    multiple of it. ``varied`` names parameters that `set` may change. Use as a context manager.
+    multiple of it. ``varied`` names parameters that `set` may change. To be closed.
     """
 
     def __init__(
@@ -125,12 +125,6 @@ class Bench:
 
     def close(self) -> None:
         self.simulation.close()
-
-    def __enter__(self) -> Bench:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
 
 LOOKS = 20  # communication points on the way to the operating point at which sizes are looked at

@@ -56,16 +56,8 @@ def element_report(
     stable = [balance for balance in balances if balance.stable]
     cycles = []
     for balance in balances:
-        mine = flown if stable and balance == stable[0] else None
-        cycles.append(
-            LimitCycle(
-                amplitude=balance.amplitude,
-                period=2.0 * np.pi / balance.frequency,
-                stable=balance.stable,
-                simulated_amplitude=mine[0] if mine else None,
-                simulated_period=mine[1] if mine else None,
-            )
-        )
+        simulated = flown if flown and stable and balance == stable[0] else (None, None)
+        cycles.append(LimitCycle(balance.amplitude, 2.0 * np.pi / balance.frequency, balance.stable, *simulated))
     note = ELEMENTS[element.kind].note
     if flown is not None and not stable:
         note += f". None is predicted, but the flight oscillates: {flown[0]:.4g} at a period of {flown[1]:.4g} s"

@@ -60,7 +60,8 @@ def _open(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
         signal_units=tuple(port.channel.unit for port in ports) * samples,
         error=0.0,
     )
-    return replace(opened, error=_error(opened, model, ports))
+    frequency = np.geomspace(LOWEST, HIGHEST, COUNT) * np.pi / ports[0].seconds
+    return replace(opened, error=_difference(_waves(opened, ports, frequency), model.response(ports, frequency)))
 
 
 def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
@@ -89,12 +90,6 @@ def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, 
     )
     frequency = np.geomspace(LOWEST, HIGHEST, COUNT) * np.pi / period
     return replace(single, error=_difference(single.response(frequency), model.response(ports, frequency)))
-
-
-def _error(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, ...]) -> float:
-    """How far opening the cuts and going over to units has moved L."""
-    frequency = np.geomspace(LOWEST, HIGHEST, COUNT) * np.pi / ports[0].seconds
-    return _difference(_waves(lifted, ports, frequency), model.response(ports, frequency))
 
 
 def _waves(lifted: StateSpace, ports: tuple[Port, ...], frequency: np.ndarray) -> np.ndarray:

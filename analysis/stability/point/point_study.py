@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 
 import numpy as np
 
@@ -81,11 +82,9 @@ class PointStudy:
         trim: tuple[tuple[str, float, float, str | None], ...] = ()
         if self.linear is not None:
             trim = tuple(self.linear.drift[:MOST_TRIM])
-            try:
+            with suppress(StudyError):
                 drift = self._drift()
                 holds = TENTH / drift * self.bench.seconds if drift > 0.0 else float("inf")
-            except StudyError:
-                drift = holds = None
         options = self.prepared.options
         return PointReport(
             name=self.point.name,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 
@@ -94,15 +94,10 @@ def read_request(
     declaration = _select(read_description(archive, options.variant), loops, times)
     request = Request(archive.name, archive.label, str(system), options, declaration, at=times)
     if campaign is None:
-        for name, value in (
-            ("`configuration`", configuration),
-            ("`trials`", trials),
-            ("`seed`", seed),
-            ("`trial`", trial),
-            ("`draws`", draws),
-        ):
+        without = {"configuration": configuration, "trials": trials, "seed": seed, "trial": trial, "draws": draws}
+        for name, value in without.items():
             if value is not None:
-                raise InputError(name, str(value), "there is no campaign", "give `campaign` with it")
+                raise InputError(f"`{name}`", str(value), "there is no campaign", "give `campaign` with it")
         return request
     plan = read_plan(system, campaign, options, configuration=configuration, trials=trials, seed=seed, draws=draws)
     if configuration is None:
@@ -131,7 +126,8 @@ def _select(description: Description, names: Sequence[str], at: Sequence[float])
     wanted: list[Loop] = []
     for name in dict.fromkeys(names or by_name):
         if name not in by_name and "." not in name:
-            raise InputError("`loops`", name, "the SSD names no such loop", _remedy(name, by_name))
+            remedy = f"{suggestion(name, by_name)}, or cut one" if by_name else "it names none; cut one"
+            raise InputError("`loops`", name, "the SSD names no such loop", f"{remedy} with COMPONENT.CONNECTOR")
         wanted.append(by_name.get(name) or Loop(name, cut=name, points=tuple(point.name for point in cuts)))
     points, sweeps = (*declared.points, *cuts), declared.sweeps
     if at:
@@ -174,12 +170,6 @@ def _shift(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
 
 def _name_at(point: str, time: float) -> str:
     return f"{point}, t = {time:g} s"
-
-
-def _remedy(name: str, declared: Mapping[str, Loop]) -> str:
-    if not declared:
-        return "it names none; cut one with COMPONENT.CONNECTOR"
-    return f"{suggestion(name, declared)}, or cut one with COMPONENT.CONNECTOR"
 
 
 def _values_of_trial(plan: BatchPlan, options: SystemOptions, trial: int) -> SystemOptions:

@@ -44,7 +44,7 @@ Curves = tuple[tuple[str, np.ndarray, np.ndarray], ...]  # which response, frequ
 def write_data(report: StabilityReport, folder: Path) -> None:
     """Write the three files into a folder, which is made; the same study gives the same bytes. Raises OSError."""
     facts, results = document(report), _results(report)
-    about = {"system": report.system, "sign": SIGN, "model": MODEL}
+    about = {"system": facts["system"], "sign": SIGN, "model": MODEL}
     if report.orders is not None:
         about["feedthrough"] = _assumption(report.orders)
         if report.orders.report is not None:
@@ -91,7 +91,7 @@ def _loop(loop: LoopReport, time: float) -> dict[str, object]:
         "other_loops_closed": list(loop.closed),
         "stable": "not known" if loop.stable is None else "yes" if loop.stable else "no",
         "verdict": str(loop.verdict),
-        **{key: _margin(value) for key, value in loop_margins(loop).items()},
+        **_known(loop_margins(loop)),
         "frequency_rad_s": linearised[0],
         "L": linearised[1],
         "measured_frequency_rad_s": measured[0],
@@ -108,13 +108,14 @@ def _joint(joint: JointReport, time: float) -> dict[str, object]:
         "time_s": time,
         "channels": list(joint.channels),
         "stable": "yes" if joint.stable else "no",
-        "disk_margin": _margin(joint_margin(joint)),
+        **_known({"disk_margin": joint_margin(joint)}),
         **_model(joint.open_loop),
     }
 
 
-def _margin(value: float | str | None) -> float | str:
-    return "not known" if value is None else value
+def _known(facts: Mapping[str, float | str | None]) -> dict[str, float | str]:
+    """Margins for files that have no null."""
+    return {key: "not known" if value is None else value for key, value in facts.items()}
 
 
 def _curves(loop: LoopReport) -> Curves:

@@ -133,13 +133,13 @@ def _loop(loop: LoopReport) -> dict[str, object]:
             for item in loop.amplitudes
         ],
     }
-    if (linearised := loop.linearised) is not None:
+    if (facts := loop.linearised) is not None:
         entry["linearised"] = {
-            "states": linearised.states,
-            "period_s": linearised.period,
-            "plateau": linearised.plateau,
-            "doubtful": list(linearised.doubtful),
-            "periodicity": linearised.periodicity,
+            "states": facts.states,
+            "period_s": facts.period,
+            "plateau": facts.plateau,
+            "doubtful": list(facts.doubtful),
+            "periodicity": facts.periodicity,
         }
     if (measured := loop.measured_response) is not None:
         entry["measured_response"] = {
