@@ -69,8 +69,14 @@ def output_feedback(
     refusals: list[PlacementError] = []
     placements = _placements(*plant, spectrum, method, upper, starts, seed, refusals)
     tried = [*islice(placements, 1)] if choice == Spread.FIRST else [*placements]
+    if not tried and refusals:
+        raise refusals[-1]
     if not tried:
-        raise refusals[-1] if refusals else _no_spread(spectrum)
+        problem = (
+            f"{len(spectrum.pairs)} conjugate pairs and {len(spectrum.real)} real poles do not split over the levels"
+        )
+        remedy = "take the other method, or two real poles for a pair"
+        raise PlacementError("output feedback", Reason.SPREAD, problem, len(spectrum.pairs), remedy)
     return smallest(tried, *plant) if choice == Spread.SMALLEST else min(tried, key=lambda one: one.norm)
 
 
@@ -112,9 +118,3 @@ def _check_class(states: int, inputs: int, outputs: int) -> None:
         if number < states:
             remedy = "measure more, or take an observer"
             raise PlacementError("output feedback", Reason.CLASS, f"{sizes}: {problem}", number, remedy)
-
-
-def _no_spread(spectrum: Spectrum) -> PlacementError:
-    problem = f"{len(spectrum.pairs)} conjugate pairs and {len(spectrum.real)} real poles do not split over the levels"
-    remedy = "take the other method, or two real poles for a pair"
-    return PlacementError("output feedback", Reason.SPREAD, problem, len(spectrum.pairs), remedy)

@@ -76,13 +76,8 @@ class Spectrum:
                     part = Spectrum(tuple(self.real[i] for i in real), tuple(self.pairs[i] for i in pairs))
                     if part not in seen:
                         seen.add(part)
-                        yield (
-                            part,
-                            Spectrum(
-                                tuple(pole for i, pole in enumerate(self.real) if i not in real),
-                                tuple(pole for i, pole in enumerate(self.pairs) if i not in pairs),
-                            ),
-                        )
+                        single = tuple(pole for i, pole in enumerate(self.real) if i not in real)
+                        yield part, Spectrum(single, tuple(p for i, p in enumerate(self.pairs) if i not in pairs))
 
     def without(self, part: Spectrum) -> Spectrum:
         """What remains when ``part`` is taken away. Raises InputError for a pole that is not there."""

@@ -91,7 +91,7 @@ def _loop(loop: LoopReport, time: float) -> dict[str, object]:
         "other_loops_closed": list(loop.closed),
         "stable": "not known" if loop.stable is None else "yes" if loop.stable else "no",
         "verdict": str(loop.verdict),
-        **_known(loop_margins(loop)),
+        **_fill_unknown(loop_margins(loop)),
         "frequency_rad_s": linearised[0],
         "L": linearised[1],
         "measured_frequency_rad_s": measured[0],
@@ -108,12 +108,12 @@ def _joint(joint: JointReport, time: float) -> dict[str, object]:
         "time_s": time,
         "channels": list(joint.channels),
         "stable": "yes" if joint.stable else "no",
-        **_known({"disk_margin": joint_margin(joint)}),
+        **_fill_unknown({"disk_margin": joint_margin(joint)}),
         **_model(joint.open_loop),
     }
 
 
-def _known(facts: Mapping[str, float | str | None]) -> dict[str, float | str]:
+def _fill_unknown(facts: Mapping[str, float | str | None]) -> dict[str, float | str]:
     """Margins for files that have no null."""
     return {key: "not known" if value is None else value for key, value in facts.items()}
 
