@@ -24,6 +24,7 @@ CROSSING = 1e-3  # relative, of the value at which a limit is reached
 FAR = 1e3  # dB, deg: what an infinite margin counts as
 
 At = Callable[[float], Margins]
+FACTORS = (0.5, 1.0, 2.0)  # of the communication step
 
 
 def run_sweep(
@@ -104,9 +105,6 @@ def _bisect(is_low: Callable[[float], bool], low: float, high: float) -> tuple[f
         middle = 0.5 * (low + high)
         low, high = (middle, high) if is_low(middle) else (low, middle)
     return low, high
-
-
-FACTORS = (0.5, 1.0, 2.0)  # of the communication step
 
 
 def vary_step(

@@ -30,6 +30,7 @@ from .spectrum import Spectrum
 _ORDERS = (2.0, 16.0, 128.0)  # of the norms that tend to the largest singular value; the first is smooth everywhere
 _COARSE, _FINE = (1e-3, 400), (1e-6, 600)  # slope and steps at which a descent ends
 _KEPT = 2  # starts that are gone on with
+Objective = Callable[[np.ndarray], tuple[float, np.ndarray]]
 
 
 class Eigenvectors:
@@ -93,9 +94,6 @@ class Eigenvectors:
         directions = directions.reshape(-1, rank)
         sizes = np.linalg.norm(directions, axis=1, keepdims=True)
         return directions / sizes, sizes
-
-
-Objective = Callable[[np.ndarray], tuple[float, np.ndarray]]
 
 
 def least_condition(

@@ -19,6 +19,10 @@ from ..request.channels import Channel
 from ..request.declaration import Point
 
 LONGEST = 50_000  # communication points of a hyperperiod
+LOOKS = 20  # communication points on the way to the operating point at which sizes are looked at
+LEAST = 1e-6  # of the largest number with the same unit: what is smaller is rounding, or happens to be near 0
+NEVER = 1e-3  # likewise, of a vector that has been 0 all the way
+NOTHING = 1e-9  # in SI: what has a unit and is smaller has not been used yet, and tells no scale
 
 
 class StudyError(RuntimeError):
@@ -125,12 +129,6 @@ class Bench:
 
     def close(self) -> None:
         self.simulation.close()
-
-
-LOOKS = 20  # communication points on the way to the operating point at which sizes are looked at
-LEAST = 1e-6  # of the largest number with the same unit: what is smaller is rounding, or happens to be near 0
-NEVER = 1e-3  # likewise, of a vector that has been 0 all the way
-NOTHING = 1e-9  # in SI: what has a unit and is smaller has not been used yet, and tells no scale
 
 
 class OperatingPoint:

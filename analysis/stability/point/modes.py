@@ -20,6 +20,7 @@ from .lifted import LiftedModel, Port
 APART = 1e-4  # of the largest: a mode that answers less does not belong to the loop, or it is rounding
 KINDS = {(True, True): "loop", (False, True): "not controllable", (True, False): "not observable"}
 RANK = 1e-9  # of the largest singular value
+ADDS_UP = 1e-6  # from 1: a cell that depends on itself so nearly only adds up, or holds, whatever parameters say
 
 
 def modes(model: LiftedModel, port: Port) -> tuple[Mode, ...]:
@@ -75,9 +76,6 @@ def _rank(a: np.ndarray, b: np.ndarray) -> tuple[int, float]:
         return 0, 0.0
     retained = sizes[sizes > RANK * sizes[0]]
     return retained.size, float(retained[-1] / sizes[0])
-
-
-ADDS_UP = 1e-6  # from 1: a cell that depends on itself so nearly only adds up, or holds, whatever parameters say
 
 
 @dataclass(frozen=True)

@@ -39,6 +39,7 @@ COLUMNS = ("loop", "operating_point", "response", "frequency_rad_s", "real", "im
 LINEARISED, MEASURED = "linearised", "measured"
 DIRECT = "with_feedthrough"  # ending of what is of the other order, where FMUs leave their dependencies undeclared
 Curves = tuple[tuple[str, np.ndarray, np.ndarray], ...]  # which response, frequency (rad/s), L
+HEADER = b"MATLAB 5.0 MAT-file, written by Perilune".ljust(116)
 
 
 def write_data(report: StabilityReport, folder: Path) -> None:
@@ -169,9 +170,6 @@ def _plain(value: object) -> object:
     if isinstance(value, np.ndarray):
         return np.stack([value.real, value.imag], axis=-1).tolist() if np.iscomplexobj(value) else value.tolist()
     raise TypeError(type(value).__name__)
-
-
-HEADER = b"MATLAB 5.0 MAT-file, written by Perilune".ljust(116)
 
 
 def mat_bytes(variables: Mapping[str, object]) -> bytes:
