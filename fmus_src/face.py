@@ -24,5 +24,6 @@ HOMES = {
     "kernel.integrators": ("Forcing", "Translation", "runge_kutta_4", "runge_kutta_nystrom"),
     "kernel.records": ("Field", "Record", "replace"),
     "mathlib.vectors": ("Vector", "Vector2", "Vector3", "Vector4", "cross", "dot", "norm", "vector"),
+    "ports": ("Port", "Status", "outcome"),
 }
 HOME_OF = {name: home for home, names in HOMES.items() for name in names}

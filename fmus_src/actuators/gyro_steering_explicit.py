@@ -1,7 +1,7 @@
 """Gyro steering by an explicit distribution law."""
 
 from ..block import Parameter
-from ..interfaces.gyro_steering import NEAR_SINGULAR, GyroSteering
+from ..interfaces.gyro_steering import GyroSteering, GyroSteeringStatus
 from ..mathlib.gyros import ISOTROPIC_RHO, distribute_rates, robust_rates
 from ..mathlib.vectors import Vector3, Vector4
 
@@ -22,6 +22,6 @@ class GyroSteeringExplicit(GyroSteering):
     def steer(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
         lawful, rates = distribute_rates(angles, momentum_rate, self.rho, self.law_gain, self.least_divisor)
         if not lawful:
-            self.status = NEAR_SINGULAR
+            self.status = GyroSteeringStatus.NEAR_SINGULAR
             rates, _ = robust_rates(angles, momentum_rate, self.damping, self.damping_threshold, self.swing, time)
         self.gimbal_rates = rates

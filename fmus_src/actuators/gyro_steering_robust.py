@@ -1,6 +1,6 @@
 """Gyro steering by the singularity-robust pseudo-inverse."""
 
-from ..interfaces.gyro_steering import NEAR_SINGULAR, GyroSteering
+from ..interfaces.gyro_steering import GyroSteering, GyroSteeringStatus
 from ..mathlib.gyros import robust_rates
 from ..mathlib.vectors import Vector3, Vector4
 
@@ -19,4 +19,4 @@ class GyroSteeringRobust(GyroSteering):
             angles, momentum_rate, self.damping, self.damping_threshold, self.swing, time
         )
         if measure < self.damping_threshold:
-            self.status = NEAR_SINGULAR
+            self.status = GyroSteeringStatus.NEAR_SINGULAR

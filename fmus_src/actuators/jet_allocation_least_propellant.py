@@ -1,6 +1,6 @@
 """Jet allocation with the least propellant, in closed form."""
 
-from ..interfaces.jet_allocation import SATURATED, TORQUE_LEFT_OUT, JetAllocation
+from ..interfaces.jet_allocation import JetAllocation, JetAllocationStatus
 from ..mathlib.jets import least_propellant, pseudo_inverse
 
 
@@ -16,7 +16,7 @@ class JetAllocationLeastPropellant(JetAllocation):
     def allocate(self) -> None:
         possible = pseudo_inverse(self.strength, self.wanted_wrench, self.new_thrust)
         if not possible:
-            self.status = TORQUE_LEFT_OUT
+            self.status = JetAllocationStatus.TORQUE_LEFT_OUT
         scale = least_propellant(self.new_thrust, self.maximum_thrust)
         if scale < 1.0:
-            self.status = SATURATED
+            self.status = JetAllocationStatus.SATURATED

@@ -1,6 +1,6 @@
 """Jet allocation by the pseudo-inverse, lifted and scaled."""
 
-from ..interfaces.jet_allocation import SATURATED, TORQUE_LEFT_OUT, JetAllocation
+from ..interfaces.jet_allocation import JetAllocation, JetAllocationStatus
 from ..mathlib.jets import pseudo_inverse, shift_and_scale
 
 
@@ -16,7 +16,7 @@ class JetAllocationPseudoInverse(JetAllocation):
     def allocate(self) -> None:
         possible = pseudo_inverse(self.strength, self.wanted_wrench, self.new_thrust)
         if not possible:
-            self.status = TORQUE_LEFT_OUT
+            self.status = JetAllocationStatus.TORQUE_LEFT_OUT
         scale = shift_and_scale(self.new_thrust, self.maximum_thrust)
         if scale < 1.0:
-            self.status = SATURATED
+            self.status = JetAllocationStatus.SATURATED

@@ -3,7 +3,7 @@
 import math
 
 from ..block import Parameter, State
-from ..interfaces.jet_allocation import SATURATED, TORQUE_LEFT_OUT, JetAllocation
+from ..interfaces.jet_allocation import JetAllocation, JetAllocationStatus
 from ..mathlib.jets import nearest_levels, thrust_of_levels
 from ..mathlib.quaternion import to_body, to_reference
 from ..mathlib.vectors import vector
@@ -27,12 +27,12 @@ class JetAllocationQuantised(JetAllocation):
         owed = to_body(self.attitude, self.owed_impulse)
         for i in range(3):
             if self.wanted_wrench[3 + i] != 0.0 or (self.strength[i] == 0.0 and self.wanted_wrench[i] != 0.0):
-                self.status = TORQUE_LEFT_OUT
+                self.status = JetAllocationStatus.TORQUE_LEFT_OUT
         force = vector(*self.wanted_wrench[0:3]) + owed / self.translation_period
         highest = float(math.floor(self.maximum_thrust / self.thrust_quantum + 1e-9))
         levels, scale = nearest_levels(self.strength, force, self.thrust_quantum, highest)
         if scale < 1.0:
-            self.status = SATURATED
+            self.status = JetAllocationStatus.SATURATED
         thrust_of_levels(levels, self.thrust_quantum, self.new_thrust)
         left = [0.0] * 3
         for i in range(3):

@@ -2,13 +2,18 @@
 
 import math
 
-from ..block import Block, Output, Parameter, State
+from ..block import Block, Parameter, State
 from ..interfaces.ports import body, sampling
 from ..mathlib.vectors import clip, is_finite, vector
+from ..ports import Status, outcome
 
-GOOD = 0
-SATURATED = 1
-NOT_FINITE = 2
+
+class PulseStatus(Status):
+    """What became of the last demand."""
+
+    GOOD = outcome("good")
+    SATURATED = outcome("a demand beyond the tick")
+    NOT_FINITE = outcome("demand not finite")
 
 
 class PulseAllocation(Block):
@@ -38,9 +43,7 @@ class PulseAllocation(Block):
     pulse_count = body.PULSE_COUNT.output()
     mean_torque = body.TORQUE.output("torque instead of pulses", direct=True)
     remainder = body.PULSES.output("demanded and not fired, with its sign", direct=True)
-    status = Output(
-        GOOD, minimum=0, maximum=2, direct=True, description="0 good, 1 a demand beyond the tick, 2 demand not finite"
-    )
+    status = PulseStatus.output(direct=True)
     lengths = State([0.0] * 3, vector=False, unit="s", description="of the pulses, while they are worked out")
     rests = State([0.0] * 3, vector=False, unit="s", description="demanded and not fired")
 
@@ -53,7 +56,7 @@ class PulseAllocation(Block):
         length = abs(self.rests[k])
         if length >= self.sample_period:
             length = self.sample_period
-            self.status = SATURATED
+            self.status = PulseStatus.SATURATED
         if length >= self.shortest_pulse and length > 0.0:
             self.lengths[k] = math.copysign(length, self.rests[k])
             self.rests[k] = self.rests[k] - self.lengths[k]
@@ -65,7 +68,7 @@ class PulseAllocation(Block):
     def within_level(self, k: int) -> float:
         """The demand about axis k within what its jet gives (N m)."""
         if abs(self.torque_command[k]) > self.jet_torque[k]:
-            self.status = SATURATED
+            self.status = PulseStatus.SATURATED
         return clip(self.torque_command[k], -self.jet_torque[k], self.jet_torque[k])
 
     def pass_mean(self) -> None:
@@ -78,12 +81,12 @@ class PulseAllocation(Block):
     def allocate(self) -> None:
         """Pulses for the demand of this tick."""
         self.pulse_count = self.pulse_count + 1
-        self.status = GOOD
+        self.status = PulseStatus.GOOD
         for k in range(3):
             self.lengths[k] = 0.0
         self.mean_torque = vector(0.0, 0.0, 0.0)
         if not is_finite(self.torque_command):
-            self.status = NOT_FINITE
+            self.status = PulseStatus.NOT_FINITE
         elif self.mean:
             self.pass_mean()
         else:

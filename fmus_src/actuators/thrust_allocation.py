@@ -1,16 +1,12 @@
 """Allocation to one engine fixed to the body: throttle and attitude with their limits."""
 
 from ..block import Parameter, State
-from ..interfaces.allocation import Allocation
+from ..interfaces.allocation import Allocation, AllocationStatus
 from ..interfaces.ports import landing, sampling
 from ..kernel.functions import exp
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.rotation import turn_towards
 from ..mathlib.vectors import clip, dot, norm, vector
-
-GOOD = 0
-LIMITED = 1
-CONTRADICTORY = 2
 
 
 class ThrustAllocation(Allocation):
@@ -67,11 +63,11 @@ class ThrustAllocation(Allocation):
                 allowed = self.minimum_thrust
             if self.maximum_thrust > 0.0:
                 allowed = clip(allowed, 0.0, self.maximum_thrust)
-        self.status = GOOD
+        self.status = AllocationStatus.GOOD
         if allowed != demanded:
-            self.status = LIMITED
+            self.status = AllocationStatus.LIMITED
         if self.maximum_thrust > 0.0 and self.minimum_thrust > self.maximum_thrust:
-            self.status = CONTRADICTORY
+            self.status = AllocationStatus.CONTRADICTORY
         self.commanded_thrust = allowed * self.thrust_factor
 
     def duration(self) -> float:
@@ -98,8 +94,8 @@ class ThrustAllocation(Allocation):
         now = now / norm(now)
         # a direction and its rate cannot express a turn of 90 deg or more in one step
         ahead, left = turn_towards(now, goal, clip(self.slew_rate_limit * h, 0.0, 1.5))
-        if left > 0.0 and self.status == GOOD:
-            self.status = LIMITED
+        if left > 0.0 and self.status == AllocationStatus.GOOD:
+            self.status = AllocationStatus.LIMITED
         self.thrust_direction = now
         # now + rate h is parallel to ahead, and the rate is perpendicular to now
         self.thrust_direction_rate = (ahead / dot(now, ahead) - now) / h

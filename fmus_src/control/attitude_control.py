@@ -2,15 +2,21 @@
 
 import math
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Block, Input, Parameter, State
 from ..interfaces.ports import body, sampling
 from ..mathlib.lead import advance_lead, lead_output, tustin_lead
 from ..mathlib.quaternion import quaternion, to_body
 from ..mathlib.vectors import Vector3, cross, dot, is_finite, vector
+from ..ports import Status, outcome
 
 LEAD = 0
-GOOD = 0
-NOT_FINITE = 1
+
+
+class AttitudeControlStatus(Status):
+    """Whether the torque is new."""
+
+    GOOD = outcome("good")
+    NOT_FINITE = outcome("last inputs not finite, torque held")
 
 
 class AttitudeControl(Block):
@@ -49,7 +55,7 @@ class AttitudeControl(Block):
     jet_torque = body.TORQUE.input("of the jets from now on")
     disturbance = body.ANGULAR_ACCELERATION.input("angular acceleration by neither gyros nor jet_torque")
     torque_command = body.TORQUE.output("torque on the body wanted from the gyros", direct=True)
-    status = Output(0, minimum=0, maximum=1, direct=True, description="0 good, 1 last inputs not finite, torque held")
+    status = AttitudeControlStatus.output(direct=True)
     period = State(0.0, unit="s", description="to the next tick")
     lead_state = body.ROTATION.state("of the lead compensator")
 
@@ -85,9 +91,9 @@ class AttitudeControl(Block):
     def command(self) -> None:
         """Command a new torque."""
         if not self.finite():
-            self.status = NOT_FINITE
+            self.status = AttitudeControlStatus.NOT_FINITE
             return
-        self.status = GOOD
+        self.status = AttitudeControlStatus.GOOD
         half = 0.5 * self.period
         planned = self.to_true_axes(self.planned_angular_velocity)
         wanted = self.to_true_axes(self.planned_angular_acceleration)

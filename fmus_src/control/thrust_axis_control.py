@@ -6,14 +6,19 @@ from ..block import Block, Output, Parameter
 from ..interfaces.ports import landing, sampling
 from ..mathlib.rotation import rotation_between
 from ..mathlib.vectors import Vector3, across, cross, limit_length, norm, vector
-
-GOOD = 0
-LIMITED = 1
+from ..ports import Status, outcome
 
 
 def has_direction(length: float) -> bool:
     """Whether a vector of this length has a direction; no number counts as one, so that it is not lost on the way."""
     return length != 0.0 and length != math.inf
+
+
+class ThrustAxisStatus(Status):
+    """Whether the demand is given."""
+
+    GOOD = outcome("good")
+    LIMITED = outcome("shortened to the limit")
 
 
 class ThrustAxisControl(Block):
@@ -48,7 +53,7 @@ class ThrustAxisControl(Block):
     angular_rate = landing.ANGULAR_RATE.input("measured angular rate")
     angular_acceleration = landing.ANGULAR_ACCELERATION.output("commanded angular acceleration", direct=True)
     direction_error = Output(0.0, unit="rad", direct=True, description="angle from measured attitude to the command")
-    status = Output(0, minimum=0, maximum=1, direct=True, description="0 good, 1 shortened to the limit")
+    status = ThrustAxisStatus.output(direct=True)
     start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:
@@ -84,10 +89,10 @@ class ThrustAxisControl(Block):
         wanted = self.command_rate(time)
         demanded = self.angular_acceleration_feed + self.rate_gain * (wanted - self.angular_rate)
         self.angular_acceleration = demanded
-        self.status = GOOD
+        self.status = ThrustAxisStatus.GOOD
         if self.maximum_angular_acceleration > 0.0 and norm(demanded) > self.maximum_angular_acceleration:
             self.angular_acceleration = limit_length(demanded, self.maximum_angular_acceleration)
-            self.status = LIMITED
+            self.status = ThrustAxisStatus.LIMITED
 
     def step(self, t: float, h: float) -> None:
         self.control(t + h)

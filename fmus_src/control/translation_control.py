@@ -1,13 +1,19 @@
 """From the error of position and velocity to the force wanted."""
 
-from ..block import Block, Output, Parameter, State
+from ..block import Block, Parameter, State
 from ..interfaces.ports import inertial, landing, robot
 from ..mathlib.lead import LeadLaw, advance_lead, change_lead, is_same, lead_output, tustin_lead
 from ..mathlib.vectors import Vector3, is_finite
+from ..ports import Status, outcome
 
 LEAD = 0
-GOOD = 0
-NOT_FINITE = 1
+
+
+class TranslationControlStatus(Status):
+    """Whether the force is new."""
+
+    GOOD = outcome("good")
+    NOT_FINITE = outcome("last inputs not finite, force held")
 
 
 class TranslationControl(Block):
@@ -41,7 +47,7 @@ class TranslationControl(Block):
     translation_count = robot.TRANSLATION_COUNT.input()
     force_command = inertial.FORCE.output(direct=True)
     command_count = robot.COMMAND_COUNT.output(direct=True)
-    status = Output(0, minimum=0, maximum=1, direct=True, description="0 good, 1 last inputs not finite, force held")
+    status = TranslationControlStatus.output(direct=True)
     ticks = State(0, description="translation_count of the last tick")
     lead_state = inertial.POSITION.state("of the lead compensator")
     last_law = State(LeadLaw, description="lead of the last tick")
@@ -80,9 +86,9 @@ class TranslationControl(Block):
         """Command a new force."""
         known = is_finite(self.position_error) and is_finite(self.velocity_error)
         if not (known and is_finite(self.planned_acceleration)):
-            self.status = NOT_FINITE
+            self.status = TranslationControlStatus.NOT_FINITE
             return
-        self.status = GOOD
+        self.status = TranslationControlStatus.GOOD
         m = self.correction()
         self.force_command = self.mass * (self.planned_acceleration - m)
         self.command_count = self.command_count + 1

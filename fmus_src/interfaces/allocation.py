@@ -1,7 +1,16 @@
 """The slot of allocation: from a guidance command to what engine and attitude do."""
 
-from ..block import Block, Input, Output
+from ..block import Block, Input
+from ..ports import Status, outcome
 from .ports import landing
+
+
+class AllocationStatus(Status):
+    """Whether the demand is given."""
+
+    GOOD = outcome("good")
+    LIMITED = outcome("limited by thrust or slew rate")
+    CONTRADICTORY = outcome("the limits contradict each other")
 
 
 class Allocation(Block, interface=True):
@@ -21,10 +30,4 @@ class Allocation(Block, interface=True):
     thrust_direction_rate = landing.DIRECTION_RATE.output(direct=True)
     command_time = landing.COMMAND_TIME.output(direct=True)
     burn_duration = landing.BURN_DURATION.output(direct=True)
-    status = Output(
-        0,
-        minimum=0,
-        maximum=2,
-        direct=True,
-        description="0 good, 1 limited by thrust or slew rate, 2 the limits contradict each other",
-    )
+    status = AllocationStatus.output(direct=True)

@@ -7,15 +7,20 @@ from ..kernel.integrators import runge_kutta_4
 from ..kernel.records import replace
 from ..mathlib.orbital import AttitudeState
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
+from ..ports import Status, outcome
 from .orbital_body import OrbitalBody
 from .ports import body, sampling
 
-GOOD = 0
-HELD = 1
-NOT_FINITE = 2
-YAW_LIMITED = 3
-NO_GAIN = 4
-NOT_POSITIVE = 5
+
+class ObserverStatus(Status):
+    """What the estimate rests on."""
+
+    GOOD = outcome("good")
+    HELD = outcome("no new sample")
+    NOT_FINITE = outcome("not finite")
+    YAW_LIMITED = outcome("yaw at its bound")
+    NO_GAIN = outcome("no gain")
+    NOT_POSITIVE = outcome("variance not positive")
 
 
 class AttitudeObserver(OrbitalBody, interface=True):
@@ -65,13 +70,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
     estimated_angular_velocity = body.ANGULAR_VELOCITY.output(direct=True)
     estimated_gyro_bias = body.ANGULAR_VELOCITY.output("bias of the gyros; 0 where it is not sought", direct=True)
     yaw_sigma = Output(0.0, unit="rad", direct=True, description="of the estimated yaw, 1 sigma; 0 where there is none")
-    status = Output(
-        GOOD,
-        minimum=0,
-        maximum=5,
-        direct=True,
-        description="0 good, 1 no new sample, 2 not finite, 3 yaw at its bound, 4 no gain, 5 variance not positive",
-    )
+    status = ObserverStatus.output(direct=True)
     estimate = State(AttitudeState, description="estimate of now")
     last_roll = State(0.0, unit="rad", description="roll measured at the tick before")
     last_pitch = State(0.0, unit="rad", description="pitch measured at the tick before")
@@ -112,13 +111,13 @@ class AttitudeObserver(OrbitalBody, interface=True):
 
     def judge(self) -> None:
         """Set the status from the sample."""
-        self.status = GOOD
+        self.status = ObserverStatus.GOOD
         if not self.finite():
-            self.status = NOT_FINITE
+            self.status = ObserverStatus.NOT_FINITE
         elif self.vertical_count == self.vertical_counted or self.gyro_count == self.gyro_counted:
-            self.status = HELD
+            self.status = ObserverStatus.HELD
         if not self.usable:
-            self.status = NO_GAIN
+            self.status = ObserverStatus.NO_GAIN
 
     def remember(self) -> None:
         """Keep the sample for the next tick."""
@@ -137,7 +136,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
         angles = self.estimate.angles
         yaw = clip(angles.y, -self.largest_yaw, self.largest_yaw)
         if yaw != angles.y:
-            self.status = YAW_LIMITED
+            self.status = ObserverStatus.YAW_LIMITED
             self.estimate = replace(self.estimate, angles=vector(angles.x, yaw, angles.z))
 
     def publish(self) -> None:
@@ -150,20 +149,20 @@ class AttitudeObserver(OrbitalBody, interface=True):
         self.usable = self.weigh()
         if self.usable:
             self.usable = self.begin()
-        self.status = GOOD
+        self.status = ObserverStatus.GOOD
         if not self.finite():
-            self.status = NOT_FINITE
+            self.status = ObserverStatus.NOT_FINITE
         else:
             self.take_measured(0.0)
             self.remember()
         if not self.usable:
-            self.status = NO_GAIN
+            self.status = ObserverStatus.NO_GAIN
         self.publish()
 
     def step(self, t: float, h: float) -> None:
         self.ticks = self.ticks + 1
         self.judge()
-        if self.status == GOOD:
+        if self.status == ObserverStatus.GOOD:
             self.observe()
             self.remember()
         elif self.usable:

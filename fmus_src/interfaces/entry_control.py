@@ -2,12 +2,17 @@
 
 import math
 
-from ..block import Block, Output, Parameter
+from ..block import Block, Parameter
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
+from ..ports import Status, outcome
 from .ports import body, entry, sampling
 
-GOOD = 0
-NOT_FINITE = 1
+
+class EntryControlStatus(Status):
+    """Whether there is a demand."""
+
+    GOOD = outcome("good")
+    NOT_FINITE = outcome("inputs not finite")
 
 
 class EntryControl(Block, interface=True):
@@ -38,7 +43,7 @@ class EntryControl(Block, interface=True):
     error_limit = entry.ERROR_LIMIT.input("largest error of bank to act on")
     dynamic_pressure = entry.DYNAMIC_PRESSURE.input("for regulators that are told", start=1000.0)
     torque_command = body.TORQUE.output("torque wanted over the tick", direct=True)
-    status = Output(GOOD, minimum=0, maximum=1, direct=True, description="0 good, 1 inputs not finite")
+    status = EntryControlStatus.output(direct=True)
 
     def regulate(self) -> Vector3:
         """The torque (N m, body) for the present inputs."""
@@ -64,10 +69,10 @@ class EntryControl(Block, interface=True):
         lead = math.isfinite(self.reference_bank_rate) and math.isfinite(self.reference_bank_acceleration)
         reported = math.isfinite(self.dynamic_pressure) and math.isfinite(self.error_limit)
         if not (bank and lead and reported and is_finite(self.measured_angular_velocity)):
-            self.status = NOT_FINITE
+            self.status = EntryControlStatus.NOT_FINITE
             self.torque_command = vector(0.0, 0.0, 0.0)
             return
-        self.status = GOOD
+        self.status = EntryControlStatus.GOOD
         demand = self.regulate()
         x = self.beyond(demand.x, self.jet_torque.x)
         y = self.beyond(demand.y, self.jet_torque.y)

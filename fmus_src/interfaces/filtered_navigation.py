@@ -6,17 +6,22 @@ from ..block import Output, Parameter, State
 from ..mathlib.gravity import from_centre
 from ..mathlib.inertial import sensor_addition
 from ..mathlib.vectors import Vector3, norm, vector
+from ..ports import Status, outcome
 from .inertial_navigation import InertialNavigation
 from .ports import landing, sampling
-
-GOOD = 0
-REJECTED = 1
-LOCKED_OUT = 2
-NOT_POSITIVE = 3
 
 ALTITUDE = 0
 VELOCITY = 1
 POSITION = 2
+
+
+class FilterStatus(Status):
+    """What became of the last samples."""
+
+    GOOD = outcome("good")
+    REJECTED = outcome("a sensor's last sample was rejected")
+    LOCKED_OUT = outcome("its last rejection_limit")
+    NOT_POSITIVE = outcome("variance negative")
 
 
 class FilteredNavigation(InertialNavigation, interface=True):
@@ -83,13 +88,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         0.0, unit="1", direct=True, description="normalised innovation squared of the last position, three scalars"
     )
     rejected_count = Output(0, direct=True, description="scalars rejected by the gate")
-    status = Output(
-        GOOD,
-        minimum=0,
-        maximum=3,
-        direct=True,
-        description="0 good, 1 a sensor's last sample was rejected, 2 its last rejection_limit, 3 variance negative",
-    )
+    status = FilterStatus.output(direct=True)
     sensor_errors = State([0.0] * 9, description="bias (m/s2), scale factor and misalignment (rad) per axis, estimated")
     covariance = State([0.0] * 225, frozen=True, description="covariance of the fifteen states, row order, SI")
     rejected_in_a_row = State([0] * 3, description="samples with a scalar rejected: altitude, velocity, position")
@@ -211,13 +210,13 @@ class FilteredNavigation(InertialNavigation, interface=True):
 
     def publish(self) -> None:
         """Put sigmas, covariance, bias and status on the outputs."""
-        self.status = GOOD
+        self.status = FilterStatus.GOOD
         self.estimated_bias = vector(*self.sensor_errors[0:3])
         for i in range(3):
             if self.rejected_in_a_row[i] >= self.rejection_limit:
-                self.status = LOCKED_OUT
-            elif self.rejected_in_a_row[i] > 0 and self.status == GOOD:
-                self.status = REJECTED
+                self.status = FilterStatus.LOCKED_OUT
+            elif self.rejected_in_a_row[i] > 0 and self.status == FilterStatus.GOOD:
+                self.status = FilterStatus.REJECTED
         k = 0
         for i in range(6):
             for j in range(i, 6):
@@ -225,7 +224,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
                 k = k + 1
         for i in range(15):
             if not self.covariance[16 * i] >= 0.0:
-                self.status = NOT_POSITIVE
+                self.status = FilterStatus.NOT_POSITIVE
         sigmas = [0.0] * 6
         for i in range(6):
             if self.covariance[16 * i] > 0.0:

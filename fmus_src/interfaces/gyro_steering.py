@@ -3,13 +3,19 @@
 from ..block import Block, Output, Parameter
 from ..mathlib.gyros import singularity_measure
 from ..mathlib.vectors import Vector3, Vector4, all_below, vector
+from ..ports import Status, outcome
 from .ports import body, robot, sampling
 
-GOOD = 0
-NEAR_SINGULAR = 1
-LIMITED = 2
-NOT_FINITE = 3
 LARGEST = 1e100  # a command beyond it counts as not finite; no kernel overflows below it
+
+
+class GyroSteeringStatus(Status):
+    """What became of the last command."""
+
+    GOOD = outcome("good")
+    NEAR_SINGULAR = outcome("near a singular state of cluster or law")
+    LIMITED = outcome("rates limited")
+    NOT_FINITE = outcome("command not finite")
 
 
 class GyroSteering(Block, interface=True):
@@ -50,13 +56,7 @@ class GyroSteering(Block, interface=True):
     singularity = Output(
         1.5396007178390021, unit="1", direct=True, description="root of det(A A'), A = dh/dbeta; 0 in a singular state"
     )
-    status = Output(
-        0,
-        minimum=0,
-        maximum=3,
-        direct=True,
-        description="0 good, 1 near a singular state of cluster or law, 2 rates limited, 3 command not finite",
-    )
+    status = GyroSteeringStatus.output(direct=True)
 
     start_time = sampling.START_TIME.state()
 
@@ -72,12 +72,12 @@ class GyroSteering(Block, interface=True):
             if self.torque_lead > 0.0:
                 self.turn(self.gimbal_angles + self.torque_lead * self.gimbal_rates, momentum_rate, time)
         else:
-            self.status = NOT_FINITE
+            self.status = GyroSteeringStatus.NOT_FINITE
             self.gimbal_rates = vector(0.0, 0.0, 0.0, 0.0)
 
     def turn(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
         """Rates within their limit for gimbal angles (rad)."""
-        self.status = GOOD
+        self.status = GyroSteeringStatus.GOOD
         self.steer(angles, momentum_rate, time)
         self.limit()
 
@@ -89,7 +89,7 @@ class GyroSteering(Block, interface=True):
             if size > largest:
                 largest = size
         if self.gimbal_rate_limit > 0.0 and largest > self.gimbal_rate_limit:
-            self.status = LIMITED
+            self.status = GyroSteeringStatus.LIMITED
             self.gimbal_rates = self.gimbal_rate_limit / largest * self.gimbal_rates
 
     def initialize(self) -> None:

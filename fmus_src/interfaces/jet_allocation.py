@@ -1,17 +1,23 @@
 """The slot of jet allocation: from the force and torque wanted to the thrusts of eight jets."""
 
-from ..block import Block, Output, State
+from ..block import Block, State
 from ..mathlib.jets import JETS, jet_strengths, jet_wrench
 from ..mathlib.quaternion import normalise, to_body
 from ..mathlib.vectors import vector
+from ..ports import Status, outcome
 from .ports import body, inertial, robot, sampling
 
-GOOD = 0
-SATURATED = 1
-TORQUE_LEFT_OUT = 2
-NOT_FINITE = 3
 LARGEST = 1e100  # a command beyond it counts as not finite; no kernel overflows below it
 ROUNDING = 1e-9  # s, allowed for in times of communication points
+
+
+class JetAllocationStatus(Status):
+    """What became of the newest command."""
+
+    GOOD = outcome("good")
+    SATURATED = outcome("saturated")
+    TORQUE_LEFT_OUT = outcome("a torque or what the geometry cannot give left out")
+    NOT_FINITE = outcome("command unusable")
 
 
 class JetAllocation(Block, interface=True):
@@ -46,13 +52,7 @@ class JetAllocation(Block, interface=True):
     jet_thrust = robot.JET_THRUST.output(direct=True)
     allocated_force = body.FORCE.output("force of jet_thrust", direct=True)
     allocated_torque = body.TORQUE.output("torque of jet_thrust", direct=True)
-    status = Output(
-        0,
-        minimum=0,
-        maximum=3,
-        direct=True,
-        description="0 good, 1 saturated, 2 a torque or what the geometry cannot give left out, 3 command unusable",
-    )
+    status = JetAllocationStatus.output(direct=True)
     start_time = sampling.START_TIME.state()
     strength = State([0.0] * 6, description="force (N/N) and torque (N.m/N) of the jets, by rows of signs")
     attitude = State([1.0, 0.0, 0.0, 0.0], unit="1", description="quaternion, of length one")
@@ -88,11 +88,11 @@ class JetAllocation(Block, interface=True):
         self.waiting = True
         finite = self.want()
         if finite:
-            self.status = GOOD
+            self.status = JetAllocationStatus.GOOD
             self.due_time = time + self.delay_fraction * self.translation_period
             self.allocate()
         else:
-            self.status = NOT_FINITE
+            self.status = JetAllocationStatus.NOT_FINITE
             self.due_time = time
             for p in range(JETS):
                 self.new_thrust[p] = 0.0

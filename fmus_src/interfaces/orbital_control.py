@@ -2,14 +2,19 @@
 
 import math
 
-from ..block import Output, Parameter, State
+from ..block import Parameter, State
 from ..mathlib.vectors import is_finite, vector
+from ..ports import Status, outcome
 from .orbital_body import OrbitalBody
 from .ports import body, sampling
 
-GOOD = 0
-NOT_FINITE = 1
-NO_GAIN = 2
+
+class OrbitalControlStatus(Status):
+    """Whether there is a command."""
+
+    GOOD = outcome("good")
+    NOT_FINITE = outcome("estimate not finite")
+    NO_GAIN = outcome("parameters unusable")
 
 
 class OrbitalControl(OrbitalBody, interface=True):
@@ -43,9 +48,7 @@ class OrbitalControl(OrbitalBody, interface=True):
     estimated_angles = body.ESTIMATED_ANGLES.input()
     estimated_angular_velocity = body.ANGULAR_VELOCITY.input()
     torque_command = body.TORQUE.output("torque wanted over the tick", direct=True)
-    status = Output(
-        GOOD, minimum=0, maximum=2, direct=True, description="0 good, 1 estimate not finite, 2 parameters unusable"
-    )
+    status = OrbitalControlStatus.output(direct=True)
     start_time = sampling.START_TIME.state()
     usable = State(True, description="what the regulator needs could be made")
 
@@ -57,12 +60,12 @@ class OrbitalControl(OrbitalBody, interface=True):
 
     def command(self, time: float) -> None:
         """Torque and status, ``time`` (s) after the start."""
-        self.status = GOOD
+        self.status = OrbitalControlStatus.GOOD
         self.torque_command = vector(0.0, 0.0, 0.0)
         if not self.usable:
-            self.status = NO_GAIN
+            self.status = OrbitalControlStatus.NO_GAIN
         elif not (is_finite(self.estimated_angles) and is_finite(self.estimated_angular_velocity)):
-            self.status = NOT_FINITE
+            self.status = OrbitalControlStatus.NOT_FINITE
         else:
             self.regulate(time)
 

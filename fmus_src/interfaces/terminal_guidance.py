@@ -1,14 +1,11 @@
 """The slot of terminal guidance: bring the vehicle to a position and velocity at time_to_go."""
 
-from ..block import Block, Output, Parameter, State
+from ..block import Block, Parameter, State
 from ..mathlib.gravity import central_gravity
 from ..mathlib.vectors import Vector3, vector
+from ..ports import Status, outcome
 from .ports import landing, sampling
 
-GOOD = 0
-CLAMPED = 1
-NOT_CONVERGED = 2
-NO_SOLUTION = 3
 UNLIMITED = 1e9  # s; longer than any flight
 ROUNDING = 1e-9  # of a cycle, allowed for in times of communication points
 # Cycles; a last burn is never a sliver of one, in which small misses would ask for a large thrust.
@@ -16,6 +13,21 @@ LAST_BURN = 1.5
 # Solves at the start at most, until time-to-go and the gravity corrected over it agree to SETTLED of it.
 SETTLING = 20
 SETTLED = 1e-10
+
+
+class TerminalStatus(Status):
+    """What became of the last solution."""
+
+    GOOD = outcome("good")
+    CLAMPED = outcome("clamped")
+    NOT_CONVERGED = outcome("not converged")
+    NO_SOLUTION = outcome("no solution")
+
+
+GOOD = TerminalStatus.GOOD
+CLAMPED = TerminalStatus.CLAMPED
+NOT_CONVERGED = TerminalStatus.NOT_CONVERGED
+NO_SOLUTION = TerminalStatus.NO_SOLUTION
 
 
 class TerminalGuidance(Block, interface=True):
@@ -86,9 +98,7 @@ class TerminalGuidance(Block, interface=True):
     command_time = landing.COMMAND_TIME.output("when the command was computed", direct=True)
     burn_duration = landing.BURN_DURATION.output(start=UNLIMITED, direct=True)
     time_to_go = landing.TIME_TO_GO.output(direct=True)
-    status = Output(
-        0, minimum=0, maximum=3, direct=True, description="0 good, 1 clamped, 2 not converged, 3 no solution"
-    )
+    status = TerminalStatus.output(direct=True)
     finished = landing.FINISHED.output(direct=True)
     cycle = State(0.0, unit="s", description="time to the next sample; 0 until the first step")
     under_way = State(False, description="active at the last sample")

@@ -4,6 +4,7 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, robot, sampling
+from ..interfaces.ports.robot import SampleStatus
 from ..mathlib.quaternion import (
     angle_error,
     difference,
@@ -17,16 +18,8 @@ from ..mathlib.tracking import measure_chain, predict_chain
 from ..mathlib.vectors import cross, dot, is_finite, vector
 
 MEAN = 0
-GOOD = 0
-NOT_FINITE = 1
 # Inputs that the outputs depend on at once: all but the jets' torque, which is that of the step just past.
-AT_ONCE = (
-    "measured_quaternion",
-    "sample_count",
-    "planned_quaternion",
-    "planned_angular_velocity",
-    "gyro_momentum",
-)
+AT_ONCE = ("measured_quaternion", "sample_count", "planned_quaternion", "planned_angular_velocity", "gyro_momentum")
 
 
 class AttitudeFilter(Block):
@@ -92,9 +85,7 @@ class AttitudeFilter(Block):
     )
     innovation_square = sampling.INNOVATION_SQUARE.output(direct=AT_ONCE)
     samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
-    status = Output(
-        0, minimum=0, maximum=1, direct=AT_ONCE, description="0 good, 1 last sample not finite and left out"
-    )
+    status = SampleStatus.output(direct=AT_ONCE)
     angular_velocity = body.ANGULAR_VELOCITY.state("estimate of the Kalman filter")
     covariance = State([0.0] * 9, frozen=True, description="of attitude, rate and disturbance, row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
@@ -146,9 +137,9 @@ class AttitudeFilter(Block):
             return
         self.counted = self.sample_count
         if not (math.isfinite(self.measured_quaternion.w) and is_finite(self.measured_quaternion[1:4])):
-            self.status = NOT_FINITE
+            self.status = SampleStatus.NOT_FINITE
             return
-        self.status = GOOD
+        self.status = SampleStatus.GOOD
         self.samples_taken = self.samples_taken + 1
         if self.method == MEAN:
             self.total = self.total + angle_error(self.planned_quaternion, self.measured_quaternion)

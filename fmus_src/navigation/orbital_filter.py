@@ -3,7 +3,7 @@
 import math
 
 from ..block import Parameter, State
-from ..interfaces.attitude_observer import NOT_POSITIVE, AttitudeObserver
+from ..interfaces.attitude_observer import AttitudeObserver, ObserverStatus
 from ..interfaces.ports import body
 from ..kernel.records import replace
 from ..mathlib.kalman import predict, update
@@ -103,4 +103,4 @@ class OrbitalFilter(AttitudeObserver):
             self.yaw_sigma = math.sqrt(self.covariance[7])
         elif self.usable:
             self.yaw_sigma = 0.0
-            self.status = NOT_POSITIVE
+            self.status = ObserverStatus.NOT_POSITIVE

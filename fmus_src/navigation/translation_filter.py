@@ -4,13 +4,12 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, landing, robot, sampling
+from ..interfaces.ports.robot import SampleStatus
 from ..mathlib.quaternion import normalise, to_reference
 from ..mathlib.tracking import measure_chain, predict_chain
 from ..mathlib.vectors import Vector3, is_finite, norm, vector
 
 MEAN = 0
-GOOD = 0
-NOT_FINITE = 1
 # Inputs that the outputs depend on at once: all but the force, which is that of the step just past.
 AT_ONCE = (
     "relative_position",
@@ -77,9 +76,7 @@ class TranslationFilter(Block):
     )
     innovation_square = sampling.INNOVATION_SQUARE.output(direct=AT_ONCE)
     samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
-    status = Output(
-        0, minimum=0, maximum=1, direct=AT_ONCE, description="0 good, 1 last sample not finite and left out"
-    )
+    status = SampleStatus.output(direct=AT_ONCE)
     covariance = State([0.0] * 4, vector=False, frozen=True, description="of position and velocity, row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
     start_time = sampling.START_TIME.state()
@@ -128,9 +125,9 @@ class TranslationFilter(Block):
         self.counted = self.sample_count
         error = self.planned_relative_position - self.relative_position
         if not is_finite(error):
-            self.status = NOT_FINITE
+            self.status = SampleStatus.NOT_FINITE
             return
-        self.status = GOOD
+        self.status = SampleStatus.GOOD
         self.samples_taken = self.samples_taken + 1
         if self.method == MEAN:
             self.total = self.total + error

@@ -1,12 +1,13 @@
 """Thrust axis and its angular rate, as an attitude system measures them."""
 
-from ..block import Block, Parameter, State
+from ..block import Parameter, State
 from ..interfaces.ports import landing, sampling
-from ..mathlib.rng import normals, seed_streams
+from ..mathlib.rng import normals
 from ..mathlib.vectors import Vector3, cross, norm
+from .random_sensor import RandomSensor
 
 
-class AttitudeSensor(Block):
+class AttitudeSensor(RandomSensor):
     """The thrust axis turned by a small rotation, and its angular rate with white errors.
 
     measured_attitude is the unit vector along d + e x d, where e has a constant part, drawn at the start with
@@ -38,11 +39,9 @@ class AttitudeSensor(Block):
         [0.0] * 3, unit="rad", frame="landing site", description="rotation vector of the constant error"
     )
 
-    def initialize(self) -> None:
-        seed_streams(self.generator, self.seed, self.stream)
+    def draw_constants(self) -> None:
         constant = normals(self.generator)
         self.misalignment = self.constant_sigma * constant
-        self.measure()
 
     def turned(self, axis: Vector3, rotation: Vector3) -> Vector3:
         """An axis after a small rotation (rad); as it is where it has no length."""
@@ -59,6 +58,3 @@ class AttitudeSensor(Block):
         numbers = normals(self.generator)
         self.measured_angular_rate = self.angular_rate + self.rate_sigma * numbers
         self.sample_count = self.sample_count + 1
-
-    def step(self, t: float, h: float) -> None:
-        self.measure()

@@ -1,11 +1,12 @@
 """Bank from the navigation system."""
 
-from ..block import Block, Parameter
+from ..block import Parameter
 from ..interfaces.ports import entry, sampling
-from ..mathlib.rng import normal, seed_streams
+from ..mathlib.rng import normal
+from .random_sensor import RandomSensor
 
 
-class BankSensor(Block):
+class BankSensor(RandomSensor):
     """Bank with a bias and white normal errors: measured = true + bias + sigma n.
 
     The first sample is at the start. Which numbers a flight uses depends on seed, stream and the sample's number only.
@@ -24,15 +25,8 @@ class BankSensor(Block):
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
 
-    def initialize(self) -> None:
-        seed_streams(self.generator, self.seed, self.stream)
-        self.measure()
-
     def measure(self) -> None:
         """Take a sample."""
         error = normal(self.generator)
         self.measured_bank = self.bank + self.bias + self.sigma * error
         self.sample_count = self.sample_count + 1
-
-    def step(self, t: float, h: float) -> None:
-        self.measure()

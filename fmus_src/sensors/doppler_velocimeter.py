@@ -1,13 +1,14 @@
 """A Doppler velocimeter."""
 
-from ..block import Block, Parameter
+from ..block import Parameter
 from ..interfaces.ports import landing, sampling
 from ..mathlib.gravity import altitude_of
-from ..mathlib.rng import normals, seed_streams
+from ..mathlib.rng import normals
 from ..mathlib.vectors import norm
+from .random_sensor import RandomSensor
 
 
-class DopplerVelocimeter(Block):
+class DopplerVelocimeter(RandomSensor):
     """Measures the velocity, at maximum_altitude and below, with errors new in every sample.
 
     Each axis has an error of sigma speed_error times speed (the length of the velocity: beams mix
@@ -33,10 +34,6 @@ class DopplerVelocimeter(Block):
     )
     generator = sampling.GENERATOR.state()
 
-    def initialize(self) -> None:
-        seed_streams(self.generator, self.seed, self.stream)
-        self.measure()
-
     def measure(self) -> None:
         """Take a sample where the ground is in range."""
         in_range = altitude_of(self.position, self.moon_radius) <= self.maximum_altitude
@@ -45,6 +42,3 @@ class DopplerVelocimeter(Block):
         if in_range:
             self.measured_velocity = self.velocity + sigma * error
             self.sample_count = self.sample_count + 1
-
-    def step(self, t: float, h: float) -> None:
-        self.measure()

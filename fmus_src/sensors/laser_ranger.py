@@ -1,12 +1,12 @@
 """Relative position from laser range finders."""
 
-from ..block import Block
 from ..interfaces.ports import inertial, robot, sampling
-from ..mathlib.rng import normals, seed_streams
+from ..mathlib.rng import normals
 from ..mathlib.vectors import norm
+from .random_sensor import RandomSensor
 
 
-class LaserRanger(Block):
+class LaserRanger(RandomSensor):
     """Measures the vector from the robot to the object with errors that are new in every sample.
 
     Each inertial component has an independent normal error: far_sigma at a true range of near_range and
@@ -31,10 +31,6 @@ class LaserRanger(Block):
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
 
-    def initialize(self) -> None:
-        seed_streams(self.generator, self.seed, self.stream)
-        self.measure()
-
     def measure(self) -> None:
         """Take a sample."""
         true = self.target_position - self.robot_position
@@ -45,6 +41,3 @@ class LaserRanger(Block):
         self.relative_position = true + sigma * error
         self.range = norm(self.relative_position)
         self.sample_count = self.sample_count + 1
-
-    def step(self, t: float, h: float) -> None:
-        self.measure()

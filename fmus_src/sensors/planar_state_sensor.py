@@ -1,11 +1,12 @@
 """Path angle and altitude with relative errors."""
 
-from ..block import Block, Input, Parameter
+from ..block import Input, Parameter
 from ..interfaces.ports import landing, sampling
-from ..mathlib.rng import seed_streams, uniform
+from ..mathlib.rng import uniform
+from .random_sensor import RandomSensor
 
 
-class PlanarStateSensor(Block):
+class PlanarStateSensor(RandomSensor):
     """Measures path angle and altitude with uniform relative errors, independent from sample to sample.
 
     measured = true (1 + noise u), u uniform on (-1, 1) and drawn anew for each quantity and sample.
@@ -29,10 +30,6 @@ class PlanarStateSensor(Block):
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
 
-    def initialize(self) -> None:
-        seed_streams(self.generator, self.seed, self.stream)
-        self.measure()
-
     def measure(self) -> None:
         """Take a sample."""
         error = uniform(self.generator)
@@ -40,6 +37,3 @@ class PlanarStateSensor(Block):
         error = uniform(self.generator)
         self.measured_altitude = self.altitude * (1.0 + self.altitude_noise * (2.0 * error - 1.0))
         self.sample_count = self.sample_count + 1
-
-    def step(self, t: float, h: float) -> None:
-        self.measure()

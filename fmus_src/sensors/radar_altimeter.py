@@ -1,12 +1,13 @@
 """A radar altimeter."""
 
-from ..block import Block, Parameter
+from ..block import Parameter
 from ..interfaces.ports import landing, sampling
 from ..mathlib.gravity import altitude_of
-from ..mathlib.rng import normal, seed_streams
+from ..mathlib.rng import normal
+from .random_sensor import RandomSensor
 
 
-class RadarAltimeter(Block):
+class RadarAltimeter(RandomSensor):
     """Measures the altitude above the sphere, at maximum_altitude and below, with an error new in every sample.
 
     The error's sigma is range_error times altitude plus noise_sigma. The first sample is at the
@@ -28,10 +29,6 @@ class RadarAltimeter(Block):
     sample_count = sampling.SAMPLE_COUNT.output("samples in range; tells a new one from a held one", direct=True)
     generator = sampling.GENERATOR.state()
 
-    def initialize(self) -> None:
-        seed_streams(self.generator, self.seed, self.stream)
-        self.measure()
-
     def measure(self) -> None:
         """Take a sample where the ground is in range."""
         error = normal(self.generator)
@@ -39,6 +36,3 @@ class RadarAltimeter(Block):
         if altitude <= self.maximum_altitude:
             self.measured_altitude = altitude + (self.range_error * abs(altitude) + self.noise_sigma) * error
             self.sample_count = self.sample_count + 1
-
-    def step(self, t: float, h: float) -> None:
-        self.measure()

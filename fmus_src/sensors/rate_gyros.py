@@ -1,12 +1,13 @@
 """Angular velocity from three rate gyros."""
 
-from ..block import Block, Parameter
+from ..block import Parameter
 from ..interfaces.ports import body, sampling
-from ..mathlib.rng import normals, seed_streams, uniform
+from ..mathlib.rng import normals, uniform
 from ..mathlib.vectors import vector
+from .random_sensor import RandomSensor
 
 
-class RateGyros(Block):
+class RateGyros(RandomSensor):
     """Angular velocity about three axes, each with a bias and white normal errors.
 
     measured = true + bias + drawn bias + sigma n; the drawn bias is uniform within +- bias_limit per axis and constant
@@ -29,19 +30,14 @@ class RateGyros(Block):
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
 
-    def initialize(self) -> None:
-        seed_streams(self.generator, self.seed, self.stream)
+    def draw_constants(self) -> None:
         x = uniform(self.generator)
         y = uniform(self.generator)
         z = uniform(self.generator)
         self.true_bias = self.bias + self.bias_limit * (2.0 * vector(x, y, z) - vector(1.0, 1.0, 1.0))
-        self.measure()
 
     def measure(self) -> None:
         """Take a sample."""
         numbers = normals(self.generator)
         self.measured_angular_velocity = self.angular_velocity + self.true_bias + self.sigma * numbers
         self.sample_count = self.sample_count + 1
-
-    def step(self, t: float, h: float) -> None:
-        self.measure()

@@ -1,12 +1,13 @@
 """Attitude from star trackers and gyroscopes together."""
 
-from ..block import Block, Parameter
+from ..block import Parameter
 from ..interfaces.ports import robot, sampling
 from ..mathlib.quaternion import from_rotation_vector, multiply, normalise
-from ..mathlib.rng import normals, seed_streams
+from ..mathlib.rng import normals
+from .random_sensor import RandomSensor
 
 
-class StarInertial(Block):
+class StarInertial(RandomSensor):
     """Star-inertial attitude: the true quaternion turned by a small rotation, new in every sample.
 
     The rotation vector has normal, independent components of attitude_sigma in body axes. The first
@@ -28,16 +29,9 @@ class StarInertial(Block):
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
 
-    def initialize(self) -> None:
-        seed_streams(self.generator, self.seed, self.stream)
-        self.measure()
-
     def measure(self) -> None:
         """Take a sample."""
         numbers = normals(self.generator)
         error = from_rotation_vector(self.attitude_sigma * numbers)
         self.measured_quaternion = normalise(multiply(self.quaternion, error))
         self.sample_count = self.sample_count + 1
-
-    def step(self, t: float, h: float) -> None:
-        self.measure()

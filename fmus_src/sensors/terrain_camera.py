@@ -1,12 +1,13 @@
 """A camera that finds its place over mapped terrain."""
 
-from ..block import Block, Parameter
+from ..block import Parameter
 from ..interfaces.ports import landing, sampling
 from ..mathlib.gravity import altitude_of
-from ..mathlib.rng import normals, seed_streams
+from ..mathlib.rng import normals
+from .random_sensor import RandomSensor
 
 
-class TerrainCamera(Block):
+class TerrainCamera(RandomSensor):
     """Measures the position from minimum_altitude to maximum_altitude, both included, with errors new in every sample.
 
     Each axis has an error of sigma altitude_error times altitude plus noise_sigma. The first sample
@@ -29,10 +30,6 @@ class TerrainCamera(Block):
     sample_count = sampling.SAMPLE_COUNT.output("samples in the band; tells a new one from a held one", direct=True)
     generator = sampling.GENERATOR.state()
 
-    def initialize(self) -> None:
-        seed_streams(self.generator, self.seed, self.stream)
-        self.measure()
-
     def measure(self) -> None:
         """Take a sample where the altitude is in the band."""
         altitude = altitude_of(self.position, self.moon_radius)
@@ -42,6 +39,3 @@ class TerrainCamera(Block):
         if in_band:
             self.measured_position = self.position + sigma * error
             self.sample_count = self.sample_count + 1
-
-    def step(self, t: float, h: float) -> None:
-        self.measure()

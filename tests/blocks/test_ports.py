@@ -1,15 +1,21 @@
-"""Ports: a variable declared from one has the port's unit, frame and bounds, and its own start and description."""
+"""Ports: a variable declared from one has the port's unit, frame and bounds, and its own start and description.
+
+Statuses: plain ints in kernels, whose meanings describe the output.
+"""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
 from perilune.fmus_src.block import Block, DeclarationError, Input, Output, Parameter, State
+from perilune.fmus_src.export.judge.subset import check
+from perilune.fmus_src.export.native_fmu import native_sources
 from perilune.fmus_src.interfaces import ports as package
 from perilune.fmus_src.interfaces.ports import body, entry, inertial, landing, robot, sampling
-from perilune.fmus_src.ports import Port
+from perilune.fmus_src.ports import Port, Status, outcome
 
 FORCE = Port([0.0, 0.0, 0.0], unit="N", frame="body", description="force")
 LEVEL = Port(1.0, unit="1", minimum=0.0, description="level")
@@ -77,3 +83,52 @@ def test_every_port_is_declared_once_and_used() -> None:
         for name in ports:
             uses = source.count(f"{domain.__name__.rpartition('.')[2]}.{name}.")
             assert uses > 1, f"{domain.__name__}: {name} is used {uses} times; declare it where it is used"
+
+
+class WinchStatus(Status):
+    """What became of the last demand."""
+
+    GOOD = outcome("good")
+    LIMITED = outcome("force limited, torque held")
+
+
+class LimitedWinch(Block):
+    """Its status is one of declared outcomes."""
+
+    demanded_force = Input(0.0, unit="N", description="demanded force")
+    force = Output(0.0, unit="N", direct=True, description="force")
+    status = WinchStatus.output(direct=True)
+
+    def step(self, t: float, h: float) -> None:
+        self.status = WinchStatus.GOOD
+        self.force = self.demanded_force
+        if self.force > 1.0:
+            self.force = 1.0
+            self.status = WinchStatus.LIMITED
+
+
+def test_outcomes_are_plain_ints_and_describe_their_output() -> None:
+    assert (WinchStatus.GOOD, WinchStatus.LIMITED) == (0, 1)
+    assert type(WinchStatus.LIMITED) is int
+    status = LimitedWinch.variables["status"]
+    assert (status.start, status.minimum, status.maximum) == (0, 0, 1)
+    assert status.description == "0 good, 1 force limited, torque held"
+    assert status.type_name == "Integer"
+
+
+class MisspeltWinch(LimitedWinch):
+    """Names an outcome that there is not."""
+
+    def step(self, t: float, h: float) -> None:
+        self.status = WinchStatus.UNLIMITED  # type: ignore[attr-defined]
+
+
+def test_outcomes_are_constants_of_the_kernel() -> None:
+    assert check(LimitedWinch) == []
+    code = native_sources(LimitedWinch, "{0}")["limited_winch.c"].decode()
+    assert re.search(r"static const int64_t \w+_LIMITED = 1;", code)
+    winch = LimitedWinch(demanded_force=2.0)
+    winch.step(0.0, 0.1)
+    assert (winch.force, winch.status) == (1.0, 1)
+    (violation,) = check(MisspeltWinch)
+    assert violation.what.startswith("WinchStatus.UNLIMITED is no")

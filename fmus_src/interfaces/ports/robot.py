@@ -3,7 +3,7 @@
 import math
 
 from ...mathlib.gyros import ISOTROPIC_ANGLES
-from ...ports import Port
+from ...ports import Port, Status, outcome
 
 COMMAND_COUNT = Port(0, description="forces commanded; a change tells a new one")
 DELAY_FRACTION = Port(
@@ -27,3 +27,10 @@ ROTOR_MOMENTUM = Port(30.0, unit="N.m.s", minimum=1e-3, description="angular mom
 SPIN_AXIS = Port([-0.608, 0.228, 0.760], unit="1", frame="inertial", description="of the object, any length")
 TRANSLATION_COUNT = Port(0, description="ticks so far; a change tells a new one")
 TRANSLATION_PERIOD = Port(8.0, unit="s", minimum=1e-3, description="to the next tick")
+
+
+class SampleStatus(Status):
+    """What became of the last sample."""
+
+    GOOD = outcome("good")
+    NOT_FINITE = outcome("last sample not finite and left out")

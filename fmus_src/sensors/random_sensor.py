@@ -1,0 +1,32 @@
+"""What sensors with random errors have in common: their stream of numbers, and when they measure."""
+
+from ..block import Block, Parameter, State
+from ..mathlib.rng import seed_streams
+
+
+class RandomSensor(Block, interface=True):
+    """Takes a sample at the start and at every step, with errors from a stream of random numbers of its own.
+
+    A sensor declares seed, stream and generator, and writes `measure`; errors that stay for the whole flight are drawn
+    in `draw_constants`.
+    """
+
+    to_write = ("measure",)
+
+    seed: Parameter
+    stream: Parameter
+    generator: State
+
+    def draw_constants(self) -> None:
+        """Draw the errors that stay."""
+
+    def measure(self) -> None:
+        """Take a sample."""
+
+    def initialize(self) -> None:
+        seed_streams(self.generator, self.seed, self.stream)
+        self.draw_constants()
+        self.measure()
+
+    def step(self, t: float, h: float) -> None:
+        self.measure()
