@@ -10,7 +10,7 @@ from typing import Unpack
 from matplotlib.figure import Figure as Plot
 
 from ..reports.common.notebook import Grid, notebook_view
-from ..reports.studies.plots import rare_plot
+from ..reports.studies.rare_figures import rare_plot
 from ..reports.studies.rare_page import design_table, level_table, write_rare_page
 from ..studies.rare import outcome
 from ..studies.rare.study import rare_failure

@@ -12,8 +12,7 @@ from matplotlib.figure import Figure as Plot
 
 from ..common.errors import suggestion
 from ..reports.common.notebook import Grid, notebook_view
-from ..reports.studies.plots import sensitivity_plot
-from ..reports.studies.sensitivity_page import driver_table, rank_table, write_sensitivity_page
+from ..reports.studies.sensitivity_page import driver_table, rank_table, sensitivity_plot, write_sensitivity_page
 from ..studies import sensitivity as study
 from .common.campaigns import commands_of, read_campaign
 from .common.studies import Stored, condition_lines, conditions, results_folder, store_result

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure as Plot
 
 from ..campaigns.spec.plan import BatchPlan
 from ..reports.common.notebook import Grid, notebook_view
-from ..reports.studies.plots import worst_plot
+from ..reports.studies.worst_figures import worst_plot
 from ..reports.studies.worst_page import metric_table, parameter_table, worst_flight, write_worst_page
 from ..runtime.system.options import system_options
 from ..studies.worst import outcome

@@ -8,9 +8,19 @@ from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.results import BatchResult
 from ..common.page import write_page
 from .distributions import distribution_panels, legend_of, rates_figure, sort_metrics
-from .replays import extremes_to_replay, failures_to_replay
 from .scatters import failure_panels, influence_on_success, scatter_figures
-from .tables import HEADINGS, component_statuses, draw_rows, drivers, fmu_rows, group_rows, variant_rows, verdict_rows
+from .tables import (
+    HEADINGS,
+    component_statuses,
+    draw_rows,
+    drivers,
+    extremes_to_replay,
+    failures_to_replay,
+    fmu_rows,
+    group_rows,
+    variant_rows,
+    verdict_rows,
+)
 
 
 def write_batch_report(result: BatchResult, path: Path, title: str) -> None:

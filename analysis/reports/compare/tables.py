@@ -14,7 +14,7 @@ from ...campaigns.compare.paired import PairedRates, PairedValues
 from ...campaigns.fly.manifest import FILE as MANIFEST
 from ...campaigns.replay_command import replay_of_folder
 from ...campaigns.spec.campaign import Metric
-from ..campaign.replays import FAILURES, Replay
+from ..campaign.tables import FAILURES, Replay
 
 T = TypeVar("T", PairedRates, PairedValues)
 

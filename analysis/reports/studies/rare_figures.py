@@ -16,10 +16,11 @@ from ...studies.rare.outcome import RareResult
 from ...studies.rare.uncertainty import CONFIDENCE
 from ..common.panels import Panel, Widths, both_widths, is_slim, panel
 from ..common.quantities import display_factor, label_with_unit, log_tick, number
-from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
+from ..common.style import BLUE, FAINT, INK, VERMILION, WIDTH, house_style, new_figure, plain_ticks
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in
+PLOT_HEIGHT = 3.2  # in, of a row in a notebook's figure
 CUT = 0.002  # of the finite limit-state values, the smallest, may lie below the axis
 PAIRED = 3  # parameters, of which each pair has a panel
 PERCENT = f"{100 * CONFIDENCE:g} %"
@@ -284,3 +285,18 @@ def draw_intervals(axes: Axes, rows: list[Equivalent], probability: float | None
     axes.grid(visible=False, axis="y")
     axes.tick_params(axis="y", length=0, labelsize=9)
     axes.set_xlabel(f"probability of failure, {PERCENT} interval")
+
+
+def rare_plot(result: RareResult) -> Figure:
+    """Limit state over simulations, exceedance probability; failures over the two most influential parameters."""
+    names = list(influence(result))[:2]
+    with house_style():
+        figure = new_figure(2.0 * PLOT_HEIGHT, WIDTH)
+        grid = figure.add_gridspec(2, 2)
+        draw_limit_state(figure.add_subplot(grid[0, :]), result)
+        if len(names) == 2:
+            draw_exceedance(figure.add_subplot(grid[1, 0]), result)
+            draw_design_points(figure.add_subplot(grid[1, 1]), result, *names)
+        else:
+            draw_exceedance(figure.add_subplot(grid[1, :]), result)
+    return figure

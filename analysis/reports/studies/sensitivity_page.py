@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ...studies.sensitivity import SensitivityResult
 from ...studies.sobol import CONFIDENCE
 from ..common.page import Table, fraction, fractions, write_page
 from ..common.panels import HALF_WIDTH, Panel, panel
-from ..common.style import BLUE, INK, SKY, plain_ticks
+from ..common.style import BLUE, INK, SKY, WIDTH, house_style, new_figure, plain_ticks
 from .conditions import conditions_of
 
 WIDE = 0.3  # of an interval of a total index, from which on a larger base is advised
@@ -92,6 +93,7 @@ def wide_metrics(result: SensitivityResult) -> list[str]:
 
 MOST = 12  # parameters of a panel, those with the largest total index
 LANE = 0.34  # in
+COLUMNS = 2  # of a notebook's figure
 
 
 class Bar(NamedTuple):
@@ -157,3 +159,19 @@ def draw_indices(axes: Axes, bars: list[Bar]) -> None:
     plain_ticks(axes, x=5)
     axes.set_xlabel("fraction of the variance")
     axes.legend(loc="lower right", ncols=1)
+
+
+def sensitivity_plot(result: SensitivityResult, metrics: list[str]) -> Figure:
+    """A panel of indices for each metric."""
+    columns = min(COLUMNS, len(metrics))
+    rows = -(-len(metrics) // columns)
+    lanes = min(MOST, len(result.inputs))
+    with house_style():
+        figure = new_figure(rows * (1.1 + LANE * lanes), 0.5 * WIDTH * columns)
+        panels = figure.subplots(rows, columns, squeeze=False).flatten()
+        for axes, metric in zip(panels, metrics, strict=False):
+            draw_indices(axes, bars_of(result, metric)[:MOST])
+            axes.set_title(metric, loc="left")
+        for axes in panels[len(metrics) :]:
+            axes.remove()
+    return figure

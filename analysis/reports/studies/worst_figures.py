@@ -13,10 +13,11 @@ from ...studies.worst.objective import MOST
 from ...studies.worst.outcome import WorstResult
 from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel
 from ..common.quantities import display_factor, label_with_unit, number
-from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
+from ..common.style import BLUE, FAINT, INK, VERMILION, WIDTH, house_style, new_figure, plain_ticks
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in
+PLOT_HEIGHT = 3.2  # in, of a row in a notebook's figure
 CUT = 0.02  # of the simulations, those farthest from the worst may lie outside of an axis
 LANE, SLIM_LANE = 0.34, 0.52  # in
 
@@ -259,3 +260,13 @@ def draw_box(axes: Axes, lanes: list[Lane], slim: bool) -> None:
     axes.tick_params(axis="y", length=0, labelsize=9)
     axes.set_xlabel("fraction of the search box")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.0)
+
+
+def worst_plot(result: WorstResult) -> Figure:
+    """The search over simulations, and the random trials with the worst case."""
+    with house_style():
+        figure = new_figure(PLOT_HEIGHT, WIDTH)
+        left, right = figure.subplots(1, 2, width_ratios=(1.4, 1.0))
+        draw_search(left, result)
+        draw_trials(right, result)
+    return figure

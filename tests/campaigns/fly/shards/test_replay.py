@@ -17,7 +17,7 @@ import pytest
 import perilune
 from perilune.analysis.campaigns.fly.shards.files import shard_path
 from perilune.analysis.cli import main
-from perilune.analysis.reports.campaign.replays import extremes_to_replay, failures_to_replay
+from perilune.analysis.reports.campaign.tables import extremes_to_replay, failures_to_replay
 from perilune.analysis.reports.compare.tables import failures_to_replay as compared_failures
 from perilune.fmus_src.paths import SYSTEMS
 
