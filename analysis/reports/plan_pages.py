@@ -31,7 +31,7 @@ def write_hover_page(study: HoverStudy, path: Path) -> None:
     own = Point(NAMES[0], study.programme.duration, study.programme.propellant_fraction, look(0))
     compared = [Point(one.name, one.path.duration, one.path.propellant_fraction, one.look) for one in series[1:]]
     here = Point(NAMES[0], study.transfer.distance, own.propellant, look(0))
-    displayed = [np.stack([*one.path.position.T, _at_ends(one.path.pitch)]) for one in series]
+    displayed = [np.stack([*one.path.position.T, np.append(one.path.pitch, one.path.pitch[-1])]) for one in series]
     write_page(
         path,
         Path(__file__).with_name("hover_transfer.html"),
@@ -50,11 +50,6 @@ def write_hover_page(study: HoverStudy, path: Path) -> None:
             curve_panel("Least propellant over distance", "distances", study.distances, "distance, m", [here]),
         ],
     )
-
-
-def _at_ends(values: np.ndarray) -> np.ndarray:
-    """A row of intervals with one value more, so that it stands beside rows of their ends."""
-    return np.append(values, values[-1])
 
 
 def write_landing_page(study: LandingStudy, path: Path) -> None:
@@ -132,10 +127,7 @@ def curve_panel(label: str, name: str, curve: Curve, quantity: str, points: Sequ
     return panel(label, name, words, draw, width=HALF_WIDTH)
 
 
-Names = tuple[str, str]  # of abscissa and ordinate
-
-
-def path_panel(series: Sequence[Series], shown: Sequence[np.ndarray], names: Names) -> Panel:
+def path_panel(series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str]) -> Panel:
     """The paths to one scale; ``shown`` are places and thrust angles in what is drawn, a row each: along (m), up (m),
     angle (rad). Arrows are thrust along the first one.
     """
@@ -149,7 +141,7 @@ def path_panel(series: Sequence[Series], shown: Sequence[np.ndarray], names: Nam
     return panel("Path", "path", _path_words(series), draw, upright, HALF_WIDTH)
 
 
-def path_widths(series: Sequence[Series], shown: Sequence[np.ndarray], names: Names) -> Widths:
+def path_widths(series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str]) -> Widths:
     """Likewise, each axis to its own scale, as wide as the page."""
 
     def draw(figure: Figure) -> None:
@@ -163,7 +155,12 @@ def _path_words(series: Sequence[Series]) -> str:
 
 
 def _draw_paths(
-    axes: Axes, series: Sequence[Series], shown: Sequence[np.ndarray], names: Names, scaled: str, intervals: int = 5
+    axes: Axes,
+    series: Sequence[Series],
+    shown: Sequence[np.ndarray],
+    names: tuple[str, str],
+    scaled: str,
+    intervals: int = 5,
 ) -> None:
     scales = [far(np.concatenate([rows[axis] for rows in shown])) for axis in (0, 1)]
     for one, rows in zip(series, shown, strict=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -53,7 +53,10 @@ def write_run_report(result: Result, path: Path, title: str, figures: Sequence[F
         sections=figure_sections(figures, result),
         histories=time_histories(result),
         signals=signal_table(result),
-        components=component_rows(result.provenance),
+        components=[
+            ("system", result.provenance["system"], result.provenance["system_sha256"]),
+            *((name, fmu["fmu"], fmu["sha256"]) for name, fmu in result.provenance["fmus"].items()),
+        ],
     )
 
 
@@ -111,9 +114,3 @@ def signal_table(result: Result) -> list[dict[str, Any]]:
         numbers = [kind(value) for value in (values[0], np.min(values), np.max(values), values[-1])]
         rows.append({"name": name, "type": result.types[name], "unit": result.units[name], "values": numbers})
     return rows
-
-
-def component_rows(provenance: Mapping[str, Any]) -> list[tuple[str, str, str]]:
-    """Name, FMU and SHA-256 of every component, after those of the system."""
-    system = ("system", provenance["system"], provenance["system_sha256"])
-    return [system, *((name, fmu["fmu"], fmu["sha256"]) for name, fmu in provenance["fmus"].items())]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from markupsafe import Markup
@@ -108,25 +109,20 @@ def _is_constant(group: SignalGroup, result: Result) -> bool:
     return bool(np.all(values == values[:, :1]))
 
 
-def _sort_by_unit(groups: list[SignalGroup]) -> list[SignalGroup]:
-    """Real signals first, grouped by unit, units in order of appearance."""
-    kinds = list(dict.fromkeys((not group.is_real, group.unit) for group in groups))
-    return sorted(groups, key=lambda group: (not group.is_real, kinds.index((not group.is_real, group.unit))))
-
-
 def _panels(groups: list[SignalGroup], result: Result, name: str) -> list[Panel]:
-    def drawing(group: SignalGroup) -> Callable[[Axes], None]:
-        return lambda axes: draw_history(axes, group, result)
-
+    """A panel for each: Real signals first, grouped by unit, units in order of appearance."""
+    kinds = [(not group.is_real, group.unit) for group in groups]
+    first = {kind: index for index, kind in reversed(list(enumerate(kinds)))}
+    ranked = sorted(groups, key=lambda group: (not group.is_real, first[not group.is_real, group.unit]))
     return [
         panel(
             label_with_unit(group.variable, group.unit),
             f"{name}-{index}",
             f"{group.label} over time",
-            drawing(group),
+            partial(draw_history, group=group, result=result),
             HEIGHT,
         )
-        for index, group in enumerate(_sort_by_unit(groups))
+        for index, group in enumerate(ranked)
     ]
 
 

@@ -15,7 +15,7 @@ from .common.panels import HALF_WIDTH, Panel, far, panel
 from .common.quantities import number
 from .common.round_body import altitude_over, radius_of, track_angles
 from .common.signals import SignalGroup, position_groups
-from .common.style import FAINT, GRID, INK, Look, house_style, look, new_figure, plain_ticks
+from .common.style import FAINT, GRID, INK, house_style, look, new_figure, plain_ticks
 
 HEIGHT = 3.2  # in
 MAXIMUM_RATIO = 4.0  # of the ranges of both axes, up to which their scales are equal
@@ -140,7 +140,10 @@ def _plot_of(
 
     def draw(axes: Axes) -> None:
         for index, (path, label) in enumerate(zip(scaled, labels, strict=True)):
-            _draw_path(axes, path, look(index), label, marks)
+            style = look(index)
+            axes.plot(*path, color=style.colour, linestyle=style.dashes, label=label)
+            axes.plot(*path[:, marks], linestyle="", marker="o", markersize=3.5, color=style.colour)
+            axes.plot(*path[:, -1], marker="o", markersize=6, markerfacecolor="white", color=style.colour)
         if ground:
             axes.axhspan(-GROUND * scales[1] * height, 0.0, facecolor=GRID, edgecolor="none", zorder=0.8)
             axes.axhline(0.0, color=INK, linewidth=0.8, zorder=0.9)
@@ -168,12 +171,6 @@ def _mark_rows(time: np.ndarray) -> np.ndarray:
     interval = round_times[1] - round_times[0]
     inside = [value for value in round_times if time[0] <= value <= time[-1] - 0.6 * interval]
     return np.append(np.searchsorted(time, np.array(inside) - 1e-9), time.size - 1)
-
-
-def _draw_path(axes: Axes, path: np.ndarray, style: Look, label: str, marks: np.ndarray) -> None:
-    axes.plot(*path, color=style.colour, linestyle=style.dashes, label=label)
-    axes.plot(*path[:, marks], linestyle="", marker="o", markersize=3.5, color=style.colour)
-    axes.plot(*path[:, -1], marker="o", markersize=6, markerfacecolor="white", color=style.colour)
 
 
 def _label_times(axes: Axes, path: np.ndarray, time: np.ndarray, marks: np.ndarray) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from ...campaigns.verdicts.order_statistics import quantiles
 from ...common.percent import percent
 from ..common.panels import Panel, Widths, both_widths, is_slim, panel, swatch
 from ..common.quantities import display_factor, label_with_unit
-from ..common.style import INK, WIDTH, Look, house_style, log_ticks_x, look, new_figure, plain_ticks
+from ..common.style import INK, WIDTH, Look, house_style, label_lanes, log_ticks_x, look, new_figure, plain_ticks
 
 CUMULATIVE = "cumulative probability (CDF), %"
 DECADES = 2.0  # range of a metric from which its axis is logarithmic
@@ -49,15 +50,17 @@ def distribution_panels(result: BatchResult, metrics: Sequence[Metric]) -> list[
     """Empirical cumulative distributions over all trials."""
     analyses = [look(index) for index in range(len(result.rows))]
 
-    def drawing(metric: Metric) -> Callable[[Axes], None]:
-        def draw(axes: Axes) -> None:
-            draw_distribution(axes, metric, metric_values(result, metric.name), analyses)
-            axes.set_title(CUMULATIVE, loc="left", fontsize=8.5)
-
-        return draw
+    def draw(axes: Axes, metric: Metric) -> None:
+        draw_distribution(axes, metric, metric_values(result, metric.name), analyses)
+        axes.set_title(CUMULATIVE, loc="left", fontsize=8.5)
 
     return [
-        panel(metric.name, f"distribution-{index}", f"Cumulative distribution of {metric.name}", drawing(metric))
+        panel(
+            metric.name,
+            f"distribution-{index}",
+            f"Cumulative distribution of {metric.name}",
+            partial(draw, metric=metric),
+        )
         for index, metric in enumerate(metrics)
     ]
 
@@ -154,22 +157,11 @@ def rates_figure(result: BatchResult, published: Mapping[str, float] | None = No
         slim = is_slim(figure)
         axes = figure.subplots()
         for index, (name, (low, high)) in enumerate(zip(names, intervals, strict=True)):
-            rate = 100.0 * result.summary[name].success_rate
-            _draw_rate(axes, index, rate, low, high)
-            _write_rate(
-                axes,
-                index,
-                name,
-                f"{percent(rate / 100.0)} % ({percent(low / 100.0)} to {percent(high / 100.0)})",
-                slim,
-            )
+            _draw_rate(axes, index, name, (100.0 * result.summary[name].success_rate, low, high), slim)
             if published is not None and name in published:
                 axes.plot(100.0 * published[name], index, **RING)
-        axes.set_yticks(range(len(names)), [""] * len(names) if slim else names)
-        axes.set_ylim(len(names) - 0.4, -0.8 if slim else -0.6)
+        label_lanes(axes, [""] * len(names) if slim else names, -0.8 if slim else -0.6)
         axes.set_xlim(max(-2.0, lowest - 0.06 * (100.0 - lowest) - 1.0), 100.0)
-        axes.grid(visible=False, axis="y")
-        axes.tick_params(axis="y", length=0, labelsize=9)
         plain_ticks(axes, x=5 if slim else 8)
         axes.set_xlabel(
             f"success probability, %, with {100.0 * result.summary[names[0]].confidence:g} % confidence interval"
@@ -182,18 +174,18 @@ def rates_figure(result: BatchResult, published: Mapping[str, float] | None = No
     return both_widths("rates", description, draw, remainder + LANE * len(names), remainder + SLIM_LANE * len(names))
 
 
-def _draw_rate(axes: Axes, index: int, rate: float, low: float, high: float) -> None:
+def _draw_rate(axes: Axes, index: int, name: str, rate_and_ends: tuple[float, float, float], slim: bool) -> None:
+    """A rate with its interval (%) and its text next to the bar; on a narrow figure, name and rate above it."""
+    rate, low, high = rate_and_ends
     colour, _, marker = look(index)
     axes.plot([low, high], [index, index], color=colour, linewidth=2.2, solid_capstyle="butt")
     for end in (low, high):
         axes.plot([end, end], [index - 0.16, index + 0.16], color=colour, linewidth=1.3, clip_on=False)
     axes.plot(rate, index, color=colour, marker=marker, markersize=7, clip_on=False, zorder=3)
-
-
-def _write_rate(axes: Axes, index: int, name: str, label: str, slim: bool) -> None:
-    """Write the rate next to its bar; on a narrow figure, name and rate above it."""
+    label = "{} % ({} to {})".format(*(percent(value / 100.0) for value in rate_and_ends))
+    where = ("axes fraction", "data")
     if not slim:
-        axes.annotate(label, (1.02, index), xycoords=("axes fraction", "data"), va="center")
+        axes.annotate(label, (1.02, index), xycoords=where, va="center")
         return
     for text, x, side in ((name, 0.0, "left"), (label, 1.0, "right")):
-        axes.annotate(text, (x, index - 0.32), xycoords=("axes fraction", "data"), ha=side, va="bottom", fontsize=8.5)
+        axes.annotate(text, (x, index - 0.32), xycoords=where, ha=side, va="bottom", fontsize=8.5)

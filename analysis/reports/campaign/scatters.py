@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +12,7 @@ from matplotlib.patches import Circle
 from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.spec.campaign import Metric, Scatter
+from ...campaigns.trials import TrialColumns
 from ..common.page import exact
 from ..common.panels import Panel, panel
 from ..common.quantities import display_factor, display_unit, label_with_unit, number
@@ -71,14 +71,16 @@ def _scatter_figure(result: BatchResult, scatter: Scatter) -> ScatterFigure:
     if to_scale and limits is not None:
         limits = _square(limits)
 
-    def drawing(variant: str) -> Callable[[Axes], None]:
-        success = result.shown[variant].dots.success
-        return lambda axes: _draw_panel(axes, points[variant], success, pair, scatter, limits, to_scale)
+    panels = []
+    for index, (variant, values) in enumerate(points.items()):
 
-    panels = [
-        panel(variant, f"scatter-{scatter.name}-{index}", f"{title}: {variant}", drawing(variant), SIDE)
-        for index, variant in enumerate(points)
-    ]
+        def draw(
+            axes: Axes, values: np.ndarray = values, success: np.ndarray = result.shown[variant].dots.success
+        ) -> None:
+            plot_outcomes(axes, values[0], values[1], success, minimum_size=0.5)
+            _frame(axes, pair, scatter, limits, to_scale)
+
+        panels.append(panel(variant, f"scatter-{scatter.name}-{index}", f"{title}: {variant}", draw, SIDE))
     return ScatterFigure(title, panels, _notes(scatter, pair[0], points))
 
 
@@ -100,16 +102,9 @@ def _square(limits: np.ndarray) -> np.ndarray:
     return np.stack([middle - half, middle + half], axis=1)
 
 
-def _draw_panel(
-    axes: Axes,
-    points: np.ndarray,
-    success: np.ndarray,
-    pair: tuple[Metric, Metric],
-    scatter: Scatter,
-    limits: np.ndarray | None,
-    to_scale: bool,
+def _frame(
+    axes: Axes, pair: tuple[Metric, Metric], scatter: Scatter, limits: np.ndarray | None, to_scale: bool
 ) -> None:
-    plot_outcomes(axes, points[0], points[1], success, minimum_size=0.5)
     if scatter.circle is not None:
         radius = scatter.circle * display_factor(pair[0].unit)
         axes.add_patch(Circle((0.0, 0.0), radius, fill=False, edgecolor=INK, linewidth=1.0, linestyle=(0, (4, 2))))
@@ -158,28 +153,18 @@ def influence_on_success(result: BatchResult, variant: str) -> dict[str, float]:
 
 def failure_panels(result: BatchResult) -> list[Panel]:
     """Failures and successes over the two most influential inputs of each variant that has both."""
-    chosen = {variant: list(influence_on_success(result, variant))[:2] for variant in result.rows}
+    panels = []
+    for index, variant in enumerate(result.rows):
+        names = list(influence_on_success(result, variant))[:2]
 
-    def drawing(variant: str, names: list[str]) -> Callable[[Axes], None]:
-        return lambda axes: _draw_failures(axes, result, variant, names)
+        def draw(axes: Axes, sample: TrialColumns = result.shown[variant].dots, names: list[str] = names) -> None:
+            trials = np.arange(sample.success.size, dtype=float)
+            y = sample.draws[names[1]] if len(names) > 1 else trials
+            plot_outcomes(axes, sample.draws[names[0]], y, sample.success, minimum_size=0.35)
+            axes.set_xlabel(names[0])
+            axes.set_ylabel(names[1] if len(names) > 1 else "trial")
 
-    return [
-        panel(
-            variant,
-            f"failures-{index}",
-            f"Failures of {variant} over {' and '.join(names)}",
-            drawing(variant, names),
-            HEIGHT,
-        )
-        for index, (variant, names) in enumerate(chosen.items())
-        if names
-    ]
-
-
-def _draw_failures(axes: Axes, result: BatchResult, variant: str, names: list[str]) -> None:
-    sample = result.shown[variant].dots
-    trials = np.arange(sample.success.size, dtype=float)
-    y = sample.draws[names[1]] if len(names) > 1 else trials
-    plot_outcomes(axes, sample.draws[names[0]], y, sample.success, minimum_size=0.35)
-    axes.set_xlabel(names[0])
-    axes.set_ylabel(names[1] if len(names) > 1 else "trial")
+        if names:
+            description = f"Failures of {variant} over {' and '.join(names)}"
+            panels.append(panel(variant, f"failures-{index}", description, draw, HEIGHT))
+    return panels

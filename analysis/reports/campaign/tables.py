@@ -15,7 +15,7 @@ from ...campaigns.fly.evaluation import worst_statuses
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.replay_command import replay_command, replay_of_folder
 from ...campaigns.requirement_verdicts import RequirementVerdict
-from ...campaigns.spec.campaign import Campaign, Variant
+from ...campaigns.spec.campaign import Campaign
 from ...campaigns.statistics import QUANTILES, STATISTICS
 from ...campaigns.summary import Summary, SummaryRow, summary_rows
 from ...campaigns.tables import bound_text, requirement_rows
@@ -163,9 +163,12 @@ def _replays(result: BatchResult, choose: Callable[[BatchResult, str], list[tupl
         reasons: dict[int, list[Markup]] = {}
         for trial, reason in choose(result, variant.name):
             reasons.setdefault(trial, []).append(reason)
-        replays += [
-            Replay(variant.name, trial, texts, replay_of(result, variant, trial)) for trial, texts in reasons.items()
-        ]
+        for trial, texts in reasons.items():
+            if result.folder is None:
+                command = replay_command(result.plan, variant, trial)
+            else:
+                command = replay_of_folder(result.folder, result.rows, variant.name, trial)
+            replays.append(Replay(variant.name, trial, texts, command))
     return replays
 
 
@@ -199,10 +202,3 @@ def _maximum(rows: TrialRows, column: str) -> tuple[float, list[int]]:
             maximum, trials = float(values.max()), []
         trials += part["trial"][np.flatnonzero(values == maximum)[: 2 - len(trials)]].tolist()
     return maximum, trials
-
-
-def replay_of(result: BatchResult, variant: Variant, trial: int) -> str:
-    """The command that replays one trial of one variant, from the campaign's folder if it has one."""
-    if result.folder is None:
-        return replay_command(result.plan, variant, trial)
-    return replay_of_folder(result.folder, result.rows, variant.name, trial)

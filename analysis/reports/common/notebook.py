@@ -31,14 +31,11 @@ class Grid(NamedTuple):
 def notebook_view(title: str, words: Iterable[str], grids: Iterable[Grid], plot: Plot | None) -> str:
     """The HTML of a result; of long tables the first rows, and how many there are."""
     displayed = [(grid.head, grid.rows[:MOST_ROWS], len(grid.rows)) for grid in grids if grid.rows]
-    lines = [line for line in words if line]
-    return render_page(TEMPLATE, title=title, words=lines, grids=displayed, picture=plot and _picture(plot))
-
-
-def _picture(plot: Plot) -> str:
-    """A figure as the address of an image, whose identifiers no other figure of the notebook can meet."""
-    svg = svg_bytes(plot, "notebook", text_as_paths=True)
-    return f"data:image/svg+xml;base64,{b64encode(svg).decode()}"
+    picture = None
+    if plot is not None:  # as paths, whose identifiers no other figure of the notebook can meet
+        svg = svg_bytes(plot, "notebook", text_as_paths=True)
+        picture = f"data:image/svg+xml;base64,{b64encode(svg).decode()}"
+    return render_page(TEMPLATE, title=title, words=list(filter(None, words)), grids=displayed, picture=picture)
 
 
 def value_text(values: Iterable[Any], unit: str | None) -> str:

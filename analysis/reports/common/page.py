@@ -22,8 +22,12 @@ def exact(value: Any, unit: str | None = None, digits: int = 4) -> Markup:
     displayed = number(in_shown_unit(value, unit), digits)
     if value is None or isinstance(value, str):
         return Markup("<span>{}</span>").format(displayed)
-    raw = str(value).lower() if isinstance(value, bool) else repr(value)
-    return Markup('<data value="{}">{}</data>').format(raw, displayed)
+    return data(str(value).lower() if isinstance(value, bool) else repr(value), displayed)
+
+
+def data(exact_value: str, displayed: str) -> Markup:
+    """A text with the exact SI value in the markup for programs."""
+    return Markup('<data value="{}">{}</data>').format(exact_value, displayed)
 
 
 def breakable(name: str) -> Markup:
@@ -81,7 +85,7 @@ def fraction(value: float | None) -> Markup:
     if value is None or not math.isfinite(value):
         return exact(value)
     displayed = f"{round(value, PLACES) + 0.0:.{PLACES}f}".replace("-", MINUS)
-    return Markup('<data value="{}">{}</data>').format(repr(value), displayed)
+    return data(repr(value), displayed)
 
 
 def fractions(low: float | None, high: float | None) -> Markup:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
@@ -90,6 +90,14 @@ def plain_ticks(axes: Axes, *, x: int | None = None, y: int | None = None, whole
     if y is not None:
         axes.yaxis.set_major_locator(MaxNLocator(y, steps=[1, 2, 2.5, 5, 10], integer=whole_y, min_n_ticks=2))
         axes.yaxis.set_major_formatter(FuncFormatter(tick))
+
+
+def label_lanes(axes: Axes, labels: Sequence[str], top: float = -0.6, size: float = 9.0) -> None:
+    """Labels of horizontal lanes, the first at the top; ``top`` is the end of the axis above it."""
+    axes.set_yticks(range(len(labels)), labels)
+    axes.set_ylim(len(labels) - 0.4, top)
+    axes.grid(visible=False, axis="y")
+    axes.tick_params(axis="y", length=0, labelsize=size)
 
 
 def log_ticks_x(axes: Axes) -> None:

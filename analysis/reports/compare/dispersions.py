@@ -121,20 +121,13 @@ def dispersion_panels(
     """Panels to one scale; and, where these differ much, each to its own."""
     reaches = {label: reach_of(points) for label, points in ends.items()}
     maximum = max(reaches.values())
-    common = [
-        _panel(label, points, looks[label], maximum, unit, f"{name}-{i}") for i, (label, points) in _number_axes(ends)
-    ]
-    if maximum <= UNEVEN * min(reaches.values()):
-        return common, []
-    own = [
-        _panel(label, points, looks[label], reaches[label], unit, f"{name}-own-{i}")
-        for i, (label, points) in _number_axes(ends)
-    ]
+    uneven = maximum > UNEVEN * min(reaches.values())
+    common, own = [], []
+    for i, (label, points) in enumerate(ends.items()):
+        common.append(_panel(label, points, looks[label], maximum, unit, f"{name}-{i}"))
+        if uneven:
+            own.append(_panel(label, points, looks[label], reaches[label], unit, f"{name}-own-{i}"))
     return common, own
-
-
-def _number_axes(ends: Mapping[str, Ends]) -> list[tuple[int, tuple[str, Ends]]]:
-    return list(enumerate(ends.items()))
 
 
 def select_ends(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
@@ -180,15 +173,20 @@ def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: s
         notes = [f"{outside} failed outside"] if outside else []
         notes += [f"{missing} without an end"] if missing else []
         axes.set_title(", ".join(notes), loc="right", fontsize=8.0, color=FAINT)
-        axes.set_xlim(-reach, reach)
-        axes.set_ylim(-reach, reach)
-        axes.set_box_aspect(1.0)
-        axes.set_xlabel(f"x, {displayed}")
-        axes.set_title(f"y, {displayed}", loc="left", fontsize=8.5)
-        plain_ticks(axes, x=4, y=4)
+        _dress(axes, reach, displayed)
 
-    what = ends.variable
-    return panel(label, name, f"Final {what} of {label} about the target, with covariance ellipses", draw, HEIGHT)
+    description = f"Final {ends.variable} of {label} about the target, with covariance ellipses"
+    return panel(label, name, description, draw, HEIGHT)
+
+
+def _dress(axes: Axes, reach: float, unit: str) -> None:
+    """A square about the target."""
+    axes.set_xlim(-reach, reach)
+    axes.set_ylim(-reach, reach)
+    axes.set_box_aspect(1.0)
+    axes.set_xlabel(f"x, {unit}")
+    axes.set_title(f"y, {unit}", loc="left", fontsize=8.5)
+    plain_ticks(axes, x=4, y=4)
 
 
 def overlaid_ends(ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str, name: str) -> list[Panel]:
@@ -205,12 +203,7 @@ def overlaid_ends(ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str
                 axes.plot(*ellipse(good, SIGMAS[-1]), color=style.colour, linestyle=style.dashes)
                 axes.plot(*good[:, :2].mean(axis=0), "+", color=style.colour, markersize=8, markeredgewidth=1.4)
         axes.plot(0.0, 0.0, **TARGET)
-        axes.set_xlim(-factor * reach, factor * reach)
-        axes.set_ylim(-factor * reach, factor * reach)
-        axes.set_box_aspect(1.0)
-        axes.set_xlabel(f"x, {displayed}")
-        axes.set_title(f"y, {displayed}", loc="left", fontsize=8.5)
-        plain_ticks(axes, x=4, y=4)
+        _dress(axes, factor * reach, displayed)
 
     what = next(iter(ends.values())).variable
     return [

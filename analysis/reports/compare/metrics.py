@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -158,21 +159,14 @@ def is_over_sigma(metric: Metric) -> bool:
 
 def sigma_rows(comparison: Comparison) -> list[SigmaRow]:
     """A row per such metric and contender."""
-    return [
-        _row(metric.name, label, comparison.values(label, metric.name))
-        for metric in comparison.metrics
-        if is_over_sigma(metric)
-        for label in comparison.contenders
-    ]
-
-
-def _row(metric: str, label: str, values: np.ndarray) -> SigmaRow:
-    reported = values[np.isfinite(values) & (values != 0.0)]
-    if not reported.size:
-        return SigmaRow(metric, label, 0, None, None, [])
-    within = []
-    for limit in LIMITS:
-        inside = int(np.sum(np.abs(reported) <= limit))
-        within.append(Share(inside / reported.size, success_interval(inside, reported.size)))
-    deviation = float(reported.std(ddof=1)) if reported.size > 1 else None
-    return SigmaRow(metric, label, int(reported.size), float(reported.mean()), deviation, within)
+    rows = []
+    for metric, label in itertools.product(filter(is_over_sigma, comparison.metrics), comparison.contenders):
+        values = comparison.values(label, metric.name)
+        reported = values[np.isfinite(values) & (values != 0.0)]
+        count = int(reported.size)
+        inside = [int(np.sum(np.abs(reported) <= limit)) for limit in LIMITS] if count else []
+        within = [Share(number / count, success_interval(number, count)) for number in inside]
+        mean = float(reported.mean()) if count else None
+        deviation = float(reported.std(ddof=1)) if count > 1 else None
+        rows.append(SigmaRow(metric.name, label, count, mean, deviation, within))
+    return rows

@@ -41,7 +41,7 @@ from .recorded import (
     trials_with_traces,
     variable_of,
 )
-from .tables import draw_ranges, failures_to_replay, metric_pairs, rate_pairs
+from .tables import failures_to_replay, metric_pairs, rate_pairs
 from .trajectories import DRAWN, bundle_of, plan_panels, side_panels
 
 KINDS = ("commands", "motion", "consistency", "other")
@@ -133,7 +133,10 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         ),
         biased=is_biased(comparison, flights),
         failed=failures_to_replay(comparison),
-        draws=draw_ranges(comparison),
+        draws=[
+            (name, float(values.min()), float(values.mean()), float(values.max()))
+            for name, values in comparison.first.draws.items()
+        ],
         fmus=[fmu_rows(batch.document["fmus"]) for batch in comparison.batches.values()],
     )
 
@@ -173,7 +176,7 @@ def _histories(comparison: Comparison, flights: Mapping[str, list[Flight]], look
 
 def _constant(bands: Iterable[Bands]) -> float | None:
     """The value that a quantity has throughout in all flights, if there is one."""
-    values = np.concatenate([band.shown() for band in bands])
+    values = np.concatenate([band.finite_values() for band in bands])
     return float(values[0]) if values.size and np.ptp(values) == 0.0 else None
 
 
@@ -215,7 +218,13 @@ def missing_parts(
     goes nowhere, such as an attitude, no trajectory, thrust, end or propellant is missed.
     """
     reasons = {}
-    goes = _goes_somewhere(comparison)
+    retained = {variable_of(batch, name) for batch in comparison.batches.values() for name in batch.document["signals"]}
+    goes = not retained or bool(retained & PATH)  # without any signal it may go somewhere
+    has_mass = any(metric.unit == MASS for metric in comparison.metrics) or any(
+        variable_of(contender.stored, name) == "mass"
+        for contender in comparison.contenders.values()
+        for name in contender.trials.final
+    )
     if not any(flights.values()):
         remedy = "give the campaign's [record] the keys every, signals and trials"
         reasons["trajectories"] = f"No trajectories and no commands over time: no flight has a trace; {remedy}."
@@ -225,32 +234,18 @@ def missing_parts(
         if goes and "commands" not in kinds:
             words = "thrust_acceleration, thrust or thrust_direction"
             reasons["commands"] = f"No commands: no {words} is among the recorded signals."
-        without = [label for label, retained in flights.items() if not retained]
+        without = [label for label, traced in flights.items() if not traced]
         if without:
             reasons["traces"] = f"No flight has a trace: {', '.join(without)}."
     lacking = [variable for variable in UNITS if variable not in ends]
     if goes and lacking:
         words = " and ".join(lacking)
         reasons["ends"] = f"No dispersion of the final {words}: [record] final does not keep its three elements."
-    if goes and not _has_mass(comparison):
+    if goes and not has_mass:
         reasons["propellant"] = "No propellant: no metric is in kg, and [record] final does not keep a mass."
     if "consistency" not in kinds and not any(is_over_sigma(metric) for metric in comparison.metrics):
         reasons["consistency"] = "No normalised estimation errors: no metric's name ends in _over_sigma."
     return reasons
-
-
-def _goes_somewhere(comparison: Comparison) -> bool:
-    """Whether a signal of something under way is kept, or none of any kind, which leaves it open."""
-    retained = {variable_of(batch, name) for batch in comparison.batches.values() for name in batch.document["signals"]}
-    return not retained or bool(retained & PATH)
-
-
-def _has_mass(comparison: Comparison) -> bool:
-    return any(metric.unit == MASS for metric in comparison.metrics) or any(
-        variable_of(contender.stored, name) == "mass"
-        for contender in comparison.contenders.values()
-        for name in contender.trials.final
-    )
 
 
 def is_biased(comparison: Comparison, flights: Mapping[str, list[Flight]]) -> bool:

@@ -18,6 +18,11 @@ DIRECTIONS = ("thrust_direction", "attitude")
 MOTION = ("altitude", "speed", "path_angle", "mass")
 CONSISTENCY = ("normalised_error_square",)
 RATIO = "_error_ratio"
+KINDS = {
+    **dict.fromkeys(COMMANDS, "commands"),
+    **dict.fromkeys(MOTION, "motion"),
+    **dict.fromkeys(CONSISTENCY, "consistency"),
+}
 KNOWN = (*COMMANDS, *DIRECTIONS, *MOTION, *CONSISTENCY, "position", "velocity", "central_angle")
 ALL = "all variants"
 MOST_FLIGHTS = 300  # of a contender that are read: bands do not change visibly with more
@@ -127,15 +132,10 @@ def quantities(batch: StoredBatch) -> list[Quantity]:
         if name not in selected:
             variable = variable_of(batch, name)
             held = batch.document["signals"].get(name, {}).get("type", "Real") != "Real"
-            unit, kind = _unit(batch, name), _kind(variable)
+            unit = _unit(batch, name)
+            kind = "consistency" if variable.endswith(RATIO) else KINDS.get(variable, "other")
             listed.append(Quantity(name, variable, unit, kind, (name,), _element(name), held))
     return sorted(listed, key=lambda quantity: names.index(quantity.names[0]))
-
-
-def _kind(variable: str) -> str:
-    if variable in CONSISTENCY or variable.endswith(RATIO):
-        return "consistency"
-    return "commands" if variable in COMMANDS else "motion" if variable in MOTION else "other"
 
 
 def _element(name: str) -> Callable[[Signals], np.ndarray]:

@@ -46,44 +46,27 @@ class PairGroup(Generic[T]):
 
 def rate_pairs(comparison: Comparison) -> list[PairGroup[PairedRates]]:
     """A group per rate."""
-    return [
-        _group(
-            comparison,
-            name_of(rate),
-            "1",
-            [PairRow(*pair, comparison.compare_rates(pair, rate)) for pair in comparison.pairs],
-        )
-        for rate in comparison.rates
-    ]
+    groups = []
+    for rate in comparison.rates:
+        rows = [PairRow(*pair, comparison.compare_rates(pair, rate)) for pair in comparison.pairs]
+        groups.append(_group(comparison, name_of(rate), "1", rows))
+    return groups
 
 
 def metric_pairs(
     comparison: Comparison, metrics: Sequence[Metric], *, successful: bool
 ) -> list[PairGroup[PairedValues]]:
     """A group per metric, over the trials in which both succeed or over all."""
-    return [
-        _group(
-            comparison,
-            metric.name,
-            metric.unit,
-            [
-                PairRow(*pair, comparison.pair_values(pair, metric.name, successful=successful))
-                for pair in comparison.pairs
-            ],
-        )
-        for metric in metrics
-    ]
+    groups = []
+    for metric in metrics:
+        pairs = [(pair, comparison.pair_values(pair, metric.name, successful=successful)) for pair in comparison.pairs]
+        groups.append(_group(comparison, metric.name, metric.unit, [PairRow(*pair, values) for pair, values in pairs]))
+    return groups
 
 
 def _group(comparison: Comparison, name: str, unit: str, rows: list[PairRow[T]]) -> PairGroup[T]:
     first = [row for row in rows if comparison.against_reference((row.a, row.b))]
     return PairGroup(name, unit, first, [row for row in rows if row not in first])
-
-
-def draw_ranges(comparison: Comparison) -> list[tuple[str, float, float, float]]:
-    """Name, least, mean and largest value of everything drawn or derived; the same in all batches."""
-    columns = comparison.first.draws
-    return [(name, float(values.min()), float(values.mean()), float(values.max())) for name, values in columns.items()]
 
 
 def failures_to_replay(comparison: Comparison) -> list[Replay]:

@@ -62,9 +62,15 @@ def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
     target = target_of(contender, "position")
     row = {int(trial): index for index, trial in enumerate(contender.trials.trial)}
     plotted: list[tuple[bool, np.ndarray, np.ndarray, np.ndarray]] = []  # success, path, heights, target
-    for flight in _spread([flight for flight in flights if {*position, height} <= set(flight.signals)]):
+    names, finals = [*position, height], contender.trials.final
+    traced = [flight for flight in flights if set(names) <= set(flight.signals)]
+    for chosen in np.unique(np.linspace(0, len(traced) - 1, min(DRAWN, len(traced))).round().astype(int)):
+        flight = traced[chosen]
         index = row[flight.trial]
-        *places, heights = _to_the_end(contender, flight, (*position, height), index)
+        signals = [flight.signals[name] for name in names]
+        if not flight.is_whole and set(names) <= set(finals):  # the sampled rows seldom reach the end
+            signals = [np.append(values, finals[name][index]) for name, values in zip(names, signals, strict=True)]
+        *places, heights = signals
         if heights.size > 1:
             plotted.append((flight.success, np.stack(places), heights, target.values[index]))
     fits = (radius_of(path, heights) for _, path, heights, _ in plotted if height != position[2])
@@ -74,20 +80,6 @@ def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
         along = _along(path[:2], aim[:2]) if radius is None else radius * track_angles(path, radius, aim)[0]
         paths.append(Path(success, along, heights, path[:2]))
     return Bundle(paths, target.values[0, :2], height, radius) if paths else None
-
-
-def _spread(flights: Sequence[Flight]) -> list[Flight]:
-    """At most DRAWN flights, evenly out of all."""
-    chosen = np.unique(np.linspace(0, len(flights) - 1, min(DRAWN, len(flights))).round().astype(int))
-    return [flights[index] for index in chosen]
-
-
-def _to_the_end(contender: Contender, flight: Flight, names: Sequence[str], row: int) -> list[np.ndarray]:
-    """Signals, with their last values where all are kept: the sampled rows seldom reach the end."""
-    finals = contender.trials.final
-    if flight.is_whole or not set(names) <= set(finals):
-        return [flight.signals[name] for name in names]
-    return [np.append(flight.signals[name], finals[name][row]) for name in names]
 
 
 def _along(plan: np.ndarray, target: np.ndarray) -> np.ndarray:

@@ -13,7 +13,7 @@ from ..common.panels import HALF_WIDTH, Panel, panel
 from ..common.quantities import display_factor, display_unit
 from ..common.style import FAINT, GREEN, INK, look
 from .declared import Band, Signal
-from .section import HEIGHT, Section, history_panel, legend_of, seconds, sentence
+from .section import HEIGHT, Section, history_panel, legend_of, range_text, seconds, sentence
 
 SETTLED = "settled"  # a band's name that a settling time needs not repeat
 ZOOM = 3.0  # widths of the band that the zoom shows
@@ -80,7 +80,7 @@ def band_section(band: Band, result: Result, name: str) -> Section:
         panels=panels,
         legend=legend_of(band.labels),
         findings=[_findings(band, time, within)],
-        notes=[_caption(band, unit, row), *(Markup("{}").format(note) for note in band.notes)],
+        notes=[_caption(band, unit, row), *band.notes],
     )
 
 
@@ -156,12 +156,7 @@ def _element_text(label: str, time: np.ndarray, condition: np.ndarray) -> Markup
 def _caption(band: Band, unit: str, row: int | None) -> Markup:
     """The caption: band, subtracted values, marks."""
     name = band.signal.unit_name
-    if band.low is None or band.high is None:
-        limit, relation = (band.low, "at least") if band.high is None else (band.high, "at most")
-        text = Markup("green: {} {} {}").format(relation, exact(limit, name), unit)
-    else:
-        text = Markup("green: {} to {} {}").format(exact(band.low, name), exact(band.high, name), unit)
-    text = Markup("{} for {}").format(text, band.signal.label)
+    text = Markup("green: {} {} for {}").format(range_text(band.low, band.high, name), unit, band.signal.label)
     if band.less is not None:
         text = Markup("{} minus {}").format(text, band.less.label)
     if band.shade is not None:

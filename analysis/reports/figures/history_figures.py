@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from ...common.percent import short_percent
 from ...runtime.flight.results import Result
-from ..common.page import exact
+from ..common.page import data, exact
 from ..common.panels import Panel
 from ..common.quantities import display_factor, display_unit
 from ..common.style import BLUE, FAINT, ORANGE, look
@@ -53,7 +53,7 @@ def error_section(error: Error, result: Result, name: str) -> Section:
         title=error.title,
         panels=panels,
         findings=findings,
-        notes=[*_caption(error, sigma), *(Markup("{}").format(note) for note in error.notes)],
+        notes=[_caption(error, sigma), *error.notes],
     )
 
 
@@ -118,10 +118,10 @@ def _normal(times: float) -> float:
 
 
 def _percent(fraction: float) -> Markup:
-    return Markup('<data value="{}">{}</data> %').format(repr(fraction), short_percent(fraction, 1))
+    return Markup("{} %").format(data(repr(fraction), short_percent(fraction, 1)))
 
 
-def _caption(error: Error, sigma: np.ndarray) -> list[Markup]:
+def _caption(error: Error, sigma: np.ndarray) -> Markup:
     text = Markup("line: {} minus {}").format(error.estimate.label, error.truth.label)
     if error.sigma is not None and not np.any(np.isfinite(sigma)):
         text = Markup("{}; {} is 0 throughout, no standard deviation").format(text, error.sigma.label)
@@ -130,7 +130,7 @@ def _caption(error: Error, sigma: np.ndarray) -> list[Markup]:
         text = Markup("{}; shaded: ±1 and ±3 {}{}").format(text, error.sigma.label, gaps)
     if error.rows is not None:
         text = Markup("{}; samples where {}").format(text, condition_text(error.rows))
-    return [sentence(text)]
+    return sentence(text)
 
 
 def curve_section(curve: Curve, result: Result, name: str) -> Section:
@@ -154,7 +154,7 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
                 time, values[index], color=style.colour, linestyle=style.dashes, marker="." if time.size == 1 else ""
             )
 
-    notes = _curve_caption(curve, unit)
+    notes = [_curve_caption(curve, unit), *curve.notes]
     if len(values) == 1 or curve.together:
         names = ", ".join(signal.label for signal in curve.signals)
         plot = wide_history(
@@ -175,7 +175,7 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
     return Section(title=curve.title, panels=panels, notes=notes)
 
 
-def _curve_caption(curve: Curve, unit: str) -> list[Markup]:
+def _curve_caption(curve: Curve, unit: str) -> Markup:
     text = Markup("line: {}").format(", ".join(signal.label for signal in curve.signals))
     limits = [limit for limit in (curve.low, curve.high) if limit is not None]
     if limits:
@@ -183,4 +183,4 @@ def _curve_caption(curve: Curve, unit: str) -> list[Markup]:
         text = Markup("{}; dashed: limits {} {}").format(text, numbers, unit)
     if curve.rows is not None:
         text = Markup("{}; samples where {}").format(text, condition_text(curve.rows))
-    return [sentence(text), *(Markup("{}").format(note) for note in curve.notes)]
+    return sentence(text)

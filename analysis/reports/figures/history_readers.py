@@ -7,7 +7,7 @@ from dataclasses import replace
 from lxml import etree
 
 from ...runtime.ssp.conversions import BASE_UNITS, Unit
-from .declared import Arc, Band, Curve, Error, Path, Point, Pulses, Signal
+from .declared import Arc, Band, Curve, Error, Path, Point, Pulses
 from .signal_reader import ROWS, SignalReader
 
 SECOND, METRE = (Unit(unit, tuple(int(name == unit) for name in BASE_UNITS)) for unit in ("s", "m"))
@@ -61,22 +61,19 @@ def read_error(reader: SignalReader, element: etree._Element) -> Error:
     reader.attributes(element, ("estimate", "truth"), ("sigma", "after", "labels", "title", *ROWS))
     estimate = reader.signal(element, "estimate")
     truth = reader.signal(element, "truth", like=estimate)
+    sigma = reader.optional(element, "sigma", lambda name: reader.signal(element, name, like=estimate))
+    if sigma is not None:  # a difference of values has no offset
+        sigma = replace(sigma, offsets=(0.0,) * len(sigma.names))
     return Error(
         estimate=estimate,
         truth=truth,
-        sigma=reader.optional(element, "sigma", lambda name: _sigma(reader, element, name, estimate)),
+        sigma=sigma,
         after=reader.number(element, "after"),
         labels=reader.labels(element, estimate),
         title=reader.title(element, f"{estimate.label} less {truth.label}"),
         notes=tuple(reader.notes),
         rows=reader.rows(element),
     )
-
-
-def _sigma(reader: SignalReader, element: etree._Element, attribute: str, estimate: Signal) -> Signal:
-    """A standard deviation, which as a difference of values has no offset."""
-    sigma = reader.signal(element, attribute, like=estimate)
-    return replace(sigma, offsets=(0.0,) * len(sigma.names))
 
 
 def read_curve(reader: SignalReader, element: etree._Element) -> Curve:

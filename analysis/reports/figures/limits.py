@@ -13,7 +13,7 @@ from ...runtime.flight.results import Flight, Result
 from ..common.page import Table, exact
 from ..common.quantities import NONE, display_unit
 from .declared import Figure, Limit, Limits, Unavailable
-from .section import Section, sentence
+from .section import Section, range_text, sentence
 
 
 class Verdict(StrEnum):
@@ -91,17 +91,10 @@ def _row(limit: Limit, verdict: Verdict, result: Flight) -> tuple[Markup | str, 
     return (
         limit.name,
         NONE if verdict is Verdict.NOT_EVALUATED else exact(limit.value(result), unit),
-        _limit(limit, unit),
+        range_text(limit.least, limit.most, unit),
         display_unit(unit),
         Markup('<span class="verdict {}">{}</span>').format(CLASSES[verdict], LABELS[verdict]),
     )
-
-
-def _limit(limit: Limit, unit: str | None) -> Markup:
-    if limit.least is None or limit.most is None:
-        token, value = ("at most", limit.most) if limit.least is None else ("at least", limit.least)
-        return Markup("{} {}").format(token, exact(value, unit))
-    return Markup("{} to {}").format(exact(limit.least, unit), exact(limit.most, unit))
 
 
 def limit_section(limits: Limits, result: Result) -> Section:
@@ -120,5 +113,5 @@ def limit_section(limits: Limits, result: Result) -> Section:
             numbers=(1, 2),
         ),
         findings=[sentence(Markup("not evaluated: {}").format(obstacle) if obstacle else verdicts)],
-        notes=[Markup("{}").format(note) for note in limits.notes],
+        notes=limits.notes,
     )

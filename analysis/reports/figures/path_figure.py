@@ -52,7 +52,7 @@ def path_section(path: Path, result: Result, name: str) -> Section:
     beyond = isinstance(path.x, Arc) and bool(np.nanmax(x, initial=0.0) > 0.5 * np.pi * path.x.radius)
     description = f"{path.title}: {path.y.label} over {path.x.label}"
     plot = both_widths(name, description, draw, EQUAL_HEIGHT if path.equal else HEIGHT, SLIM_HEIGHT)
-    return Section(title=path.title, plot=plot, notes=_caption(path, beyond))
+    return Section(title=path.title, plot=plot, notes=[_caption(path, beyond), *path.notes])
 
 
 def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
@@ -89,7 +89,7 @@ def _draw_point(axes: Axes, point: Point, position: tuple[np.ndarray, np.ndarray
     )  # fmt: skip
 
 
-def _caption(path: Path, beyond: bool) -> list[Markup]:
+def _caption(path: Path, beyond: bool) -> Markup:
     text = Markup("circle: end")
     if path.points:
         names = ", ".join(f"{point.name} ({point.x.label}, {point.y.label})" for point in path.points)
@@ -104,4 +104,4 @@ def _caption(path: Path, beyond: bool) -> list[Markup]:
             text = Markup("{}, along the great circle of the track beyond a quarter of the circumference").format(text)
     if _over_ground(path):
         text = Markup("{}; black line: surface").format(text)
-    return [sentence(text), *(Markup("{}").format(note) for note in path.notes)]
+    return sentence(text)

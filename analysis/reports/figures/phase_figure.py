@@ -15,7 +15,7 @@ from ...runtime.flight.results import Flight, Result
 from ..common.page import Table, exact
 from ..common.panels import Widths, both_widths, is_slim
 from ..common.quantities import display_unit, label_with_unit, number
-from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
+from ..common.style import BLUE, FAINT, INK, VERMILION, label_lanes, plain_ticks
 from .declared import BoundValues, Budget, Item, Phase, Phases
 from .section import Section, align, seconds, sentence
 
@@ -101,7 +101,7 @@ def phase_section(phases: Phases, result: Result, name: str) -> Section:
         plot=_figure(phases, spans, statuses or [], windows, name),
         table=_table(phases, spans),
         findings=[] if statuses is None else _findings(phases, statuses),
-        notes=[*notes, *(Markup("{}").format(note) for note in phases.notes)],
+        notes=[*notes, *phases.notes],
     )
 
 
@@ -131,11 +131,8 @@ def _figure(
                 _draw_bar(axes, span, lanes.index(span.name), begin, end)
             _draw_statuses(axes, [(status, time) for status, time in statuses if begin <= time <= end])
             axes.set_xlim(begin, begin + width)
-            axes.grid(visible=False, axis="y")
-            axes.tick_params(axis="y", length=0, labelsize=9)
+            label_lanes(axes, lanes)
             plain_ticks(axes, x=max(2, round((5 if is_slim(figure) else 10) * width / sum(widths))))
-        all_axes[0].set_yticks(range(len(lanes)), lanes)
-        all_axes[0].set_ylim(len(lanes) - 0.4, -0.6)
         if len(windows) > 1:
             _draw_cut(*all_axes)
         figure.supxlabel("time, s", fontsize=9, color=INK)
@@ -186,8 +183,10 @@ def _table(phases: Phases, spans: Sequence[Span]) -> Table:
     heads = ["phase", "start, s", "duration, s"]
     unit = None if phases.spent is None else phases.spent.unit_name
     if phases.spent is not None:
-        heads.append(label_with_unit(_quantity(phases), unit))
-    rows = [*spans, _total(spans)]
+        is_mass = phases.spent.label.rpartition(".")[2] == "mass"
+        heads.append(label_with_unit("propellant" if is_mass else "consumption", unit))
+    spent = [span.spent for span in spans if span.spent is not None]
+    rows = [*spans, Span("total", spans[0].begin, spans[-1].end, sum(spent) if spent else None)]
     columns = [
         [span.name for span in rows],
         [exact(span.begin, digits=6) for span in rows],
@@ -195,18 +194,6 @@ def _table(phases: Phases, spans: Sequence[Span]) -> Table:
         *([align([span.spent for span in rows], unit)] if phases.spent is not None else []),
     ]
     return Table(tuple(heads), list(zip(*columns, strict=True)), numbers=(1, 2, 3))
-
-
-def _quantity(phases: Phases) -> str:
-    """What phases consume: propellant where a mass decreases."""
-    return (
-        "propellant" if phases.spent is not None and phases.spent.label.rpartition(".")[2] == "mass" else "consumption"
-    )
-
-
-def _total(spans: Sequence[Span]) -> Span:
-    spent = [span.spent for span in spans if span.spent is not None]
-    return Span("total", spans[0].begin, spans[-1].end, sum(spent) if spent else None)
 
 
 def _findings(phases: Phases, statuses: Sequence[tuple[int, float]]) -> list[Markup]:

@@ -38,14 +38,13 @@ def pulse_lengths(pulses: Pulses, result: Result) -> np.ndarray:
 def pulse_section(pulses: Pulses, result: Result, name: str) -> Section:
     """The section of pulses; ``name`` must differ between the figures of a page."""
     lengths = pulse_lengths(pulses, result)
-    notes = [Markup("{}").format(note) for note in pulses.notes]
     if not np.any(lengths):
-        return Section(title=pulses.title, findings=[Markup("No pulse was fired.")], notes=notes)
+        return Section(title=pulses.title, findings=[Markup("No pulse was fired.")], notes=pulses.notes)
     return Section(
         title=pulses.title,
         plot=_figure(pulses, result, lengths, name),
         findings=[_findings(pulses, lengths)],
-        notes=[_caption(pulses, result), *notes],
+        notes=[_caption(pulses, result), *pulses.notes],
     )
 
 

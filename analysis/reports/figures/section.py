@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...runtime.flight.results import Result
-from ..common.page import Table, exact
+from ..common.page import Table, data, exact
 from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel, swatch
 from ..common.quantities import MINUS, in_shown_unit
 from ..common.style import look, plain_ticks
@@ -34,7 +34,7 @@ class Section:
     table: Table | None = None
     legend: list[tuple[Markup, str]] = field(default_factory=list)
     findings: list[Markup] = field(default_factory=list)
-    notes: list[Markup] = field(default_factory=list)
+    notes: Sequence[str] = ()
 
 
 def legend_of(labels: tuple[str, ...]) -> list[tuple[Markup, str]]:
@@ -79,13 +79,17 @@ def span_of(chosen: np.ndarray) -> slice:
 
 def condition_text(rows: Rows) -> Markup:
     """The condition of a selection of samples."""
-    label, unit = rows.signal.label, rows.signal.unit_name
-    if rows.low is None or rows.high is None:
-        token, limit = ("at least", rows.low) if rows.high is None else ("at most", rows.high)
-        return Markup("{} is {} {}").format(label, token, exact(limit, unit))
-    if rows.low == rows.high:
-        return Markup("{} is {}").format(label, exact(rows.low, unit))
-    return Markup("{} is {} to {}").format(label, exact(rows.low, unit), exact(rows.high, unit))
+    unit = rows.signal.unit_name
+    condition = exact(rows.low, unit) if rows.low == rows.high else range_text(rows.low, rows.high, unit)
+    return Markup("{} is {}").format(rows.signal.label, condition)
+
+
+def range_text(low: float | None, high: float | None, unit: str | None) -> Markup:
+    """The range between two limits of which at most one is None, without the unit."""
+    if low is None or high is None:
+        token, limit = ("at least", low) if high is None else ("at most", high)
+        return Markup("{} {}").format(token, exact(limit, unit))
+    return Markup("{} to {}").format(exact(low, unit), exact(high, unit))
 
 
 def empty_section(title: str, rows: Rows) -> Section:
@@ -101,9 +105,7 @@ def align(values: Sequence[float | None], unit: str | None, digits: int = 5) -> 
     return [
         exact(value, unit)
         if value is None or not math.isfinite(value)
-        else Markup('<data value="{}">{}</data>').format(
-            repr(value), f"{in_shown_unit(value, unit) + 0.0:.{places}f}".replace("-", MINUS)
-        )
+        else data(repr(value), f"{in_shown_unit(value, unit) + 0.0:.{places}f}".replace("-", MINUS))
         for value in values
     ]
 

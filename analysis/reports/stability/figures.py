@@ -23,10 +23,12 @@ from .frequency import Limits, draw_sensitivity, limits_of, margin_words
 from .nyquist import INVERSE, draw_harmonic_balance, draw_nichols, draw_nyquist
 from .poles import are_crowded, draw_cloud, draw_poles, poles_of
 from .sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
+from .shared import Panels
 
 HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels
-SIGHT = 3.5  # in; of what is seen at first sight, two beside each other
+SIGHT_HEIGHT = 3.5  # in; of what is seen at first sight, two beside each other
 LOW = 2.4  # in; of histograms, sensitivities and joint margins
+SIGHT = "sight"  # key of the figures that are seen at first sight
 
 
 def stack(
@@ -50,8 +52,8 @@ def sight_panels(loop: LoopReport, name: str) -> list[Panel]:
     margins = margin_words(loop)
     bode, nichols = f"Bode diagram of {loop.name}: {margins}", f"Nichols diagram of {loop.name}: {margins}"
     return [
-        stack("Bode", f"{name}-bode", bode, lambda g, p: draw_bode(loop, g, p), SIGHT, HALF_WIDTH),
-        panel("Nichols", f"{name}-nichols", nichols, lambda axes: draw_nichols(loop, axes), SIGHT, HALF_WIDTH),
+        stack("Bode", f"{name}-bode", bode, lambda g, p: draw_bode(loop, g, p), SIGHT_HEIGHT, HALF_WIDTH),
+        panel("Nichols", f"{name}-nichols", nichols, lambda axes: draw_nichols(loop, axes), SIGHT_HEIGHT, HALF_WIDTH),
     ]
 
 
@@ -77,9 +79,11 @@ def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
     return panels
 
 
-def part_panels(loop: LoopReport, name: str) -> dict[str, list[Panel]]:
-    """The figures that belong to a table of a loop's section, by the key of its part."""
+def loop_figures(loop: LoopReport, name: str) -> Panels:
+    """All figures of a loop: those of first sight, by an empty key those that belong to no part, and the parts'."""
     return {
+        SIGHT: sight_panels(loop, name),
+        "": loop_panels(loop, name),
         "robust": [sensitivity_panel(loop, name)],
         "dispersed": dispersion_panels(loop, name),
         "amplitudes": amplitude_panels(loop, name),

@@ -10,15 +10,15 @@ from markupsafe import Markup
 from ...stability.loops.margin_values import Quantity
 from ...stability.results.report import LoopReport, StabilityReport
 from ...stability.results.requirement import Verdict
-from ...stability.results.varied import SweepCrossing, SweepReport
+from ...stability.results.varied import SweepReport
 from ..common.page import write_page
 from ..common.panels import Panel
 from ..common.quantities import label_with_unit
-from .figures import joint_panel, loop_panels, part_panels, sight_panels, sweep_panel
+from .figures import SIGHT, joint_panel, loop_figures, sweep_panel
 from .orders import order_loops, order_sentences
 from .over_time import over_time
 from .parts import Part, parts, without
-from .shared import TOLERANCE, Panels, Paper, Shared, paper_of, share
+from .shared import TOLERANCE, Paper, Shared, paper_of, share
 from .tables import (
     Table,
     about,
@@ -38,7 +38,6 @@ from .tables import (
 from .words import NO_CROSSING, UNSTABLE_WORD, gain_margin, left_out, numeral, phase_margin, size, state, verdict
 
 SEEN = ("Bode", "Nichols")  # labels of the figures that are seen at first sight
-SIGHT = "sight"  # key of the figures that are seen at first sight
 
 
 @dataclass(frozen=True)
@@ -79,7 +78,7 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
     """
     rows = verdict_rows(report)
     summary = summary_table(report)
-    shared = share(report.loops, [_figures(loop, anchor(index)) for index, loop in enumerate(report.loops)])
+    shared = share(report.loops, [loop_figures(loop, anchor(index)) for index, loop in enumerate(report.loops)])
     paper = paper_of(shared)
     write_page(
         path,
@@ -116,11 +115,6 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
         facts=facts(report.provenance),
         provenance=report.provenance,
     )
-
-
-def _figures(loop: LoopReport, name: str) -> Panels:
-    """All figures of a loop: those of first sight, those that belong to no part by an empty key, the parts'."""
-    return {SIGHT: sight_panels(loop, name), "": loop_panels(loop, name)} | part_panels(loop, name)
 
 
 def _card(report: StabilityReport, summary: Table, index: int, shared: Shared, paper: Paper) -> Card:
@@ -175,7 +169,11 @@ def _sweep(report: StabilityReport, sweep: SweepReport, name: str) -> Sweep:
         for value, margins in zip(sweep.values, sweep.margins, strict=True)
     ]
     crossings = [
-        (_cross(crossing), "below" if crossing.below else "above", numeral(crossing.value, sweep.unit))
+        (
+            UNSTABLE_WORD if crossing.quantity is Quantity.STABILITY else f"{crossing.quantity} misses its limit",
+            "below" if crossing.below else "above",
+            numeral(crossing.value, sweep.unit),
+        )
         for crossing in sweep.crossings
     ]
     return Sweep(
@@ -184,10 +182,6 @@ def _sweep(report: StabilityReport, sweep: SweepReport, name: str) -> Sweep:
         Table((sweep.parameter, "gain margin, dB", "phase margin, deg", "modulus margin"), "nnnn", rows),
         Table(("what fails", "where", label_with_unit(sweep.parameter, sweep.unit)), "ttn", crossings),
     )
-
-
-def _cross(crossing: SweepCrossing) -> str:
-    return UNSTABLE_WORD if crossing.quantity is Quantity.STABILITY else f"{crossing.quantity} misses its limit"
 
 
 @dataclass(frozen=True)

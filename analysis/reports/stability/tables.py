@@ -158,14 +158,13 @@ def point_table(points: tuple[PointReport, ...]) -> Table:
     )  # fmt: skip
     rows: list[tuple[Cell, ...]] = []
     for point in points:
-        fastest = _change(*point.trim[0]) if point.trim else Markup("none")
+        fastest = Markup("none")
+        if point.trim:
+            name, _, change, unit = point.trim[0]
+            fastest = Markup("{} by {} {}").format(name, numeral(change, unit), display_unit(unit))
         holds = numeral(point.holds, infinite="does not change")
         rows.append((point.name, point.phase, numeral(point.time, digits=6), fastest, per_cent(point.drift), holds))
     return Table(head, "slnlnn", rows, "operating points")
-
-
-def _change(name: str, value: float, change: float, unit: str | None) -> Markup:
-    return Markup("{} by {} {}").format(name, numeral(change, unit), display_unit(unit))
 
 
 def trim_table(points: tuple[PointReport, ...]) -> Table:

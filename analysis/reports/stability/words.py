@@ -17,7 +17,7 @@ from ...stability.loops.margin_values import UNSTABLE, Margins
 from ...stability.loops.readings import decibel_size, decibels, degree_size
 from ...stability.results.report import LoopReport
 from ...stability.results.requirement import Requirement, Verdict
-from ..common.page import exact
+from ..common.page import data, exact
 from ..common.quantities import MINUS, NONE, display_unit, number
 
 NO_CROSSING = "none (no crossing)"
@@ -30,7 +30,7 @@ def _data(value: float, shown: float, digits: int, infinite: str) -> Markup:
         return Markup("<span>{}</span>").format(infinite)
     if math.isnan(shown):
         return Markup("<span>{}</span>").format(NONE)
-    return Markup('<data value="{}">{}</data>').format(repr(value), number(shown, digits))
+    return data(repr(value), number(shown, digits))
 
 
 def numeral(value: Any, unit: str | None = None, digits: int = 4, infinite: str = NONE) -> Markup:
@@ -68,7 +68,7 @@ def complex_number(value: complex, digits: int = 4) -> Markup:
     displayed = number(value.real, digits)
     if value.imag:
         displayed += f" {'±' if value.imag > 0.0 else MINUS} {number(abs(value.imag), digits)} j"
-    return Markup('<data value="{}">{}</data>').format(repr(value).strip("()"), displayed)
+    return data(repr(value).strip("()"), displayed)
 
 
 def left_out(part: str, reason: str, loop: LoopReport) -> Markup:
@@ -101,14 +101,10 @@ def state(margins: Margins) -> Markup | None:
 
 def gain_margin(margins: Margins) -> Markup:
     """A gain margin in dB with its direction."""
-    return state(margins) or direction_text(margins.gain)
-
-
-def direction_text(factor: float) -> Markup:
-    """A factor on the gain in dB with its direction; inf: there is none."""
-    if not math.isfinite(factor):
-        return Markup("<span>{}</span>").format(NO_CROSSING)
-    return in_decibels(factor, absolute=True) + Markup(" ({})").format("upper" if factor >= 1.0 else "lower")
+    if margins.unstable or not math.isfinite(margins.gain):
+        return state(margins) or Markup("<span>{}</span>").format(NO_CROSSING)
+    direction = "upper" if margins.gain >= 1.0 else "lower"
+    return in_decibels(margins.gain, absolute=True) + Markup(" ({})").format(direction)
 
 
 def phase_margin(margins: Margins) -> Markup:

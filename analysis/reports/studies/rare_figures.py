@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +16,7 @@ from ...studies.rare.outcome import RareResult
 from ...studies.rare.uncertainty import CONFIDENCE
 from ..common.panels import Panel, Widths, both_widths, is_slim, panel
 from ..common.quantities import display_factor, label_with_unit, log_tick, number
-from ..common.style import BLUE, FAINT, INK, VERMILION, WIDTH, house_style, new_figure, plain_ticks
+from ..common.style import BLUE, FAINT, INK, VERMILION, WIDTH, house_style, label_lanes, new_figure, plain_ticks
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in
@@ -184,15 +184,12 @@ def design_point_panels(result: RareResult) -> list[Panel]:
     names = list(influence(result))[:PAIRED]
     pairs = [(one, other) for index, one in enumerate(names) for other in names[index + 1 :]]
 
-    def drawing(one: str, other: str) -> Callable[[Axes], None]:
-        return lambda axes: draw_design_points(axes, result, one, other)
-
     return [
         panel(
             f"{other} over {one}",
             f"design-{index}",
             f"Samples, failures and design points over {one} and {other}",
-            drawing(one, other),
+            partial(draw_design_points, result=result, one=one, other=other),
             HEIGHT,
         )
         for index, (one, other) in enumerate(pairs)
@@ -280,10 +277,7 @@ def draw_intervals(axes: Axes, rows: list[Equivalent], probability: float | None
     names = [f"{row.label} ({number(row.simulations, 3)})" for row in rows]
     log_axis(axes, "x")
     axes.set_xlim(left, 2.0 * max(positive))
-    axes.set_yticks(range(len(rows)), [""] * len(rows) if slim else names)
-    axes.set_ylim(len(rows) - 0.4, -0.8 if slim else -0.6)
-    axes.grid(visible=False, axis="y")
-    axes.tick_params(axis="y", length=0, labelsize=9)
+    label_lanes(axes, [""] * len(rows) if slim else names, -0.8 if slim else -0.6)
     axes.set_xlabel(f"probability of failure, {PERCENT} interval")
 
 

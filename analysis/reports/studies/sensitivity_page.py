@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -38,7 +39,7 @@ def write_sensitivity_page(result: SensitivityResult, path: Path, folder: Path |
         most=MOST,
         tables=[(metric, index_table(result, metric)) for metric in result.told],
         ranks=rank_table(result),
-        wide=wide_metrics(result),
+        wide=[metric for metric in result.told if np.ptp(bars_of(result, metric)[0].total_interval) > WIDE],
         wide_from=WIDE,
         replays=[("the first simulation", replay)] if replay else [],
     )
@@ -81,16 +82,6 @@ def rank_table(result: SensitivityResult) -> Table:
     return Table(("metric", *names), rows, range(1, 1 + len(names)))
 
 
-def wide_metrics(result: SensitivityResult) -> list[str]:
-    """Metrics whose largest total index has an interval wider than `WIDE`."""
-    metrics = []
-    for metric in result.told:
-        low, high = bars_of(result, metric)[0].total_interval
-        if high - low > WIDE:
-            metrics.append(metric)
-    return metrics
-
-
 MOST = 12  # parameters of a panel, those with the largest total index
 LANE = 0.34  # in
 COLUMNS = 2  # of a notebook's figure
@@ -127,15 +118,12 @@ def bars_of(result: SensitivityResult, metric: str) -> list[Bar]:
 def index_panels(result: SensitivityResult) -> list[Panel]:
     """A panel for each metric that has indices."""
 
-    def drawing(bars: list[Bar]) -> Callable[[Axes], None]:
-        return lambda axes: draw_indices(axes, bars)
-
     panels = []
     for index, metric in enumerate(result.told):
         bars = bars_of(result, metric)[:MOST]
         words = f"Total and first-order Sobol' indices of {metric}"
         height = 0.95 + LANE * len(bars)
-        panels.append(panel(metric, f"indices-{index}", words, drawing(bars), height, HALF_WIDTH))
+        panels.append(panel(metric, f"indices-{index}", words, partial(draw_indices, bars=bars), height, HALF_WIDTH))
     return panels
 
 

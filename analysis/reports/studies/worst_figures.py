@@ -13,7 +13,7 @@ from ...studies.worst.objective import MOST
 from ...studies.worst.outcome import WorstResult
 from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel
 from ..common.quantities import display_factor, label_with_unit, number
-from ..common.style import BLUE, FAINT, INK, VERMILION, WIDTH, house_style, new_figure, plain_ticks
+from ..common.style import BLUE, FAINT, INK, VERMILION, WIDTH, house_style, label_lanes, new_figure, plain_ticks
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in
@@ -77,12 +77,8 @@ def objective_of(result: WorstResult) -> Objective:
     label = label_with_unit(result.badness.text, result.unit)
     random = int(np.argmax(values[: result.random_trials]))
     failed = ~np.isfinite([result.badness.size(float(value)) for value in values])
-    return Objective(label, displayed, failed, is_rising(result), int(np.argmax(values)), random)
-
-
-def is_rising(result: WorstResult) -> bool:
-    """Whether a larger number is worse; of a margin it is the smaller one."""
-    return result.badness.size(-1.0) < 0.0
+    rising = result.badness.size(-1.0) < 0.0  # of a margin the smaller number is worse
+    return Objective(label, displayed, failed, rising, int(np.argmax(values)), random)
 
 
 def select_values(result: WorstResult, values: np.ndarray) -> np.ndarray:
@@ -252,12 +248,10 @@ def draw_box(axes: Axes, lanes: list[Lane], slim: bool) -> None:
             )  # fmt: skip
         if slim:
             axes.annotate(lane.label, (0.5, index + offset), ha="center", va="bottom", fontsize=8.5)
-    axes.set_yticks(range(len(lanes)), [""] * len(lanes) if slim else [lane.label for lane in lanes])
-    axes.set_ylim(len(lanes) - 0.4, -0.9)
+    label_lanes(axes, ["" if slim else lane.label for lane in lanes], -0.9)
     axes.set_xlim(-0.02, 1.02)
     axes.set_xticks([0.0, 0.5, 1.0], ["0", "0.5", "1"])
     axes.grid(visible=False)
-    axes.tick_params(axis="y", length=0, labelsize=9)
     axes.set_xlabel("fraction of the search box")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.0)
 
