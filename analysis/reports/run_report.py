@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
 from ..runtime.flight.results import Result
 from .common.page import write_page
-from .common.signals import SignalGroup, distinct, signal_groups
+from .common.signals import distinct, signal_groups
 from .figures.declared import Figure
 from .figures.figure_sections import figure_sections, joint_findings
 from .figures.limits import Verdict, limit_document
@@ -70,7 +70,16 @@ def limits_by_verdict(figures: Sequence[Figure], result: Result) -> dict[str, li
     return {verdict: names for verdict, names in named.items() if names}
 
 
-def key_values(result: Result) -> list[dict[str, Any]]:
+class KeyValue(NamedTuple):
+    """Final values of a signal or of a vector's elements, or their ``note``: magnitude, maximum."""
+
+    label: str
+    note: str
+    values: list[float]
+    unit: str | None
+
+
+def key_values(result: Result) -> list[KeyValue]:
     """Final values of the most important signals.
 
     These are the system's connectors, positions and velocities with their magnitudes (inputs that repeat them are
@@ -80,30 +89,35 @@ def key_values(result: Result) -> list[dict[str, Any]]:
     if not result.time.size:
         return []
     final = result.final()
-    rows: list[dict[str, Any]] = []
+    rows: list[KeyValue] = []
     groups = signal_groups(result)
     originals = distinct(groups, result)
     for group in sorted(groups, key=lambda group: bool(group.component)):
         if not group.component:
-            rows += [_key_row(name, "", [final[name]], group) for name in group.names]
+            rows += [KeyValue(name, "", [final[name]], group.unit) for name in group.names]
         elif group.variable in KEY_VECTORS and group.is_real and originals[group] == group:
             values = [final[name] for name in group.names]
-            rows.append(_key_row(group.label, "", values, group))
+            rows.append(KeyValue(group.label, "", values, group.unit))
             if len(values) > 1:
-                rows.append(_key_row(group.label, "magnitude", [float(np.linalg.norm(values))], group))
+                rows.append(KeyValue(group.label, "magnitude", [float(np.linalg.norm(values))], group.unit))
         elif group.variable == "status" and group.type == "Integer":
-            rows.append(_key_row(group.label, "maximum over run", [int(group.values(result).max())], group))
+            rows.append(KeyValue(group.label, "maximum over run", [int(group.values(result).max())], group.unit))
     others = [group for group in groups if originals[group] == group]
     if not rows and len(others) <= MOST_KEYS:
-        rows = [_key_row(group.label, "", [final[name] for name in group.names], group) for group in others]
+        rows = [KeyValue(group.label, "", [final[name] for name in group.names], group.unit) for group in others]
     return rows
 
 
-def _key_row(label: str, note: str, values: list, group: SignalGroup) -> dict[str, Any]:
-    return {"label": label, "note": note, "values": values, "unit": group.unit}
+class SignalRow(NamedTuple):
+    """Initial, minimum, maximum and final value of a signal."""
+
+    name: str
+    type: str
+    unit: str | None
+    values: list[float]
 
 
-def signal_table(result: Result) -> list[dict[str, Any]]:
+def signal_table(result: Result) -> list[SignalRow]:
     """Initial, minimum, maximum and final value of every signal."""
     if not result.time.size:
         return []
@@ -112,5 +126,5 @@ def signal_table(result: Result) -> list[dict[str, Any]]:
     for name, values in result.signals.items():
         kind = convert.get(result.types[name], float)
         numbers = [kind(value) for value in (values[0], np.min(values), np.max(values), values[-1])]
-        rows.append({"name": name, "type": result.types[name], "unit": result.units[name], "values": numbers})
+        rows.append(SignalRow(name, result.types[name], result.units[name], numbers))
     return rows

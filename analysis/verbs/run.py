@@ -13,7 +13,7 @@ from ..campaigns.spec.expressions import Expression
 from ..campaigns.tables import faults_line
 from ..reports.common.notebook import Grid, notebook_view, value_text
 from ..reports.figures.declared import Band, Figure, Limits
-from ..reports.figures.limits import limit_document, limit_rows
+from ..reports.figures.limits import LimitEntry, limit_document, limit_rows
 from ..reports.figures.reading import read_figures
 from ..reports.run_report import key_values, write_run_report
 from ..reports.time_histories import signal_plot
@@ -70,7 +70,7 @@ class Result(results.Result):
         return plot
 
     @property
-    def limits(self) -> list[dict[str, Any]]:
+    def limits(self) -> list[LimitEntry]:
         """What the SSD's `Limits` say of the end: name, value, unit, least, most and verdict of each.
 
         The verdict is ``met``, ``violated`` or ``not evaluated``, with the reason why not.
@@ -106,7 +106,7 @@ class Result(results.Result):
             if isinstance(figure, Limits)
         ]
         if not grids:
-            rows = [(row["label"], row["note"], value_text(row["values"], row["unit"])) for row in key_values(self)]
+            rows = [(row.label, row.note, value_text(row.values, row.unit)) for row in key_values(self)]
             grids = [Grid(("", "", "at the end"), rows)]
         return notebook_view(self.system, [text, self.message], grids, self._main_plot())
 
@@ -114,7 +114,7 @@ class Result(results.Result):
         if not self.time.size:
             return None
         bands = [figure.signal.label for figure in self.figures if isinstance(figure, Band)]
-        vectors = [row["label"] for row in key_values(self) if len(row["values"]) > 1]
+        vectors = [row.label for row in key_values(self) if len(row.values) > 1]
         return trajectory_plot(self) or signal_plot(self, (bands or vectors or list(self.signals))[:MOST_PLOTTED])
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 from markupsafe import Markup
@@ -18,7 +17,18 @@ from ...campaigns.verdicts.order_statistics import quantiles
 from ...common.percent import percent
 from ..common.panels import Panel, Widths, both_widths, is_slim, panel, swatch
 from ..common.quantities import display_factor, label_with_unit
-from ..common.style import INK, WIDTH, Look, house_style, label_lanes, log_ticks_x, look, new_figure, plain_ticks
+from ..common.style import (
+    INK,
+    WIDTH,
+    LineStyle,
+    Look,
+    house_style,
+    label_lanes,
+    log_ticks_x,
+    look,
+    new_figure,
+    plain_ticks,
+)
 
 CUMULATIVE = "cumulative probability (CDF), %"
 DECADES = 2.0  # range of a metric from which its axis is logarithmic
@@ -137,7 +147,7 @@ def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], looks:
 
 
 LANE, SLIM_LANE = 0.36, 0.52  # in
-RING: dict[str, Any] = {
+RING: LineStyle = {
     "linestyle": "", "marker": "o", "markersize": 11, "markerfacecolor": "none", "markeredgecolor": INK,
     "markeredgewidth": 1.2, "clip_on": False, "zorder": 4,
 }  # fmt: skip

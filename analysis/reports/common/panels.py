@@ -14,7 +14,7 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from .style import DASHES, WIDTH, Look, house_style, new_figure
+from .style import WIDTH, Look, house_style, new_figure
 from .svg import inline_svg
 
 PANEL_WIDTH = 3.4  # in; three in the page's column
@@ -81,7 +81,7 @@ def far(values: np.ndarray) -> tuple[float, str]:
 
 def swatch(look: Look) -> Markup:
     """A look as a short line for legends in text."""
-    lengths = "" if look.dashes == DASHES[0] else " ".join(f"{1.7 * length:g}" for length in look.dashes[1])
+    lengths = "" if isinstance(look.dashes, str) else " ".join(f"{1.7 * length:g}" for length in look.dashes[1])
     return Markup(
         '<svg class="swatch" viewBox="0 0 26 8" aria-hidden="true">'
         '<line x1="0" y1="4" x2="26" y2="4" stroke="{}" stroke-width="3.2" stroke-dasharray="{}"/></svg>'

@@ -4,21 +4,41 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypedDict
 
 import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
+from matplotlib.typing import CapStyleType, LineStyleType
 
 from .quantities import log_tick, tick
 from .svg import Picture
 
 BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
 COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, "#000000")  # their yellow is too faint on white
-DASHES: tuple[Any, ...] = ("-", (0, (5, 1.6)), (0, (1.2, 1.2)), (0, (6, 1.6, 1.2, 1.6)), (0, (9, 2)))
+DASHES: tuple[LineStyleType, ...] = ("-", (0, (5, 1.6)), (0, (1.2, 1.2)), (0, (6, 1.6, 1.2, 1.6)), (0, (9, 2)))
 MARKERS = "osD^vPX"
 INK, FAINT, GRID = "#222222", "#6b6b6b", "#dddddd"
-FAILED: Any = {"color": INK, "linestyle": (0, (4, 2))}  # flights that failed, and what is to be expected
+
+
+class LineStyle(TypedDict, total=False):
+    """Keyword arguments of matplotlib's lines."""
+
+    color: str
+    linestyle: LineStyleType
+    linewidth: float
+    solid_capstyle: CapStyleType
+    marker: str
+    markersize: float
+    markerfacecolor: str
+    markeredgecolor: str
+    markeredgewidth: float
+    rasterized: bool
+    clip_on: bool
+    zorder: float
+
+
+FAILED: LineStyle = {"color": INK, "linestyle": (0, (4, 2))}  # flights that failed, and what is to be expected
 WIDTH = 10.4  # in; the page's column
 SETTINGS: Any = {
     "font.family": "sans-serif",
@@ -68,7 +88,7 @@ class Look(NamedTuple):
     """How one of several series is drawn: told apart by colour, dashes and marker at once."""
 
     colour: str
-    dashes: Any
+    dashes: LineStyleType
     marker: str
 
 

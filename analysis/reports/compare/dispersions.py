@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from ...campaigns.compare.comparison import Contender
 from ...campaigns.verdicts.order_statistics import quantiles
 from ..common.panels import Panel, far, panel
-from ..common.style import FAINT, INK, Look, plain_ticks
+from ..common.style import FAINT, INK, LineStyle, Look, plain_ticks
 from .recorded import ALL, find_vector, vectors
 
-TARGET: dict = {
+TARGET: LineStyle = {
     "linestyle": "", "marker": "o", "markersize": 6, "markerfacecolor": "white", "markeredgecolor": INK,
     "markeredgewidth": 1.3, "zorder": 4,
 }  # fmt: skip

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import StrEnum
 from math import isfinite
-from typing import Any
+from typing import TypedDict
 
 from markupsafe import Markup
 
@@ -56,9 +56,21 @@ def limit_rows(limits: Limits, result: Flight) -> list[tuple[Markup | str, ...]]
     return [_row(limit, verdict, result) for limit, verdict in evaluate(limits, result)]
 
 
-def limit_document(figures: Sequence[Figure], result: Flight) -> list[dict[str, Any]]:
+class LimitEntry(TypedDict, total=False):
+    """A limit as JSON: values in ``unit``, None where there is none; the ``reason`` where it is not evaluated."""
+
+    name: str
+    value: float | None
+    unit: str | None
+    least: float | None
+    most: float | None
+    verdict: Verdict
+    reason: str
+
+
+def limit_document(figures: Sequence[Figure], result: Flight) -> list[LimitEntry]:
     """All limits that a system declares as JSON, an object each."""
-    document: list[dict[str, Any]] = []
+    document: list[LimitEntry] = []
     for figure in figures:
         if isinstance(figure, Limits):
             document += limit_entries(figure, result)
@@ -69,21 +81,23 @@ def limit_document(figures: Sequence[Figure], result: Flight) -> list[dict[str, 
     return document
 
 
-def limit_entries(limits: Limits, result: Flight) -> list[dict[str, Any]]:
-    """Limits as JSON: values in ``unit``, None where there is none, and the reason where one is not evaluated."""
+def limit_entries(limits: Limits, result: Flight) -> list[LimitEntry]:
+    """An entry for each of some limits."""
     obstacle = limits.obstacle(result)
-    return [
-        {
+    entries = []
+    for limit, verdict in evaluate(limits, result):
+        entry: LimitEntry = {
             "name": limit.name,
             "value": None if obstacle or not isfinite(limit.value(result)) else limit.value(result),
             "unit": limit.signal.unit_name,
             "least": limit.least,
             "most": limit.most,
             "verdict": verdict,
-            **({"reason": obstacle} if obstacle else {}),
         }
-        for limit, verdict in evaluate(limits, result)
-    ]
+        if obstacle:
+            entry["reason"] = obstacle
+        entries.append(entry)
+    return entries
 
 
 def _row(limit: Limit, verdict: Verdict, result: Flight) -> tuple[Markup | str, ...]:

@@ -11,7 +11,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from ...stability.loops.readings import Classical, decibels
 from ...stability.results.report import LoopReport
 from ..common.quantities import number, tick
-from ..common.style import BLUE, FAINT, INK, VERMILION
+from ..common.style import BLUE, FAINT, INK, VERMILION, LineStyle
 from .frequency import (
     BEHIND,
     DECISIVE,
@@ -82,8 +82,8 @@ def _draw_gain_margins(loop: LoopReport, crossings: Classical, axes: Axes) -> No
     """Every crossing of -180 deg, a bar to the nearest, and the gain at which its margin would be the one required."""
     gain, limit = crossings.gain_margin, limits_of(loop).gain
     for crossing in crossings.gain:
-        style = {**GAIN_MARK, **({**DECISIVE, "clip_on": False} if crossing is gain else OTHER)}
-        axes.plot(_within(axes, crossing.frequency), -decibels(crossing.value), **style)
+        kind: LineStyle = DECISIVE | {"clip_on": False} if crossing is gain else OTHER
+        axes.plot(_within(axes, crossing.frequency), -decibels(crossing.value), **(GAIN_MARK | kind))
     if gain is None:
         return
     axes.plot([gain.frequency] * 2, [0.0, -decibels(gain.value)], **MARGIN)
@@ -98,7 +98,7 @@ def _draw_phase_margins(loop: LoopReport, crossings: Classical, degrees: np.ndar
     phase, limit = crossings.phase_margin, limits_of(loop).phase
     for crossing in crossings.phase:
         at = float(np.interp(crossing.frequency, loop.curve.frequency, degrees))
-        axes.plot(crossing.frequency, at, **{**PHASE_MARK, **(DECISIVE if crossing is phase else OTHER)})
+        axes.plot(crossing.frequency, at, **(PHASE_MARK | (DECISIVE if crossing is phase else OTHER)))
     if phase is None:
         return
     at = float(np.interp(phase.frequency, loop.curve.frequency, degrees))
@@ -125,7 +125,7 @@ def _draw_limit(axes: Axes, frequency: float, height: float, words: str, *, righ
     frequency = _within(axes, frequency)
     reach = 10.0 ** (REACH * (high - low))
     ends = max(frequency / reach, 10.0**low), min(frequency * reach, 10.0**high)
-    axes.plot(ends, [height] * 2, **{**LIMIT, "linewidth": 1.4})
+    axes.plot(ends, [height] * 2, **(LIMIT | {"linewidth": 1.4}))
     right = (
         math.log10(ends[1]) < high - ROOM * (high - low) if right else math.log10(ends[0]) < low + ROOM * (high - low)
     )

@@ -19,17 +19,17 @@ from ...stability.loops.margin_values import Quantity
 from ...stability.loops.readings import Classical, Curve, decibel_size, decibels, degree_size
 from ...stability.results.report import LoopReport
 from ..common.quantities import log_tick, number, tick
-from ..common.style import BLUE, FAINT, GREEN, INK, VERMILION, log_ticks_x
+from ..common.style import BLUE, FAINT, GREEN, INK, VERMILION, LineStyle, log_ticks_x
 
-MEASURED: Any = {
+MEASURED: LineStyle = {
     "linestyle": "", "marker": "o", "markersize": 3.0, "markerfacecolor": "none", "markeredgecolor": INK,
     "markeredgewidth": 0.7, "zorder": 3,
 }  # fmt: skip
-MARGIN: Any = {"color": VERMILION, "linewidth": 1.8, "zorder": 4, "solid_capstyle": "butt"}
-DECISIVE: Any = {"markersize": 6.0}  # the nearest crossing; others are hollow
-OTHER: Any = {"markerfacecolor": "white"}
-GAIN_MARK: Any = {"linestyle": "", "marker": "D", "markersize": 4.5, "color": VERMILION, "zorder": 5}
-PHASE_MARK: Any = {"linestyle": "", "marker": "s", "markersize": 4.5, "color": VERMILION, "zorder": 5}
+MARGIN: LineStyle = {"color": VERMILION, "linewidth": 1.8, "zorder": 4, "solid_capstyle": "butt"}
+DECISIVE: LineStyle = {"markersize": 6.0}  # the nearest crossing; others are hollow
+OTHER: LineStyle = {"markerfacecolor": "white"}
+GAIN_MARK: LineStyle = {"linestyle": "", "marker": "D", "markersize": 4.5, "color": VERMILION, "zorder": 5}
+PHASE_MARK: LineStyle = {"linestyle": "", "marker": "s", "markersize": 4.5, "color": VERMILION, "zorder": 5}
 FLOOR = 1e-12  # of a gain, for its logarithm
 
 
@@ -135,7 +135,7 @@ def faint_line(axes: Axes, x: np.ndarray, y: np.ndarray) -> None:
     axes.plot(x, y, color=FAINT, linewidth=0.7, linestyle=(0, (1.2, 1.6)), zorder=1.5)
 
 
-LIMIT: Any = {"color": VERMILION, "linewidth": 1.0, "linestyle": (0, (4, 2))}
+LIMIT: LineStyle = {"color": VERMILION, "linewidth": 1.0, "linestyle": (0, (4, 2))}
 FORBIDDEN = "#f6d5c0"  # fill of where a response or a margin must not be
 BEHIND: Any = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.8}  # of words over a line
 

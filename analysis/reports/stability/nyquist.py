@@ -14,7 +14,7 @@ from ...stability.loops.readings import Crossing, decibel_size, decibels
 from ...stability.results.report import LoopReport
 from ...stability.results.responses import Nonlinearity
 from ..common.quantities import MINUS, number, tick
-from ..common.style import BLUE, GREEN, INK, PURPLE, VERMILION, plain_ticks
+from ..common.style import BLUE, GREEN, INK, PURPLE, VERMILION, LineStyle, plain_ticks
 from .frequency import (
     BEHIND,
     DECISIVE,
@@ -34,7 +34,9 @@ from .frequency import (
 
 INVERSE = f"{MINUS}1/N"
 SHAPE = 1.2  # width over height of a panel's axes
-CRITICAL: Any = {"linestyle": "", "marker": "+", "markersize": 9, "markeredgewidth": 1.6, "color": INK, "zorder": 6}
+CRITICAL: LineStyle = {
+    "linestyle": "", "marker": "+", "markersize": 9, "markeredgewidth": 1.6, "color": INK, "zorder": 6,
+}  # fmt: skip
 ARROW: Any = {
     "arrowstyle": "-|>", "color": BLUE, "linewidth": 0.1, "mutation_scale": 12, "shrinkA": 0, "shrinkB": 0,
 }  # fmt: skip
@@ -156,9 +158,9 @@ def _draw_margins(loop: LoopReport, axes: Axes) -> float:
     if phase is not None:
         axes.plot([-180.0, _phase_at(phase)], [0.0] * 2, **MARGIN)
     for crossing in crossings.gain:
-        axes.plot(-180.0, -decibels(crossing.value), **{**GAIN_MARK, **(DECISIVE if crossing is gain else OTHER)})
+        axes.plot(-180.0, -decibels(crossing.value), **(GAIN_MARK | (DECISIVE if crossing is gain else OTHER)))
     for crossing in crossings.phase:
-        axes.plot(_phase_at(crossing), 0.0, **{**PHASE_MARK, **(DECISIVE if crossing is phase else OTHER)})
+        axes.plot(_phase_at(crossing), 0.0, **(PHASE_MARK | (DECISIVE if crossing is phase else OTHER)))
     reach = decibel_size(gain.value) if gain is not None else 0.0
     return min(max(LOW, 1.2 * reach), HIGH)
 

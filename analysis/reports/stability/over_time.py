@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import partial
 
 import numpy as np
 from markupsafe import Markup
@@ -16,7 +16,7 @@ from ...stability.loops.readings import decibels
 from ...stability.results.report import LoopReport, StabilityReport
 from ..common.panels import Panel, panel, swatch
 from ..common.quantities import number
-from ..common.style import COLOURS, INK, VERMILION, Look, look, plain_ticks
+from ..common.style import COLOURS, INK, VERMILION, LineStyle, Look, look, plain_ticks
 from .frequency import FORBIDDEN
 from .shared import together
 from .words import numeral
@@ -131,15 +131,15 @@ def _draw_course(course: Course, quantity: Quantity, style: Look, top: float, ax
     colour, dashes, marker = style
     sizes = course.sizes[quantity]
     for values in (course.upper[quantity], course.lower[quantity]):
-        line: Any = {"color": colour, "marker": marker, "markersize": 4.5, "markerfacecolor": "white"}
+        line: LineStyle = {"color": colour, "marker": marker, "markersize": 4.5, "markerfacecolor": "white"}
         axes.plot(course.times, values, linestyle=dashes, **line)
         nearer = np.isclose(abs(values), sizes)
-        axes.plot(course.times[nearer], values[nearer], **{**line, "linestyle": "", "markerfacecolor": colour})
-    at_edge: Any = {"linestyle": "", "clip_on": False, "zorder": 5, "markersize": 7, "markeredgewidth": 1.8}
+        axes.plot(course.times[nearer], values[nearer], **(line | {"linestyle": "", "markerfacecolor": colour}))
+    at_edge: LineStyle = {"linestyle": "", "clip_on": False, "zorder": 5, "markersize": 7, "markeredgewidth": 1.8}
     for kind, mark, height, displayed in ((UNSTABLE, "x", 0.0, VERMILION), (UNLIMITED, "^", top, colour)):
         here = course.times[sizes == kind]
         if here.size:
-            axes.plot(here, np.full(here.size, height), **{**at_edge, "marker": mark, "color": displayed})
+            axes.plot(here, np.full(here.size, height), **(at_edge | {"marker": mark, "color": displayed}))
 
 
 @dataclass(frozen=True)
@@ -181,5 +181,4 @@ def _panel(histories: list[Course], quantity: Quantity, name: str) -> Panel:
         if minimum < 0.0
         else "unlimited"
     )
-    draw: Any = lambda axes: draw_over_time(histories, quantity, axes)  # noqa: E731
-    return panel(quantity.capitalize(), name, words, draw)
+    return panel(quantity.capitalize(), name, words, partial(draw_over_time, histories, quantity))

@@ -53,10 +53,10 @@ def draw_histogram(sizes: np.ndarray, axes: Axes, what: str, limit: float | None
         left = edges[0] - 3.0 * width
         axes.bar(edges[0] - 2.0 * width, int(np.sum(unstable)), 2.0 * width, **UNSTABLE_BAND)
     if limit is not None:
-        axes.axvline(limit, **{**LIMIT, "linewidth": 1.4})
+        axes.axvline(limit, **(LIMIT | {"linewidth": 1.4}))
     if finite[worst] or unstable[worst]:
         at = edges[0] - 2.0 * width if unstable[worst] else sizes[worst]
-        axes.plot(at, 0.0, **{**PHASE_MARK, "marker": "^", "markersize": 7, "clip_on": False})
+        axes.plot(at, 0.0, **(PHASE_MARK | {"marker": "^", "markersize": 7, "clip_on": False}))
     axes.set_xlim(left, edges[-1])
     plain_ticks(axes, x=5, y=4, whole_y=True)
     counted = {"unstable": int(np.sum(unstable)), "without crossing": int(np.sum(sizes == UNLIMITED))}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -196,7 +196,7 @@ def hash_table(provenance: dict[str, Any]) -> Table:
     return Table(("part", "name", "SHA-256"), "ttc", rows, "hashes")
 
 
-def facts(provenance: dict[str, Any]) -> list[tuple[str, Cell]]:
+def facts(provenance: Mapping[str, object]) -> list[tuple[str, Cell]]:
     """Everything else that the study depends on: seed, step, versions and so on."""
     displayed = {"system", "system_sha256", "fmus", "parameters", "assumptions"}
     return [
@@ -206,7 +206,7 @@ def facts(provenance: dict[str, Any]) -> list[tuple[str, Cell]]:
     ]
 
 
-def fact(value: Any) -> Cell:
+def fact(value: object) -> Cell:
     """One fact: a number, a text, or several of them."""
     if value is None or value in ([], {}, ()):
         return "none"

@@ -16,7 +16,18 @@ from ...studies.rare.outcome import RareResult
 from ...studies.rare.uncertainty import CONFIDENCE
 from ..common.panels import Panel, Widths, both_widths, is_slim, panel
 from ..common.quantities import display_factor, label_with_unit, log_tick, number
-from ..common.style import BLUE, FAINT, INK, VERMILION, WIDTH, house_style, label_lanes, new_figure, plain_ticks
+from ..common.style import (
+    BLUE,
+    FAINT,
+    INK,
+    VERMILION,
+    WIDTH,
+    LineStyle,
+    house_style,
+    label_lanes,
+    new_figure,
+    plain_ticks,
+)
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in
@@ -74,7 +85,7 @@ def draw_limit_state(axes: Axes, result: RareResult) -> None:
     low, high = limits_of(values)
     failed = values >= 0.0
     size = max(1.2, min(4.0, 60.0 / values.size**0.5))
-    style = {"linestyle": "", "markersize": size, "markeredgewidth": 0.0, "rasterized": values.size > 1500}
+    style: LineStyle = {"linestyle": "", "markersize": size, "markeredgewidth": 0.0, "rasterized": values.size > 1500}
     axes.plot(numbers[~failed], values[~failed], marker="o", color=GREY, label="no failure", **style)
     hit = failed & finite
     axes.plot(numbers[hit], values[hit], marker="o", color=VERMILION, label="failure", **style)
@@ -203,9 +214,9 @@ def draw_design_points(axes: Axes, result: RareResult, one: str, other: str) -> 
     x, y = (factor * result.flown.draws[name] for factor, name in zip(factors, (one, other), strict=True))
     count = level_spans(result)[0].last
     failed = result.flown.values >= 0.0
-    points: dict[str, object] = {"linestyle": "", "markeredgewidth": 0.0, "rasterized": x.size > 1500}
-    axes.plot(x[:count], y[:count], marker="o", markersize=2.6, color=GREY, label="level 1", **points)  # type: ignore[arg-type]
-    axes.plot(x[failed], y[failed], marker="o", markersize=2.4, color=VERMILION, label="failures", **points)  # type: ignore[arg-type]
+    points: LineStyle = {"linestyle": "", "markeredgewidth": 0.0, "rasterized": x.size > 1500}
+    axes.plot(x[:count], y[:count], marker="o", markersize=2.6, color=GREY, label="level 1", **points)
+    axes.plot(x[failed], y[failed], marker="o", markersize=2.4, color=VERMILION, label="failures", **points)
     entries = result.failures
     at = [(factors[0] * entry["draws"][one], factors[1] * entry["draws"][other]) for entry in entries]
     if at:
