@@ -75,11 +75,6 @@ class Table(NamedTuple):
     numbers: Sequence[int]
 
 
-def cell(value: Any, digits: int = 4, unit: str | None = None) -> Markup:
-    """A number with so many significant digits and the exact value in the markup, or a word as it is."""
-    return exact(value, unit, digits)
-
-
 def fraction(value: float | None) -> Markup:
     """A number of the order of 1 with `PLACES` decimals and the exact value in the markup."""
     if value is None or not math.isfinite(value):

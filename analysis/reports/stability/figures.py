@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from enum import StrEnum
+from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -70,7 +71,7 @@ def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
         panels.append(panel("Poles", f"{name}-poles", words, lambda axes: draw_poles(loop, axes, near=False), HEIGHT))
         if are_crowded(poles):
             words = f"Closed-loop poles of {loop.name} near z = 1"
-            draw = lambda axes: draw_poles(loop, axes, near=True)  # noqa: E731
+            draw = partial(draw_poles, loop, near=True)
             panels.append(panel("Poles near z = 1", f"{name}-poles-near", words, draw, HEIGHT))
     if loop.step is not None:
         last = float(loop.step[1][-1])
@@ -94,8 +95,7 @@ def sensitivity_panel(loop: LoopReport, name: str) -> Panel:
     """Sensitivity and complementary sensitivity."""
     peaks = [number(decibels(peak), 3) for peak in (loop.robust.sensitivity_peak, loop.robust.complementary_peak)]
     words = f"Sensitivities of {loop.name}: peaks {peaks[0]} dB and {peaks[1]} dB"
-    limit = limits_of(loop).modulus
-    draw = lambda axes: draw_sensitivity(loop, axes, limit)  # noqa: E731
+    draw = partial(draw_sensitivity, loop, modulus_limit=limits_of(loop).modulus)
     return panel("Sensitivities", f"{name}-sensitivity", words, draw, LOW)
 
 
@@ -119,8 +119,7 @@ def dispersion_panels(loop: LoopReport, name: str) -> list[Panel]:
     if np.any(np.isfinite(dispersion.poles)):
         words = f"Closed-loop poles of {loop.name} in {dispersion.trials} trials"
         near = ", near z = 1" if are_crowded(poles_of(loop)) else ""
-        draw_poles_of_all = lambda axes: draw_cloud(loop, axes)  # noqa: E731
-        panels.append(panel(f"Poles over trials{near}", f"{name}-cloud", words, draw_poles_of_all, LOW))
+        panels.append(panel(f"Poles over trials{near}", f"{name}-cloud", words, partial(draw_cloud, loop), LOW))
     return panels
 
 
@@ -144,22 +143,11 @@ def nonlinear_panels(loop: LoopReport, name: str, index: int) -> list[Panel]:
     element = loop.nonlinearities[index]
     cycles = len(element.cycles)
     words = f"Describing function of {element.name} with {cycles} predicted limit cycle{'s' if cycles != 1 else ''}"
+    draw_balance = partial(draw_harmonic_balance, loop, element)
     balance = f"L of {loop.name} and {INVERSE} of {element.name} in the complex plane"
     return [
-        panel(
-            "Describing function",
-            f"{name}-describing-{index}",
-            words,
-            lambda axes: draw_describing(element, axes),
-            HEIGHT,
-        ),
-        panel(
-            "Harmonic balance",
-            f"{name}-balance-{index}",
-            balance,
-            lambda axes: draw_harmonic_balance(loop, element, axes),
-            HEIGHT,
-        ),
+        panel("Describing function", f"{name}-describing-{index}", words, partial(draw_describing, element), HEIGHT),
+        panel("Harmonic balance", f"{name}-balance-{index}", balance, draw_balance, HEIGHT),
     ]
 
 

@@ -13,7 +13,7 @@ from ...stability.results.report import LoopReport
 from ...stability.results.responses import Mode, Nonlinearity
 from ...stability.results.varied import LEVELS, Dispersion
 from ..common.panels import Panel
-from ..common.quantities import MINUS, NONE, display_unit
+from ..common.quantities import MINUS, NONE, display_unit, label_with_unit
 from .tables import Cell, Table
 from .words import (
     NO_CROSSING,
@@ -207,7 +207,6 @@ def dispersion_rows(dispersion: Dispersion) -> Part:
 
 def nonlinear(nonlinearity: Nonlinearity, index: int) -> Part:
     """Limit cycles that harmonic balance predicts, and what the simulation shows."""
-    unit = display_unit(nonlinearity.unit)
     rows: list[tuple[Cell, ...]] = []
     for cycle in nonlinearity.cycles:
         lasting = cycle.simulated_amplitude is not None
@@ -222,10 +221,8 @@ def nonlinear(nonlinearity: Nonlinearity, index: int) -> Part:
         )
     if not rows:
         rows.append((NO_CYCLE, "", "", "", ""))
-    head = (
-        f"amplitude, {unit}" if unit else "amplitude", "period, s", "predicted to be",
-        f"simulated amplitude, {unit}" if unit else "simulated amplitude", "simulated period, s",
-    )  # fmt: skip
+    amplitude, simulated = (label_with_unit(name, nonlinearity.unit) for name in ("amplitude", "simulated amplitude"))
+    head = (amplitude, "period, s", "predicted to be", simulated, "simulated period, s")
     values = ", ".join(f"{name} {value:.6g}" for name, value in nonlinearity.parameters.items())
     about = (
         f"{nonlinearity.kind}{': ' + values if values else ''}. Amplitudes at the element's input. {nonlinearity.note}"
@@ -247,8 +244,7 @@ def amplitudes(loop: LoopReport) -> Part:
         )
         for point in loop.amplitudes
     ]
-    unit = display_unit(loop.unit)
-    head = (f"amplitude, {unit}" if unit else "amplitude", "gain, dB", "phase, deg", "change, %")
+    head = (label_with_unit("amplitude", loop.unit), "gain, dB", "phase, deg", "change, %")
     at = Markup("At {} rad/s; changes are relative to the smallest amplitude's.").format(
         numeral(loop.amplitude_frequency)
     )

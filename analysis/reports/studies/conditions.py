@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from ...studies.noise import Noise
@@ -12,6 +12,7 @@ from ...studies.rare.outcome import RareResult
 from ...studies.sensitivity import SensitivityResult
 from ...studies.worst.outcome import WorstResult
 from ..campaign.tables import draw_rows, fmu_rows
+from ..common.page import write_page
 
 DEFAULT = "default"  # the name of a campaign's only variant
 StudyResult = RareResult | WorstResult | SensitivityResult
@@ -70,3 +71,10 @@ def campaign_name(label: str) -> str:
     """A campaign's name as commands take it: of a system's own campaign its stem, else the file."""
     inside = label.partition("!")[2]
     return PurePosixPath(inside).stem if inside else label
+
+
+def write_study_page(path: Path, template: str, subject: str, result: StudyResult, **content: object) -> None:
+    """Write one self-contained HTML page with the conditions of a study; the same result gives the same bytes."""
+    conditions = conditions_of(result)
+    title = f"{conditions.system}: {subject}"
+    write_page(path, Path(__file__).with_name(template), title=title, result=result, conditions=conditions, **content)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...studies.rare.outcome import RareResult
-from ..common.page import Table, cell, fraction, write_page
+from ..common.page import Table, exact, fraction
 from ..common.quantities import label_with_unit
-from .conditions import conditions_of
+from .conditions import write_study_page
 from .rare_figures import (
     PERCENT,
     design_point_panels,
@@ -25,13 +25,11 @@ def write_rare_page(result: RareResult, path: Path, folder: Path | None = None) 
 
     ``folder`` is where the result has been written, if it has: the page says how its failures are flown again.
     """
-    conditions = conditions_of(result)
-    write_page(
+    write_study_page(
         path,
-        Path(__file__).with_name("rare.html"),
-        title=f"{conditions.system}: rare failure",
-        result=result,
-        conditions=conditions,
+        "rare.html",
+        "rare failure",
+        result,
         percent=PERCENT,
         limit_state=limit_state_figure(result),
         exceedance=exceedance_panel(result),
@@ -52,17 +50,17 @@ def level_table(result: RareResult) -> Table:
         reached = None if span.reached is None or level.probability is None else span.reached * level.probability
         rows.append(
             (
-                cell(span.number),
-                cell(span.threshold, 4, result.margin_unit),
-                cell(level.samples),
-                cell(span.last - span.first + 1),
-                cell(level.probability),
-                cell(reached, 3),
+                exact(span.number),
+                exact(span.threshold, result.margin_unit),
+                exact(level.samples),
+                exact(span.last - span.first + 1),
+                exact(level.probability),
+                exact(reached, digits=3),
                 fraction(level.draw_acceptance),
                 fraction(level.noise_acceptance),
                 fraction(level.least_acceptance),
-                cell(level.correlation, 3),
-                cell(level.deviation, 3),
+                exact(level.correlation, digits=3),
+                exact(level.deviation, digits=3),
             )
         )
     heads = (
@@ -78,11 +76,11 @@ def design_table(result: RareResult) -> Table:
     sources = list(result.noise.sources)
     rows = [
         (
-            cell(entry["trial"]),
-            cell(entry["distance"], 3),
-            cell(entry["margin"], 4, result.margin_unit),
-            *(cell(entry["draws"][name], 6, result.units.get(name)) for name in names),
-            *(cell(entry["streams"][source]) for source in sources),
+            exact(entry["trial"]),
+            exact(entry["distance"], digits=3),
+            exact(entry["margin"], result.margin_unit),
+            *(exact(entry["draws"][name], result.units.get(name), 6) for name in names),
+            *(exact(entry["streams"][source]) for source in sources),
         )
         for entry in result.failures
     ]
@@ -98,13 +96,16 @@ def design_table(result: RareResult) -> Table:
 
 def influence_table(result: RareResult) -> Table:
     """A row per dispersed parameter: how far failures lie from the campaign's own samples."""
-    rows = [(name, cell(shift, 3)) for name, shift in influence(result).items()]
+    rows = [(name, exact(shift, digits=3)) for name, shift in influence(result).items()]
     return Table(("parameter", "shift, standard deviations"), rows, (1,))
 
 
 def equivalent_table(result: RareResult) -> Table:
     """A row per estimate of the probability: this study, and Monte Carlo."""
-    rows = [(row.label, cell(row.simulations), cell(row.low, 3), cell(row.high, 3)) for row in equivalents(result)]
+    rows = [
+        (row.label, exact(row.simulations), exact(row.low, digits=3), exact(row.high, digits=3))
+        for row in equivalents(result)
+    ]
     return Table(("estimate", "simulations", "from", "to"), rows, (1, 2, 3))
 
 

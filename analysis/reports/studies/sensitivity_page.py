@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 
 from ...studies.sensitivity import SensitivityResult
 from ...studies.sobol import CONFIDENCE
-from ..common.page import Table, fraction, fractions, write_page
+from ..common.page import Table, fraction, fractions
 from ..common.panels import HALF_WIDTH, Panel, panel
 from ..common.style import BLUE, INK, SKY, WIDTH, house_style, new_figure, plain_ticks
-from .conditions import conditions_of
+from .conditions import write_study_page
 
 WIDE = 0.3  # of an interval of a total index, from which on a larger base is advised
 
@@ -25,14 +25,12 @@ def write_sensitivity_page(result: SensitivityResult, path: Path, folder: Path |
 
     ``folder`` is where the result has been written, if it has: the page says how its flights are flown again.
     """
-    conditions = conditions_of(result)
     replay = result.replay(folder, 0)
-    write_page(
+    write_study_page(
         path,
-        Path(__file__).with_name("sensitivity.html"),
-        title=f"{conditions.system}: sensitivity",
-        result=result,
-        conditions=conditions,
+        "sensitivity.html",
+        "sensitivity",
+        result,
         percent=f"{100 * CONFIDENCE:g} %",
         drivers=driver_table(result),
         panels=index_panels(result),

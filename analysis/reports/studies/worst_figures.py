@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -133,8 +135,9 @@ def draw_search(axes: Axes, result: WorstResult) -> None:
 def trials_panel(result: WorstResult) -> Panel:
     """The random trials of the campaign, and where the worst case lies."""
     words = f"{result.badness.text}: {result.random_trials} random trials and the worst case"
-    draw = lambda axes: draw_trials(axes, result)  # noqa: E731
-    return panel("Worst case against random trials", "trials", words, draw, HEIGHT, HALF_WIDTH)
+    return panel(
+        "Worst case against random trials", "trials", words, partial(draw_trials, result=result), HEIGHT, HALF_WIDTH
+    )
 
 
 def fresh_panel(result: WorstResult) -> Panel | None:
@@ -142,8 +145,7 @@ def fresh_panel(result: WorstResult) -> Panel | None:
     if result.fresh is None or not np.any(result.fresh.values != result.fresh.values[0]):
         return None
     words = f"{result.badness.text} of the worst case under {result.fresh.values.size} fresh noise realisations"
-    draw = lambda axes: draw_fresh(axes, result)  # noqa: E731
-    return panel("Worst case under fresh noise", "fresh", words, draw, HEIGHT, HALF_WIDTH)
+    return panel("Worst case under fresh noise", "fresh", words, partial(draw_fresh, result=result), HEIGHT, HALF_WIDTH)
 
 
 def draw_fresh(axes: Axes, result: WorstResult) -> None:
@@ -160,12 +162,7 @@ def draw_fresh(axes: Axes, result: WorstResult) -> None:
         (result.value, VERMILION, f"{result.over.name} in the search"),
     )
     for value, colour, label in marks:
-        (displayed,) = select_values(result, np.array([value]))
-        if np.isfinite(displayed):
-            style = "-" if colour == VERMILION else (0, (4, 2))
-            axes.axvline(
-                displayed, color=colour, linewidth=1.6, linestyle=style, label=f"{label}: {number(float(displayed))}"
-            )
+        _mark(axes, float(select_values(result, np.array([value]))[0]), colour, label, 1.6)
     axes.set_ylim(0.0, 1.03)
     axes.set_xlabel(label_with_unit(result.badness.text, result.unit))
     axes.set_ylabel("fraction of realisations")
@@ -182,14 +179,18 @@ def draw_trials(axes: Axes, result: WorstResult) -> None:
     axes.hist(seen, bins=bins, color=GREY, label=f"{result.random_trials} random trials")
     marks = ((objective.random, INK, "worst random trial"), (objective.worst, VERMILION, "worst case"))
     for place, colour, label in marks:
-        value = objective.values[place]
-        if np.isfinite(value):
-            style = (0, (4, 2)) if colour == INK else "-"
-            axes.axvline(value, color=colour, linewidth=1.8, linestyle=style, label=f"{label}: {number(float(value))}")
+        _mark(axes, float(objective.values[place]), colour, label, 1.8)
     axes.set_xlabel(objective.label)
     axes.set_ylabel("trials")
     plain_ticks(axes, x=5, y=5, whole_y=True)
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.02), ncols=1, borderaxespad=0.0)
+
+
+def _mark(axes: Axes, value: float, colour: str, label: str, width: float) -> None:
+    """A value as a line, dashed unless it is the search's; none where it is not finite."""
+    if math.isfinite(value):
+        style = "-" if colour == VERMILION else (0, (4, 2))
+        axes.axvline(value, color=colour, linewidth=width, linestyle=style, label=f"{label}: {number(value)}")
 
 
 class Lane(NamedTuple):

@@ -16,7 +16,7 @@ from ...campaigns.spec.campaign import Record
 from ...campaigns.spec.plan import BatchPlan
 from ...runtime.flight.results import Result
 from ...studies.worst.outcome import WorstResult
-from ..common.page import Table, cell, fraction, write_page
+from ..common.page import Table, exact, fraction
 from ..common.panels import Panel
 from ..common.quantities import display_unit, label_with_unit
 from ..figures.declared import Figure
@@ -25,7 +25,7 @@ from ..figures.reading import read_figures
 from ..figures.section import Section
 from ..time_histories import Histories, time_histories
 from ..trajectory import trajectory_panels, trajectory_reading
-from .conditions import conditions_of
+from .conditions import write_study_page
 from .worst_figures import box_figure, box_lanes, fresh_panel, objective_of, search_figure, trials_panel
 
 
@@ -54,14 +54,12 @@ def write_worst_page(
     system asks for, see figures/reading.py. ``folder`` is where the result has been written, if it has: the page says
     how the worst case is flown again.
     """
-    conditions = conditions_of(result)
     objective = objective_of(result)
-    write_page(
+    write_study_page(
         path,
-        Path(__file__).with_name("worst.html"),
-        title=f"{conditions.system}: worst case",
-        result=result,
-        conditions=conditions,
+        "worst.html",
+        "worst case",
+        result,
         is_margin=not objective.rising,
         worst=with_unit(result.worst["value"], result.unit),
         random=with_unit(result.worst_random["value"], result.unit),
@@ -81,7 +79,7 @@ def write_worst_page(
 
 def value_cell(value: float | str | None, unit: str | None) -> Markup:
     """A value of the objective or of a metric in its shown unit; a simulation without one failed."""
-    return Markup("failed") if value is None else cell(value, 6, unit)
+    return Markup("failed") if value is None else exact(value, unit, 6)
 
 
 def with_unit(value: float | str | None, unit: str) -> Markup:
@@ -123,7 +121,9 @@ def phase_table(result: WorstResult) -> Table:
     for index, phase in enumerate(result.phases):
         end += phase.evaluations
         value = float(worst[end - 1])
-        rows.append((cell(index + 1), phase.name, cell(phase.evaluations), cell(value if value == value else None, 6)))
+        rows.append(
+            (exact(index + 1), phase.name, exact(phase.evaluations), exact(value if value == value else None, digits=6))
+        )
     head = label_with_unit("worst so far", result.unit)
     return Table(("", "method", "points", head), rows, (0, 2, 3))
 
@@ -133,11 +133,11 @@ def parameter_table(result: WorstResult) -> Table:
     rows = [
         (
             lane.label,
-            cell(lane.worst, 6, lane.unit),
-            cell(lane.low, 6, lane.unit),
-            cell(lane.high, 6, lane.unit),
+            exact(lane.worst, lane.unit, 6),
+            exact(lane.low, lane.unit, 6),
+            exact(lane.high, lane.unit, 6),
             fraction(lane.at(lane.worst)),
-            cell(lane.random, 6, lane.unit),
+            exact(lane.random, lane.unit, 6),
         )
         for lane in box_lanes(result)
     ]
