@@ -13,7 +13,7 @@ from ..campaigns.spec.expressions import Expression
 from ..campaigns.tables import faults_line
 from ..reports.common.notebook import Grid, notebook_view, value_text
 from ..reports.figures.declared import Band, Figure, Limits
-from ..reports.figures.limits import LimitEntry, limit_document, limit_rows
+from ..reports.figures.limits import limit_document, limit_rows
 from ..reports.figures.reading import read_figures
 from ..reports.run_report import key_values, write_run_report
 from ..reports.time_histories import signal_plot
@@ -70,7 +70,7 @@ class Result(results.Result):
         return plot
 
     @property
-    def limits(self) -> list[LimitEntry]:
+    def limits(self) -> list[dict[str, Any]]:
         """What the SSD's `Limits` say of the end: name, value, unit, least, most and verdict of each.
 
         The verdict is ``met``, ``violated`` or ``not evaluated``, with the reason why not.

@@ -122,11 +122,13 @@ def dispersion_panels(
     reaches = {label: reach_of(points) for label, points in ends.items()}
     maximum = max(reaches.values())
     uneven = maximum > UNEVEN * min(reaches.values())
-    common, own = [], []
-    for i, (label, points) in enumerate(ends.items()):
-        common.append(_panel(label, points, looks[label], maximum, unit, f"{name}-{i}"))
-        if uneven:
-            own.append(_panel(label, points, looks[label], reaches[label], unit, f"{name}-own-{i}"))
+    numbered = [(i, *item) for i, item in enumerate(ends.items())]
+    common = [_panel(label, points, looks[label], maximum, unit, f"{name}-{i}") for i, label, points in numbered]
+    own = [
+        _panel(label, points, looks[label], reaches[label], unit, f"{name}-own-{i}")
+        for i, label, points in numbered
+        if uneven
+    ]
     return common, own
 
 
@@ -195,6 +197,7 @@ def overlaid_ends(ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str
         return []
     reach = max(map(reach_of, ends.values()))
     factor, displayed = far(np.array([reach])) if unit == "m" else (1.0, unit)
+    reach *= factor
 
     def draw(axes: Axes) -> None:
         for label, points in ends.items():
@@ -203,7 +206,7 @@ def overlaid_ends(ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str
                 axes.plot(*ellipse(good, SIGMAS[-1]), color=style.colour, linestyle=style.dashes)
                 axes.plot(*good[:, :2].mean(axis=0), "+", color=style.colour, markersize=8, markeredgewidth=1.4)
         axes.plot(0.0, 0.0, **TARGET)
-        _dress(axes, factor * reach, displayed)
+        _dress(axes, reach, displayed)
 
     what = next(iter(ends.values())).variable
     return [

@@ -176,7 +176,7 @@ def _histories(comparison: Comparison, flights: Mapping[str, list[Flight]], look
 
 def _constant(bands: Iterable[Bands]) -> float | None:
     """The value that a quantity has throughout in all flights, if there is one."""
-    values = np.concatenate([band.finite_values() for band in bands])
+    values = np.concatenate([band.shown() for band in bands])
     return float(values[0]) if values.size and np.ptp(values) == 0.0 else None
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import StrEnum
 from math import isfinite
-from typing import TypedDict
+from typing import Any
 
 from markupsafe import Markup
 
@@ -56,21 +56,9 @@ def limit_rows(limits: Limits, result: Flight) -> list[tuple[Markup | str, ...]]
     return [_row(limit, verdict, result) for limit, verdict in evaluate(limits, result)]
 
 
-class LimitEntry(TypedDict, total=False):
-    """A limit as JSON: values in ``unit``, None where there is none; the ``reason`` where it is not evaluated."""
-
-    name: str
-    value: float | None
-    unit: str | None
-    least: float | None
-    most: float | None
-    verdict: Verdict
-    reason: str
-
-
-def limit_document(figures: Sequence[Figure], result: Flight) -> list[LimitEntry]:
+def limit_document(figures: Sequence[Figure], result: Flight) -> list[dict[str, Any]]:
     """All limits that a system declares as JSON, an object each."""
-    document: list[LimitEntry] = []
+    document: list[dict[str, Any]] = []
     for figure in figures:
         if isinstance(figure, Limits):
             document += limit_entries(figure, result)
@@ -81,23 +69,21 @@ def limit_document(figures: Sequence[Figure], result: Flight) -> list[LimitEntry
     return document
 
 
-def limit_entries(limits: Limits, result: Flight) -> list[LimitEntry]:
-    """An entry for each of some limits."""
+def limit_entries(limits: Limits, result: Flight) -> list[dict[str, Any]]:
+    """Limits as JSON: values in ``unit``, None where there is none, and the reason where one is not evaluated."""
     obstacle = limits.obstacle(result)
-    entries = []
-    for limit, verdict in evaluate(limits, result):
-        entry: LimitEntry = {
+    return [
+        {
             "name": limit.name,
             "value": None if obstacle or not isfinite(limit.value(result)) else limit.value(result),
             "unit": limit.signal.unit_name,
             "least": limit.least,
             "most": limit.most,
             "verdict": verdict,
+            **({"reason": obstacle} if obstacle else {}),
         }
-        if obstacle:
-            entry["reason"] = obstacle
-        entries.append(entry)
-    return entries
+        for limit, verdict in evaluate(limits, result)
+    ]
 
 
 def _row(limit: Limit, verdict: Verdict, result: Flight) -> tuple[Markup | str, ...]:
