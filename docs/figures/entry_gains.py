@@ -21,8 +21,8 @@ from perilune.analysis.common.atomic import write_atomically
 from perilune.analysis.design.poles.zeroth_level import output_feedback_levels
 from perilune.analysis.runtime.ssp.parameter_sets import write_parameter_set
 from perilune.fmus_src.kernel.records import replace
-from perilune.fmus_src.mathlib.entry_motion import body_axes
-from perilune.fmus_src.mathlib.standard_atmosphere import air
+from perilune.fmus_src.mathlib.entry_motion import body_axes, in_body
+from perilune.fmus_src.mathlib.standard_atmosphere import Air, air
 from perilune.fmus_src.mathlib.vectors import cross, vector
 from perilune.fmus_src.paths import ROOT
 from perilune.fmus_src.plants.entry_capsule import EntryCapsule
@@ -52,9 +52,9 @@ def sideslip_moments() -> tuple[float, float]:
     capsule.initialize()
     h, moments = 1e-4, []
     for sideslip in (h, -h):
-        v = capsule.in_body(*body_axes(vector(0.0, sideslip, TRIM)), vector(1.0, 0.0, 0.0))
+        v = in_body(body_axes(vector(0.0, sideslip, TRIM)), vector(1.0, 0.0, 0.0))
         # two units of density make the pressure one
-        moments.append(cross(capsule.pressure_arm, capsule.air_force(v, 2.0, 1.0 / MACH)))
+        moments.append(cross(capsule.pressure_arm, capsule.air_force(v, Air(density=2.0, speed_of_sound=1.0 / MACH))))
     x, y, _ = (moments[0] - moments[1]) / (2.0 * h)
     return round(x, 4), round(y, 3)
 
@@ -132,7 +132,7 @@ def gain_files() -> dict[str, bytes]:
 
 def whole_model() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """A, B, C of (bank, sideslip, attack, wx, wy, wz), three torques (N m) and outputs (bank, wx, wy, wz), SI."""
-    density, _ = air(HEIGHT)
+    density = air(HEIGHT).density
     capsule = EntryCapsule(
         initial_height=HEIGHT,
         initial_speed=math.sqrt(2.0 * DESIGN_PRESSURE / density),

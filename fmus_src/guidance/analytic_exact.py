@@ -1,7 +1,7 @@
 """Analytic terminal guidance with nothing dropped: cubic time-to-go, exact rates, exact last burn."""
 
 from ..interfaces.terminal_guidance import GOOD
-from ..mathlib.terminal import impulse_and_miss, linear_thrust
+from ..mathlib.terminal import impulse_and_miss
 from ..mathlib.vectors import norm
 from .certain_time import CertainTime
 
@@ -27,9 +27,6 @@ class AnalyticExactGuidance(CertainTime):
         self.status = GOOD
         if time > 0.0:
             a, b = impulse_and_miss(dr, self.velocity, dv, self.gravity, time)
-            span = self.burn_span(time)
-            self.thrust_acceleration, self.thrust_direction, self.thrust_direction_rate = linear_thrust(
-                a, b, time, span, self.thrust_direction, self.thrust_direction_rate
-            )
+            self.thrust_linearly(a, b, time)
             if not self.least_effort:
                 self.thrust_acceleration = norm(a) / time

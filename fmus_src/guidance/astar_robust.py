@@ -1,7 +1,7 @@
 """Method A* made to work for every start: time-to-go from the cubic or the least effort, thrust from |a0|."""
 
 from ..interfaces.terminal_guidance import GOOD
-from ..mathlib.terminal import impulse_and_miss, linear_thrust
+from ..mathlib.terminal import impulse_and_miss
 from ..mathlib.vectors import norm
 from .astar_programme import AstarProgramme
 from .certain_time import CertainTime
@@ -32,9 +32,6 @@ class AstarRobustGuidance(AstarProgramme, CertainTime):
             p = 3.0 * b - time * a
             size = norm(p)
             if self.least_effort or p.x <= FORWARD * size:
-                span = self.burn_span(time)
-                self.thrust_acceleration, self.thrust_direction, self.thrust_direction_rate = linear_thrust(
-                    a, b, time, span, self.thrust_direction, self.thrust_direction_rate
-                )
+                self.thrust_linearly(a, b, time)
             else:
                 self.point(a, b, time, 2.0 * size / (time * time))

@@ -2,7 +2,7 @@
 
 from ..block import State
 from ..interfaces.terminal_guidance import TerminalGuidance
-from ..mathlib.terminal import cubic_time, effort_rises, least_effort_time, steady
+from ..mathlib.terminal import cubic_time, effort_rises, least_effort_time, linear_thrust, steady
 from ..mathlib.vectors import Vector3
 
 AGREEMENT = 0.05  # of the time; where the two times are this close, a flight of least effort goes over to braking
@@ -67,3 +67,10 @@ class CertainTime(TerminalGuidance, interface=True):
         if time <= held:
             return time
         return self.cycle
+
+    def thrust_linearly(self, a: Vector3, b: Vector3, time: float) -> None:
+        """Command the mean of a0 + a1 t over the next burn, with A (m/s), B (m) and the time-to-go (s)."""
+        thrust = linear_thrust(a, b, time, self.burn_span(time), self.thrust_direction, self.thrust_direction_rate)
+        self.thrust_acceleration = thrust.size
+        self.thrust_direction = thrust.direction
+        self.thrust_direction_rate = thrust.rate

@@ -4,10 +4,11 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, robot
+from ..kernel.integrators import Translation
 from ..mathlib.quaternion import from_rotation_vector
 from ..mathlib.rotation import rotation_between
 from ..mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
-from ..mathlib.vectors import Vector3, norm, vector
+from ..mathlib.vectors import norm, vector
 
 GOOD = 0
 NO_PLAN = 1
@@ -102,21 +103,22 @@ class RendezvousGuidance(Block):
             for k in range(7):
                 self.splines[7 * i + k] = c[k]
 
-    def motion(self, time: float) -> tuple[Vector3, Vector3]:
-        """Planned position (m) and velocity (m/s)."""
+    def motion(self, time: float) -> Translation:
+        """Planned motion."""
         if self.status != GOOD:
-            return vector(0.0, 0.0, 0.0), vector(0.0, 0.0, 0.0)
+            return Translation(position=vector(0.0, 0.0, 0.0), velocity=vector(0.0, 0.0, 0.0))
         if time <= self.turn_start:
-            return 0.5 * self.acceleration * time * time, time * self.acceleration
+            return Translation(position=0.5 * self.acceleration * time * time, velocity=time * self.acceleration)
         if time <= self.turn_end:
             coasting = self.turn_start * self.acceleration
-            return (time - 0.5 * self.turn_start) * coasting, coasting
+            return Translation(position=(time - 0.5 * self.turn_start) * coasting, velocity=coasting)
         if time < self.arrival_time:
             return self.approach(time)
-        return self.place + (time - self.arrival_time) * self.target_velocity, self.target_velocity
+        since = time - self.arrival_time
+        return Translation(position=self.place + since * self.target_velocity, velocity=self.target_velocity)
 
-    def approach(self, time: float) -> tuple[Vector3, Vector3]:
-        """Position (m) and velocity (m/s) on the splines."""
+    def approach(self, time: float) -> Translation:
+        """Motion on the splines."""
         duration = self.arrival_time - self.turn_end
         s = (time - self.turn_end) / duration
         position = [0.0] * 3
@@ -127,7 +129,7 @@ class RendezvousGuidance(Block):
                 c[k] = self.splines[7 * i + k]
             position[i] = spline_value(c, s)
             velocity[i] = spline_rate(c, s, duration)
-        return vector(*position), vector(*velocity)
+        return Translation(position=vector(*position), velocity=vector(*velocity))
 
     def turn(self, time: float) -> None:
         """Planned attitude, its rate, and its acceleration half a period of attitude control later."""
@@ -170,15 +172,17 @@ class RendezvousGuidance(Block):
             end = float(following) * self.fast_period + self.delay_fraction * self.translation_period
         self.planned_acceleration = vector(0.0, 0.0, 0.0)
         if end > begin:
-            _, velocity = self.motion(end)
-            self.planned_acceleration = (velocity - self.granted_velocity) / (end - begin)
-            self.granted_velocity = velocity
+            planned = self.motion(end)
+            self.planned_acceleration = (planned.velocity - self.granted_velocity) / (end - begin)
+            self.granted_velocity = planned.velocity
         self.next_tick = following
         self.translation_count = self.translation_count + 1
 
     def publish(self, time: float) -> None:
         """Put the plan of ``time`` (s) on the outputs."""
-        self.planned_position, self.planned_velocity = self.motion(time)
+        planned = self.motion(time)
+        self.planned_position = planned.position
+        self.planned_velocity = planned.velocity
         target = self.target_position + time * self.target_velocity
         self.planned_relative_position = target - self.planned_position
         self.turn(time)

@@ -7,7 +7,7 @@ docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
 
 from ..kernel.functions import cos, sin, tan
 from ..kernel.records import Field, Record
-from .vectors import Vector3, vector
+from .vectors import Vector3, dot, vector
 
 
 class EntryState(Record):
@@ -23,6 +23,14 @@ class EntryState(Record):
     angular_velocity = Field(Vector3, unit="rad/s", frame="body", description="absolute")
 
 
+class BodyAxes(Record):
+    """The body's axes in velocity axes, unit vectors."""
+
+    x = Field(Vector3, unit="1")
+    y = Field(Vector3, unit="1")
+    z = Field(Vector3, unit="1")
+
+
 class PathRate(Record):
     """How fast place and velocity change."""
 
@@ -34,8 +42,8 @@ class PathRate(Record):
     heading = Field(unit="rad/s")
 
 
-def body_axes(attitude: Vector3) -> tuple[Vector3, Vector3, Vector3]:
-    """The body's axes x, y, z in velocity axes."""
+def body_axes(attitude: Vector3) -> BodyAxes:
+    """The body's axes."""
     sg = sin(attitude.x)
     cg = cos(attitude.x)
     sb = sin(attitude.y)
@@ -44,7 +52,12 @@ def body_axes(attitude: Vector3) -> tuple[Vector3, Vector3, Vector3]:
     ca = cos(attitude.z)
     x = vector(ca * cb, sa * cg + ca * sb * sg, sa * sg - ca * sb * cg)
     y = vector(-sa * cb, ca * cg - sa * sb * sg, ca * sg + sa * sb * cg)
-    return x, y, vector(sb, -cb * sg, cb * cg)
+    return BodyAxes(x=x, y=y, z=vector(sb, -cb * sg, cb * cg))
+
+
+def in_body(axes: BodyAxes, v: Vector3) -> Vector3:
+    """A vector of velocity axes in the body's."""
+    return vector(dot(axes.x, v), dot(axes.y, v), dot(axes.z, v))
 
 
 def earth_forces(s: EntryState, gravitational_parameter: float, earth_rate: float) -> Vector3:

@@ -8,6 +8,7 @@ equations 23 and 33 and table IV.
 import math
 
 from ..kernel.functions import exp, log, pow
+from ..kernel.records import Field, Record
 
 EARTH_RADIUS = 6356766.0  # m, for geopotential heights
 GRAVITY = 9.80665  # m/s2
@@ -15,6 +16,13 @@ GAS_CONSTANT = 287.053  # J/(kg K), of air
 HEAT_RATIO = 1.4
 TOP = 86000.0  # m, of the layers
 THIN_SOUND = 274.096  # m/s, above
+
+
+class Air(Record):
+    """Air at rest."""
+
+    density = Field(unit="kg/m3")
+    speed_of_sound = Field(unit="m/s")
 
 
 def thin_density(h: float) -> float:
@@ -30,10 +38,10 @@ def thin_density(h: float) -> float:
     return density[k] * exp(fraction * log(density[k + 1] / density[k]))
 
 
-def air(h: float) -> tuple[float, float]:
-    """Density (kg/m3) and speed of sound (m/s) at the height h (m) above the sphere."""
+def air(h: float) -> Air:
+    """The air at the height h (m) above the sphere."""
     if h >= TOP:
-        return thin_density(h), THIN_SOUND
+        return Air(density=thin_density(h), speed_of_sound=THIN_SOUND)
     base = [0.0, 11000.0, 20000.0, 32000.0, 47000.0, 51000.0, 71000.0, 90000.0]
     lapse = [-0.0065, 0.0, 0.001, 0.0028, 0.0, -0.0028, -0.002]
     geopotential = EARTH_RADIUS * h / (EARTH_RADIUS + h)
@@ -53,4 +61,4 @@ def air(h: float) -> tuple[float, float]:
         if geopotential <= base[k + 1]:
             break
     specific = GAS_CONSTANT * temperature
-    return pressure / specific, math.sqrt(HEAT_RATIO * specific)
+    return Air(density=pressure / specific, speed_of_sound=math.sqrt(HEAT_RATIO * specific))

@@ -7,8 +7,17 @@ Source: Fomichev and Li 2017, with the corrections of docs/systems/lunar_termina
 
 import math
 
+from ..kernel.records import Field, Record
 from .polynomial import LARGEST, evaluate, first_crossing, positive_roots, quadratic_roots
 from .vectors import Vector3, dot, norm, vector
+
+
+class LinearThrust(Record):
+    """A thrust over mass that is linear in time."""
+
+    size = Field(unit="m/s2", description="its mean over a span")
+    direction = Field(Vector3, unit="1", description="unit vector at the start of the span")
+    rate = Field(Vector3, unit="1/s", description="derivative of the direction then")
 
 
 def impulse_and_miss(dr: Vector3, v: Vector3, dv: Vector3, g: float, time_to_go: float) -> tuple[Vector3, Vector3]:
@@ -120,10 +129,8 @@ def least_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
     return roots[0]
 
 
-def linear_thrust(
-    a: Vector3, b: Vector3, time: float, span: float, direction: Vector3, rate: Vector3
-) -> tuple[float, Vector3, Vector3]:
-    """Mean size (m/s2) over ``span`` (s), direction and rate (1/s) of a0 + a1 t at its start.
+def linear_thrust(a: Vector3, b: Vector3, time: float, span: float, direction: Vector3, rate: Vector3) -> LinearThrust:
+    """The thrust a0 + a1 t over ``span`` (s).
 
     The size is that of the mean vector. Where a0 = 0, the direction is that of the mean and its rate 0; where
     there is no thrust at all, direction and rate are as given.
@@ -141,4 +148,4 @@ def linear_thrust(
     elif size > 0.0:
         direction = mean / size
         rate = vector(0.0, 0.0, 0.0)
-    return 2.0 * size / (time * time), direction, rate
+    return LinearThrust(size=2.0 * size / (time * time), direction=direction, rate=rate)

@@ -6,14 +6,23 @@ from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, entry, landing, sampling
 from ..kernel.functions import atan2
 from ..kernel.integrators import runge_kutta_4
+from ..kernel.records import replace
 from ..mathlib.cubic_spline import cubic_value, curvatures
-from ..mathlib.entry_motion import EntryState, attitude_rates, body_axes, earth_forces, path_rate, velocity_axes_rate
+from ..mathlib.entry_motion import (
+    EntryState,
+    attitude_rates,
+    body_axes,
+    earth_forces,
+    in_body,
+    path_rate,
+    velocity_axes_rate,
+)
 from ..mathlib.matrices import inverse
 from ..mathlib.newtonian_cap import cap_tables
 from ..mathlib.orbital import apply_matrix
 from ..mathlib.pulses import left_after, lengths_of, next_switch_off
-from ..mathlib.standard_atmosphere import air
-from ..mathlib.vectors import Vector3, cross, dot, norm, vector
+from ..mathlib.standard_atmosphere import Air, air
+from ..mathlib.vectors import Vector3, cross, norm, vector
 
 KNOTS = 13
 MACHS = 10
@@ -144,13 +153,13 @@ class EntryCapsule(Block):
         """Angle (rad) between the axis of symmetry and the velocity v against the air (body)."""
         return atan2(math.sqrt(v.y * v.y + v.z * v.z), v.x)
 
-    def air_force(self, v: Vector3, density: float, sound: float) -> Vector3:
+    def air_force(self, v: Vector3, gas: Air) -> Vector3:
         """Force of the air (N, body) at the velocity v (m/s, body) against it."""
         across = math.sqrt(v.y * v.y + v.z * v.z)
         speed = norm(v)
         angle = self.spatial_angle(v)
-        mach = speed / sound
-        pushed = 0.5 * density * speed * speed * self.reference_area
+        mach = speed / gas.speed_of_sound
+        pushed = 0.5 * gas.density * speed * speed * self.reference_area
         axial = self.coefficient(self.axial_coefficient, self.axial_curvature, mach, angle)
         normal = self.coefficient(self.normal_coefficient, self.normal_curvature, mach, angle)
         if across < HEAD_ON * speed:
@@ -159,20 +168,20 @@ class EntryCapsule(Block):
 
     def derivatives(self, t: float, s: EntryState, torque: Vector3) -> EntryState:
         """Rates of the state under a torque of the jets (N m, body): docs/systems/entry_attitude.md, motion."""
-        x, y, z = body_axes(s.attitude)
-        v = self.in_body(x, y, z, vector(s.speed, 0.0, 0.0) - self.wind)
-        density, sound = air(s.radius - self.earth_radius)
-        density = density * self.density_factor
-        force = self.air_force(v, density, sound)
+        axes = body_axes(s.attitude)
+        v = in_body(axes, vector(s.speed, 0.0, 0.0) - self.wind)
+        standard = air(s.radius - self.earth_radius)
+        gas = replace(standard, density=standard.density * self.density_factor)
+        force = self.air_force(v, gas)
         speed = norm(v)
         length = self.reference_length
-        damping = 0.5 * self.damping_coefficient * density * speed * self.reference_area * length * length
+        damping = 0.5 * self.damping_coefficient * gas.density * speed * self.reference_area * length * length
         w = s.angular_velocity
         moment = cross(self.pressure_arm, force) + damping * w + torque
-        acceleration = (force.x * x + force.y * y + force.z * z) / self.mass
+        acceleration = (force.x * axes.x + force.y * axes.y + force.z * axes.z) / self.mass
         acceleration = acceleration + earth_forces(s, self.gravitational_parameter, self.earth_rate)
         path = path_rate(s, acceleration)
-        relative = w - self.in_body(x, y, z, velocity_axes_rate(s, path, self.earth_rate))
+        relative = w - in_body(axes, velocity_axes_rate(s, path, self.earth_rate))
         return EntryState(
             radius=path.radius,
             longitude=path.longitude,
@@ -183,10 +192,6 @@ class EntryCapsule(Block):
             attitude=attitude_rates(s.attitude, relative),
             angular_velocity=apply_matrix(self.inverse_inertia, cross(apply_matrix(self.inertia, w), w) + moment),
         )
-
-    def in_body(self, x: Vector3, y: Vector3, z: Vector3, v: Vector3) -> Vector3:
-        """A vector of velocity axes in the body, whose axes are given in velocity axes."""
-        return vector(dot(x, v), dot(y, v), dot(z, v))
 
     def jet(self, k: int, length: float, time: float) -> float:
         """Torque (N m) of the jets about axis k after ``time`` (s) of a pulse (s, with its sign)."""
@@ -221,11 +226,10 @@ class EntryCapsule(Block):
         self.course = s.heading
         self.bank, self.sideslip, self.attack = s.attitude
         self.angular_velocity = s.angular_velocity
-        density, sound = air(self.height)
-        self.dynamic_pressure = 0.5 * density * self.speed * self.speed
-        x, y, z = body_axes(s.attitude)
-        v = self.in_body(x, y, z, vector(self.speed, 0.0, 0.0) - self.wind)
-        self.mach = norm(v) / sound
+        gas = air(self.height)
+        self.dynamic_pressure = 0.5 * gas.density * self.speed * self.speed
+        v = in_body(body_axes(s.attitude), vector(self.speed, 0.0, 0.0) - self.wind)
+        self.mach = norm(v) / gas.speed_of_sound
         if self.status != NO_INERTIA:
             self.status = GOOD
             outside = self.mach < self.mach_numbers[0] or self.mach > self.mach_numbers[MACHS - 1]

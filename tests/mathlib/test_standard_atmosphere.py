@@ -35,18 +35,18 @@ PUBLISHED = {
 
 @pytest.mark.parametrize("height", PUBLISHED)
 def test_density(height):
-    assert air(1000.0 * height)[0] == pytest.approx(PUBLISHED[height], rel=1.5e-4)
+    assert air(1000.0 * height).density == pytest.approx(PUBLISHED[height], rel=1.5e-4)
 
 
 @pytest.mark.parametrize(("height", "speed"), [(0, 340.29), (10, 299.53), (20, 295.07), (50, 329.80), (80, 282.54)])
 def test_speed_of_sound(height, speed):
-    assert air(1000.0 * height)[1] == pytest.approx(speed, rel=5e-5)
+    assert air(1000.0 * height).speed_of_sound == pytest.approx(speed, rel=5e-5)
 
 
 def test_the_thin_air_above():
     """Tabulated at 90, 100 and 120 km, straight in the logarithm between, held beyond, without a gap at 86 km."""
-    assert [air(1000.0 * h)[0] for h in (90, 100, 120, 130, 500)] == pytest.approx(
+    assert [air(1000.0 * h).density for h in (90, 100, 120, 130, 500)] == pytest.approx(
         [3.416e-6, 5.604e-7, 2.222e-8, 8.152e-9, 8.152e-9]
     )
-    assert air(92500.0)[0] == pytest.approx(math.sqrt(3.416e-6 * 1.393e-6), rel=1e-12)
-    assert air(86000.0 - 1e-6)[0] == pytest.approx(air(86000.0)[0], rel=2e-4)
+    assert air(92500.0).density == pytest.approx(math.sqrt(3.416e-6 * 1.393e-6), rel=1e-12)
+    assert air(86000.0 - 1e-6).density == pytest.approx(air(86000.0).density, rel=2e-4)

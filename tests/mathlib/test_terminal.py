@@ -273,19 +273,20 @@ def test_linear_thrust_is_the_mean_and_the_turn_of_the_linear_acceleration(state
     time = cubic_time(*[value.tolist() for value in arguments], GRAVITY)
     a0, a1 = linear_acceleration(*arguments, time)
     a, b = impulse(*arguments, time)
-    size, direction, rate = linear_thrust(a, b, time, share * time, ZERO, ZERO)
-    assert size == pytest.approx(np.linalg.norm(a0 + 0.5 * share * time * a1), rel=1e-9)
-    assert direction == pytest.approx(a0 / np.linalg.norm(a0), abs=1e-12)
+    thrust = linear_thrust(a, b, time, share * time, ZERO, ZERO)
+    assert thrust.size == pytest.approx(np.linalg.norm(a0 + 0.5 * share * time * a1), rel=1e-9)
+    assert thrust.direction == pytest.approx(a0 / np.linalg.norm(a0), abs=1e-12)
     step = 1e-3
     after, before = a0 + step * a1, a0 - step * a1
     turn = (after / np.linalg.norm(after) - before / np.linalg.norm(before)) / (2.0 * step)
-    assert rate == pytest.approx(turn, abs=1e-10)
+    assert thrust.rate == pytest.approx(turn, abs=1e-10)
 
 
 def test_linear_thrust_that_begins_at_zero_points_where_it_grows_to():
     """A T = 3 B, with exact numbers: a0 = 0."""
     a, b, held, turning = [0.0, 0.0, 3.0], [0.0, 0.0, 2.0], [1.0, 0.0, 0.0], [9.0, 9.0, 9.0]
-    size, direction, rate = linear_thrust(a, b, 2.0, 1.0, held, turning)
-    assert size == pytest.approx(0.75)
-    assert (direction, rate) == ([0.0, 0.0, 1.0], ZERO)
-    assert linear_thrust(a, b, 2.0, 0.0, held, turning) == (0.0, held, turning)  # no thrust at all
+    thrust = linear_thrust(a, b, 2.0, 1.0, held, turning)
+    assert thrust.size == pytest.approx(0.75)
+    assert (thrust.direction, thrust.rate) == ([0.0, 0.0, 1.0], ZERO)
+    still = linear_thrust(a, b, 2.0, 0.0, held, turning)  # no thrust at all
+    assert (still.size, still.direction, still.rate) == (0.0, held, turning)

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from perilune.fmus_src.mathlib.entry_motion import body_axes
-from perilune.fmus_src.mathlib.standard_atmosphere import air
+from perilune.fmus_src.mathlib.entry_motion import body_axes, in_body
+from perilune.fmus_src.mathlib.standard_atmosphere import Air, air
 from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.plants.entry_capsule import AXIAL, MACH_NUMBERS, NORMAL, EntryCapsule
 from tests.support.flights.entry_motion import DEGREE, EARTH_RATE, INERTIA, MU, RADIUS, Coefficients, Entry
@@ -120,9 +120,9 @@ def test_energy_is_lost_to_the_air_alone():
         return 0.5 * block.speed**2 - MU / block.state.radius - 0.5 * around**2
 
     def power():
-        v = block.in_body(*body_axes(block.state.attitude), vector(block.speed, 0.0, 0.0))
-        density, sound = air(block.height)
-        force = block.air_force(v, density, sound)
+        v = in_body(body_axes(block.state.attitude), vector(block.speed, 0.0, 0.0))
+        gas = air(block.height)
+        force = block.air_force(v, gas)
         return (force.x * v.x + force.y * v.y + force.z * v.z) / block.mass
 
     begun, rows, step = energy(), [power()], 0.0125
@@ -187,8 +187,8 @@ def test_wind_moves_the_air():
     forces = []
     for block in (faster, windy):
         axes = body_axes(block.state.attitude)
-        v = block.in_body(*axes, vector(block.speed, 0.0, 0.0) - block.wind)
-        forces.append([*block.air_force(v, *air(block.height))])
+        v = in_body(axes, vector(block.speed, 0.0, 0.0) - block.wind)
+        forces.append([*block.air_force(v, air(block.height))])
     assert forces[1] == pytest.approx(forces[0], rel=1e-12)
 
 
@@ -205,10 +205,10 @@ def test_the_pressure_trims_at_twenty_degrees_with_lift():
     """Moment about z 0 at -20 deg; lift over drag 0.309."""
     block = capsule(initial_bank=0.0)
     axes = body_axes(block.state.attitude)
-    v = block.in_body(*axes, vector(7000.0, 0.0, 0.0))
-    force = np.array([*block.air_force(v, 1e-5, 290.0)])
+    v = in_body(axes, vector(7000.0, 0.0, 0.0))
+    force = np.array([*block.air_force(v, Air(density=1e-5, speed_of_sound=290.0))])
     moment = np.cross([*block.pressure_arm], force)
     assert abs(moment[2]) < 1e-4 * np.linalg.norm(force)
-    in_velocity = force @ np.array([[*axis] for axis in axes])
+    in_velocity = force @ np.array([[*axis] for axis in (axes.x, axes.y, axes.z)])
     assert in_velocity[1] / -in_velocity[0] == pytest.approx(0.309, abs=5e-4)
     assert block.earth_radius == RADIUS
