@@ -115,15 +115,13 @@ class Search:
             if random.random() < likely:
                 first, second = (self.state.population[place].genes for place in pair)
                 children += cross(random, first, second, self.coding)
-        grown = [self._maybe_mutated(child) for child in children]
+        grown = [
+            mutate(random, child, self.state.bases, self.coding) if random.random() < settings.mutation else child
+            for child in children
+        ]
         for candidate in self._evaluate(grown, bar):
             if not bar.rejects(candidate.evaluation.objectives) and self._let_in(candidate, order):
                 order = ParetoOrder(objectives_of(self.state.population))
-
-    def _maybe_mutated(self, genes: Genes) -> Genes:
-        if self.state.random.random() < self.settings.mutation:
-            return mutate(self.state.random, genes, self.state.bases, self.coding)
-        return genes
 
     def _let_in(self, candidate: Candidate, order: ParetoOrder) -> bool:
         """Put a candidate in the place of the worst, unless it is worse or has the objectives of one there."""

@@ -89,21 +89,11 @@ def robust(response: Response, low: float, high: float, *, include: Iterable[flo
     response = cache_response(response)
     frequency = dense(response, low, high, include=include).frequency
 
-    def sensitivity(angular: np.ndarray) -> np.ndarray:
-        return np.abs(1.0 / (1.0 + response(angular)))
-
-    def complementary(angular: np.ndarray) -> np.ndarray:
-        value = response(angular)
-        return np.abs(value / (1.0 + value))
-
-    def balance(angular: np.ndarray) -> np.ndarray:
-        value = response(angular)
-        return np.abs(0.5 * (1.0 - value) / (1.0 + value))  # S - 1/2
-
     with np.errstate(divide="ignore"):
-        (s_peak, s_at), (t_peak, t_at), (b_peak, b_at) = (
-            highest(size, frequency) for size in (sensitivity, complementary, balance)
-        )
+        s_peak, s_at = highest(lambda w: np.abs(1.0 / (1.0 + response(w))), frequency)
+        t_peak, t_at = highest(lambda w: np.abs((value := response(w)) / (1.0 + value)), frequency)
+        # S - 1/2
+        b_peak, b_at = highest(lambda w: np.abs(0.5 * (1.0 - (value := response(w))) / (1.0 + value)), frequency)
     alpha = 1.0 / b_peak
     return Robust(
         modulus_margin=1.0 / s_peak,

@@ -130,11 +130,7 @@ class PointStudy:
             return None
         model = self.linear.model.reduce(ports)
         seconds = ports[0].seconds
-
-        def single(frequency: np.ndarray) -> np.ndarray:
-            return model.response(ports, frequency)[:, 0, 0]
-
-        low = lowest_frequency(single, seconds)
+        low = lowest_frequency(lambda frequency: model.response(ports, frequency)[:, 0, 0], seconds)
         try:
             margin = joint_disk_margin(lambda frequency: model.response(ports, frequency), low, np.pi / seconds)
         except ValueError as error:

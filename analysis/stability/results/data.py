@@ -21,7 +21,7 @@ from scipy.io import savemat
 from ...common.atomic import write_atomically
 from .document import document, joint_margin, loop_margins
 from .report import JointReport, LoopReport, Orders, StabilityReport
-from .responses import Measured, StateSpace
+from .responses import StateSpace
 
 JSON, MAT, CSV = "loops.json", "loops.mat", "responses.csv"
 SIGN = (
@@ -121,12 +121,11 @@ def _fill_unknown(facts: Mapping[str, float | str | None]) -> dict[str, float | 
 
 def _curves(loop: LoopReport) -> Curves:
     """The linearised and the measured response, as far as there are."""
-    measured_response: Measured | None = loop.measured_response
     curves: list[tuple[str, np.ndarray, np.ndarray]] = []
     if loop.open_loop is not None:
         curves.append((LINEARISED, loop.curve.frequency, loop.curve.value))
-    if measured_response is not None:
-        curves.append((MEASURED, measured_response.curve.frequency, measured_response.curve.value))
+    if (measured := loop.measured_response) is not None:
+        curves.append((MEASURED, measured.curve.frequency, measured.curve.value))
     return tuple(curves)
 
 
