@@ -1,177 +1,149 @@
 """Calls of FMI 2.0 C functions by address, from compiled code; Strings handed from FMU to FMU as rows of bytes.
 
-Each function here is usable inside numba-compiled code only. ``address`` is that of the FMU's
+The functions of `in_compiled_code` are usable inside numba-compiled code only. ``address`` is that of the FMU's
 function and ``instance`` the fmi2Component, both as integers; arrays are passed by address.
 They return the fmi2Status.
 """
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable, Sequence
+from inspect import Parameter
 from typing import Any
 
 import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
+from numba.core.base import BaseContext
+from numba.core.typing import Context, Signature
 from numba.extending import intrinsic
 
 from ....common.compiler import compile_cached
-from .codes import (
-    ADDRESS,
-    CODE,
-    COPY_TEXT,
-    COUNT,
-    FIRST,
-    FMI_WARNING,
-    INSTANCE,
-    SET_TEXT,
-    TOO_LONG,
-)
+from .codes import ADDRESS, CODE, COPY_TEXT, COUNT, FIRST, FMI_WARNING, INSTANCE, SET_TEXT, TOO_LONG
 
 INT32 = ir.IntType(32)
 INT64 = ir.IntType(64)
+DOUBLE = ir.DoubleType()
+ARRAY = None  # of a type of its own
+Intrinsic = Callable[..., Any]  # of numbers, whose types numba knows
+Emit = Callable[[BaseContext, ir.IRBuilder, Signature, Sequence[ir.Value]], ir.Value]
 
 
-def _call(builder: Any, address: Any, values: list) -> Any:
+def in_compiled_code(result: types.Type, *parameters: types.Type | None) -> Callable[[Emit], Intrinsic]:
+    """A function that compiled code can call, of these types, from what emits its code."""
+
+    def decorate(emit: Emit) -> Intrinsic:
+        def define(_: Context, *arguments: types.Type) -> tuple[Signature, Emit]:
+            actual = zip(parameters, arguments, strict=True)
+            return result(*(given if declared is ARRAY else declared for declared, given in actual)), emit
+
+        define.__name__ = define.__qualname__ = emit.__name__
+        names = [Parameter(f"p{index}", Parameter.POSITIONAL_OR_KEYWORD) for index in range(len(parameters) + 1)]
+        vars(define)["__signature__"] = inspect.Signature(names)  # numba packs what *arguments takes into a tuple
+        return intrinsic(define)
+
+    return decorate
+
+
+def _call(builder: ir.IRBuilder, address: ir.Value, values: Sequence[ir.Value]) -> ir.Value:
     """Emit the call of the C function at an address; every argument has its C type already."""
     function_type = ir.FunctionType(INT32, [value.type for value in values])
     pointer = builder.inttoptr(address, cgutils.voidptr_t)
     return builder.call(builder.bitcast(pointer, function_type.as_pointer()), values)
 
 
-def _element(context: Any, builder: Any, array_type: Any, array: Any, index: Any) -> Any:
+def _element(
+    context: BaseContext, builder: ir.IRBuilder, array_type: types.Array, array: ir.Value, index: ir.Value
+) -> ir.Value:
     """Address of an array's element, as an integer."""
     start = builder.ptrtoint(context.make_array(array_type)(context, builder, array).data, INT64)
     size = context.get_abi_sizeof(context.get_data_type(array_type.dtype))
     return builder.add(start, builder.mul(index, INT64(size)))
 
 
-@intrinsic
-def exchange(typing: Any, address: Any, instance: Any, references: Any, values: Any, first: Any, count: Any) -> Any:
-    """fmi2SetReal, fmi2GetInteger and their kin for ``count`` variables.
+@in_compiled_code(types.int32, types.int64, types.int64, ARRAY, ARRAY, types.int64, types.int64)
+def exchange(
+    context: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]
+) -> ir.Value:
+    """fmi2SetReal, fmi2GetInteger and their kin: (address, instance, references, values, first, count).
 
-    Value references (uint32) and values (float64 or int32) are taken from index ``first`` on in
+    Value references (uint32) and values (float64 or int32) of ``count`` variables are taken from index ``first`` on in
     their arrays.
     """
-    signature = types.int32(types.int64, types.int64, references, values, types.int64, types.int64)
-
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        address, instance, references, values, first, count = arguments
-        reference_address = _element(context, builder, signature.args[2], references, first)
-        value_address = _element(context, builder, signature.args[3], values, first)
-        return _call(builder, address, [instance, reference_address, count, value_address])
-
-    return signature, emit
+    address, instance, references, values, first, count = arguments
+    reference_address = _element(context, builder, signature.args[2], references, first)
+    value_address = _element(context, builder, signature.args[3], values, first)
+    return _call(builder, address, [instance, reference_address, count, value_address])
 
 
-@intrinsic
-def do_step(typing: Any, address: Any, instance: Any, time: Any, step: Any) -> Any:
-    """fmi2DoStep, with the promise not to go back before the current point."""
-    signature = types.int32(types.int64, types.int64, types.float64, types.float64)
-
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        return _call(builder, arguments[0], [*arguments[1:], INT32(1)])
-
-    return signature, emit
+@in_compiled_code(types.int32, types.int64, types.int64, types.float64, types.float64)
+def do_step(_: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]) -> ir.Value:
+    """fmi2DoStep (address, instance, time, step), with the promise not to go back before the current point."""
+    return _call(builder, arguments[0], [*arguments[1:], INT32(1)])
 
 
-@intrinsic
-def real_at(typing: Any, address: Any) -> Any:
+@in_compiled_code(types.float64, types.int64)
+def real_at(_: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]) -> ir.Value:
     """The double at an address; read as an atomic one, so that a few of them are not made vectors of."""
-    signature = types.float64(types.int64)
-
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        return builder.load_atomic(builder.inttoptr(arguments[0], ir.DoubleType().as_pointer()), "monotonic", 8)
-
-    return signature, emit
+    return builder.load_atomic(builder.inttoptr(arguments[0], DOUBLE.as_pointer()), "monotonic", 8)
 
 
-@intrinsic
-def whole_at(typing: Any, address: Any) -> Any:
+@in_compiled_code(types.int64, types.int64)
+def whole_at(_: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]) -> ir.Value:
     """The int64 at an address, read as `real_at` reads."""
-    signature = types.int64(types.int64)
-
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        return builder.load_atomic(builder.inttoptr(arguments[0], INT64.as_pointer()), "monotonic", 8)
-
-    return signature, emit
+    return builder.load_atomic(builder.inttoptr(arguments[0], INT64.as_pointer()), "monotonic", 8)
 
 
-@intrinsic
-def boolean_at(typing: Any, address: Any) -> Any:
+@in_compiled_code(types.float64, types.int64)
+def boolean_at(_: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]) -> ir.Value:
     """The C bool at an address, as 0 or 1."""
-    signature = types.float64(types.int64)
-
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        byte = builder.load(builder.inttoptr(arguments[0], ir.IntType(8).as_pointer()))
-        return builder.uitofp(byte, ir.DoubleType())
-
-    return signature, emit
+    return builder.uitofp(builder.load(builder.inttoptr(arguments[0], ir.IntType(8).as_pointer())), DOUBLE)
 
 
-@intrinsic
-def put_real(typing: Any, address: Any, value: Any) -> Any:
-    """Write a double to an address."""
-    signature = types.void(types.int64, types.float64)
-
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        builder.store_atomic(arguments[1], builder.inttoptr(arguments[0], ir.DoubleType().as_pointer()), "monotonic", 8)
-        return context.get_dummy_value()
-
-    return signature, emit
+@in_compiled_code(types.void, types.int64, types.float64)
+def put_real(
+    context: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]
+) -> ir.Value:
+    """Write a double to an address: (address, value)."""
+    builder.store_atomic(arguments[1], builder.inttoptr(arguments[0], DOUBLE.as_pointer()), "monotonic", 8)
+    return context.get_dummy_value()
 
 
-@intrinsic
-def change_mode(typing: Any, address: Any, instance: Any) -> Any:
-    """fmi2Reset, fmi2EnterInitializationMode, fmi2ExitInitializationMode or fmi2Terminate."""
-    signature = types.int32(types.int64, types.int64)
-
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        return _call(builder, arguments[0], [arguments[1]])
-
-    return signature, emit
+@in_compiled_code(types.int32, types.int64, types.int64)
+def change_mode(_: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]) -> ir.Value:
+    """fmi2Reset, fmi2EnterInitializationMode, fmi2ExitInitializationMode or fmi2Terminate: (address, instance)."""
+    return _call(builder, arguments[0], [arguments[1]])
 
 
-@intrinsic
+@in_compiled_code(types.int32, types.int64, types.int64, types.int32, types.float64, types.float64, types.float64)
 def setup_experiment(
-    typing: Any, address: Any, instance: Any, known: Any, tolerance: Any, start: Any, stop: Any
-) -> Any:
-    """fmi2SetupExperiment with start and stop time; ``known`` 1 where there is a tolerance, else 0."""
-    signature = types.int32(types.int64, types.int64, types.int32, types.float64, types.float64, types.float64)
-
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        address, instance, known, tolerance, start, stop = arguments
-        return _call(builder, address, [instance, known, tolerance, start, INT32(1), stop])
-
-    return signature, emit
+    _: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]
+) -> ir.Value:
+    """fmi2SetupExperiment (address, instance, known, tolerance, start, stop); ``known`` 1 with a tolerance, else 0."""
+    address, instance, known, tolerance, start, stop = arguments
+    return _call(builder, address, [instance, known, tolerance, start, INT32(1), stop])
 
 
-@intrinsic
-def compare_texts(typing: Any, first: Any, second: Any) -> Any:
+@in_compiled_code(types.int32, types.int64, types.int64)
+def compare_texts(
+    _: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]
+) -> ir.Value:
     """The C library's strcmp of the strings at two addresses: 0 where they are equal."""
-    signature = types.int32(types.int64, types.int64)
-
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        function_type = ir.FunctionType(INT32, [cgutils.voidptr_t, cgutils.voidptr_t])
-        function = cgutils.get_or_insert_function(builder.module, function_type, "strcmp")
-        return builder.call(function, [builder.inttoptr(value, cgutils.voidptr_t) for value in arguments])
-
-    return signature, emit
+    function_type = ir.FunctionType(INT32, [cgutils.voidptr_t, cgutils.voidptr_t])
+    function = cgutils.get_or_insert_function(builder.module, function_type, "strcmp")
+    return builder.call(function, [builder.inttoptr(value, cgutils.voidptr_t) for value in arguments])
 
 
-@intrinsic
-def copy_text(typing: Any, target: Any, source: Any, size: Any) -> Any:
-    """The C library's strncpy: at most ``size`` bytes from one address to another, filled up with zeros."""
-    signature = types.int64(types.int64, types.int64, types.int64)
-
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        function_type = ir.FunctionType(cgutils.voidptr_t, [cgutils.voidptr_t, cgutils.voidptr_t, INT64])
-        function = cgutils.get_or_insert_function(builder.module, function_type, "strncpy")
-        target, source, size = arguments
-        pointers = [builder.inttoptr(value, cgutils.voidptr_t) for value in (target, source)]
-        return builder.ptrtoint(builder.call(function, [*pointers, size]), INT64)
-
-    return signature, emit
+@in_compiled_code(types.int64, types.int64, types.int64, types.int64)
+def copy_text(_: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]) -> ir.Value:
+    """The C library's strncpy (target, source, size): at most ``size`` bytes between addresses, filled with zeros."""
+    function_type = ir.FunctionType(cgutils.voidptr_t, [cgutils.voidptr_t, cgutils.voidptr_t, INT64])
+    function = cgutils.get_or_insert_function(builder.module, function_type, "strncpy")
+    target, source, size = arguments
+    pointers = [builder.inttoptr(value, cgutils.voidptr_t) for value in (target, source)]
+    return builder.ptrtoint(builder.call(function, [*pointers, size]), INT64)
 
 
 def _exchange_texts(instruction, texts, outcome):  # type: ignore[no-untyped-def]
