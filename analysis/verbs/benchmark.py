@@ -17,7 +17,7 @@ class Timings(dict[str, Any]):
         """What `perilune benchmark` prints."""
         return benchmark_text(self).splitlines()
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return dict(self)
 

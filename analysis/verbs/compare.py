@@ -58,7 +58,7 @@ class Comparison(comparison.Comparison):
         """What `perilune compare` prints."""
         return self.text().splitlines()
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """Provenance of every batch, numbers of every variant and of every pair, for other programs."""
         return self.document()
 

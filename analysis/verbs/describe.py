@@ -31,7 +31,7 @@ class Description(dict[str, Any]):
         """What `perilune describe` prints."""
         return description_lines(self)
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return dict(self)
 

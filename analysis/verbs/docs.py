@@ -5,7 +5,7 @@ from __future__ import annotations
 import webbrowser
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Unpack
 
 from ...fmus_src.paths import BUILD, IS_CHECKOUT
 from ..common.errors import InputError
@@ -26,7 +26,7 @@ class Documentation:
         """The path of the page."""
         return [str(self.page)]
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return {"page": str(self.page), "opened": self.is_opened}
 

@@ -9,7 +9,7 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, Unpack
+from typing import Literal, Unpack
 
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
@@ -47,7 +47,7 @@ class Exported:
         """What `perilune export` prints: a path each."""
         return [str(path) for path in self.paths]
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return {"paths": self.lines(), "flavours": list(self.flavours), "platforms": list(self.platforms)}
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 from fmpy import read_model_description
 
@@ -65,7 +64,7 @@ class Inventory:
             lines += wrap(f"  {name:{width}}  {built:13}  {fmu.description}", width + 19)
         return lines
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return asdict(self)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Unpack
 
 from matplotlib.figure import Figure as Plot
 
@@ -39,7 +39,7 @@ class Law(laws.Law):
         """The law as a formula, for a terminal."""
         return formula_text(self).splitlines()
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """The content of the law's file, and the formula."""
         return self.document() | {"formula": formula(self)}
 

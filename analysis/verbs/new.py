@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from ..authoring import block, system
 from .options.library import NEW_BLOCK, NEW_SYSTEM
@@ -18,7 +17,7 @@ class NewFiles(block.Written):
         names = ", ".join(map(str, self.paths))
         return [f"written: {names}", "next:", *(f"  {command}" for command in self.commands)]
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return {"paths": [Path(path).as_posix() for path in self.paths], "next": self.commands}
 

@@ -80,7 +80,7 @@ class HoverPlan(HoverStudy):
         named = (("true optimum", self.optimum), ("point-mass bound", self.bound))
         return lines + [line for name, path in named if path is not None for line in _path_lines(name, path, mass)]
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """All of it for other programs; times in s, angles in deg."""
         return self.document()
 
@@ -177,7 +177,7 @@ class LandingBound(LandingStudy):
             lines.append(f"direct method {propellant:.3f} kg in {self.direct.duration:.2f} s, {difference}")
         return lines + ([] if self.file is None else [f"stored: {self.file}"])
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """All of it for other programs; SI, but angular acceleration."""
         return self.document()
 

@@ -73,7 +73,7 @@ class ReplayResult(Result):
         title = f"{self.system}, {self.configuration}, trial {self.trial}"
         write_run_report(self, Path(path), title, self.figures)
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """As of `Result`, with the campaign, the trial's success and metrics, and differences from the stored one."""
         metrics = {name: value if abs(value) < float("inf") else None for name, value in self.metrics.items()}
         faults = {"faults": list(self.replayed.faults)} if self.replayed.plan.fault_texts() else {}

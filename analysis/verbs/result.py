@@ -31,7 +31,7 @@ class VerbResult(Protocol):
     def lines(self) -> Sequence[str]:
         """What the terminal shows."""
 
-    def to_json(self) -> Any:
+    def to_json(self) -> object:
         """A document of strict JSON."""
 
     def problems(self) -> Sequence[str]:

@@ -77,7 +77,7 @@ class Result(results.Result):
         """
         return limit_document(self.figures, self)
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """Status, provenance, limits and final values, for other programs."""
         final = {name: value if abs(value) < float("inf") else None for name, value in self.final().items()}
         return self.summary() | {"limits": self.limits, "final": final}

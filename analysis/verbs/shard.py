@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Unpack
 
 from ..campaigns.fly.campaign import open_campaign, open_folder
 from ..campaigns.fly.cluster.connection import cluster
@@ -31,7 +31,7 @@ class PreparedCampaign:
     shards: int
     shard_size: int
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """Folder, number and size of shards."""
         return {"folder": str(self.folder), "shards": self.shards, "shard_size": self.shard_size}
 
@@ -77,7 +77,7 @@ class ShardResult:
     count: int
     failures: tuple[str, ...]
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """The numbers of shards."""
         return {
             "simulated": self.simulated,

@@ -53,7 +53,7 @@ class StabilityReport(report.StabilityReport):
         """What `perilune stability --json` writes: dB, deg and s."""
         return document(self)
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """As `document`."""
         return document(self)
 

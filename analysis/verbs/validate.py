@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any, ClassVar, Unpack, overload
+from typing import ClassVar, Unpack, overload
 
 from fmpy.validation import validate_fmu
 
@@ -72,7 +72,7 @@ class Validation(Sequence[FileCheck]):
             lines += [] if check.problems else [f"{check.path}: OK"]
         return lines
 
-    def to_json(self) -> list[dict[str, Any]]:
+    def to_json(self) -> list[dict[str, object]]:
         """Path, problems and notes of each."""
         return [asdict(check) for check in self.checks]
 

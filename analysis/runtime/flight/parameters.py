@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from fmpy.model_description import ScalarVariable
 
 from ...common.errors import InputError
 from ..ssp.parameter_sets import ParameterValue
@@ -125,7 +126,7 @@ class Parameters:
         return arrays.Settings(*(np.zeros_like(array) for array in self.values))
 
 
-def _grade(fmu: Fmu, variable: Any, *, driven: bool) -> int:
+def _grade(fmu: Fmu, variable: ScalarVariable, *, driven: bool) -> int:
     """0: set in initialisation mode too, and read back; 1: not read back; 2: set before initialisation mode only.
 
     FMI 2.0 lets inputs and what has initial="exact" be set in that mode; other values the FMU calculates itself from

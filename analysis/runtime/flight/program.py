@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from fmpy.model_description import ScalarVariable
 
 from ..ssp.conversions import IDENTITY
 from ..system.assignments import Settings, numbers
@@ -135,7 +136,7 @@ class _Builder:
 
     def _place_component(self, index: int, component: str) -> None:
         fmu = self.network.fmus[component]
-        exchanged: list[list[Any]] = [[] for _ in EXCHANGES]
+        exchanged: list[list[ScalarVariable]] = [[] for _ in EXCHANGES]
         for variable in fmu.variables.values():
             kind = TYPE_KIND.get(variable.type, len(EXCHANGES))
             if variable.causality in CAUSALITIES and 2 * kind < len(EXCHANGES):
@@ -153,7 +154,7 @@ class _Builder:
                 self._place(name, variable.valueReference, initial, variable.type, fmu.unit_of(variable))
             self.ranges[index, function] = first, len(self.references) - first
 
-    def _start(self, component: str, variable: Any) -> float:
+    def _start(self, component: str, variable: ScalarVariable) -> float:
         """What an input is given while its source is not known yet: the value set for it, else its FMU's start."""
         value = self.settings.variables.get((component, variable.name), variable.start)
         return float({"true": 1, "false": 0, "none": 0}.get(str(value).lower(), value))

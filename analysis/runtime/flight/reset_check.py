@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
+from fmpy.model_description import ScalarVariable
 
 from ..system.fmu import Fmu
 from .instance import Instance, instantiate
@@ -128,7 +129,7 @@ def _changes(fmu: Fmu) -> list[dict[str, Any]]:
     return [changed, inputs, {}]
 
 
-def _other(variable: Any) -> Any:
+def _other(variable: ScalarVariable) -> Any:
     """A value near the start, within the declared bounds; None where there is no other."""
     if variable.start is None:
         return None

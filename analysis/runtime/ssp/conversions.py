@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
+from fmpy.model_description import ModelDescription
 from lxml import etree
 
 from ....fmus_src.units import BASE_UNITS
@@ -52,7 +52,7 @@ class Unit:
         return self.factor / other.factor, (self.offset - other.offset) / other.factor
 
 
-def units_of_fmu(description: Any) -> dict[str, Unit]:
+def units_of_fmu(description: ModelDescription) -> dict[str, Unit]:
     """Units that an FMU defines, by name (fmpy ModelDescription)."""
     units: dict[str, Unit] = {}
     for definition in description.unitDefinitions:

@@ -13,11 +13,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import fmpy
 from fmpy import read_model_description
-from fmpy.model_description import ModelDescription, ValidationError
+from fmpy.model_description import ModelDescription, ScalarVariable, ValidationError
 from lxml import etree
 
 from ...common.errors import InputError
@@ -36,9 +35,9 @@ class Fmu:
 
     label: str
     digest: str
-    description: Any  # fmpy ModelDescription
+    description: ModelDescription
     folder: Path  # unpacked; removed with the object
-    variables: dict[str, Any] = field(default_factory=dict)  # fmpy ScalarVariable by name
+    variables: dict[str, ScalarVariable] = field(default_factory=dict)
     units: dict[str, Unit] = field(default_factory=dict)
     flaws: list[str] = field(default_factory=list)  # rules of FMI that its description breaks, though it is readable
 
@@ -61,7 +60,7 @@ class Fmu:
         """Whether it runs without an execution tool such as a Python interpreter."""
         return not self.description.coSimulation.needsExecutionTool
 
-    def unit_of(self, variable: Any) -> str | None:
+    def unit_of(self, variable: ScalarVariable) -> str | None:
         """Name of a variable's unit, its own or its type's."""
         declared = variable.declaredType
         return variable.unit or (declared.unit if declared is not None else None)

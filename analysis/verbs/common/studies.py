@@ -44,7 +44,7 @@ class Stored:
 
     folder: Path | None = None
 
-    def to_json(self: _Outcome) -> dict[str, Any]:
+    def to_json(self: _Outcome) -> dict[str, object]:
         """The result for other programs."""
         return self.document(self.folder)
 

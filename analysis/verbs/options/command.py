@@ -12,7 +12,7 @@ from .values import value_texts
 from .verb import Verb
 
 
-def write_command(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> str:
+def write_command(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, object]) -> str:
     """The command line that calls a verb with these arguments and options; what equals its default is left out."""
     words = ["perilune", *verb.name.split()]
     for argument in verb.arguments:
@@ -31,17 +31,17 @@ def write_command(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str
     return shlex.join(words)
 
 
-def _argument_text(value: Any) -> str:
+def _argument_text(value: object) -> str:
     return os.fspath(value) if isinstance(value, os.PathLike) else str(value)
 
 
-def _is_default(value: Any, default: Any) -> bool:
+def _is_default(value: object, default: object) -> bool:
     if isinstance(value, Sequence | Mapping) and not isinstance(value, str):
         return not value and not default
     return value is None or (type(value) is type(default) and value == default)
 
 
-def record_options(group: type, options: Mapping[str, Any]) -> dict[str, Any]:
+def record_options(group: type, options: Mapping[str, object]) -> dict[str, object]:
     """The options that differ from their defaults as values of JSON, for manifests and documents."""
     known = options_of(group)
     return {
@@ -51,7 +51,7 @@ def record_options(group: type, options: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> object:
     if isinstance(value, Mapping):
         return {name: _plain(each) for name, each in value.items()}
     if isinstance(value, os.PathLike):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
 
 from argcomplete.completers import FilesCompleter
 
@@ -20,44 +19,44 @@ SLOT_TEMPLATES = Path(__file__).parents[2] / "authoring" / "templates" / "slots"
 Completer = Callable[..., Iterable[str]]
 
 
-def csv_files(prefix: str, **_: Any) -> list[str]:
+def csv_files(prefix: str, **_: object) -> list[str]:
     return _paths(prefix, "csv")
 
 
-def parquet_files(prefix: str, **_: Any) -> list[str]:
+def parquet_files(prefix: str, **_: object) -> list[str]:
     return _paths(prefix, "parquet")
 
 
-def systems(prefix: str, **_: Any) -> list[str]:
+def systems(prefix: str, **_: object) -> list[str]:
     return [*system_names(), *_paths(prefix, "ssp")]
 
 
-def systems_and_fmu_files(prefix: str, **_: Any) -> list[str]:
+def systems_and_fmu_files(prefix: str, **_: object) -> list[str]:
     return [*system_names(), *_paths(prefix, "ssp", "fmu")]
 
 
-def systems_and_files(prefix: str, **_: Any) -> list[str]:
+def systems_and_files(prefix: str, **_: object) -> list[str]:
     return [*system_names(), *_paths(prefix)]
 
 
-def fmus(prefix: str, **_: Any) -> list[str]:
+def fmus(prefix: str, **_: object) -> list[str]:
     return [*fmu_flavours(), *_paths(prefix, "fmu")]
 
 
-def systems_and_fmus(prefix: str, **_: Any) -> list[str]:
+def systems_and_fmus(prefix: str, **_: object) -> list[str]:
     return [*system_names(), *fmu_flavours(), *_paths(prefix)]
 
 
-def campaigns(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+def campaigns(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
     archive = _system(parsed_args)
     return [*(archive.campaign_names() if archive is not None else ()), *_paths(prefix, "toml")]
 
 
-def parameter_sets(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+def parameter_sets(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
     return [*_inside(parsed_args, ".ssv"), *_paths(prefix, "ssv")]
 
 
-def slots_with_fmus(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+def slots_with_fmus(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
     """``SLOT=`` of the system first, then ``SLOT=FMU``."""
     slot, equals, remainder = prefix.partition("=")
     if equals:
@@ -72,15 +71,15 @@ def slots_with_fmus(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> l
     return [f"{name}=" for name, element in elements.items() if isinstance(element, Component)]
 
 
-def laws(prefix: str, **_: Any) -> list[str]:
+def laws(prefix: str, **_: object) -> list[str]:
     return [*(path.stem for path in LAWS.glob("*.json")), *_paths(prefix, "json")]
 
 
-def searches(prefix: str, **_: Any) -> list[str]:
+def searches(prefix: str, **_: object) -> list[str]:
     return [*(path.stem for path in SEARCHES.glob("*.toml")), *_paths(prefix, "toml")]
 
 
-def block_slots(prefix: str, **_: Any) -> list[str]:
+def block_slots(prefix: str, **_: object) -> list[str]:
     return sorted(path.name.partition(".")[0] for path in SLOT_TEMPLATES.glob("*.py.jinja"))
 
 

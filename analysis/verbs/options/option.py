@@ -12,9 +12,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cache
-from typing import Annotated, Any, Literal, Protocol, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Literal, Protocol, Union, get_args, get_origin, get_type_hints
 
-NONE: Mapping[str, Any] = types.MappingProxyType({})  # the empty default of an option with pairs
+NONE: Mapping[str, object] = types.MappingProxyType({})  # the empty default of an option with pairs
 FilePath = str | os.PathLike[str]
 ParameterValue = float | int | bool | str
 SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
@@ -24,7 +24,7 @@ class StructuredArray(Protocol):
     """A NumPy array with named columns."""
 
     @property
-    def dtype(self) -> Any: ...
+    def dtype(self) -> object: ...
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Option:
     """
 
     text: str
-    default: Any = None
+    default: object = None
     unit: str = ""
     metavar: str | None = None
     flag: str = ""
@@ -74,7 +74,7 @@ class Declared:
 
     name: str
     option: Option
-    annotation: Any
+    annotation: object
     kind: Kind
     element: Kind
     choices: tuple[str, ...]
@@ -98,19 +98,19 @@ def options_of(group: type) -> Mapping[str, Declared]:
     return types.MappingProxyType(declared)
 
 
-def defaults_of(group: type) -> dict[str, Any]:
+def defaults_of(group: type) -> dict[str, object]:
     """The value of each option that is not given."""
     return {name: each.option.default for name, each in options_of(group).items()}
 
 
-def _members(annotation: Any) -> tuple[Any, ...]:
+def _members(annotation: object) -> tuple[object, ...]:
     """The alternatives of a type, without None."""
     if get_origin(annotation) in (Union, types.UnionType):
         return tuple(inner for member in get_args(annotation) for inner in _members(member))
     return () if annotation is type(None) else (annotation,)
 
 
-def _choices(annotation: Any) -> tuple[str, ...]:
+def _choices(annotation: object) -> tuple[str, ...]:
     members = _members(annotation)
     choices = [text for member in members if get_origin(member) is Literal for text in get_args(member)]
     if not choices and len(members) == 1 and get_origin(members[0]) is not None:  # of the elements of a list
@@ -123,7 +123,7 @@ Sequence_ = get_origin(Sequence[str])
 _Mapping = get_origin(Mapping[str, str])
 
 
-def _kinds(annotation: Any) -> tuple[Kind, Kind]:
+def _kinds(annotation: object) -> tuple[Kind, Kind]:
     """The kind of a type, and that of its elements."""
     members = _members(annotation)
     origins = {get_origin(member) for member in members}

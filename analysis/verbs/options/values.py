@@ -11,7 +11,7 @@ from ...common.errors import InputError, suggestion
 from .option import Declared, Kind
 
 
-def read_value(declared: Declared, texts: Sequence[str]) -> Any:
+def read_value(declared: Declared, texts: Sequence[str]) -> object:
     """The value that the texts of a command line give an option; several where it is repeated. Raises InputError."""
     if declared.kind is Kind.PAIRS:
         return _read_pairs(declared, texts)
@@ -21,7 +21,7 @@ def read_value(declared: Declared, texts: Sequence[str]) -> Any:
     return _read_single(declared, declared.kind, texts[-1])
 
 
-def _read_single(declared: Declared, kind: Kind, text: str) -> Any:
+def _read_single(declared: Declared, kind: Kind, text: str) -> object:
     if kind in (Kind.NUMBER, Kind.INTEGER):
         return check_number(declared, _parse_number(declared, kind, text), text)
     return text
@@ -54,9 +54,9 @@ def _of_unit(declared: Declared) -> str:
     return f" of {'seconds' if declared.option.unit == 's' else declared.option.unit}" if declared.option.unit else ""
 
 
-def _read_pairs(declared: Declared, texts: Sequence[str]) -> dict[str, Any]:
+def _read_pairs(declared: Declared, texts: Sequence[str]) -> dict[str, object]:
     """``NAME=VALUE`` of a repeated option by name, ``NAME=A,B`` as a list where it takes several; no name twice."""
-    pairs: dict[str, Any] = {}
+    pairs: dict[str, object] = {}
     for text in texts:
         name, equals, value = text.partition("=")
         if not equals or not name.strip() or not value.strip():
@@ -72,7 +72,7 @@ def _read_pairs(declared: Declared, texts: Sequence[str]) -> dict[str, Any]:
     return pairs
 
 
-def check_value(declared: Declared, value: Any) -> Any:
+def check_value(declared: Declared, value: Any) -> object:
     """A value that a Python caller gives, as the function gets it. Raises InputError.
 
     None stands for the default; lists and mappings are copied, so that nobody changes them afterwards.
@@ -97,7 +97,7 @@ def check_value(declared: Declared, value: Any) -> Any:
     return value
 
 
-def _check_choice(declared: Declared, value: Any) -> None:
+def _check_choice(declared: Declared, value: object) -> None:
     if value not in declared.choices:
         raise InputError(f"`{declared.name}`", str(value), "no such choice", suggestion(str(value), declared.choices))
 

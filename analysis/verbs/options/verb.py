@@ -9,7 +9,7 @@ import functools
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, TypedDict, TypeVar
+from typing import TypedDict, TypeVar
 
 from ...common.errors import suggestion
 from .option import defaults_of, options_of
@@ -36,7 +36,7 @@ class Argument:
     many: bool = False
     optional: bool = False
     is_option: bool = False
-    read: Callable[[str], Any] = str
+    read: Callable[[str], object] = str
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class Verb:
         return module or self.name, function or self.name
 
 
-Function = TypeVar("Function", bound=Callable[..., Any])
+Function = TypeVar("Function", bound=Callable[..., object])
 
 
 def verb(declared: Verb) -> Callable[[Function], Function]:
@@ -78,7 +78,7 @@ def verb(declared: Verb) -> Callable[[Function], Function]:
 
     def decorate(function: Function) -> Function:
         @functools.wraps(function)
-        def call(*arguments: Any, **given: Any) -> Any:
+        def call(*arguments: object, **given: object) -> object:
             named = {name: given.pop(name) for name in list(given) if name in positional}
             complete = bind_options(declared, function.__name__, given)
             return function(*arguments, **named, **complete)
@@ -98,7 +98,7 @@ def verb(declared: Verb) -> Callable[[Function], Function]:
     return decorate
 
 
-def bind_options(declared: Verb, name: str, given: Mapping[str, Any]) -> dict[str, Any]:
+def bind_options(declared: Verb, name: str, given: Mapping[str, object]) -> dict[str, object]:
     """All options of a verb: what is given, checked, and defaults. Raises TypeError for an unknown one, InputError."""
     options = options_of(declared.options)
     for keyword in given:
