@@ -126,7 +126,7 @@ def study_point(request: Request, point: Point, tell: Tell) -> PointResult:
             joint=joint,
             unstudied=unstudied,
             cells=work.linear.cells if work.linear is not None else None,
-            provenance=work.bench.simulation.provenance(),
+            provenance=dict(work.bench.simulation.provenance()),
         )
     if result.cells is not None and reports:
         _vary(request, subject, point, reports, step, result.cells, unstudied, tell)

@@ -8,7 +8,6 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 from fmpy import fmi2
@@ -134,7 +133,7 @@ _instances = itertools.count(1)
 _alone: set[str] = set()  # digests of FMUs that are instantiated, and may be only once in a process
 
 
-def _log(_environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
+def _log(_environment: object, instance: bytes, status: int, category: bytes, message: bytes) -> None:
     log = _logs.get((instance or b"").decode(errors="replace"))
     if log is not None and message:
         log.append(message)

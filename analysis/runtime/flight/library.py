@@ -6,8 +6,8 @@ import contextlib
 import copy
 import ctypes
 import threading
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from fmpy import fmi2
 
@@ -60,7 +60,7 @@ class Library:
         self._slave.freeLibrary()
 
 
-def _place(dll: Any) -> Any:
+def _place(dll: ctypes.CDLL) -> Callable[..., int | None] | None:
     """The function of our own native FMUs that says where variables lie; None where there is none."""
     try:
         function = dll.perilune_place

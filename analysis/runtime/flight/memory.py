@@ -6,7 +6,6 @@ import ctypes
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from lxml import etree
@@ -36,7 +35,7 @@ class Snapshot:
     """What `Memory.take` saved."""
 
     point: int  # communication point
-    states: dict[str, Any]  # fmi2FMUstate by component
+    states: dict[str, object]  # fmi2FMUstate by component
     serialized: dict[str, bytes]
     values: np.ndarray
     whole: np.ndarray

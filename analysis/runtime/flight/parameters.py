@@ -8,7 +8,6 @@ from __future__ import annotations
 import ctypes
 import warnings
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from fmpy.model_description import ScalarVariable
@@ -65,7 +64,7 @@ class Parameters:
                     self.references.append(fmu.variables[name].valueReference)
         self.positions = {key: position for position, key in enumerate(self.keys)}
         count = len(self.keys)
-        self._texts: dict[int, Any] = {}  # kept alive while the loop has their addresses
+        self._texts: dict[int, ctypes.Array[ctypes.c_char]] = {}  # kept alive while the loop has their addresses
         self.values = arrays.Settings(
             np.zeros(count), np.zeros(count, dtype=np.int32), np.zeros(count, dtype=np.uint64)
         )

@@ -6,7 +6,6 @@ import threading
 from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from fmpy import fmi2
@@ -18,6 +17,7 @@ from .instance import Instance, instantiate
 from .library import LOADING
 
 STEPS = 10
+Number = float | int | bool
 CALLS = {
     "Real": ("setReal", "getReal", float),
     "Integer": ("setInteger", "getInteger", int),
@@ -108,7 +108,7 @@ def _free(instance: Instance, error: FMICallException | None = None) -> None:
         instance.abandon()
 
 
-def _changes(fmu: Fmu) -> list[dict[str, Any]]:
+def _changes(fmu: Fmu) -> list[dict[str, Number]]:
     """Other values than the declared ones: of all Real parameters and inputs, of the inputs, none.
 
     Whole numbers are changed where there is no Real parameter only: as sizes they could do harm.
@@ -129,7 +129,7 @@ def _changes(fmu: Fmu) -> list[dict[str, Any]]:
     return [changed, inputs, {}]
 
 
-def _other(variable: ScalarVariable) -> Any:
+def _other(variable: ScalarVariable) -> Number | None:
     """A value near the start, within the declared bounds; None where there is no other."""
     if variable.start is None:
         return None
@@ -147,7 +147,7 @@ def _other(variable: ScalarVariable) -> Any:
     )
 
 
-def _simulate(instance: Instance, changes: dict[str, Any]) -> list[bytes]:
+def _simulate(instance: Instance, changes: dict[str, Number]) -> list[bytes]:
     """The outputs after initialisation and after every step, as bytes.
 
     Raises FMICallException where a call fails. A discarded step ends the flight, which is a row, too.
@@ -181,7 +181,7 @@ def _simulate(instance: Instance, changes: dict[str, Any]) -> list[bytes]:
     return rows
 
 
-def _set(slave: fmi2.FMU2Slave, fmu: Fmu, changes: dict[str, Any]) -> None:
+def _set(slave: fmi2.FMU2Slave, fmu: Fmu, changes: dict[str, Number]) -> None:
     for name, value in changes.items():
         variable = fmu.variables[name]
         getattr(slave, CALLS[variable.type][0])([variable.valueReference], [value])

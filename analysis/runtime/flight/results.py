@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, NotRequired, Self, TypedDict
 
 import numpy as np
 import pyarrow
@@ -19,8 +19,10 @@ import pyarrow.parquet
 from ...common.atomic import whole_file, write_atomically
 from ...common.errors import suggestion
 from ...common.percent import short_percent
+from ..ssp.parameter_sets import ParameterValue
 from ..system.assignments import Settings
 from ..system.fault import Fault
+from ..system.inputs import DrivenInput, InputFacts
 from ..system.names import elements, split_name, vectors
 from ..system.network import Network
 from ..system.prepared import PreparedSystem
@@ -86,12 +88,32 @@ class Flight:
         return {name: convert.get(self.types[name], float)(values[-1]) for name, values in self.signals.items()}
 
 
+class Provenance(TypedDict):
+    """What a flight depends on, as plain values. Times in s."""
+
+    system: str
+    system_sha256: str
+    fmus: dict[str, dict[str, str]]
+    parameters: dict[str, ParameterValue]
+    start_time: float
+    step: float
+    stop_time: float
+    variant: str | None
+    feedthrough: list[str]
+    no_feedthrough: list[str]
+    assumptions: list[str]
+    faults: list[str]
+    algorithm: str
+    input: NotRequired[DrivenInput]
+    perilune: str
+
+
 @dataclass(repr=False)
 class Result(Flight):
     """A flight with units by signal, and with parameter values, hashes and versions as provenance."""
 
     units: dict[str, str | None]
-    provenance: dict[str, Any]
+    provenance: Provenance
 
     @classmethod
     def extending(cls, flight: Result, **more: Any) -> Self:
@@ -111,12 +133,11 @@ class Result(Flight):
         metadata = {"perilune": json.dumps(self.summary())}
         return pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields, metadata=metadata))
 
-    def summary(self) -> dict[str, Any]:
+    def summary(self) -> dict[str, object]:
         """Status and provenance, without the signals."""
         last = float(f"{self.time[-1]:.12g}") if self.time.size else None  # 283.4, not 283.40000000000003
-        return {"status": self.status, "message": self.message, "rows": int(self.time.size), "end_time": last} | (
-            self.provenance
-        )
+        ending = {"status": self.status, "message": self.message, "rows": int(self.time.size), "end_time": last}
+        return {**ending, **self.provenance}
 
     def to_pandas(self) -> Any:
         """The flight as a pandas.DataFrame, a column for each signal, with time (s) as its index; needs pandas."""
@@ -182,7 +203,7 @@ def with_meaning(network: Network, name: str, value: int) -> str:
 
 def provenance_of(
     prepared: PreparedSystem, settings: Settings, parameters: Parameters, faults: Sequence[Fault | None]
-) -> dict[str, Any]:
+) -> Provenance:
     """Parameter values, hashes, options and version."""
     return {
         "system": prepared.archive.name,
@@ -203,6 +224,6 @@ def provenance_of(
         "assumptions": prepared.assumptions,
         "faults": [str(fault) for fault in faults if fault is not None],
         "algorithm": prepared.algorithm,
-        **(prepared.drive.facts() if prepared.drive is not None else {}),
+        **(prepared.drive.facts() if prepared.drive is not None else InputFacts()),
         "perilune": version("perilune"),
     }

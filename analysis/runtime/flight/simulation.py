@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -20,7 +19,7 @@ from .instance import Instance, Log, instantiate
 from .instructions import write_ending
 from .life_cycle import LifeCycle
 from .program import NEVER, build_program, of_excitation, of_fault
-from .results import Flight, Result, provenance_of
+from .results import Flight, Provenance, Result, provenance_of
 
 NOTHING = np.zeros((0, 0))  # no excitation
 TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry rounding
@@ -280,7 +279,7 @@ class Simulation:
         self._instantiate()
         self.layout.parameters.update({key: retained[key] for key in retained.keys})
 
-    def provenance(self) -> dict[str, Any]:
+    def provenance(self) -> Provenance:
         """Parameter values, hashes, options and version: what the result depends on."""
         return provenance_of(self.prepared, self.settings, self.layout.parameters, self._faults)
 

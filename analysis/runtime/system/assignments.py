@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 from ...common.errors import InputError, suggestion
 from ..ssp.archive import SystemArchive
@@ -284,7 +283,7 @@ def _pass_parameters(network: Network, settings: Settings) -> None:
             value = settings.nodes[outermost]
             for link in reversed(chain[: given[-1] + 1]):
                 value = _pass_on(network, link, value)
-            kind: Any = {"Real": float, "Boolean": bool, "String": str}.get(node.type_name or "", int)
+            kind: type[ParameterValue] = {"Real": float, "Boolean": bool, "String": str}.get(node.type_name or "", int)
             target = node.component or "", node.variable
             before = settings.variables.get(target)
             settings.variables[target] = kind(value)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypedDict
 
 import numpy as np
 
@@ -76,6 +77,20 @@ HELD = ("discrete", "tunable")  # variabilities of Reals that are held, not inte
 CLOSE = 1e-9  # of the greater of two times that are one: FMPy's, which is that of math.isclose
 
 
+class DrivenInput(TypedDict):
+    """The series that drives inputs, and which."""
+
+    file: str
+    sha256: str
+    signals: list[str]
+
+
+class InputFacts(TypedDict, total=False):
+    """What a result depends on of inputs over time, for its provenance."""
+
+    input: DrivenInput
+
+
 @dataclass(frozen=True, eq=False)
 class Drive:
     """The inputs that a series drives, by name, and their values: ``table`` [points + 1, inputs].
@@ -87,7 +102,7 @@ class Drive:
     names: tuple[str, ...]
     table: np.ndarray
 
-    def facts(self) -> dict[str, object]:
+    def facts(self) -> InputFacts:
         """What a result depends on here, for its provenance."""
         return {"input": {"file": self.series.file, "sha256": self.series.sha256, "signals": list(self.names)}}
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import FunctionType
-from typing import Any
 
 import numpy as np
 from numba import typeof
@@ -241,7 +240,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
         last_instruction = np.uint64(phases[phase + 1])
 
 
-def _under_another_name(function: Any, name: str) -> FunctionType:
+def _under_another_name(function: Callable[..., int], name: str) -> FunctionType:
     """A copy for another compilation: numba's cache tells functions apart by name, not by options."""
     copy = FunctionType(function.__code__.replace(co_name=name, co_qualname=name), globals(), name)
     copy.__qualname__ = name
