@@ -70,6 +70,10 @@ class Network:
     def file(self) -> str:
         return self.description.file
 
+    def refuse(self, where: str, problem: str, remedy: str) -> InputError:
+        """The error of an element of the description."""
+        return InputError(self.file, where, problem, remedy)
+
     def components(self) -> list[tuple[str, Component]]:
         """Components with their flat names."""
         return [
@@ -89,9 +93,7 @@ def build_network(description: Description, load: Callable[[str, Component], Fmu
     _walk(network, description.system, "")
     for name, component in network.components():
         if name in network.fmus:
-            raise InputError(
-                network.file, f"{name} (line {component.line})", "two components have this name", "rename one"
-            )
+            raise network.refuse(f"{name} (line {component.line})", "two components have this name", "rename one")
         network.fmus[name] = load(name, component)
         for connector in component.connectors.values():
             _add(network, _component_node(network, name, connector))
@@ -118,7 +120,7 @@ def _walk(network: Network, system: System, path: str) -> None:
 
 def _add(network: Network, node: Node) -> None:
     if node.name in network.nodes:
-        raise InputError(network.file, node.where, "two connectors have this name", "rename one")
+        raise network.refuse(node.where, "two connectors have this name", "rename one")
     network.nodes[node.name] = node
 
 
@@ -129,9 +131,7 @@ def _unit(network: Network, name: str, fmu: Fmu | None, connector: Connector) ->
         return None
     known = network.description.units.get(unit) or (fmu.units.get(unit) if fmu is not None else None)
     if known is None:
-        raise InputError(
-            network.file, connector.at(name), f"unit {unit} is not defined", "define it under Units of the SSD"
-        )
+        raise network.refuse(connector.at(name), f"unit {unit} is not defined", "define it under Units of the SSD")
     return known
 
 
@@ -148,18 +148,16 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     variable = fmu.variables.get(connector.name)
     if variable is None:
         remedy = f"correct the connector or use another FMU; {suggestion(connector.name, fmu.variables)}"
-        raise InputError(network.file, connector.at(name), f"{fmu.label} has no variable of this name", remedy)
+        raise network.refuse(connector.at(name), f"{fmu.label} has no variable of this name", remedy)
     kind = connector.kind or variable.causality
     if variable.causality != kind:
-        raise InputError(
-            network.file,
+        raise network.refuse(
             connector.at(name),
             f"is {variable.causality} in {fmu.label}, {kind} here" + (f" ({fmu.flaws[0]})" if fmu.flaws else ""),
             "correct the connector's kind or use another FMU",
         )
     if connector.type_name not in (None, variable.type):
-        raise InputError(
-            network.file,
+        raise network.refuse(
             connector.at(name),
             f"is {variable.type} in {fmu.label}, {connector.type_name} here",
             "correct the connector's type or use another FMU",
@@ -167,8 +165,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     own = fmu.units.get(fmu.unit_of(variable) or "")
     declared = _unit(network, name, fmu, connector)
     if own and declared and not own.is_same(declared):
-        raise InputError(
-            network.file,
+        raise network.refuse(
             connector.at(name),
             f"unit is {own.differs_from(declared)} in {fmu.label}, {declared.differs_from(own)} here",
             "correct the connector's unit or use another FMU",
@@ -186,14 +183,13 @@ def _end(network: Network, path: str, system: System, point: tuple[str | None, s
     prefix = path
     if element_name is not None:
         if element_name not in system.elements:
-            raise InputError(
-                network.file, connection.where, f"no element {element_name}", suggestion(element_name, system.elements)
+            raise network.refuse(
+                connection.where, f"no element {element_name}", suggestion(element_name, system.elements)
             )
         owner = system.elements[element_name]
         prefix = f"{path}{element_name}."
     if connector_name not in owner.connectors:
-        raise InputError(
-            network.file,
+        raise network.refuse(
             connection.where,
             f"{owner.name} declares no connector {connector_name}",
             suggestion(connector_name, owner.connectors),
@@ -210,15 +206,14 @@ def _signal(network: Network, path: str, reference: DictionaryReference, signal:
         system = network.systems[level]
         if reference.dictionary in system.dictionaries:
             if signal not in system.dictionaries[reference.dictionary]:
-                raise InputError(
-                    network.file,
+                raise network.refuse(
                     where,
                     f"dictionary {reference.dictionary} has no signal {signal}",
                     suggestion(signal, system.dictionaries[reference.dictionary]),
                 )
             return network.nodes[f"{level}{reference.dictionary}.{signal}"]
         if not level:
-            raise InputError(network.file, where, f"no signal dictionary {reference.dictionary}", "declare it")
+            raise network.refuse(where, f"no signal dictionary {reference.dictionary}", "declare it")
         level = level[: level.rstrip(".").rfind(".") + 1]
 
 
@@ -229,26 +224,23 @@ def _connect(network: Network, path: str, system: System, connection: Connection
     if not _leads(start, start_is_own, end, end_is_own):
         if not _leads(end, end_is_own, start, start_is_own):
             problem = f"{start.name} is {start.kind} and {end.name} is {end.kind}: neither gives what the other takes"
-            raise InputError(network.file, connection.where, problem, "connect an output with an input")
+            raise network.refuse(connection.where, problem, "connect an output with an input")
         start, end = end, start  # the standard gives the ends of a connection no direction
     if "calculatedParameter" in (start.kind, end.kind):
-        raise InputError(
-            network.file,
+        raise network.refuse(
             connection.where,
             "calculated parameters are not passed on yet",
             "remove the connection and give the value in a parameter set",
         )
     if "parameter" in (start.kind, end.kind) and start.kind != end.kind:
-        raise InputError(
-            network.file,
+        raise network.refuse(
             connection.where,
             f"connects {start.kind} {start.name} with {end.kind} {end.name}",
             "connect parameters with parameters, and signals with signals",
         )
     if end.name in network.driver:
         first = network.driver[end.name]
-        raise InputError(
-            network.file,
+        raise network.refuse(
             connection.where,
             f"{end.name} is driven twice, first by {first.source.name} (line {first.line})",
             "remove one of the two connections",
@@ -256,8 +248,7 @@ def _connect(network: Network, path: str, system: System, connection: Connection
     transformation = connection.transformation
     if not connection.suppress_unit_conversion and start.unit and end.unit:
         if not start.unit.fits(end.unit):
-            raise InputError(
-                network.file,
+            raise network.refuse(
                 connection.where,
                 f"units do not fit: {start.unit.name} and {end.unit.name}",
                 "correct the unit of one end",
@@ -290,11 +281,8 @@ def _settle_types(network: Network) -> None:
 def _check_link(network: Network, link: Link) -> None:
     source, target = link.source, link.target
     if source.type_name != target.type_name and (source.type_name, target.type_name) not in WIDENED:
-        raise InputError(
-            network.file,
-            link.where,
-            f"types do not fit: {source.type_name} and {target.type_name}",
-            "connect variables of one type",
+        raise network.refuse(
+            link.where, f"types do not fit: {source.type_name} and {target.type_name}", "connect variables of one type"
         )
     if link.transformation != IDENTITY:
         check_type(link.transformation, target.type_name or "", network.file, link.where)
