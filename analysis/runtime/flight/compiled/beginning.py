@@ -5,23 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ....common.compiler import compile_cached
-from .codes import (
-    ADDRESS,
-    CODE,
-    COMPONENT,
-    COUNT,
-    FIRST,
-    FMI_WARNING,
-    INSTANCE,
-    MODE,
-    NOT_TAKEN,
-    PARAMETERS,
-    READ_BACK,
-    SETUP,
-    TEXT_PARAMETERS,
-    WHOLE_PARAMETERS,
-    WHOLE_READ_BACK,
-)
+from . import codes
 from .fmi_calls import change_mode, compare_texts, exchange, setup_experiment
 
 KEPT = 1e-6  # of a Real: what an FMU may lose of it, single precision or a unit of its own
@@ -32,46 +16,46 @@ def _begin(instruction, program, given, read_back, span, outcome):  # type: igno
 
     A parameter that an FMU has not taken becomes the outcome.
     """
-    code = instruction[CODE]
-    address = instruction[ADDRESS]
-    instance = instruction[INSTANCE]
-    first = instruction[FIRST]
-    count = instruction[COUNT]
+    code = instruction[codes.CODE]
+    address = instruction[codes.ADDRESS]
+    instance = instruction[codes.INSTANCE]
+    first = instruction[codes.FIRST]
+    count = instruction[codes.COUNT]
     reference = program.parameter_reference
-    if code == PARAMETERS:
+    if code == codes.PARAMETERS:
         return exchange(address, instance, reference, given.real, first, count)
-    if code == WHOLE_PARAMETERS:
+    if code == codes.WHOLE_PARAMETERS:
         return exchange(address, instance, reference, given.whole, first, count)
-    if code == TEXT_PARAMETERS:
+    if code == codes.TEXT_PARAMETERS:
         return exchange(address, instance, reference, given.text, first, count)
-    if code == SETUP:
-        allowed = program.tolerance[instruction[COMPONENT]]
+    if code == codes.SETUP:
+        allowed = program.tolerance[instruction[codes.COMPONENT]]
         known = not np.isnan(allowed)
         return setup_experiment(address, instance, np.int32(known), allowed if known else 0.0, span.start, span.stop)
-    if code == MODE:
+    if code == codes.MODE:
         return change_mode(address, instance)
-    if code == READ_BACK:
+    if code == codes.READ_BACK:
         status = exchange(address, instance, reference, read_back.real, first, count)
-    elif code == WHOLE_READ_BACK:
+    elif code == codes.WHOLE_READ_BACK:
         status = exchange(address, instance, reference, read_back.whole, first, count)
     else:  # TEXT_READ_BACK
         status = exchange(address, instance, reference, read_back.text, first, count)
-    if status < 0 or status > FMI_WARNING:
+    if status < 0 or status > codes.FMI_WARNING:
         return status
     for p in range(first, first + count):
-        if code == READ_BACK:
+        if code == codes.READ_BACK:
             requested, stored = given.real[p], read_back.real[p]
             selected = (
                 stored == requested
                 or abs(stored - requested) <= KEPT * abs(requested)
                 or (np.isnan(stored) and np.isnan(requested))
             )
-        elif code == WHOLE_READ_BACK:
+        elif code == codes.WHOLE_READ_BACK:
             selected = read_back.whole[p] == given.whole[p]
         else:
             selected = read_back.text[p] != 0 and compare_texts(read_back.text[p], given.text[p]) == 0
         if not selected:
-            outcome[0] = NOT_TAKEN
+            outcome[0] = codes.NOT_TAKEN
             outcome[1] = p
             return status
     return status

@@ -21,7 +21,7 @@ from numba.core.typing import Context, Signature
 from numba.extending import intrinsic
 
 from ....common.compiler import compile_cached
-from .codes import ADDRESS, CODE, COPY_TEXT, COUNT, FIRST, FMI_WARNING, INSTANCE, SET_TEXT, TOO_LONG
+from . import codes
 
 INT32 = ir.IntType(32)
 INT64 = ir.IntType(64)
@@ -148,25 +148,25 @@ def copy_text(_: BaseContext, builder: ir.IRBuilder, signature: Signature, argum
 
 def _exchange_texts(instruction, texts, outcome):  # type: ignore[no-untyped-def]
     """Work off one instruction on Strings; returns the fmi2Status. A text without room becomes the outcome."""
-    code = instruction[CODE]
-    address = instruction[ADDRESS]
-    instance = instruction[INSTANCE]
-    first = instruction[FIRST]
-    count = instruction[COUNT]
+    code = instruction[codes.CODE]
+    address = instruction[codes.ADDRESS]
+    instance = instruction[codes.INSTANCE]
+    first = instruction[codes.FIRST]
+    count = instruction[codes.COUNT]
     size = texts.rows.shape[1]
-    if code == COPY_TEXT:
+    if code == codes.COPY_TEXT:
         copy_text(texts.address[first], texts.address[address], size)
         return np.int32(0)
-    if code == SET_TEXT:
+    if code == codes.SET_TEXT:
         return exchange(address, instance, texts.reference, texts.address, first, count)
     status = exchange(address, instance, texts.reference, texts.given, first, count)
-    for t in range(first, first + count if 0 <= status <= FMI_WARNING else first):
+    for t in range(first, first + count if 0 <= status <= codes.FMI_WARNING else first):
         if texts.given[t] == 0:
             texts.rows[t, 0] = 0
         else:
             copy_text(texts.address[t], texts.given[t], size)
         if texts.rows[t, size - 1] != 0:
-            outcome[0] = TOO_LONG
+            outcome[0] = codes.TOO_LONG
             outcome[1] = t
             return status
     return status
