@@ -53,11 +53,6 @@ def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Map
     return sorted(variables, key=lambda row: CAUSALITIES.index(row["causality"]))
 
 
-def of_causality(rows: list[dict[str, Any]], *causalities: str) -> list[dict[str, Any]]:
-    """The rows of some causalities."""
-    return [row for row in rows if row["causality"] in causalities]
-
-
 def _start(variable: Any) -> Any:
     if variable.start is None:
         return None

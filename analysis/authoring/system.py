@@ -76,7 +76,9 @@ def new_system(name: str) -> Written:
     staged = Path(tempfile.mkdtemp(prefix=f".{name}.", dir=Path.cwd()))
     try:
         names = _write(staged, name)
-        staged.chmod(0o777 & ~_mask())
+        mask = os.umask(0)  # the permissions that new files do not get; to read them is to set them
+        os.umask(mask)
+        staged.chmod(0o777 & ~mask)
         staged.rename(folder)
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(folder)) from error
@@ -105,10 +107,3 @@ def _write(folder: Path, name: str) -> list[str]:
         path.parent.mkdir(exist_ok=True)
         path.write_text(render(f"{SYSTEM}/{entry}", **words, **parts, units=units), encoding="utf-8")
     return [BLOCKS, *remainder]
-
-
-def _mask() -> int:
-    """The permissions that new files do not get; to read them is to set them."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -42,7 +42,7 @@ class Elementary:
         with np.errstate(all="ignore"):
             if self._left >= 0:
                 return np.asarray(self._in_python(*doubles), dtype=float)[()]
-            return _vectorised(self._kernel)(*doubles)
+            return _vectorise(self._kernel)(*doubles)
 
 
 @cache
@@ -52,7 +52,7 @@ def elementary(name: str) -> Elementary:
 
 
 @cache
-def _vectorised(function: Callable) -> np.ufunc:
+def _vectorise(function: Callable) -> np.ufunc:
     from numba import vectorize
 
     from .compiler import compile_cached
@@ -65,7 +65,7 @@ def _vectorised(function: Callable) -> np.ufunc:
 def _with_compiled_callees(function: FunctionType | Callable) -> FunctionType:
     """A kernel function whose kernel functions numba has compiled: its module names them as plain Python."""
     names = {
-        name: _compiled(value) if isinstance(value, FunctionType) else value
+        name: _compile(value) if isinstance(value, FunctionType) else value
         for name, value in function.__globals__.items()
         if name in function.__code__.co_names
     }
@@ -73,7 +73,7 @@ def _with_compiled_callees(function: FunctionType | Callable) -> FunctionType:
 
 
 @cache
-def _compiled(function: FunctionType) -> Any:
+def _compile(function: FunctionType) -> Any:
     from numba import njit
 
     return njit(_with_compiled_callees(function))  # kept as part of what calls it

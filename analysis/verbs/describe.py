@@ -17,7 +17,7 @@ from ..runtime.system.alone import describe_alone
 from ..runtime.system.fmu import load_fmu
 from ..runtime.system.options import SystemOptions as System
 from ..runtime.system.options import system_options
-from ..runtime.system.prepared import find_fmu, prepare_system
+from ..runtime.system.prepared import locate_fmu, prepare_system
 from .common.description_text import description_lines
 from .options.library import DESCRIBE, DescribeOptions
 from .options.option import FilePath
@@ -54,7 +54,10 @@ def describe(what: FilePath, component: str | None = None, **options: Unpack[Des
     """
     name, system = os.fspath(what), system_options(options)
     if options["campaign"] is not None:
-        return _describe_campaign(name, options["campaign"], component, system)
+        if component is not None or system != System():
+            problem = "a campaign is described without a component and without other options"
+            raise InputError("`campaign`", options["campaign"], problem, "leave them out")
+        return Description(describe_campaign(name, options["campaign"]))
     if name.endswith(".fmu") or name in catalogue() or name in fmu_flavours():
         if component is not None:
             raise InputError("describe", component, "an FMU has no components", "name a system before it")
@@ -67,16 +70,9 @@ def describe(what: FilePath, component: str | None = None, **options: Unpack[Des
     raise InputError("describe", name, "no system, FMU or slot of this name", suggestion(name, known))
 
 
-def _describe_campaign(name: str, campaign: str, component: str | None, options: System) -> Description:
-    if component is not None or options != System():
-        problem = "a campaign is described without a component and without other options"
-        raise InputError("`campaign`", campaign, problem, "leave them out")
-    return Description(describe_campaign(name, campaign))
-
-
 def _describe_fmu(name: str, options: System) -> Description:
-    data, label = find_fmu(name, options.flavour, "describe")
-    fmu = load_fmu(data, label)
+    read, label = locate_fmu(name, options.flavour, "describe")
+    fmu = load_fmu(read(), label)
     alone, _ = describe_alone(fmu, options)
     return Description(
         fmu=fmu.name,

@@ -57,7 +57,8 @@ def distributions(results: Mapping[str, Results], metrics: Sequence[str] | None)
     for name in common if metrics is None else dict.fromkeys(metrics):
         metric = _of_one_unit(name, declared)
         values = {line: column for label, batch in results.items() for line, column in _lines(label, batch, name)}
-        if _varies(np.concatenate(list(values.values()))) or (metrics is not None and _is_somewhere(values)):
+        whole = np.concatenate(list(values.values()))
+        if _varies(whole) or (metrics is not None and np.isfinite(whole).any()):
             displayed[metric] = values
     if not displayed:
         raise ValueError(f"{', '.join(filter(None, results)) or 'the campaign'}: no metric that varies and is finite")
@@ -103,10 +104,6 @@ def _lines(label: str, results: Results, metric: str) -> list[tuple[str, np.ndar
 def _varies(values: np.ndarray) -> bool:
     finite = values[np.isfinite(values)]
     return bool(finite.size) and not (finite.size == values.size > 1 and np.all(finite == finite[0]))
-
-
-def _is_somewhere(values: Mapping[str, np.ndarray]) -> bool:
-    return any(np.any(np.isfinite(values_of)) for values_of in values.values())
 
 
 class StoredResults(OpenedResults):

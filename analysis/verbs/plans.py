@@ -13,7 +13,6 @@ from ..common.errors import InputError, UnwrittenError
 from ..design.trajectories.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
 from ..design.trajectories.hover_study import HoverStudy, hover_study
 from ..design.trajectories.landing_study import LandingStudy, landing_study
-from ..design.trajectories.path import PlannedPath
 from ..design.trajectories.stored_bound import write_bound
 from ..design.trajectories.vehicle import (
     HOVER_MARGINS,
@@ -78,7 +77,14 @@ class HoverPlan(HoverStudy):
             f"  {fraction / vertical:.4f} x vertical descent, {vertical:.6f} in {self.vertical.duration:.2f} s",
         ]
         named = (("true optimum", self.optimum), ("point-mass bound", self.bound))
-        return lines + [line for name, path in named if path is not None for line in _path_lines(name, path, mass)]
+        for name, path in named:
+            if path is not None:
+                fraction, duration = path.propellant_fraction, f"{path.duration:.2f} s ({path.throttle.size} intervals)"
+                lines += [
+                    f"{name}: propellant fraction {fraction:.6f}, {fraction * mass:.3f} kg in {duration}",
+                    f"  {burns_text(path.burns())}",
+                ]
+        return lines
 
     def to_json(self) -> dict[str, object]:
         """All of it for other programs; times in s, angles in deg."""
@@ -135,14 +141,6 @@ def _margins(options: TransferOptions, vehicle: Vehicle) -> Margins | None:
     if "angular_acceleration" in numbers:
         numbers["angular_acceleration"] = math.radians(numbers["angular_acceleration"])
     return replace(margins, **numbers)
-
-
-def _path_lines(name: str, path: PlannedPath, mass: float) -> list[str]:
-    return [
-        f"{name}: propellant fraction {path.propellant_fraction:.6f}, {path.propellant_fraction * mass:.3f} kg "
-        f"in {path.duration:.2f} s ({path.throttle.size} intervals)",
-        f"  {burns_text(path.burns())}",
-    ]
 
 
 OF_LANDING = tuple(Landing.__dataclass_fields__)

@@ -71,9 +71,7 @@ def sensitivity(
     folder = results_folder(options)
     plan = read_campaign(system, campaign, options)
     with chdir(Path.cwd()):  # an FMU may change the folder
-        result = study.sensitivity(plan, base, **conditions(options), tell=_announce)
+        result = study.sensitivity(
+            plan, base, **conditions(options), tell=lambda cost: print(f"perilune: {cost}", file=sys.stderr)
+        )
     return store_result(SensitivityResult, replace(result, commands=commands_of(plan)), folder)
-
-
-def _announce(cost: str) -> None:
-    print(f"perilune: {cost}", file=sys.stderr)

@@ -78,10 +78,6 @@ class Outcome(NamedTuple):
         return self.code == codes.FAILED and self.fmi_status == status
 
 
-def outcome_of(buffers: arrays.Buffers) -> Outcome:
-    return Outcome(*buffers.outcome.tolist())
-
-
 def end_request(instance: Instance) -> float | None:
     """When (s) an FMU that discarded a step wants the simulation to end; None where it does not say that it does.
 

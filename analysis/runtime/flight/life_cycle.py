@@ -82,7 +82,7 @@ class LifeCycle:
         try:
             instance.slave.reset()
         except FMICallException as error:
-            judge(instance.fmu, ResetVerdict(False, f"fmi2Reset returned status {error.status}"))
+            judge(instance.fmu.digest, ResetVerdict(False, f"fmi2Reset returned status {error.status}"))
             return False
         return True
 

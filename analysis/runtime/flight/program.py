@@ -18,7 +18,8 @@ from ..system.fmu import Fmu
 from ..system.inputs import Drive
 from ..system.names import split_name
 from ..system.network import Link, Network, Node
-from ..system.schedule import Schedule, origin
+from ..system.prepared import PreparedSystem
+from ..system.schedule import origin
 from .compiled import arrays, codes
 from .instance import Instance
 from .instructions import InstructionList, write_instructions
@@ -68,25 +69,18 @@ class Layout:
 
 
 def build_program(
-    network: Network,
+    prepared: PreparedSystem,
     settings: Settings,
-    schedule: Schedule,
-    algorithm: str,
-    periods: Mapping[str, int],
-    instances: dict[str, Instance],
+    instances: Mapping[str, Instance],
     wanted: Collection[str] | None,
-    injections: Sequence[Injection] = (),
-    drive: Drive | None = None,
+    injections: Sequence[Injection],
 ) -> tuple[arrays.Program, InstructionList, Layout]:
     """Arrays for the loop, and what writes instructions. ``wanted`` names what is recorded (None: everything).
 
-    ``drive`` are inputs over time.
-
-    ``periods``: communication steps that a component's step takes, where more than one. Only outputs that are
-    connected or wanted are fetched.
+    Only outputs that are connected or wanted are fetched.
     """
-    builder = _Builder(network, settings, wanted, injections)
-    return *builder.program(schedule, algorithm, periods, instances, drive), builder.layout()
+    builder = _Builder(prepared.network, settings, wanted, injections)
+    return *builder.program(prepared, instances), builder.layout()
 
 
 def layout_of(network: Network, settings: Settings) -> Layout:
@@ -191,12 +185,7 @@ class _Builder:
         return [name for group in groups.values() for name in group], ranges
 
     def program(
-        self,
-        schedule: Schedule,
-        algorithm: str,
-        periods: Mapping[str, int],
-        instances: dict[str, Instance],
-        drive: Drive | None,
+        self, prepared: PreparedSystem, instances: Mapping[str, Instance]
     ) -> tuple[arrays.Program, InstructionList]:
         driven, drives = self._drives()
         groups = self._links()
@@ -218,7 +207,9 @@ class _Builder:
             {index for index, name in enumerate(self.names) if self.parameters.is_one_by_one(name)},
             self.references,
         )
-        instructions, reset_end, phases = write_instructions(collected, self.names, schedule, algorithm, periods)
+        instructions, reset_end, phases = write_instructions(
+            collected, self.names, prepared.schedule, prepared.algorithm, prepared.periods
+        )
         program = arrays.Program(
             instructions=instructions,
             reset_end=reset_end,
@@ -242,7 +233,7 @@ class _Builder:
             fault_window=np.array([injection.window for injection in self.injections], dtype=np.float64).reshape(-1, 2),
             fault_value=np.array([injection.value for injection in self.injections], dtype=np.float64),
             drive_slot=np.array([self.slots[name] for name in driven], dtype=np.int64),
-            drive_table=_columns(drive, driven),
+            drive_table=_columns(prepared.drive, driven),
         )
         return program, collected
 

@@ -43,14 +43,9 @@ def verdict_in_cache(fmu: Fmu) -> ResetVerdict | None:
     return ResetVerdict(True) if fmu.is_own else _verdicts.get(fmu.digest)
 
 
-def recall(digest: str, verdict: ResetVerdict) -> None:
-    """Keep a verdict of another process on the FMU with this SHA-256."""
+def judge(digest: str, verdict: ResetVerdict) -> None:
+    """Keep what a flight, or another process, has shown of the FMU with this SHA-256."""
     _verdicts[digest] = verdict
-
-
-def judge(fmu: Fmu, verdict: ResetVerdict) -> None:
-    """Keep what a flight has shown of an FMU."""
-    _verdicts[fmu.digest] = verdict
 
 
 def reset_verdict(fmu: Fmu) -> ResetVerdict:

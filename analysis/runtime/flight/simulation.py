@@ -14,7 +14,7 @@ from ..system.checks import check_fault
 from ..system.fault import Fault
 from ..system.prepared import PreparedSystem, no_collection
 from .compiled import arrays, codes, loop
-from .endings import TERMINATED, Outcome, end_request, in_words, outcome_of
+from .endings import TERMINATED, Outcome, end_request, in_words
 from .instance import Instance, Log, instantiate
 from .instructions import write_ending
 from .life_cycle import LifeCycle
@@ -88,15 +88,7 @@ class Simulation:
             self.instances[name] = instantiate(fmu, name, self._log)
         faults = [of_fault(fault, TIME_MARGIN * prepared.step) for fault in self._declared]
         self.program, self._instructions, self.layout = build_program(
-            prepared.network,
-            self.settings,
-            prepared.schedule,
-            prepared.algorithm,
-            prepared.periods,
-            self.instances,
-            self._wanted,
-            [*faults, *self._excitations],
-            prepared.drive,
+            prepared, self.settings, self.instances, self._wanted, [*faults, *self._excitations]
         )
         self.set_faults(self._faults)
         self.signal_names = [name for name in self.layout.slots if self._wanted is None or name in self._wanted]
@@ -196,7 +188,7 @@ class Simulation:
         for instance in self.instances.values():
             instance.said.clear()
         count = self._call(self.program, *self._request(first, last, every, reset, excitation))
-        outcome = outcome_of(self.buffers)
+        outcome = Outcome(*self.buffers.outcome.tolist())
         if self._has_learned(outcome):
             self._replace_instances()
             return self._advance(first, last, every, excitation)

@@ -17,13 +17,6 @@ DURATION = 1.0  # s, where the FMU proposes no end; FMPy's, too
 WHOLE = 1e-9  # what a number of steps may lack of a whole one
 
 
-def name_alone(fmu: Fmu) -> str:
-    """What the component of an FMU alone is called: its model's name, or the C identifier that it has beside it."""
-    if fmu.name.isidentifier():
-        return fmu.name
-    return re.sub(r"\W", "_", fmu.description.coSimulation.modelIdentifier)
-
-
 def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[str]]:
     """The description of a system of one FMU, and remarks on what was taken where the FMU proposes nothing.
 
@@ -39,7 +32,8 @@ def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[
         for variable in fmu.variables.values()
         if variable.causality in CONNECTED and not (variable.type == "String" and variable.causality != "parameter")
     }
-    name = name_alone(fmu)
+    # a component is called what its model is, or the C identifier that the FMU has in addition
+    name = fmu.name if fmu.name.isidentifier() else re.sub(r"\W", "_", fmu.description.coSimulation.modelIdentifier)
     component = Component(name, connectors, [], 0, fmu.label)
     start, stop, step, remarks = _times(fmu, options)
     remarks += [

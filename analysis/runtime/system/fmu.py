@@ -109,17 +109,12 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     folder = Path(tempfile.mkdtemp(prefix="perilune_"))
     fmu = Fmu(label, hashlib.sha256(data).hexdigest(), description, folder, flaws=list(flaws))
     # Others' may reach for any of their files: FMPy's remoting starts a server of binaries/win32 from binaries/win64.
-    archive.extractall(folder, _require(archive.namelist()) if fmu.is_own else None)
+    read_here = (DESCRIPTION, f"binaries/{fmpy.platform}/", "resources/")
+    archive.extractall(folder, [name for name in archive.namelist() if name.startswith(read_here) or not fmu.is_own])
     fmu.variables = {variable.name: variable for variable in description.modelVariables}
     fmu.units = units_of_fmu(description)
     weakref.finalize(fmu, shutil.rmtree, folder, ignore_errors=True)
     return fmu
-
-
-def _require(names: Sequence[str]) -> list[str]:
-    """Which files of an FMU built by Perilune a flight on this platform reads."""
-    retained = (DESCRIPTION, f"binaries/{fmpy.platform}/", "resources/")
-    return [name for name in names if name.startswith(retained)]
 
 
 @lru_cache(maxsize=MOST_DESCRIPTIONS)

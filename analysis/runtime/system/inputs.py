@@ -113,7 +113,11 @@ def find_driven(network: Network, series: InputSeries, alone: str | None) -> dic
     These are inputs that nothing is connected to; those of a component that flies ``alone`` go by their own names,
     too. Raises InputError for any other column, and for numbers that an input's type cannot have.
     """
-    types = {node.name: node.type_name or "Real" for node in network.nodes.values() if _is_free(network, node.name)}
+    types = {
+        node.name: node.type_name or "Real"
+        for node in network.nodes.values()
+        if node.component is None and node.kind == "input" and node.name not in network.driver
+    }
     types |= {
         f"{component}.{variable.name}": variable.type
         for component, fmu in network.fmus.items()
@@ -136,12 +140,6 @@ def find_driven(network: Network, series: InputSeries, alone: str | None) -> dic
         _check_type(series, column, types[name])
         columns[name] = column
     return columns
-
-
-def _is_free(network: Network, name: str) -> bool:
-    """Whether a node is a system's own input that nothing is connected to."""
-    node = network.nodes[name]
-    return node.component is None and node.kind == "input" and name not in network.driver
 
 
 def _check_type(series: InputSeries, column: str, type_name: str) -> None:

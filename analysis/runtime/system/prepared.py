@@ -203,12 +203,6 @@ def _refuse_seconds(network: Network) -> None:
         first.setdefault(fmu.digest, name)
 
 
-def find_fmu(name: str, flavour: str | None, option: str = "`use`") -> tuple[bytes, str]:
-    """An FMU named by its block or by a path: its content and its name in messages. Raises InputError."""
-    read, label = locate_fmu(name, flavour, option)
-    return read(), label
-
-
 def locate_fmu(
     name: str, flavour: str | None, option: str = "`use`", system: Path | None = None
 ) -> tuple[Callable[[], bytes], str]:

@@ -28,8 +28,9 @@ def campaign_problems(result: BatchResult, requirements: Sequence[Expression]) -
     """A line for each variant with failed or late simulations, and for each requirement that is not met."""
     lines = failure_lines(find_failed([result.rows]), result.plan, result.folder)
     limit = f"{result.plan.watch.timeout:g} s of `timeout`" if result.plan.watch.timeout is not None else ""
-    for variant, count in timed_out(result).items():
-        lines.append(f"{variant}: {count} simulations took longer than the {limit}; give a longer one")
+    for variant, entry in result.summary.items():
+        count = sum(count for status, count in entry.statuses.items() if status.startswith(TIMED_OUT))
+        lines += [f"{variant}: {count} simulations took longer than the {limit}; give a longer one"] if count else []
     values = requirement_values(result.summary)
     # a status that no trial had is not in the summary: it counts 0
     values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}
@@ -107,12 +108,3 @@ def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Express
     known = requirement_values(summary)
     statuses = tuple(f"{name.removesuffix('.trials')}.statuses." for name in known if name.endswith(".trials"))
     return read_requirements(texts, known, statuses)
-
-
-def timed_out(result: BatchResult) -> dict[str, int]:
-    """How many flights of each variant took longer than they may; those without any are left out."""
-    counts = {
-        variant: sum(count for status, count in entry.statuses.items() if status.startswith(TIMED_OUT))
-        for variant, entry in result.summary.items()
-    }
-    return {variant: count for variant, count in counts.items() if count}

@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...authoring.campaign import toml_value
-from ...authoring.description import of_causality
 from ...runtime.system.feedthrough import Origin
 
 WIDEST = 100  # columns of a line
@@ -153,7 +152,8 @@ def _variable_lines(rows: list[dict[str, Any]]) -> list[str]:
     for title, causality in (("inputs", "input"), ("outputs", "output"), ("parameters", "parameter")):
         chosen = [
             [f"  {row['name']}{_size(row)}", _value(row), row["unit"] or "", row["from"] or "", row["description"]]
-            for row in of_causality(rows, causality)
+            for row in rows
+            if row["causality"] == causality
         ]
         lines += [title, *text_table(chosen)] if chosen else []
     return lines

@@ -80,8 +80,11 @@ def verb(declared: Verb) -> Callable[[Function], Function]:
         @functools.wraps(function)
         def call(*arguments: object, **given: object) -> object:
             named = {name: given.pop(name) for name in list(given) if name in positional}
-            complete = bind_options(declared, function.__name__, given)
-            return function(*arguments, **named, **complete)
+            for keyword in given:
+                if keyword not in options:
+                    raise TypeError(f"{function.__name__}() has no option {keyword!r}; {suggestion(keyword, options)}")
+            checked = {key: check_value(options[key], value) for key, value in given.items()}
+            return function(*arguments, **named, **defaults_of(declared.options) | checked)
 
         own = [each for each in inspect.signature(function).parameters.values() if each.kind is not each.VAR_KEYWORD]
         positional = {each.name for each in own}
@@ -96,12 +99,3 @@ def verb(declared: Verb) -> Callable[[Function], Function]:
         return call  # type: ignore[return-value]
 
     return decorate
-
-
-def bind_options(declared: Verb, name: str, given: Mapping[str, object]) -> dict[str, object]:
-    """All options of a verb: what is given, checked, and defaults. Raises TypeError for an unknown one, InputError."""
-    options = options_of(declared.options)
-    for keyword in given:
-        if keyword not in options:
-            raise TypeError(f"{name}() has no option {keyword!r}; {suggestion(keyword, options)}")
-    return defaults_of(declared.options) | {key: check_value(options[key], value) for key, value in given.items()}
