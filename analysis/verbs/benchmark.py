@@ -8,9 +8,10 @@ from ..benchmark.measure import run_benchmark
 from ..benchmark.table import benchmark_text
 from .options.library import BENCHMARK, BenchmarkOptions
 from .options.verb import verb
+from .result import NoProblems
 
 
-class Timings(dict[str, Any]):
+class Timings(NoProblems, dict[str, Any]):
     """Times by contestant, what they are ratios of, the machine and the versions, by key."""
 
     def lines(self) -> list[str]:
@@ -20,10 +21,6 @@ class Timings(dict[str, Any]):
     def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return dict(self)
-
-    def problems(self) -> list[str]:
-        """None."""
-        return []
 
 
 @verb(BENCHMARK)

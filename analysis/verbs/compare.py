@@ -24,12 +24,13 @@ from .options.campaigns import COMPARE, CompareOptions
 from .options.command import write_command
 from .options.option import FilePath
 from .options.verb import verb
+from .result import NoProblems
 
 MOST_PLOTTED = 6  # metrics, in a notebook
 
 
 @dataclass(frozen=True, repr=False)
-class Comparison(comparison.Comparison):
+class Comparison(NoProblems, comparison.Comparison):
     """Variants on the same trials: ``summary`` by label, ``pairs`` of labels, `compare_rates`, `compare_values`."""
 
     def __repr__(self) -> str:
@@ -61,10 +62,6 @@ class Comparison(comparison.Comparison):
     def to_json(self) -> dict[str, object]:
         """Provenance of every batch, numbers of every variant and of every pair, for other programs."""
         return self.document()
-
-    def problems(self) -> list[str]:
-        """None."""
-        return []
 
     def plot(self, *metrics: str) -> Plot:
         """How metrics are distributed over successful trials, contender over contender; of none named all that vary.

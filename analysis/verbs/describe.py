@@ -22,9 +22,10 @@ from .common.description_text import description_lines
 from .options.library import DESCRIBE, DescribeOptions
 from .options.option import FilePath
 from .options.verb import verb
+from .result import NoProblems
 
 
-class Description(dict[str, Any]):
+class Description(NoProblems, dict[str, Any]):
     """What a system, an FMU, a component or a slot has, by key; see `describe`."""
 
     def lines(self) -> list[str]:
@@ -34,10 +35,6 @@ class Description(dict[str, Any]):
     def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return dict(self)
-
-    def problems(self) -> list[str]:
-        """None."""
-        return []
 
 
 @verb(DESCRIBE)

@@ -11,12 +11,13 @@ from ...fmus_src.paths import BUILD, IS_CHECKOUT
 from ..common.errors import InputError
 from .options.library import DOCS, DocsOptions
 from .options.verb import verb
+from .result import NoProblems
 
 FIRST_PAGE = BUILD / "site" / "index.html"
 
 
 @dataclass(frozen=True)
-class Documentation:
+class Documentation(NoProblems):
     """The site's first ``page``, and whether a browser has opened it."""
 
     page: Path
@@ -29,10 +30,6 @@ class Documentation:
     def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return {"page": str(self.page), "opened": self.is_opened}
-
-    def problems(self) -> list[str]:
-        """None."""
-        return []
 
 
 @verb(DOCS)

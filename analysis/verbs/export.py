@@ -31,12 +31,13 @@ from ..runtime.ssp.documents import parse_xml
 from .options.library import EXPORT, ExportOptions
 from .options.option import FilePath
 from .options.verb import verb
+from .result import NoProblems
 
 Flavour = Literal["native", "python"]
 
 
 @dataclass(frozen=True)
-class Exported:
+class Exported(NoProblems):
     """What was written, in which flavours, for which platforms: none where all of it is Python."""
 
     paths: tuple[Path, ...]
@@ -50,10 +51,6 @@ class Exported:
     def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return {"paths": self.lines(), "flavours": list(self.flavours), "platforms": list(self.platforms)}
-
-    def problems(self) -> list[str]:
-        """None."""
-        return []
 
 
 @verb(EXPORT)

@@ -18,6 +18,7 @@ from ..stability.request.reading import read_declaration
 from .common.description_text import wrap
 from .options.library import LIST
 from .options.verb import verb
+from .result import NoProblems
 
 TITLE = 18  # columns of a title
 
@@ -41,7 +42,7 @@ class FmuEntry:
 
 
 @dataclass(frozen=True)
-class Inventory:
+class Inventory(NoProblems):
     """``systems`` and ``fmus`` by name, those of the working folder too; names of ``laws`` and ``searches``."""
 
     systems: Mapping[str, SystemFiles]
@@ -67,10 +68,6 @@ class Inventory:
     def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return asdict(self)
-
-    def problems(self) -> list[str]:
-        """None."""
-        return []
 
 
 @verb(LIST)

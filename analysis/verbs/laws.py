@@ -24,10 +24,11 @@ from ..reports.common.style import house_style
 from .options.design import LAW, SEARCH, LawOptions, SearchOptions
 from .options.option import FilePath
 from .options.verb import verb
+from .result import NoProblems
 
 
 @dataclass(frozen=True)
-class Law(laws.Law):
+class Law(NoProblems, laws.Law):
     """A network operator's law: its matrix and parameters, as formula, drawing and parameter set.
 
     ``component`` is what the parameter set is for.
@@ -42,10 +43,6 @@ class Law(laws.Law):
     def to_json(self) -> dict[str, object]:
         """The content of the law's file, and the formula."""
         return self.document() | {"formula": formula(self)}
-
-    def problems(self) -> list[str]:
-        """None."""
-        return []
 
     def write(self, path: FilePath) -> None:
         """Write the law's file (.json)."""

@@ -7,9 +7,10 @@ from pathlib import Path
 from ..authoring import block, system
 from .options.library import NEW_BLOCK, NEW_SYSTEM
 from .options.verb import verb
+from .result import NoProblems
 
 
-class NewFiles(block.Written):
+class NewFiles(NoProblems, block.Written):
     """The ``paths`` that were written, and the ``commands`` that come next."""
 
     def lines(self) -> list[str]:
@@ -20,10 +21,6 @@ class NewFiles(block.Written):
     def to_json(self) -> dict[str, object]:
         """The same for other programs."""
         return {"paths": [Path(path).as_posix() for path in self.paths], "next": self.commands}
-
-    def problems(self) -> list[str]:
-        """None."""
-        return []
 
 
 @verb(NEW_BLOCK)

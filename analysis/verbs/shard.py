@@ -21,10 +21,11 @@ from .options.campaigns import MERGE, PREPARE, SHARD, ExecutionOptions, PrepareO
 from .options.option import FilePath
 from .options.system import RequireOptions
 from .options.verb import verb
+from .result import NoProblems
 
 
 @dataclass(frozen=True)
-class PreparedCampaign:
+class PreparedCampaign(NoProblems):
     """A campaign's ``folder`` with ``shards`` of ``shard_size`` trials, the last one with the rest."""
 
     folder: Path
@@ -42,10 +43,6 @@ class PreparedCampaign:
             f"written: {self.folder}, shards 0-{last}, {self.shard_size} trials each, the rest in the last",
             f"simulate them: perilune shard {self.folder} 0-{last}, in any parts; then: perilune merge {self.folder}",
         ]
-
-    def problems(self) -> list[str]:
-        """None."""
-        return []
 
 
 @verb(PREPARE)
