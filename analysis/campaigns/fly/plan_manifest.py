@@ -14,7 +14,7 @@ import pyarrow
 import pyarrow.parquet
 
 from ....fmus_src.kernel.functions import VERSION
-from ...runtime.flight.reset_check import ResetVerdict, judge, reset_verdict
+from ...runtime.flight.reset_check import ResetVerdict, reset_verdict, store_verdict
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.system.fault import parse_fault
 from ...runtime.system.options import SystemOptions, Watch
@@ -165,7 +165,7 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: 
         stored_table = read_draws((draws or folder).absolute(), manifest.trials, plan.campaign.input_names())
         plan = replace(plan, known_draws=stored_table)  # made anew they could differ
     for digest, verdict in manifest.resets.items():
-        judge(digest, ResetVerdict(**verdict))
+        store_verdict(digest, ResetVerdict(**verdict))
     return plan
 
 

@@ -12,7 +12,7 @@ from .compiled import arrays, codes
 from .endings import Outcome, check_initialisation
 from .instance import Instance
 from .instructions import InstructionList
-from .reset_check import ResetVerdict, judge, reset_verdict, verdict_in_cache
+from .reset_check import ResetVerdict, reset_verdict, store_verdict, verdict_in_cache
 
 
 class LifeCycle:
@@ -82,7 +82,7 @@ class LifeCycle:
         try:
             instance.slave.reset()
         except FMICallException as error:
-            judge(instance.fmu.digest, ResetVerdict(False, f"fmi2Reset returned status {error.status}"))
+            store_verdict(instance.fmu.digest, ResetVerdict(False, f"fmi2Reset returned status {error.status}"))
             return False
         return True
 

@@ -43,7 +43,7 @@ def verdict_in_cache(fmu: Fmu) -> ResetVerdict | None:
     return ResetVerdict(True) if fmu.is_own else _verdicts.get(fmu.digest)
 
 
-def judge(digest: str, verdict: ResetVerdict) -> None:
+def store_verdict(digest: str, verdict: ResetVerdict) -> None:
     """Keep what a flight, or another process, has shown of the FMU with this SHA-256."""
     _verdicts[digest] = verdict
 
