@@ -25,5 +25,6 @@ HOMES = {
     "kernel.records": ("Field", "Record", "replace"),
     "mathlib.vectors": ("Vector", "Vector2", "Vector3", "Vector4", "cross", "dot", "norm", "vector"),
     "ports": ("Port", "Status", "outcome"),
+    "units": ("deg",),
 }
 HOME_OF = {name: home for home, names in HOMES.items() for name in names}

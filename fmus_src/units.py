@@ -104,3 +104,8 @@ def unit_definition(name: str) -> UnitDefinition | None:
     if not name:
         return None
     return UnitDefinition({base: exponents[base] for base in BASE_UNITS if exponents.get(base)}, factor)
+
+
+def deg(angle: float) -> float:
+    """An angle of so many degrees in radians, for parameters that are written in degrees."""
+    return angle * math.pi / 180.0

@@ -5,6 +5,7 @@ import math
 from ..block import Parameter, State
 from ..interfaces.entry_control import EntryControl
 from ..mathlib.vectors import Vector3, clip, vector
+from ..units import deg
 
 
 class StandardControl(EntryControl):
@@ -16,10 +17,10 @@ class StandardControl(EntryControl):
     chapter 3.2.
     """
 
-    bank_limit = Parameter(24.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="error of bank acted on")
+    bank_limit = Parameter(deg(24.0), unit="rad", minimum=0.0, description="error of bank acted on")
     lead_time = Parameter(2.0, unit="s", minimum=0.0, description="of the roll rate in the roll signal")
     thresholds = Parameter(
-        [2.0 * math.pi / 180.0, 1.0 * math.pi / 180.0, 1.0 * math.pi / 180.0],
+        [deg(2.0), deg(1.0), deg(1.0)],
         minimum=0.0,
         description="of roll (rad), yaw and pitch (rad/s)",
     )

@@ -7,6 +7,7 @@ from ..interfaces.ports import landing, sampling
 from ..mathlib.rotation import rotation_between
 from ..mathlib.vectors import Vector3, across, cross, limit_length, norm, vector
 from ..ports import Status, outcome
+from ..units import deg
 
 
 def has_direction(length: float) -> bool:
@@ -39,11 +40,11 @@ class ThrustAxisControl(Block):
     rate_gain = Parameter(1.5, unit="1/s", minimum=0.0, description="acceleration over error of the rate")
     angle_gain = Parameter(0.8, unit="1/s", minimum=0.0, description="rate over error of the angle")
     braking_acceleration = Parameter(
-        0.004363323129985824, unit="rad/s2", minimum=0.0, description="with which large angles end; 0.25 deg/s2"
+        deg(0.25), unit="rad/s2", minimum=0.0, description="with which large angles end; 0.25 deg/s2"
     )
-    maximum_rate = Parameter(0.17453292519943295, unit="rad/s", minimum=0.0, description="largest turn asked for")
+    maximum_rate = Parameter(deg(10.0), unit="rad/s", minimum=0.0, description="largest turn asked for")
     maximum_angular_acceleration = Parameter(
-        0.017453292519943295, unit="rad/s2", minimum=0.0, description="largest acceleration; 0: no limit"
+        deg(1.0), unit="rad/s2", minimum=0.0, description="largest acceleration; 0: no limit"
     )
     thrust_direction = landing.DIRECTION.input("commanded direction at command_time")
     thrust_direction_rate = landing.DIRECTION_RATE.input()

@@ -5,6 +5,7 @@ import math
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import entry, sampling
 from ..mathlib.vectors import clip
+from ..units import deg
 
 IDEAL = 0
 LIMITED = 1
@@ -24,14 +25,14 @@ class BankProgramme(Block):
 
     default_step = 0.2
 
-    first_target = Parameter(60.0 * math.pi / 180.0, unit="rad", description="target at the start; it changes its sign")
+    first_target = Parameter(deg(60.0), unit="rad", description="target at the start; it changes its sign")
     reversal_times = Parameter(
         [NEVER, NEVER], unit="s", minimum=0.0, description="of the reversals after the start, in order"
     )
     method = Parameter(TIME_OPTIMAL, minimum=0, maximum=2, description="0 ideal, 1 limited, 2 time-optimal")
-    bank_rate = Parameter(12.0 * math.pi / 180.0, unit="rad/s", minimum=1e-6, description="largest rate, time-optimal")
+    bank_rate = Parameter(deg(12.0), unit="rad/s", minimum=1e-6, description="largest rate, time-optimal")
     bank_acceleration = Parameter(0.06, unit="rad/s2", minimum=1e-6, description="acceleration, time-optimal")
-    largest_error = Parameter(48.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="of the limited method")
+    largest_error = Parameter(deg(48.0), unit="rad", minimum=0.0, description="of the limited method")
     sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick; 0: every communication point")
     target_bank = entry.TARGET_BANK.output()
     reference_bank = entry.REFERENCE_BANK.output()

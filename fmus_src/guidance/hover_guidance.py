@@ -2,11 +2,13 @@
 
 from ..block import Input, Output, Parameter, State
 from ..interfaces.ports import landing, sampling
+from ..interfaces.ports.landing import UNLIMITED
 from ..kernel.functions import expm1, tan
 from ..mathlib.gravity import STANDARD_GRAVITY
 from ..mathlib.lagged_thrust import lagged_thrust
 from ..mathlib.rotation import TurningDirection
 from ..mathlib.vectors import across, clip, dot, limit_length, norm, vector
+from ..units import deg
 from .hover_plan import GOOD, HOLDING, POLYNOMIAL, HoverPlan
 
 # Modes
@@ -17,7 +19,6 @@ SLOW = 3
 CAPTURE = 4
 DESCEND = 5
 
-UNLIMITED = 1e9  # s; longer than any flight
 ROUNDING = 1e-9  # s, allowed for in times of communication points
 CYCLE_TOLERANCE = 1e-3  # of a cycle, by which communication points may miss sample instants
 USUAL_CYCLE = 0.1  # s, of the first command, before the communication step is known
@@ -56,7 +57,7 @@ class HoverGuidance(HoverPlan):
     tilt_filter = Parameter(0.7, unit="s", minimum=0.0, description="time constant of the lateral demand; 0: none")
     largest_error = Parameter(40.0, unit="m", minimum=0.0, description="of position, that is acted on")
     largest_tilt = Parameter(
-        0.20943951023931953, unit="rad", minimum=0.0, maximum=1.5, description="off the plan's direction; 12 deg"
+        deg(12.0), unit="rad", minimum=0.0, maximum=1.5, description="off the plan's direction; 12 deg"
     )
     estimate_thrust = Parameter(True, description="false: thrust_factor stays 1")
     descent_acceleration = Parameter(0.3, unit="m/s2", minimum=1e-3, description="with which a descent begins")

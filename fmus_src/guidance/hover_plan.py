@@ -23,6 +23,7 @@ from ..mathlib.transfer_polynomial import (
     transfer,
 )
 from ..mathlib.vectors import Vector3, add_along, clip, cross, dot, is_finite, norm, smallest_component, vector
+from ..units import deg
 
 HOLDING = 0  # kinds of plans besides those of mathlib.hover_solution
 POLYNOMIAL = 4
@@ -58,7 +59,7 @@ class HoverPlan(Block, interface=True):
         0.1, unit="1", minimum=1e-3, maximum=1.0, description="least thrust of plans over maximum_thrust"
     )
     planned_angular_acceleration = Parameter(
-        0.012217304763960306, unit="rad/s2", minimum=1e-5, maximum=1.0, description="of plans; 0.70 deg/s2"
+        deg(0.7), unit="rad/s2", minimum=1e-5, maximum=1.0, description="of plans; 0.70 deg/s2"
     )
     slow_speed = Parameter(4.0, unit="m/s", minimum=1e-3, description="largest of a slow transfer")
     slow_acceleration = Parameter(0.3, unit="m/s2", minimum=1e-3, description="largest of a slow transfer")

@@ -3,7 +3,8 @@
 from ..block import State
 from ..interfaces.network_operator_law import NetworkOperatorLaw
 from ..interfaces.ports import landing
-from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION, UNLIMITED, TerminalGuidance
+from ..interfaces.ports.landing import UNLIMITED
+from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION, TerminalGuidance
 from ..kernel.functions import atan2, cos, expm1, sin
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, from_centre
 from ..mathlib.vectors import Vector3, dot, norm, vector

@@ -8,6 +8,7 @@ from ..kernel.records import replace
 from ..mathlib.orbital import AttitudeState
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
 from ..ports import Status, outcome
+from ..units import deg
 from .orbital_body import OrbitalBody
 from .ports import body, sampling
 
@@ -45,7 +46,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
     )
     largest_yaw = Parameter(0.9, unit="rad", minimum=0.0, description="bound of the estimated yaw, but for a filter")
     vertical_sigma = Parameter(
-        1.7453292519943296e-05,
+        deg(0.001),
         unit="rad",
         minimum=1e-12,
         description="of roll and pitch measured, 1 sigma, for a filter",

@@ -5,6 +5,7 @@ import math
 from ..block import Block, Parameter
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
 from ..ports import Status, outcome
+from ..units import deg
 from .ports import body, entry, sampling
 
 
@@ -31,7 +32,7 @@ class EntryControl(Block, interface=True):
 
     inertia = body.INERTIA.parameter(description="matrix of inertia, as known on board")
     jet_torque = body.JET_TORQUE.parameter([100.0, 80.0, 80.0], "levels as known on board, both ways")
-    trim_attack = Parameter(-20.0 * math.pi / 180.0, unit="rad", description="attack at which the capsule trims")
+    trim_attack = Parameter(deg(-20.0), unit="rad", description="attack at which the capsule trims")
     dead_zone = Parameter(0.0, unit="1", minimum=0.0, description="share of a level below which nothing is demanded")
     sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick", minimum=1e-3)
     measured_bank = entry.BANK.input()

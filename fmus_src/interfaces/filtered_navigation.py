@@ -7,6 +7,7 @@ from ..mathlib.gravity import from_centre
 from ..mathlib.inertial import sensor_addition
 from ..mathlib.vectors import Vector3, norm, vector
 from ..ports import Status, outcome
+from ..units import deg
 from .inertial_navigation import InertialNavigation
 from .ports import landing, sampling
 
@@ -48,7 +49,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
     bias_sigma = landing.BIAS_SIGMA.parameter()
     scale_factor_sigma = landing.SCALE_FACTOR_SIGMA.parameter()
     attitude_sigma = Parameter(
-        0.02 * math.pi / 180.0, unit="rad", minimum=0.0, description="attitude knowledge, 1 sigma per axis, constant"
+        deg(0.02), unit="rad", minimum=0.0, description="attitude knowledge, 1 sigma per axis, constant"
     )
     velocity_random_walk = landing.VELOCITY_RANDOM_WALK.parameter()
     bias_random_walk = Parameter(

@@ -5,8 +5,7 @@ from ..mathlib.gyros import singularity_measure
 from ..mathlib.vectors import Vector3, Vector4, all_below, vector
 from ..ports import Status, outcome
 from .ports import body, robot, sampling
-
-LARGEST = 1e100  # a command beyond it counts as not finite; no kernel overflows below it
+from .ports.robot import LARGEST
 
 
 class GyroSteeringStatus(Status):

@@ -22,8 +22,7 @@ class InertialNavigation(Navigation, interface=True):
     docs/systems/lunar_navigation.md.
     """
 
-    seed = sampling.SEED.parameter()
-    stream = sampling.STREAM.parameter()
+    seed, stream = sampling.random_stream()
     force = State([0.0] * 3, unit="m/s2", description="mean specific force of the last step, as assumed")
     force_before = State([0.0] * 3, unit="m/s2", description="that of the step before")
     under_way = State(False, description="a step has been taken")

@@ -6,8 +6,8 @@ from ..mathlib.quaternion import normalise, to_body
 from ..mathlib.vectors import vector
 from ..ports import Status, outcome
 from .ports import body, inertial, robot, sampling
+from .ports.robot import LARGEST
 
-LARGEST = 1e100  # a command beyond it counts as not finite; no kernel overflows below it
 ROUNDING = 1e-9  # s, allowed for in times of communication points
 
 

@@ -1,10 +1,9 @@
 """The slot of regulators of the orbital attitude: from the estimate to the torque wanted over a tick."""
 
-import math
-
 from ..block import Parameter, State
 from ..mathlib.vectors import is_finite, vector
 from ..ports import Status, outcome
+from ..units import deg
 from .orbital_body import OrbitalBody
 from .ports import body, sampling
 
@@ -34,13 +33,13 @@ class OrbitalControl(OrbitalBody, interface=True):
     arrival_time = Parameter(35.0, unit="s", minimum=0.0, description="when all angles are to arrive, after the start")
     least_time = Parameter(8.0, unit="s", minimum=1e-3, description="shortest time to arrive in, also afterwards")
     band = Parameter(
-        [0.15 * math.pi / 180.0, 0.1 * math.pi / 180.0, 0.15 * math.pi / 180.0],
+        [deg(0.15), deg(0.1), deg(0.15)],
         unit="rad",
         minimum=0.0,
         description="errors of roll, yaw, pitch that are let be",
     )
     turn_angle = Parameter(0.0, unit="rad", description="yaw to turn to and back, which tells gyro biases from yaw")
-    turn_rate = Parameter(0.8 * math.pi / 180.0, unit="rad/s", minimum=1e-6, description="of that turn")
+    turn_rate = Parameter(deg(0.8), unit="rad/s", minimum=1e-6, description="of that turn")
     turn_start = Parameter(45.0, unit="s", minimum=0.0, description="when it begins, after the start")
     turn_stay = Parameter(120.0, unit="s", minimum=0.0, description="how long the body stays turned")
     shortest_pulse = body.SHORTEST_PULSE.parameter()

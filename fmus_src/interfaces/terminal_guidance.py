@@ -5,8 +5,8 @@ from ..mathlib.gravity import central_gravity
 from ..mathlib.vectors import Vector3, vector
 from ..ports import Status, outcome
 from .ports import landing, sampling
+from .ports.landing import UNLIMITED
 
-UNLIMITED = 1e9  # s; longer than any flight
 ROUNDING = 1e-9  # of a cycle, allowed for in times of communication points
 # Cycles; a last burn is never a sliver of one, in which small misses would ask for a large thrust.
 LAST_BURN = 1.5

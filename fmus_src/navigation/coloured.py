@@ -26,8 +26,7 @@ class ColouredNavigation(Navigation):
     velocity_sigma = landing.VELOCITY_SIGMA.parameter(0.1, "wandering error, 1 sigma per axis")
     correlation_time = Parameter(10.0, unit="s", minimum=1e-3, description="after which 1/e of an error is left")
     white_share = Parameter(0.3, unit="1", minimum=0.0, description="white error over sigma")
-    seed = sampling.SEED.parameter()
-    stream = sampling.STREAM.parameter()
+    seed, stream = sampling.random_stream()
     generator = sampling.GENERATOR.state()
     wandering = State([0.0] * 6, frozen=True, description="errors of position and velocity over their sigmas")
 

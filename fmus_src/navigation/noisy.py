@@ -32,8 +32,7 @@ class NoisyNavigation(Navigation):
     first_position_sigma = Navigation.first_position_sigma.with_start(0.0)
     first_velocity_sigma = Navigation.first_velocity_sigma.with_start(0.0)
     process_noise = Parameter(1e-6, unit="m2/s3", minimum=0.0, description="density of white acceleration noise")
-    seed = sampling.SEED.parameter()
-    stream = sampling.STREAM.parameter()
+    seed, stream = sampling.random_stream()
     innovation_square = sampling.INNOVATION_SQUARE.output(
         "normalised innovation squared of the last scalar fix", direct=True
     )

@@ -9,6 +9,7 @@ from ..kernel.records import replace
 from ..mathlib.kalman import predict, update
 from ..mathlib.orbital import angle_rate_derivatives, angle_rates, apply_matrix
 from ..mathlib.vectors import Vector3, vector
+from ..units import deg
 
 
 class OrbitalFilter(AttitudeObserver):
@@ -21,7 +22,7 @@ class OrbitalFilter(AttitudeObserver):
     Equations: docs/systems/orbital_attitude.md. Source: Bar-Shalom, Li and Kirubarajan 2001, section 10.3.
     """
 
-    first_yaw_sigma = Parameter(10.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="of yaw at the start")
+    first_yaw_sigma = Parameter(deg(10.0), unit="rad", minimum=0.0, description="of yaw at the start")
     rate_gain = Parameter(0.15, unit="1", minimum=0.0, maximum=1.0, description="of a sample in the estimated rates")
     bias = body.ANGULAR_VELOCITY.state("estimated bias of the gyros")
     covariance = State([0.0] * 36, columns=6, frozen=True, description="of angles and biases, SI")

@@ -8,6 +8,7 @@ from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity, ve
 from ..mathlib.lagged_thrust import lagged_thrust
 from ..mathlib.thrust_axis import AxisState, turn_axis
 from ..mathlib.vectors import Vector3, across, clip, cross, dot, norm, vector
+from ..units import deg
 
 HALVINGS = 60  # of a step, until the moment at which the tank is empty is exact
 
@@ -42,7 +43,7 @@ class AttitudeMoonLander(MoonLander):
     dry_mass = Parameter(1.0, unit="kg", minimum=1e-3, description="mass without propellant")
     probe_length = landing.PROBE_LENGTH.parameter()
     maximum_angular_acceleration = Parameter(
-        0.017453292519943295, unit="rad/s2", minimum=0.0, description="largest of the attitude jets; 0: no limit"
+        deg(1.0), unit="rad/s2", minimum=0.0, description="largest of the attitude jets; 0: no limit"
     )
     angular_acceleration = landing.ANGULAR_ACCELERATION.input("commanded angular acceleration")
     mass = MoonLander.mass.with_start(600.0)

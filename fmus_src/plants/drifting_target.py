@@ -7,6 +7,7 @@ from ..interfaces.ports import inertial, robot
 from ..kernel.functions import cos, fmod, sin
 from ..mathlib.quaternion import from_rotation_vector
 from ..mathlib.vectors import norm, vector
+from ..units import deg
 
 
 class DriftingTarget(Block):
@@ -25,7 +26,7 @@ class DriftingTarget(Block):
     )
     constant_velocity = inertial.VELOCITY.parameter([-0.05, 0.05, 0.075])
     spin_axis = robot.SPIN_AXIS.parameter(description="axis of the spin, of any length")
-    spin_rate = Parameter(math.pi / 180.0, unit="rad/s", description="angular velocity about it")
+    spin_rate = Parameter(deg(1.0), unit="rad/s", description="angular velocity about it")
     position = inertial.POSITION.output("centre of mass")
     velocity = inertial.VELOCITY.output()
     quaternion = robot.QUATERNION.output("attitude, from body to inertial, scalar first, not negative")

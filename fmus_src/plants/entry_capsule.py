@@ -23,10 +23,11 @@ from ..mathlib.orbital import apply_matrix
 from ..mathlib.pulses import left_after, lengths_of, next_switch_off
 from ..mathlib.standard_atmosphere import Air, air
 from ..mathlib.vectors import Vector3, cross, norm, vector
+from ..units import deg
 
 KNOTS = 13
 MACHS = 10
-ANGLE_STEP = 5.0 * math.pi / 180.0  # between the knots
+ANGLE_STEP = deg(5.0)  # between the knots
 STEP_ROUNDING = 1e-9
 GOOD = 0
 BEYOND_TABLES = 1
@@ -75,14 +76,14 @@ class EntryCapsule(Block):
     earth_rate = Parameter(7.29e-5, unit="rad/s", description="turn of the Earth")
     earth_radius = Parameter(6371000.0, unit="m", minimum=1.0, description="of the sphere under the height")
     initial_height = Parameter(100000.0, unit="m", description="height at the start")
-    initial_longitude = Parameter(60.0 * math.pi / 180.0, unit="rad", description="longitude at the start")
-    initial_latitude = Parameter(45.0 * math.pi / 180.0, unit="rad", description="latitude at the start")
+    initial_longitude = Parameter(deg(60.0), unit="rad", description="longitude at the start")
+    initial_latitude = Parameter(deg(45.0), unit="rad", description="latitude at the start")
     initial_speed = Parameter(7620.0, unit="m/s", minimum=1e-3, description="speed at the start, over the Earth")
-    initial_path_angle = Parameter(-1.45 * math.pi / 180.0, unit="rad", description="path angle at the start")
-    initial_course = Parameter(40.0 * math.pi / 180.0, unit="rad", description="course at the start")
-    initial_bank = Parameter(60.0 * math.pi / 180.0, unit="rad", description="bank at the start")
+    initial_path_angle = Parameter(deg(-1.45), unit="rad", description="path angle at the start")
+    initial_course = Parameter(deg(40.0), unit="rad", description="course at the start")
+    initial_bank = Parameter(deg(60.0), unit="rad", description="bank at the start")
     initial_sideslip = Parameter(0.0, unit="rad", description="sideslip at the start")
-    initial_attack = Parameter(-20.0 * math.pi / 180.0, unit="rad", description="attack at the start")
+    initial_attack = Parameter(deg(-20.0), unit="rad", description="attack at the start")
     initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="angular velocity at the start, absolute")
     final_height = Parameter(25000.0, unit="m", description="height below which the flight ends")
     internal_step = sampling.INTERNAL_STEP.parameter(0.025)

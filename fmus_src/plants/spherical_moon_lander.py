@@ -5,6 +5,7 @@ from ..interfaces.moon_lander import MoonLander
 from ..interfaces.ports import landing
 from ..mathlib.pursuit import follow, goal_at
 from ..mathlib.vectors import Vector3
+from ..units import deg
 
 
 class SphericalMoonLander(MoonLander):
@@ -30,7 +31,7 @@ class SphericalMoonLander(MoonLander):
 
     direction_response = Parameter(0.5, unit="s", minimum=0.0, description="time constant of the attitude; 0: none")
     slew_rate_limit = Parameter(
-        0.17453292519943295, unit="rad/s", minimum=0.0, description="largest rate of the attitude; 0: no limit"
+        deg(10.0), unit="rad/s", minimum=0.0, description="largest rate of the attitude; 0: no limit"
     )
     latch_at_burn_end = Parameter(
         False, description="keep the motion as it is when a burn ends inside a step, whatever thrust is left by a lag"

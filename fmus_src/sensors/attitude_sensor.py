@@ -4,6 +4,7 @@ from ..block import Parameter, State
 from ..interfaces.ports import landing, sampling
 from ..mathlib.rng import normals
 from ..mathlib.vectors import Vector3, cross, norm
+from ..units import deg
 from .random_sensor import RandomSensor
 
 
@@ -18,17 +19,16 @@ class AttitudeSensor(RandomSensor):
     """
 
     constant_sigma = Parameter(
-        8.726646259971648e-4, unit="rad", minimum=0.0, description="constant error, 1 sigma per axis; 0.05 deg"
+        deg(0.05), unit="rad", minimum=0.0, description="constant error, 1 sigma per axis; 0.05 deg"
     )
     attitude_sigma = Parameter(
-        2.617993877991494e-4, unit="rad", minimum=0.0, description="white error, 1 sigma per axis; 0.015 deg"
+        deg(0.015), unit="rad", minimum=0.0, description="white error, 1 sigma per axis; 0.015 deg"
     )
     rate_sigma = Parameter(
         3.490658503988659e-4, unit="rad/s", minimum=0.0, description="white error of the rate, 1 sigma per axis"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.0)
-    seed = sampling.SEED.parameter()
-    stream = sampling.STREAM.parameter()
+    seed, stream = sampling.random_stream()
     attitude = landing.DIRECTION.input("true unit vector of thrust")
     angular_rate = landing.ANGULAR_RATE.input("true angular rate")
     measured_attitude = landing.DIRECTION.output("measured unit vector of thrust", direct=True)

@@ -32,8 +32,7 @@ class InertialSensor(Block):
         3.490658503988659e-4, unit="rad", minimum=0.0, description="error of attitude, 1 sigma per axis, constant"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.1)
-    seed = sampling.SEED.parameter()
-    stream = sampling.STREAM.parameter()
+    seed, stream = sampling.random_stream()
     sensed_velocity = landing.VELOCITY.input("true integral of specific force")
     velocity_increment = landing.VELOCITY.output(
         "measured integral of specific force between the last two samples", direct=True

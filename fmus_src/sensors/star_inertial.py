@@ -22,8 +22,7 @@ class StarInertial(RandomSensor):
         4.84813681109536e-6, unit="rad", minimum=0.0, description="error, 1 sigma per axis; 1 arcsec"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.125)
-    seed = sampling.SEED.parameter()
-    stream = sampling.STREAM.parameter()
+    seed, stream = sampling.random_stream()
     quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
     measured_quaternion = robot.MEASURED_QUATERNION.output("measured, from body to inertial, scalar first", direct=True)
     sample_count = sampling.SAMPLE_COUNT.output()

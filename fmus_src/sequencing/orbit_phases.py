@@ -7,6 +7,7 @@ from ..kernel.functions import cos
 from ..mathlib.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range, lowest_altitude
 from ..mathlib.gravity import altitude_of, from_centre
 from ..mathlib.vectors import dot, norm
+from ..units import deg
 from .landing_sequence import BRAKING, BRAKING_FAILED, BRAKING_GUIDANCE, NEVER, OWN, ROUNDING, TIMEOUT, LandingSequence
 
 NOT_CONVERGED = 2  # status of the braking guidance from which on its command is an old one
@@ -43,7 +44,7 @@ class OrbitPhases(LandingSequence, interface=True):
         20.0, unit="s", minimum=0.0, description="how long the estimate must say so: the first fixes settle meanwhile"
     )
     pointing_tolerance = Parameter(
-        2.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="ignite with the axis so close to its command"
+        deg(2.0), unit="rad", minimum=0.0, description="ignite with the axis so close to its command"
     )
     pointing_patience = Parameter(30.0, unit="s", minimum=0.0, description="ignite after that in any case")
     handover_time_to_go = Parameter(28.0, unit="s", minimum=0.0, description="left of the braking when hover 1 begins")

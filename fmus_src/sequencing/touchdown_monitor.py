@@ -1,10 +1,9 @@
 """What a landing was like at the moment of contact."""
 
-import math
-
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import landing
 from ..mathlib.vectors import norm
+from ..units import deg
 
 
 class TouchdownMonitor(Block):
@@ -16,8 +15,8 @@ class TouchdownMonitor(Block):
 
     vertical_speed_limit = Parameter(3.0, unit="m/s", minimum=0.0, description="largest vertical speed")
     horizontal_speed_limit = Parameter(1.0, unit="m/s", minimum=0.0, description="largest horizontal speed")
-    tilt_limit = Parameter(5.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="largest tilt")
-    rate_limit = Parameter(2.0 * math.pi / 180.0, unit="rad/s", minimum=0.0, description="largest angular rate")
+    tilt_limit = Parameter(deg(5.0), unit="rad", minimum=0.0, description="largest tilt")
+    rate_limit = Parameter(deg(2.0), unit="rad/s", minimum=0.0, description="largest angular rate")
     distance_limit = Parameter(10.0, unit="m", minimum=0.0, description="largest distance from the site")
     ground_contact = landing.GROUND_CONTACT.input()
     vertical_speed = landing.VERTICAL_SPEED.input("true velocity along the local vertical, upwards")

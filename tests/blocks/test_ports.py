@@ -5,6 +5,7 @@ Statuses: plain ints in kernels, whose meanings describe the output.
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from perilune.fmus_src.export.native_fmu import native_sources
 from perilune.fmus_src.interfaces import ports as package
 from perilune.fmus_src.interfaces.ports import body, entry, inertial, landing, robot, sampling
 from perilune.fmus_src.ports import Port, Status, outcome
+from perilune.fmus_src.units import deg
 
 FORCE = Port([0.0, 0.0, 0.0], unit="N", frame="body", description="force")
 LEVEL = Port(1.0, unit="1", minimum=0.0, description="level")
@@ -132,3 +134,8 @@ def test_outcomes_are_constants_of_the_kernel() -> None:
     assert (winch.force, winch.status) == (1.0, 1)
     (violation,) = check(MisspeltWinch)
     assert violation.what.startswith("WinchStatus.UNLIMITED is no")
+
+
+def test_degrees_are_radians() -> None:
+    assert deg(180.0) == math.pi
+    assert deg(-20.0) == -20.0 * math.pi / 180.0

@@ -2,6 +2,8 @@
 
 from ...ports import Port
 
+UNLIMITED = 1e9  # s; longer than any flight
+
 ACCELERATION = Port([0.0, 0.0, 0.0], unit="m/s2", frame="landing site", description="acceleration")
 ACTIVE = Port(True, description="false: no command; where it becomes true, a plan starts")
 ALTITUDE = Port(0.0, unit="m", description="above the sphere of moon_radius")

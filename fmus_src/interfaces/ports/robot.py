@@ -4,6 +4,9 @@ import math
 
 from ...mathlib.gyros import ISOTROPIC_ANGLES
 from ...ports import Port, Status, outcome
+from ...units import deg
+
+LARGEST = 1e100  # a command beyond it counts as not finite; no kernel overflows below it
 
 COMMAND_COUNT = Port(0, description="forces commanded; a change tells a new one")
 DELAY_FRACTION = Port(
@@ -15,7 +18,7 @@ GIMBAL_RATES = Port([0.0] * 4, unit="rad/s", description="commanded gimbal rates
 JET_ARM = Port([1.0, 0.7, 0.6], unit="m", frame="body", description="place of the first jet")
 JET_AZIMUTH = Port(math.pi / 4.0, unit="rad", description="nozzles from x in the xy plane")
 JET_THRUST = Port([0.0] * 8, unit="N", description="thrust of each jet, from now on")
-JET_TILT = Port(35.25 * math.pi / 180.0, unit="rad", description="nozzles above the body's xy plane")
+JET_TILT = Port(deg(35.25), unit="rad", description="nozzles above the body's xy plane")
 MAXIMUM_THRUST = Port(0.5, unit="N", minimum=0.0, description="of one jet")
 MEASURED_QUATERNION = Port([1.0, 0.0, 0.0, 0.0], unit="1", description="measured, body to inertial, scalar first")
 NEAR_RANGE = Port(300.0, unit="m", minimum=0.0, description="nearby is below this range")

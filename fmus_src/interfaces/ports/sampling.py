@@ -1,5 +1,6 @@
 """What blocks share that sample or integrate."""
 
+from ...block import Parameter
 from ...ports import Port
 
 GENERATOR = Port([0.0] * 6, frozen=True, description="random number generator")
@@ -10,6 +11,11 @@ INTERNAL_STEP = Port(0.1, unit="s", minimum=1e-4, description="longest integrati
 SAMPLES_TAKEN = Port(0, description="samples taken in")
 SAMPLE_COUNT = Port(0, description="samples taken; tells a new one from a held one")
 SAMPLE_PERIOD = Port(0.2, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-SEED = Port(1, minimum=0, description="random numbers: seed")
 START_TIME = Port(0.0, unit="s", description="start of the flight")
-STREAM = Port(0, minimum=0, description="random numbers: stream within the seed")
+
+
+def random_stream() -> tuple[Parameter, Parameter]:
+    """seed and stream of a block's random numbers."""
+    seed = Parameter(1, minimum=0, description="random numbers: seed")
+    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
+    return seed, stream

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from perilune.fmus_src.interfaces.terminal_guidance import UNLIMITED
+from perilune.fmus_src.interfaces.ports.landing import UNLIMITED
 from tests.support.flights.terminal_guidance import (
     ALL,
     EXACT,
