@@ -9,7 +9,7 @@ from ..mathlib.lagged_thrust import lagged_thrust
 from ..mathlib.rotation import TurningDirection
 from ..mathlib.vectors import across, clip, dot, limit_length, norm, vector
 from ..units import deg
-from .hover_plan import GOOD, HOLDING, POLYNOMIAL, HoverPlan
+from .hover_plan import HOLDING, POLYNOMIAL, HoverPlan, HoverStatus
 
 # Modes
 IDLE = 0
@@ -183,7 +183,7 @@ class HoverGuidance(HoverPlan):
 
     def sinking(self) -> bool:
         """Whether the reference sinks."""
-        return self.mode == DESCEND and self.status == GOOD
+        return self.mode == DESCEND and self.status == HoverStatus.GOOD
 
     def sink_speed(self, t: float) -> float:
         """Speed (m/s) of the descent at the time t (s) after its start."""

@@ -23,20 +23,26 @@ from ..mathlib.transfer_polynomial import (
     transfer,
 )
 from ..mathlib.vectors import Vector3, add_along, clip, cross, dot, is_finite, norm, smallest_component, vector
+from ..ports import Status, outcome
 from ..units import deg
 
 HOLDING = 0  # kinds of plans besides those of mathlib.hover_solution
 POLYNOMIAL = 4
 
-GOOD = 0
-NO_PROGRAMME = 1
-BEYOND_LIMITS = 2
-NO_PLAN = 3
 
 LEAST_MEASURED = 0.5  # of the planned minimum, below which the engine is off
 # What a transfer keeps to that stands in for a programme.
 STANDBY_SPEED = 60.0  # m/s
 STANDBY_ACCELERATION = 0.5  # m/s2
+
+
+class HoverStatus(Status):
+    """What became of the last plan."""
+
+    GOOD = outcome("good")
+    NO_PROGRAMME = outcome("no programme, polynomial flown")
+    BEYOND_LIMITS = outcome("capture breaks a limit")
+    NO_PLAN = outcome("no plan possible: holds")
 
 
 class HoverPlan(Block, interface=True):
@@ -73,13 +79,7 @@ class HoverPlan(Block, interface=True):
     attitude = landing.DIRECTION.input("measured unit vector of thrust")
     angular_rate = landing.ANGULAR_RATE.input("measured angular rate")
     velocity_increment = landing.VELOCITY.input("measured integral of specific force over the last cycle")
-    status = Output(
-        0,
-        minimum=0,
-        maximum=3,
-        direct=True,
-        description="0 good, 1 no programme, polynomial flown, 2 capture breaks a limit, 3 no plan possible: holds",
-    )
+    status = HoverStatus.output(direct=True)
     plan_kind = Output(
         0,
         minimum=0,
@@ -119,7 +119,7 @@ class HoverPlan(Block, interface=True):
 
     def drop_plan(self) -> None:
         """No plan: hold at the target from here on."""
-        self.status = GOOD
+        self.status = HoverStatus.GOOD
         self.plan_kind = HOLDING
         self.duration = 0.0
         self.predicted_propellant = 0.0
@@ -141,7 +141,7 @@ class HoverPlan(Block, interface=True):
     def give_up(self) -> None:
         """No plan is possible: hold where it is."""
         self.drop_plan()
-        self.status = NO_PLAN
+        self.status = HoverStatus.NO_PLAN
         if is_finite(self.position):
             self.goal = self.position
 
@@ -164,8 +164,8 @@ class HoverPlan(Block, interface=True):
         self.set_programme(times)
         if kind == NONE:
             self.plan_transfer(STANDBY_SPEED, STANDBY_ACCELERATION)
-            if self.status == GOOD:
-                self.status = NO_PROGRAMME
+            if self.status == HoverStatus.GOOD:
+                self.status = HoverStatus.NO_PROGRAMME
         else:
             if x > 0.0:
                 self.along = side / x
@@ -219,8 +219,8 @@ class HoverPlan(Block, interface=True):
             self.origin, self.velocity, pull, jerk, self.goal, self.lift(), self.mass, limits, self.coefficients
         )
         self.take_polynomial(best.duration, best.expense.impulse)
-        if self.status == GOOD and best.expense.excess > 0.0:
-            self.status = BEYOND_LIMITS
+        if self.status == HoverStatus.GOOD and best.expense.excess > 0.0:
+            self.status = HoverStatus.BEYOND_LIMITS
 
     def limits(self) -> TransferLimits:
         """Those of plans."""
