@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -17,7 +18,7 @@ from ..design.trajectories.path import PlannedPath
 from .common.page import write_page
 from .common.panels import HALF_WIDTH, Panel, Widths, both_widths, far, is_slim, panel, swatch
 from .common.quantities import number
-from .common.style import FAINT, INK, Look, look, plain_ticks
+from .common.style import FAINT, INK, LineStyle, Look, look, plain_ticks
 
 NAMES = ("simplified programme", "true optimum", "point-mass bound")
 
@@ -99,15 +100,11 @@ class Point(NamedTuple):
 def time_panels(series: Sequence[Series], pitch: str) -> list[Panel]:
     """Pitch, called so, and throttle against time."""
     words = "; ".join(f"{one.name} {number(one.path.duration)} s" for one in series)
+    label, description = "Throttle, share of the largest thrust", f"Throttle over time: {words}"
+    draw = partial(_draw_throttle, series=series)
     return [
-        panel(pitch, "pitch", f"{pitch} over time: {words}", lambda axes: _draw_pitch(axes, series), width=HALF_WIDTH),
-        panel(
-            "Throttle, share of the largest thrust",
-            "throttle",
-            f"Throttle over time: {words}",
-            lambda axes: _draw_throttle(axes, series),
-            width=HALF_WIDTH,
-        ),
+        panel(pitch, "pitch", f"{pitch} over time: {words}", partial(_draw_pitch, series=series), width=HALF_WIDTH),
+        panel(label, "throttle", description, draw, width=HALF_WIDTH),
     ]
 
 
@@ -192,26 +189,21 @@ def _draw_arrows(axes: Axes, one: Series, rows: np.ndarray, scale: tuple[float, 
 
 def _draw_pitch(axes: Axes, series: Sequence[Series]) -> None:
     for one in series:
-        axes.plot(
-            one.path.middle, np.degrees(one.path.pitch), color=one.look.colour, linestyle=one.look.dashes,
-        )  # fmt: skip
-    _finish(axes, "deg", series)
+        axes.plot(one.path.middle, np.degrees(one.path.pitch), color=one.look.colour, linestyle=one.look.dashes)
+    axes.set_ylabel("deg")
+    _finish(axes, series)
 
 
 def _draw_throttle(axes: Axes, series: Sequence[Series]) -> None:
     for one in series:
-        axes.stairs(
-            one.path.throttle, one.path.time, baseline=None, color=one.look.colour, linestyle=one.look.dashes,
-            linewidth=1.3,
-        )  # fmt: skip
+        style: LineStyle = {"color": one.look.colour, "linestyle": one.look.dashes, "linewidth": 1.3}
+        axes.stairs(one.path.throttle, one.path.time, baseline=None, **style)
     axes.set_ylim(-0.04, 1.08)
-    _finish(axes, "1", series)
+    _finish(axes, series)
 
 
-def _finish(axes: Axes, unit: str, series: Sequence[Series]) -> None:
+def _finish(axes: Axes, series: Sequence[Series]) -> None:
     axes.set_xlabel("time, s")
-    if unit != "1":
-        axes.set_ylabel(unit)
     longest = max(one.path.duration for one in series)
     axes.set_xlim(0.0, longest * 1.01 if math.isfinite(longest) else None)
     plain_ticks(axes, x=6, y=5)

@@ -15,7 +15,7 @@ from ..campaign.tables import HEADINGS, fmu_rows, group_rows, variant_rows
 from ..common.page import write_page
 from ..common.panels import Panel, swatch
 from ..common.style import Look
-from .bands import Bands, band_panels, bands_of, expectation, overlaid_bands
+from .bands import band_panels, bands_of, expectation, overlaid_bands
 from .dispersions import UNITS, Dispersion, dispersion, dispersion_panels, ends_of, overlaid_ends
 from .metrics import (
     LIMITS,
@@ -164,20 +164,14 @@ def _histories(comparison: Comparison, flights: Mapping[str, list[Flight]], look
         displayed = {label: band for label, band in bands.items() if band is not None and band.time.size}
         if not displayed:
             continue
-        constant = _constant(displayed.values())
-        if constant is None:
-            together = overlaid_bands(quantity, displayed, looks, f"history{index}-all")
-            panels = band_panels(quantity, displayed, looks, f"history{index}")
-            histories.append(History(quantity, together, panels, None, expectation(quantity)))
-        else:
-            histories.append(History(quantity, [], [], constant, expectation(quantity)))
+        values = np.concatenate([band.shown() for band in displayed.values()])
+        if values.size and np.ptp(values) == 0.0:  # the same throughout in all flights
+            histories.append(History(quantity, [], [], float(values[0]), expectation(quantity)))
+            continue
+        together = overlaid_bands(quantity, displayed, looks, f"history{index}-all")
+        panels = band_panels(quantity, displayed, looks, f"history{index}")
+        histories.append(History(quantity, together, panels, None, expectation(quantity)))
     return histories
-
-
-def _constant(bands: Iterable[Bands]) -> float | None:
-    """The value that a quantity has throughout in all flights, if there is one."""
-    values = np.concatenate([band.shown() for band in bands])
-    return float(values[0]) if values.size and np.ptp(values) == 0.0 else None
 
 
 def _end(comparison: Comparison, variable: str, looks: Mapping[str, Look]) -> End | None:

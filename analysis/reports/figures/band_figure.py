@@ -142,15 +142,12 @@ def _findings(band: Band, time: np.ndarray, within: np.ndarray) -> Markup:
     text = settling_text(band.name, time, np.logical_and.reduce(within))
     if len(within) == 1:
         return sentence(text)
-    elements = (_element_text(label, time, row) for label, row in zip(band.labels, within, strict=True))
+    elements = []
+    for label, condition in zip(band.labels, within, strict=True):
+        row = settling_row(condition)
+        when = "not at the end" if row is None else "throughout" if row == 0 else seconds(time[row])
+        elements.append(Markup("{} {}").format(label, when))
     return sentence(Markup("{}: {}").format(text, Markup(", ").join(elements)))
-
-
-def _element_text(label: str, time: np.ndarray, condition: np.ndarray) -> Markup:
-    row = settling_row(condition)
-    if row is None:
-        return Markup("{} not at the end").format(label)
-    return Markup("{} throughout").format(label) if row == 0 else Markup("{} {}").format(label, seconds(time[row]))
 
 
 def _caption(band: Band, unit: str, row: int | None) -> Markup:

@@ -15,7 +15,7 @@ from .limits import limit_section
 from .path_figure import path_section
 from .phase_figure import budget_section, phase_section
 from .pulse_figure import pulse_section
-from .section import Section, sentence
+from .section import Section, condition_text, sentence
 
 
 def figure_sections(figures: Sequence[Figure], result: Result) -> list[Section]:
@@ -24,6 +24,9 @@ def figure_sections(figures: Sequence[Figure], result: Result) -> list[Section]:
 
 
 def _section(figure: Figure, result: Result, name: str) -> Section:
+    if isinstance(figure, Error | Curve | Path) and figure.rows is not None and not figure.rows.select(result).any():
+        note = Markup("Not plotted: no sample where {}.").format(condition_text(figure.rows))
+        return Section(title=figure.title, notes=[note])
     match figure:
         case Band():
             return band_section(figure, result, name)

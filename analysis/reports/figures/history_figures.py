@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import scipy
 from markupsafe import Markup
@@ -18,13 +20,11 @@ from .section import (
     Section,
     capital,
     condition_text,
-    empty_section,
     history_panel,
     legend_of,
     seconds,
     select_rows,
     sentence,
-    span_of,
     wide_history,
 )
 
@@ -36,10 +36,7 @@ WIDE = 4.0  # range of the errors over that of the last quarter from which a zoo
 
 def error_section(error: Error, result: Result, name: str) -> Section:
     """The section of an error; ``name`` must differ between the figures of a page."""
-    chosen = select_rows(error.rows, result)
-    if error.rows is not None and not chosen.any():
-        return empty_section(error.title, error.rows)
-    rows = span_of(chosen)
+    chosen, rows = select_rows(error.rows, result)
     time = result.time[rows]
     values = np.where(chosen, error.estimate.plot_values(result) - error.truth.plot_values(result), np.nan)[:, rows]
     stated = np.zeros_like(values) if error.sigma is None else error.sigma.plot_values(result)[:, rows]
@@ -77,17 +74,8 @@ def _panels(
     panels = [history_panel(capital(f"{head}time history"), f"{name}-whole", description, unit, time, draw)]
     reach = _final_range(values, sigma)
     if reach is not None:
-        label = capital(f"{head}scaled to the last quarter")
-        panels.append(
-            history_panel(
-                label,
-                f"{name}-end",
-                f"{description}, scaled to the last quarter",
-                unit,
-                time,
-                lambda axes: draw(axes, reach),
-            )
-        )
+        label, description = capital(f"{head}scaled to the last quarter"), f"{description}, scaled to the last quarter"
+        panels.append(history_panel(label, f"{name}-end", description, unit, time, lambda axes: draw(axes, reach)))
     return panels
 
 
@@ -135,10 +123,7 @@ def _caption(error: Error, sigma: np.ndarray) -> Markup:
 
 def curve_section(curve: Curve, result: Result, name: str) -> Section:
     """The section of curves; ``name`` must differ between the figures of a page."""
-    chosen = select_rows(curve.rows, result)
-    if curve.rows is not None and not chosen.any():
-        return empty_section(curve.title, curve.rows)
-    rows = span_of(chosen)
+    chosen, rows = select_rows(curve.rows, result)
     time = result.time[rows]
     values = [np.where(chosen, signal.plot_values(result)[0], np.nan)[rows] for signal in curve.signals]
     unit_name = curve.signals[0].unit_name
@@ -157,21 +142,13 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
     notes = [_curve_caption(curve, unit), *curve.notes]
     if len(values) == 1 or curve.together:
         names = ", ".join(signal.label for signal in curve.signals)
-        plot = wide_history(
-            name, f"{curve.title}: {names} over time", unit, time, lambda axes: draw(axes, range(len(values)))
-        )
+        draw_all = partial(draw, which=range(len(values)))
+        plot = wide_history(name, f"{curve.title}: {names} over time", unit, time, draw_all)
         return Section(title=curve.title, plot=plot, legend=legend_of(curve.labels), notes=notes)
-    panels = [
-        history_panel(
-            label,
-            f"{name}-{index}",
-            f"{curve.title}: {signal.label} over time",
-            unit,
-            time,
-            lambda axes, index=index: draw(axes, range(index, index + 1)),  # type: ignore[misc]
-        )
-        for index, (label, signal) in enumerate(zip(curve.labels, curve.signals, strict=True))
-    ]
+    panels = []
+    for index, (label, signal) in enumerate(zip(curve.labels, curve.signals, strict=True)):
+        description, plot_one = f"{curve.title}: {signal.label} over time", partial(draw, which=range(index, index + 1))
+        panels.append(history_panel(label, f"{name}-{index}", description, unit, time, plot_one))
     return Section(title=curve.title, panels=panels, notes=notes)
 
 

@@ -12,7 +12,7 @@ from ..common.panels import both_widths, far, is_slim
 from ..common.quantities import display_unit, label_with_unit
 from ..common.style import BLUE, INK, look, plain_ticks
 from .declared import Arc, Path, Point, Signal
-from .section import Section, condition_text, empty_section, select_rows, sentence, span_of
+from .section import Section, condition_text, select_rows, sentence
 
 HEIGHT = 3.6  # in
 EQUAL_HEIGHT = 4.6  # in, with equal scales
@@ -21,10 +21,7 @@ SLIM_HEIGHT = 3.4  # in
 
 def path_section(path: Path, result: Result, name: str) -> Section:
     """The section of a path; ``name`` must differ between the figures of a page."""
-    chosen = select_rows(path.rows, result)
-    if path.rows is not None and not chosen.any():
-        return empty_section(path.title, path.rows)
-    rows = span_of(chosen)
+    chosen, rows = select_rows(path.rows, result)
 
     def line(signal: Signal | Arc) -> np.ndarray:
         return np.where(chosen, signal.plot_values(result)[0], np.nan)[rows]

@@ -66,15 +66,11 @@ def _plot_history(axes: Axes, unit: str, time: np.ndarray, draw: Callable[[Axes]
     plain_ticks(axes, x=intervals, y=5)
 
 
-def select_rows(rows: Rows | None, result: Result) -> np.ndarray:
-    """Whether each sample belongs to a figure; all of them without a selection."""
-    return np.ones(result.time.size, dtype=bool) if rows is None else rows.select(result)
-
-
-def span_of(chosen: np.ndarray) -> slice:
-    """From the first selected sample to the last; there is one."""
+def select_rows(rows: Rows | None, result: Result) -> tuple[np.ndarray, slice]:
+    """Whether each sample belongs to a figure, and from the first of them to the last; at least one does."""
+    chosen = np.ones(result.time.size, dtype=bool) if rows is None else rows.select(result)
     selected = np.flatnonzero(chosen)
-    return slice(int(selected[0]), int(selected[-1]) + 1)
+    return chosen, slice(int(selected[0]), int(selected[-1]) + 1)
 
 
 def condition_text(rows: Rows) -> Markup:
@@ -90,11 +86,6 @@ def range_text(low: float | None, high: float | None, unit: str | None) -> Marku
         token, limit = ("at least", low) if high is None else ("at most", high)
         return Markup("{} {}").format(token, exact(limit, unit))
     return Markup("{} to {}").format(exact(low, unit), exact(high, unit))
-
-
-def empty_section(title: str, rows: Rows) -> Section:
-    """The section of a figure without a selected sample."""
-    return Section(title=title, notes=[Markup("Not plotted: no sample where {}.").format(condition_text(rows))])
 
 
 def align(values: Sequence[float | None], unit: str | None, digits: int = 5) -> list[Markup]:

@@ -174,11 +174,6 @@ def _panel(histories: list[Course], quantity: Quantity, name: str) -> Panel:
     minimum = min(sizes)
     loops = sum(len(course.loops) for course in histories)
     words = f"{quantity.capitalize()} of {loops} loops over the time of flight, minimum "
-    words += (
-        number(minimum, 3)
-        if abs(minimum) < float("inf")
-        else "that of an unstable loop"
-        if minimum < 0.0
-        else "unlimited"
-    )
+    infinite = {math.inf: "unlimited", -math.inf: "that of an unstable loop"}
+    words += infinite.get(minimum) or number(minimum, 3)
     return panel(quantity.capitalize(), name, words, partial(draw_over_time, histories, quantity))

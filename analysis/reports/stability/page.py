@@ -151,10 +151,9 @@ def _blocks(shown: list[Part]) -> list[list[Part]]:
     """Parts that are laid out as one; the short ones beside the long table of the method go below each other."""
     blocks: list[list[Part]] = []
     for part in shown:
-        if part.key == "robust":
-            blocks[-1].append(part)
-        else:
-            blocks.append([part])
+        if part.key != "robust":
+            blocks.append([])
+        blocks[-1].append(part)
     return blocks
 
 

@@ -189,11 +189,8 @@ def dispersion_rows(dispersion: Dispersion) -> Part:
         cells = [size(value) for value in dispersion.levels(quantity).values()]
         rows.append((f"{quantity}{unit}", *cells, size(dispersion.margins[dispersion.worst].size(quantity))))
     head = ("margin", *LEVELS, f"trial {dispersion.worst}, the worst")
-    unstable = (
-        f"{dispersion.unstable} of {dispersion.trials} trials are unstable"
-        if dispersion.unstable
-        else "all trials are stable"
-    )
+    counted = f"{dispersion.unstable} of {dispersion.trials} trials are unstable"
+    unstable = counted if dispersion.unstable else "all trials are stable"
     note = Markup(
         "Campaign {}: {}. Levels are margins of single trials, over all of them; an unstable trial counts below every "
         "number, one without a crossing above. The worst trial has the least disk margin{}. Replay command:"
@@ -224,9 +221,8 @@ def nonlinear(nonlinearity: Nonlinearity, index: int) -> Part:
     amplitude, simulated = (label_with_unit(name, nonlinearity.unit) for name in ("amplitude", "simulated amplitude"))
     head = (amplitude, "period, s", "predicted to be", simulated, "simulated period, s")
     values = ", ".join(f"{name} {value:.6g}" for name, value in nonlinearity.parameters.items())
-    about = (
-        f"{nonlinearity.kind}{': ' + values if values else ''}. Amplitudes at the element's input. {nonlinearity.note}"
-    )
+    kind = f"{nonlinearity.kind}{': ' + values if values else ''}"
+    about = f"{kind}. Amplitudes at the element's input. {nonlinearity.note}"
     return Part(f"nonlinear-{index}", f"Nonlinear: {nonlinearity.name}", Table(head, "nntnn", rows), about.strip())
 
 

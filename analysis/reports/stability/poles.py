@@ -65,13 +65,13 @@ def draw_poles(loop: LoopReport, axes: Axes, *, near: bool) -> None:
     """All poles, or those near z = 1: crosses where the cut moves and sees the mode, orange where unstable."""
     poles = poles_of(loop)
     _grid(axes, named=not near)
-    plotted: list[tuple[str, np.ndarray]] = []
+    by_kind = {"x": poles}
     if loop.modes:
-        for kind, marker in KINDS.items():
-            plotted.append((marker, np.array([mode.z for mode in loop.modes if mode.kind == kind], dtype=complex)))
-    else:
-        plotted.append(("x", poles))
-    for marker, members in plotted:
+        by_kind = {
+            marker: np.array([mode.z for mode in loop.modes if mode.kind == kind], dtype=complex)
+            for kind, marker in KINDS.items()
+        }
+    for marker, members in by_kind.items():
         for colour, some in ((BLUE, members[np.abs(members) < 1.0]), (VERMILION, members[np.abs(members) >= 1.0])):
             axes.plot(
                 some.real, some.imag, linestyle="", marker=marker, color=colour, markersize=5.5,

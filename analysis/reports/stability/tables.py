@@ -81,24 +81,11 @@ def verdict_rows(report: StabilityReport) -> list[Row]:
 def verdict_table(rows: Sequence[Row]) -> Table:
     """Every requirement that is given: value, limit, verdict and, where there is none, why."""
     head = ("loop", "operating point", "scope", "quantity", "value", "limit", "verdict", "note")
-    return Table(
-        head,
-        "ssssnnsl",
-        [
-            (
-                loop,
-                point,
-                SCOPES[item.scope],
-                item.title,
-                crossing_text(item),
-                limit(item),
-                verdict(item.verdict),
-                order_note(item),
-            )
-            for loop, point, item in rows
-        ],
-        "requirements",
-    )
+    entries = []
+    for loop, point, item in rows:
+        numbers = crossing_text(item), limit(item), verdict(item.verdict)
+        entries.append((loop, point, SCOPES[item.scope], item.title, *numbers, order_note(item)))
+    return Table(head, "ssssnnsl", entries, "requirements")
 
 
 def counts(rows: Sequence[Row]) -> dict[str, int]:

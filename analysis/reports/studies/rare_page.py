@@ -36,9 +36,20 @@ def write_rare_page(result: RareResult, path: Path, folder: Path | None = None) 
         levels=level_table(result),
         designs=design_point_panels(result),
         design_points=design_table(result),
-        influence=influence_table(result),
+        influence=Table(
+            ("parameter", "shift, standard deviations"),
+            [(name, exact(shift, digits=3)) for name, shift in influence(result).items()],
+            (1,),
+        ),
         intervals=interval_figure(result),
-        equivalents=equivalent_table(result),
+        equivalents=Table(
+            ("estimate", "simulations", "from", "to"),
+            [
+                (row.label, exact(row.simulations), exact(row.low, digits=3), exact(row.high, digits=3))
+                for row in equivalents(result)
+            ],
+            (1, 2, 3),
+        ),
         replays=replays_of(result, folder),
     )
 
@@ -92,21 +103,6 @@ def design_table(result: RareResult) -> Table:
         *(f"noise of {source}" for source in sources),
     )
     return Table(heads, rows, range(len(heads)))
-
-
-def influence_table(result: RareResult) -> Table:
-    """A row per dispersed parameter: how far failures lie from the campaign's own samples."""
-    rows = [(name, exact(shift, digits=3)) for name, shift in influence(result).items()]
-    return Table(("parameter", "shift, standard deviations"), rows, (1,))
-
-
-def equivalent_table(result: RareResult) -> Table:
-    """A row per estimate of the probability: this study, and Monte Carlo."""
-    rows = [
-        (row.label, exact(row.simulations), exact(row.low, digits=3), exact(row.high, digits=3))
-        for row in equivalents(result)
-    ]
-    return Table(("estimate", "simulations", "from", "to"), rows, (1, 2, 3))
 
 
 def replays_of(result: RareResult, folder: Path | None) -> list[tuple[str, str]]:
