@@ -10,7 +10,7 @@ import numpy as np
 
 from ..campaigns.draws.declared import Columns
 from ..campaigns.draws.given import ALL, GivenDraws, Streams
-from ..campaigns.spec.drawn import with_streams
+from ..campaigns.spec.plan import with_streams
 from ..common.errors import InputError
 from ..runtime.system.prepared import PreparedSystem
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.spec.drawn import with_streams
+from perilune.analysis.campaigns.spec.plan import with_streams
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.fmus_src.paths import ROOT, SYSTEMS
 

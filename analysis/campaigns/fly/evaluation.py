@@ -16,8 +16,8 @@ import numpy as np
 from ...runtime.flight.results import Flight
 from ..spec.campaign import Campaign
 from ..spec.checks import VariantNames
-from ..spec.drawn import DrawnTrials
 from ..spec.metrics import TIME, evaluate_metric, is_of_the_end, successes
+from ..spec.plan import DrawnTrials
 from ..trials import Trials
 
 Traces = dict[str, np.ndarray]

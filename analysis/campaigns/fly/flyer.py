@@ -13,8 +13,7 @@ from ...runtime.flight.results import Flight, Result
 from ...runtime.flight.simulation import Simulation
 from ...runtime.ssp.parameter_sets import ParameterValue
 from ..spec.checks import VariantNames, variant_names
-from ..spec.drawn import DrawnTrials
-from ..spec.plan import BatchPlan
+from ..spec.plan import BatchPlan, DrawnTrials
 from ..trials import Trials
 from .crash_report import LastWords
 from .evaluation import Judge

@@ -117,7 +117,7 @@ def _short(value: Any) -> str:
 
 
 NAMED = re.compile(r"[0-9a-f]{64}(\..*)?")
-AGAIN = "copy the campaign's folder again, with all of its files"
+COPY_AGAIN = "copy the campaign's folder again, with all of its files"
 
 
 def content_name(content: bytes, suffix: str) -> str:
@@ -145,7 +145,7 @@ def content_path(folder: Path, name: str) -> Path:
     try:
         content = path.read_bytes()
     except OSError as error:
-        raise InputError(path, "", "not found", AGAIN) from error
+        raise InputError(path, "", "not found", COPY_AGAIN) from error
     if content_name(content, path.suffix) != name:
-        raise InputError(path, "", "its content is not the one that it is named by", AGAIN)
+        raise InputError(path, "", "its content is not the one that it is named by", COPY_AGAIN)
     return path

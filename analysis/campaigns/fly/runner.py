@@ -50,7 +50,7 @@ def merge_rows(campaign: Campaign) -> Mapping[str, FlownRows]:
     """The trials by variant of a campaign whose shards are in its folder. Raises InputError where some are missing."""
     missing = campaign.missing()
     decision = _decision(campaign, missing)
-    if missing and not decision.is_made:
+    if missing and not decision.is_decided:
         count = f"{len(missing)} of {campaign.numbering.count} shards are missing"
         remedy = f"perilune shard {campaign.folder} {spans(missing)} flies them"
         raise InputError(str(campaign.folder), f"shards {spans(missing)}", count, remedy)
@@ -79,13 +79,13 @@ def fly_campaign(
         flying = _fly_here(campaign, shards, workers, engine)
     failed = 0
     with progress_bar(total=flights, unit="flight") as bar, closing(flying) as flown:
-        for shard, trials in () if decision.is_made else flown:
+        for shard, trials in () if decision.is_decided else flown:
             store.add(shard, trials)
             decision.add(shard, trials)
             failed += sum(len(rows.messages) for rows in trials.values())
             bar.set_postfix_str(f"{failed} failed", refresh=False)
             bar.update(sum(map(len, trials.values())))
-            if decision.is_made:
+            if decision.is_decided:
                 break
     return _rows(campaign, store, decision)
 
@@ -138,7 +138,7 @@ class Decision:
         self.shards: int | None = None
 
     @property
-    def is_made(self) -> bool:
+    def is_decided(self) -> bool:
         return self.shards is not None
 
     def add(self, shard: int, variants: Mapping[str, TrialRows]) -> None:
@@ -149,7 +149,7 @@ class Decision:
         self._ahead[shard] = {
             name: [satisfies(requirement, trials) for requirement in requirements] for name, trials in variants.items()
         }
-        while not self.is_made and self._looked in self._ahead:
+        while not self.is_decided and self._looked in self._ahead:
             for name, rows in self._ahead.pop(self._looked).items():
                 before = self._kept.get(name)
                 self._kept[name] = (

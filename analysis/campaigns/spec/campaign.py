@@ -174,7 +174,7 @@ class Campaign:
         return replace(self, selected=configuration)
 
 
-MOST = 100  # groups of a campaign
+MAXIMUM_GROUPS = 100  # groups of a campaign
 
 
 @dataclass(frozen=True)
@@ -192,14 +192,16 @@ class Group:
 def groups_of(parts: Iterable[np.ndarray], where: tuple[str, str]) -> list[Group]:
     """The groups of trials by their values, finite, which come in parts (trials,); in ascending order.
 
-    ``where`` (file, element) is what an error points to. Raises InputError for more than `MOST` groups.
+    ``where`` (file, element) is what an error points to. Raises InputError for more than `MAXIMUM_GROUPS` groups.
     """
     distinct = np.empty(0)
     for values in parts:
         distinct = np.union1d(distinct, values)
-        if distinct.size > MOST:
+        if distinct.size > MAXIMUM_GROUPS:
             problem = f"{distinct.size} different values or more, a group each"
-            raise InputError(*where, problem, f"group by a value with {MOST} at most, as a choice or a grid has")
+            raise InputError(
+                *where, problem, f"group by a value with {MAXIMUM_GROUPS} at most, as a choice or a grid has"
+            )
     plain = [float(value) + 0.0 for value in distinct]  # no -0
     labels = [f"{value:.10g}" for value in plain]
     if len(set(labels)) < len(labels):

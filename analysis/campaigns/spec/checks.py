@@ -12,10 +12,9 @@ from ...common.errors import InputError, suggestion
 from ...runtime.system.checks import check_fault
 from ...runtime.system.prepared import PreparedSystem
 from ..draws.given import ALL, stream_column
-from .drawn import with_streams
 from .faults import check_drawn
 from .metrics import names_needed
-from .plan import BatchPlan
+from .plan import BatchPlan, with_streams
 
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:

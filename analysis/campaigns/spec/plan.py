@@ -13,15 +13,55 @@ from ...runtime.system.fault import Fault
 from ...runtime.system.options import UNWATCHED, SystemOptions, Watch
 from ...runtime.system.prepared import PreparedSystem, prepare_system
 from ...runtime.system.series import InputSeries
-from ..draws.generators import StreamNumbers
+from ..draws.generators import StreamNumbers, stream_numbers
 from ..draws.given import GivenDraws, read_given
 from ..draws.table import CountedDraws, Draws, DrawTable, draw_parts, draw_table, split_trials, table_of
 from .campaign import Campaign, Group, Variant, groups_of
-from .drawn import DrawnTrials, with_streams
-from .faults import fault_of_trials
+from .faults import DrawnFault, fault_of_trials
 from .file import parse_campaign
 from .source import CampaignSource, read_source
 from .sweeps import with_sweeps
+
+
+@dataclass(frozen=True)
+class DrawnTrials:
+    """The samples of the trials ``numbers`` of a plan with its campaign, ``given`` samples and ``user_faults``."""
+
+    campaign: Campaign
+    given: GivenDraws | None
+    user_faults: Sequence[Fault]
+    numbers: range
+    table: DrawTable
+    faults: Sequence[DrawnFault]
+
+    def row(self, trial: int) -> dict[str, float]:
+        """All drawn and derived values of a trial."""
+        return self.table.row(trial - self.numbers.start)
+
+    def faults_of(self, trial: int) -> list[Fault | None]:
+        """The faults of a trial, in the order of `BatchPlan.list_faults`; None for one that does not fly in it."""
+        return [*(fault.in_trial(trial - self.numbers.start) for fault in self.faults), *self.user_faults]
+
+    def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
+        """The parameters of a trial: draws, and seed and stream of every component that has them."""
+        values: dict[str, float | int] = dict(self.table.parameters(trial - self.numbers.start))
+        noisy = with_streams(prepared)
+        if noisy:
+            given, campaign = self.given, self.campaign
+            trials = {name: trial if given is None else given.stream_of(trial, name) for name in noisy}
+            streams = {
+                whose: stream_numbers(campaign.seed, whose, prepared.network.fmus, campaign.file)
+                for whose in set(trials.values())
+            }
+            for name, whose in trials.items():
+                values[f"{name}.seed"], values[f"{name}.stream"] = streams[whose][name]
+        return values
+
+
+def with_streams(prepared: PreparedSystem) -> list[str]:
+    """The components that draw random numbers themselves."""
+    return [name for name, fmu in prepared.network.fmus.items() if {"seed", "stream"} <= fmu.variables.keys()]
+
 
 PART = 32768  # trials whose draws are looked at together; so few that their number costs no memory
 

@@ -10,8 +10,7 @@ from ...common.errors import InputError
 from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import SystemOptions
 from ..draws.declared import Draw
-from .campaign import MOST as MOST_GROUPS
-from .campaign import Campaign
+from .campaign import MAXIMUM_GROUPS, Campaign
 from .distributions import Grid
 
 MOST = 10_000  # points of a sweep
@@ -58,7 +57,7 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
     )
     _check_trials(swept)
     (first, *others) = draws
-    if others or campaign.group is not None or len(grids[first.name].values) > MOST_GROUPS:
+    if others or campaign.group is not None or len(grids[first.name].values) > MAXIMUM_GROUPS:
         return swept
     return replace(swept, group=first.name)
 

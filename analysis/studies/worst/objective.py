@@ -17,7 +17,7 @@ from ..flown import strict
 
 
 @dataclass(frozen=True)
-class Badness:
+class Objective:
     """A number of every trial: called with values by name (trials,) and which flights came to their end (trials,).
 
     It is inf where a flight did not, or where the number is not finite. ``text`` says what it is, ``size`` the number
@@ -35,14 +35,14 @@ class Badness:
         return self.of(values, flown)
 
 
-def badness_of(campaign: Campaign, text: str | None) -> Badness:
+def metric_objective(campaign: Campaign, text: str | None) -> Objective:
     """Of an expression over metrics and draws, or without one of the margin by which a trial is no success.
 
     Raises InputError.
     """
     if text is None:
         failure = failure_of(campaign, None)
-        return Badness(f"margin of {failure.text}", failure.margins, expression=failure.expression)
+        return Objective(f"margin of {failure.text}", failure.margins, expression=failure.expression)
     expression = Expression(text, ("`metric`", text))
     known = [metric.name for metric in campaign.metrics] + campaign.input_names()
     for name in sorted(expression.names - set(known)):
@@ -52,7 +52,7 @@ def badness_of(campaign: Campaign, text: str | None) -> Badness:
         values_of_trials = np.broadcast_to(expression.evaluate(values), flown.shape)
         return np.where(flown & np.isfinite(values_of_trials), values_of_trials, np.inf)
 
-    return Badness(expression.text, of, expression=expression)
+    return Objective(expression.text, of, expression=expression)
 
 
 MOST = 1e9  # what a margin without a crossing counts as: more than any
@@ -81,7 +81,7 @@ def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[Margins] 
     return columns
 
 
-def badness_of_margin(name: str, point: str, channels: Sequence[str], margin: str) -> Badness:
+def margin_objective(name: str, point: str, channels: Sequence[str], margin: str) -> Objective:
     """Of the least margin of a loop's channels at a point; ``margin`` is one of `SIZES`.
 
     Of an unstable channel it is its largest multiplier less 1, which continues where margins end at 0.
@@ -97,7 +97,7 @@ def badness_of_margin(name: str, point: str, channels: Sequence[str], margin: st
         return np.where(flown, worst, np.inf)
 
     unit = "" if quantity.unit == "1" else f" ({quantity.unit})"
-    return Badness(f"{quantity} of {name} at {point}{unit}", of, _size, _fact)
+    return Objective(f"{quantity} of {name} at {point}{unit}", of, _size, _fact)
 
 
 def _size(value: float) -> float:

@@ -18,7 +18,7 @@ from ..draw_space import DrawSpace
 from ..flown import Flown
 from ..noise import Noise, conditions, noise_line
 from ..units import unit_of_expression, with_unit
-from .objective import Badness
+from .objective import Objective
 from .realisations import Fresh, Realisations
 from .search import Phase
 
@@ -41,7 +41,7 @@ class WorstResult:
     looked at.
     """
 
-    badness: Badness
+    badness: Objective
     sigmas: float
     value: float
     place: np.ndarray

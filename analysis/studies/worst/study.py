@@ -20,7 +20,7 @@ from ..flown import Flown
 from ..noise import Noise
 from ..units import units_of
 from .margin_studies import MarginStudies
-from .objective import SIZES, Badness, badness_of, badness_of_margin
+from .objective import SIZES, Objective, margin_objective, metric_objective
 from .outcome import WorstResult
 from .realisations import Fresh, Realisations, read_realisations
 from .request import MarginAsked
@@ -75,9 +75,9 @@ def worst_case(
     """
     over = read_realisations(realisations, quantile, flights, noise_trial)
     box = _Box(plan, sigmas, flights, hold)
-    badness = badness_of(plan.campaign, metric)
+    objective = metric_objective(plan.campaign, metric)
     with SampleFlights(plan, box.middle, noise_trial=noise_trial, workers=workers) as flights_of:
-        return box.search(flights_of, badness, over)
+        return box.search(flights_of, objective, over)
 
 
 def worst_margin(
@@ -103,8 +103,8 @@ def worst_margin(
     over = read_realisations(realisations, quantile, flights, noise_trial, default=1)
     box = _Box(asked.plan, sigmas, flights, hold)
     with MarginStudies(asked, box.middle, noise_trial=noise_trial, workers=workers) as studies:
-        badness = badness_of_margin(asked.loop.name, asked.point.name, studies.channels, margin)
-        result = box.search(studies, badness, over)
+        objective = margin_objective(asked.loop.name, asked.point.name, studies.channels, margin)
+        result = box.search(studies, objective, over)
         return replace(result, reason=studies.reasons[result.places[0]], again=asked.replay)
 
 
@@ -123,10 +123,10 @@ class _Box:
     def middle(self) -> Columns:
         return self._space.from_box(np.full((1, self._space.size), 0.5), self._sigmas)
 
-    def search(self, flights_of: Flights, badness: Badness, over: Realisations) -> WorstResult:
+    def search(self, flights_of: Flights, objective: Objective, over: Realisations) -> WorstResult:
         """The worst of random trials and of a search from them. Raises InputError."""
         space, sigmas = self._space, self._sigmas
-        points = _Points(flights_of, badness, over if flights_of.noise.sources else None)
+        points = _Points(flights_of, objective, over if flights_of.noise.sources else None)
         budget = self._budget(points)
         random = np.random.Generator(np.random.Philox(np.random.SeedSequence(self._seed)))
         own = space.from_normals(standard_normals(random, (int(RANDOM * budget) // points.realisations, space.size)))
@@ -149,7 +149,7 @@ class _Box:
         fresh = points.fly_fresh(worst, input_names(space.campaign)) if points.over is not None else None
         units = units_of(space, flights_of.prepared, flights_of.facts)
         return WorstResult(
-            badness, sigmas, value, place, worst, worst_random, len(values), space, points.flown.whole(),
+            objective, sigmas, value, place, worst, worst_random, len(values), space, points.flown.whole(),
             flights_of.facts, flights_of.noise, units, points.over, fresh, points.effect,
             phases=(Phase("random trials", len(values)), *phases),
         )  # fmt: skip
@@ -165,8 +165,8 @@ class _Points:
     ``effect`` says whether the noise changed a value of the random trials; where it did not, points fly one.
     """
 
-    def __init__(self, flights_of: Flights, badness: Badness, over: Realisations | None) -> None:
-        self._flights_of, self._badness = flights_of, badness
+    def __init__(self, flights_of: Flights, objective: Objective, over: Realisations | None) -> None:
+        self._flights_of, self._objective = flights_of, objective
         self.over, self.flown, self.flights = over, Flown(), 0
         self.realisations = 1 if over is None else over.count
         self.effect: bool | None = None
@@ -202,7 +202,7 @@ class _Points:
 
     def _fly(self, places: np.ndarray, columns: Mapping[str, np.ndarray], streams: np.ndarray) -> np.ndarray:
         trials, draws = self._flights_of.fly(dict(columns), self._flights_of.noise.same(streams))
-        values = self._badness({**draws, **trials.metrics}, trials.flown)
+        values = self._objective({**draws, **trials.metrics}, trials.flown)
         self.flown.add(places, draws, trials.metrics, values)
         self.flights += len(values)
         return values

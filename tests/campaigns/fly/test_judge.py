@@ -12,9 +12,9 @@ import pytest
 from perilune.analysis.campaigns.draws.table import DrawTable
 from perilune.analysis.campaigns.fly.evaluation import Judge
 from perilune.analysis.campaigns.spec.checks import VariantNames
-from perilune.analysis.campaigns.spec.drawn import DrawnTrials
 from perilune.analysis.campaigns.spec.file import parse_campaign
 from perilune.analysis.campaigns.spec.metrics import evaluate_metric
+from perilune.analysis.campaigns.spec.plan import DrawnTrials
 from perilune.analysis.campaigns.spec.table import Table
 from perilune.analysis.runtime.flight.results import Flight
 

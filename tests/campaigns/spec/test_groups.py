@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.campaigns.spec.campaign import MOST, groups_of
+from perilune.analysis.campaigns.spec.campaign import MAXIMUM_GROUPS, groups_of
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.plan import BatchPlan
 from perilune.analysis.common.errors import InputError
@@ -49,9 +49,9 @@ def test_labels(values, labels):
 
 
 def test_too_many_groups_are_refused_in_one_line():
-    assert len(groups_of([np.arange(float(MOST))], WHERE)) == 100
+    assert len(groups_of([np.arange(float(MAXIMUM_GROUPS))], WHERE)) == 100
     with pytest.raises(InputError) as caught:
-        groups_of([np.arange(MOST + 1.0).repeat(2)], WHERE)
+        groups_of([np.arange(MAXIMUM_GROUPS + 1.0).repeat(2)], WHERE)
     says = "101 different values or more, a group each; group by a value with 100 at most, as a choice or a grid has"
     assert str(caught.value) == f"c.toml: group.by: {says}"
 

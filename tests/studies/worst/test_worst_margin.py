@@ -16,7 +16,7 @@ import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.stability.loops.margin_values import Margins
-from perilune.analysis.studies.worst.objective import badness_of_margin, margin_columns
+from perilune.analysis.studies.worst.objective import margin_columns, margin_objective
 from tests.support.lengths import LONG
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.loops.exact_systems import coupled_pair, late_double_integrator
@@ -203,11 +203,11 @@ def test_what_is_worse_than_what():
         draw and [Margins(*[np.inf] * 2, draw[0], draw[0], np.inf, stable=draw[0] >= 0.0, largest=draw[1])]
         for draw in draws
     ]
-    badness = badness_of_margin("loop", "there", ["loop"], "disk")
-    values = badness(margin_columns(["loop"], rows), np.array([row is not None for row in rows]))
+    objective = margin_objective("loop", "there", ["loop"], "disk")
+    values = objective(margin_columns(["loop"], rows), np.array([row is not None for row in rows]))
     assert (np.diff(values) < 0.0).all()
     assert np.isfinite(values[1:]).all()
-    reported = [badness.fact(badness.size(value)) for value in values]
+    reported = [objective.fact(objective.size(value)) for value in values]
     assert reported == [None, "unstable", "unstable", 0.0, 0.5, 40.0, "unlimited"]
 
 

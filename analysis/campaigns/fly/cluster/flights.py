@@ -13,7 +13,7 @@ from ....common.errors import InputError
 from ....runtime.flight.interruptible import PATIENCE
 from ...trials import Trials
 from ..campaign import Campaign
-from ..shards.parts import Parts
+from ..shards.flights import Parts
 from ..workers import WorkersDiedError
 from . import work
 from .sent import make_sent

@@ -13,10 +13,9 @@ import pyarrow.parquet
 
 from ....common.errors import InputError
 from ...draws.table import DrawTable
+from ..manifest import COPY_AGAIN
 from .arrow import numpy_of
 from .files import DRAWS
-
-AGAIN = "copy the campaign's folder again, with all of its files"
 
 
 @dataclass(frozen=True)
@@ -52,7 +51,7 @@ def read_draws(folder: Path, trials: int, names: list[str]) -> StoredDraws:
     missing = [name for name in names if name not in there]
     if missing or rows < trials:
         problem = f"lacks column {missing[0]}" if missing else f"has {rows} rows for {trials}"
-        raise InputError(path, "", problem, AGAIN)
+        raise InputError(path, "", problem, COPY_AGAIN)
     return StoredDraws(path, trials, tuple(names))
 
 
@@ -62,4 +61,4 @@ def _open_draws(path: Path) -> Iterator[pyarrow.parquet.ParquetFile]:
         with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
             yield file
     except (OSError, pyarrow.ArrowException) as error:
-        raise InputError(path, "", "cannot be read as parquet", AGAIN) from error
+        raise InputError(path, "", "cannot be read as parquet", COPY_AGAIN) from error

@@ -5,11 +5,10 @@ from __future__ import annotations
 import itertools
 from collections.abc import Generator, Iterator, Sequence
 
-from ...trials import Trials
+from ...trials import Trials, join_trials
 from ..flyer import Flyer
 from ..workers import FlyerPool
 from .numbering import Numbering
-from .parts import Parts
 
 MOST_IN_THREAD, MOST_IN_PROCESS = 50, 10  # trials of a task: enough to send, few enough to share out or lose
 
@@ -45,3 +44,21 @@ def fly_shards(
 def task_size(trials: int, workers: int, threads: bool) -> int:
     """How many trials a worker flies at a time."""
     return max(1, min(MOST_IN_THREAD if threads else MOST_IN_PROCESS, trials // (4 * workers)))
+
+
+class Parts:
+    """Takes pieces of shards in any order, and gives a shard back as soon as all of its trials are there."""
+
+    def __init__(self, numbering: Numbering, variants: Sequence[str]) -> None:
+        self._numbering = numbering
+        self._variants = variants
+        self._pieces: dict[int, dict[str, list[Trials]]] = {}
+
+    def add(self, shard: int, variant: str, trials: Trials) -> dict[str, Trials] | None:
+        """The trials of the shard by variant, if this was the last piece of it."""
+        pieces = self._pieces.setdefault(shard, {name: [] for name in self._variants})
+        pieces[variant].append(trials)
+        flown = sum(len(piece.trial) for parts in pieces.values() for piece in parts)
+        if flown < len(self._numbering.of(shard)) * len(self._variants):
+            return None
+        return {name: join_trials(parts) for name, parts in self._pieces.pop(shard).items()}
