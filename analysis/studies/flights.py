@@ -19,9 +19,10 @@ from ..campaigns.spec.plan import BatchPlan
 from ..campaigns.trials import Trials, join_trials
 from ..common.errors import InputError
 from ..common.progress import progress_bar
+from ..runtime.system.prepared import PreparedSystem
 from .noise import make_samples, noise_of
 
-OWN = ("trials", "record", "group", "draws_sha256")  # facts of a batch that a study of samples has not
+OF_A_BATCH = ("trials", "record", "group", "draws_sha256")  # facts that a study of samples has not
 
 
 class SampleFlights:
@@ -40,12 +41,11 @@ class SampleFlights:
             problem = f"the campaign has {len(variants)} variants, and a study is of one"
             raise InputError(plan.campaign.file, "`configuration`", problem, f"give `configuration` {variants[0].name}")
         self._count = worker_count(workers)
-        plain = replace(plan.campaign, record=Record(), group=None, scatters=())
-        self.plan = replace(plan, campaign=plain).of_samples(GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))
+        self.plan = plan_of_samples(plan, first)
         systems = check_plan(self.plan)
         self.variant, self.prepared = next(iter(systems.items()))
         self.noise = noise_of(self.prepared, noise_trial, plan.campaign.seed)
-        self.facts = {name: fact for name, fact in provenance(self.plan, systems).items() if name not in OWN}
+        self.facts = study_facts(self.plan, systems)
         self.flown = 0
         self._pool = FlyerPool(self.plan, self._count, self.prepared.flies_in_threads)
         self._progress = progress_bar(unit="flight")
@@ -78,6 +78,16 @@ class SampleFlights:
         self._pool.__exit__(*error)
 
 
-def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> Trials | None:
-    """The trials of a plan for the system that a worker flies."""
+def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> Trials | None:  # of a module: workers import it
     return flyer.fly_others(variant, plan)
+
+
+def plan_of_samples(plan: BatchPlan, first: Columns, **changes: Any) -> BatchPlan:
+    """A plan of draws ``first``, without what a study leaves out of its campaign: records, groups and scatters."""
+    campaign = replace(plan.campaign, record=Record(), group=None, scatters=(), **changes)
+    return replace(plan, campaign=campaign).of_samples(GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))
+
+
+def study_facts(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
+    """What the numbers of a study of samples depend on; a batch has more."""
+    return {name: fact for name, fact in provenance(plan, systems).items() if name not in OF_A_BATCH}

@@ -1,15 +1,24 @@
-"""What a study has flown, a row per flight, in the order of flight."""
+"""What a study has flown, a row per flight, and what the results of all studies have."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 import pyarrow
 
+from ..campaigns.draws.declared import input_names
 from ..campaigns.draws.given import stream_component
+from ..campaigns.fly.shards.files import write_parquet
+from ..common.atomic import write_atomically
+from .draw_space import DrawSpace
+from .noise import Noise, conditions
+
+Columns = Mapping[str, np.ndarray]
 
 
 def strict(value: float) -> float | None:
@@ -21,13 +30,6 @@ def _is_stream(name: str) -> bool:
     return stream_component(name) is not None
 
 
-class _Part(NamedTuple):
-    points: np.ndarray
-    draws: Mapping[str, np.ndarray]
-    metrics: Mapping[str, np.ndarray]
-    values: np.ndarray
-
-
 class Flown:
     """Flights as they come: ``points`` (flights, dimensions) with what they are worth, ``values`` (flights,).
 
@@ -35,20 +37,14 @@ class Flown:
     """
 
     def __init__(self) -> None:
-        self._parts: list[_Part] = []
+        self._parts: list[tuple[np.ndarray, Columns, Columns, np.ndarray]] = []
         self.points = np.empty((0, 0))
         self.draws: dict[str, np.ndarray] = {}
         self.metrics: dict[str, np.ndarray] = {}
         self.values = np.empty(0)
 
-    def add(
-        self,
-        points: np.ndarray,
-        draws: Mapping[str, np.ndarray],
-        metrics: Mapping[str, np.ndarray],
-        values: np.ndarray,
-    ) -> None:
-        self._parts.append(_Part(points, draws, metrics, values))
+    def add(self, points: np.ndarray, draws: Columns, metrics: Columns, values: np.ndarray) -> None:
+        self._parts.append((points, draws, metrics, values))
 
     def whole(self) -> Flown:
         """With all of them joined."""
@@ -58,25 +54,25 @@ class Flown:
         self.metrics = {name: np.concatenate([part[name] for part in metrics]) for name in metrics[0]}
         return self
 
-    def fact(self, place: int, told: Callable[[float], float | str | None] = strict) -> dict[str, Any]:
-        """Draws and metrics of one flight, as strict JSON has them: what is not finite is null, unless ``told``."""
+    def fact(self, row: int, number: Callable[[float], float | str | None] = strict) -> dict[str, Any]:
+        """Draws and metrics of one flight as strict JSON: what is not finite is null, unless by ``number``."""
         return {
-            "draws": {name: strict(column[place]) for name, column in self.draws.items() if not _is_stream(name)},
-            "metrics": {name: told(column[place]) for name, column in self.metrics.items()},
+            "draws": {name: strict(column[row]) for name, column in self.draws.items() if not _is_stream(name)},
+            "metrics": {name: number(column[row]) for name, column in self.metrics.items()},
         }
 
-    def given(self, drawn: list[str], places: np.ndarray) -> pyarrow.Table:
-        """The draws of some flights, as `perilune batch --draws` takes them; ``drawn`` are the campaign's.
+    def draw_table(self, names: list[str], rows: np.ndarray) -> pyarrow.Table:
+        """The draws of some flights, as `perilune batch --draws` takes them; ``names`` are the campaign's.
 
         Their random streams are columns of the table, too.
         """
         streams = filter(_is_stream, self.draws)
-        return pyarrow.table({name: self.draws[name][places] for name in (*drawn, *streams)})
+        return pyarrow.table({name: self.draws[name][rows] for name in (*names, *streams)})
 
-    def streams(self, place: int) -> dict[str, int]:
+    def streams(self, row: int) -> dict[str, int]:
         """The trials whose random streams components had in one flight, by component; `ALL` stands for the others."""
         columns = ((stream_component(name), column) for name, column in self.draws.items())
-        return {component: int(column[place]) for component, column in columns if component is not None}
+        return {component: int(column[row]) for component, column in columns if component is not None}
 
     def table(self, worth: str) -> pyarrow.Table:
         """A row per flight: draws, metrics and, under the name ``worth``, the value."""
@@ -89,4 +85,59 @@ class Commands(NamedTuple):
     """``replay`` flies a trial of a file of draws again, ``monte_carlo`` so many trials of the campaign itself."""
 
     replay: Callable[[Path, int], str]
-    monte_carlo: Callable[[int], str]
+    monte_carlo: Callable[[int], str] | None = None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class StudyResult:
+    """What all studies come to: the draws as a ``space``, and every flight in ``flown``.
+
+    ``facts`` are what the numbers depend on, ``noise`` the random numbers that components draw themselves, ``units``
+    those of draws and metrics by name. ``commands`` write the command lines that fly flights again, where known.
+    """
+
+    DRAWS: ClassVar[str]  # the file of draws with which flights are flown again
+
+    space: DrawSpace
+    flown: Flown
+    facts: dict[str, Any]
+    noise: Noise
+    units: Mapping[str, str]
+    commands: Commands | None = None
+
+    @property
+    def flights(self) -> int:
+        """How many were flown."""
+        return len(self.flown.values)
+
+    @property
+    def conditions(self) -> str:
+        """What the numbers are conditional on, as the end of a line; empty where they are not."""
+        return conditions(self.noise, self.space.held)
+
+    def replay(self, folder: Path | None, trial: int) -> str:
+        """The command that flies a row of the file of draws again; empty where it is not written to a folder."""
+        return "" if folder is None or self.commands is None else self.commands.replay(folder / self.DRAWS, trial)
+
+    def document(self, folder: Path | None = None) -> dict[str, Any]:
+        """The machine-readable result; ``folder`` is where it has been written, if it has."""
+        raise NotImplementedError
+
+    def _condition_document(self) -> dict[str, Any]:
+        return {
+            "held": self.space.held,
+            **self.noise.document(),
+            "conditional": bool(self.conditions),
+            "conditions": self.conditions.removeprefix(", "),
+        }
+
+    def _replay_lines(self, folder: Path | None) -> list[str]:
+        return ["", f"replay: {self.replay(folder, 0) or 'needs the folder of `output`'}"]
+
+    def _write(self, folder: Path, name: str, worth: str, rows: np.ndarray) -> None:
+        """Write the draws of some flights for `--draws`, all flights, and the document."""
+        if rows.size:
+            write_parquet(self.flown.draw_table(input_names(self.space.campaign), rows), folder / self.DRAWS)
+        write_parquet(self.flown.table(worth), folder / "flights.parquet")
+        text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
+        write_atomically(folder / f"{name}.json", text.encode())

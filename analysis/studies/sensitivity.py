@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,21 +9,19 @@ from typing import Any
 
 import numpy as np
 
-from ..campaigns.draws.declared import input_names
-from ..campaigns.fly.shards.files import write_parquet
 from ..campaigns.spec.plan import BatchPlan
 from ..campaigns.tables import align_columns, assumption_lines
-from ..common.atomic import write_atomically
 from ..common.elementary import elementary
 from ..common.errors import InputError
 from .draw_space import DrawSpace
 from .flights import SampleFlights
-from .flown import Commands, Flown, strict
-from .noise import Noise, conditions, noise_line
+from .flown import Flown, StudyResult, strict
+from .noise import noise_line
 from .sobol import CONFIDENCE, Indices, indices, rank_correlations, saltelli_points, with_noise
 from .units import units_of, with_unit
 
 SUCCESS = "success"
+NOISE = "noise realisation"  # the input that all random noise is
 EDGE = 2.0**-40  # of the unit interval, where a normal draw would be infinite
 
 
@@ -74,9 +71,17 @@ def sensitivity(
         flown = Flown()
         flown.add(points, draws, trials.metrics, metrics[SUCCESS])
         return SensitivityResult(
-            base, space, tuple(reported), computed, _untold(metrics, reported), ranks, flown.whole(), flights.facts,
-            noise, units_of(space, flights.prepared, flights.facts),
-        )  # fmt: skip
+            base=base,
+            space=space,
+            told=tuple(reported),
+            indices=computed,
+            untold=_untold(metrics, reported),
+            ranks=ranks,
+            flown=flown.whole(),
+            facts=flights.facts,
+            noise=noise,
+            units=units_of(space, flights.prepared, flights.facts),
+        )
 
 
 def _untold(metrics: Mapping[str, np.ndarray], told: list[str]) -> dict[str, str]:
@@ -89,45 +94,25 @@ def _untold(metrics: Mapping[str, np.ndarray], told: list[str]) -> dict[str, str
     return reasons
 
 
-NOISE = "noise realisation"  # the input that all random noise is
-DRAWS = "draws.parquet"
-
-
-@dataclass(frozen=True, eq=False)
-class SensitivityResult:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SensitivityResult(StudyResult):
     """Sobol' ``indices`` of the numbers ``told`` (None where there are none), and why others have none, ``untold``.
 
-    ``ranks`` are rank correlations by number and draw; the noise has none. ``facts`` are what the result depends on,
-    ``noise`` the random numbers that components draw themselves: one input more where they are random. ``units`` are
-    those of draws and metrics by name, ``commands`` write the command lines that fly flights again, where known.
+    ``ranks`` are rank correlations by number and draw; the noise, one input more where it is random, has none.
     """
 
+    DRAWS = "draws.parquet"
+
     base: int
-    space: DrawSpace
     told: tuple[str, ...]
     indices: Indices | None
     untold: Mapping[str, str]
     ranks: Mapping[str, Mapping[str, float | None]]
-    flown: Flown
-    facts: dict[str, Any]
-    noise: Noise
-    units: Mapping[str, str]
-    commands: Commands | None = None
-
-    @property
-    def flights(self) -> int:
-        """How many were flown."""
-        return len(self.flown.values)
 
     @property
     def inputs(self) -> list[str]:
         """What varies: the draws, and the noise as one input where it is random."""
         return [*self.space.names, *([NOISE] if self.noise.sources else [])]
-
-    @property
-    def conditions(self) -> str:
-        """What the numbers are conditional on, as the end of a line; empty where they are not."""
-        return conditions(self.noise, self.space.held)
 
     def of(self, number: str) -> dict[str, dict[str, Any]]:
         """What each input does to a metric or to ``success``: ``first``, ``total``, their intervals, ``rank``.
@@ -144,19 +129,12 @@ class SensitivityResult:
                     rows[name][f"{order}_interval"] = [strict(end) for end in ends]
         return rows
 
-    def replay(self, folder: Path | None, flight: int) -> str:
-        """The command that flies one of the flights again; empty where they are not written to a folder."""
-        return "" if folder is None or self.commands is None else self.commands.replay(folder / DRAWS, flight)
-
     def document(self, folder: Path | None = None) -> dict[str, Any]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
         replay = self.replay(folder, 0)
         return {
             **self.facts,
-            "held": self.space.held,
-            **self.noise.document(),
-            "conditional": bool(self.conditions),
-            "conditions": self.conditions.removeprefix(", "),
+            **self._condition_document(),
             "inputs": self.inputs,
             "units": dict(self.units),
             "base": self.base,
@@ -188,20 +166,11 @@ class SensitivityResult:
                 rows.append([f"  {with_unit(name, self.units)}", *cells, _text(entry["rank"])])
             lines += ["", *([f"{number}{under}"] if under else []), *align_columns(rows)]
         lines += ["", *(f"{name}: no indices, {why}" for name, why in self.untold.items())] if self.untold else []
-        replay = self.replay(folder, 0)
-        lines += [
-            "",
-            f"replay: {replay}" if replay else "replay: needs the folder of `output`",
-        ]
-        return "\n".join(line.rstrip() for line in lines)
+        return "\n".join(line.rstrip() for line in [*lines, *self._replay_lines(folder)])
 
     def write(self, folder: Path) -> None:
         """Write sensitivity.json, flights.parquet, and draws.parquet of all flights for `--draws`."""
-        sampled = input_names(self.space.campaign)
-        write_parquet(self.flown.given(sampled, np.arange(self.flights)), folder / DRAWS)
-        write_parquet(self.flown.table("success"), folder / "flights.parquet")
-        text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
-        write_atomically(folder / "sensitivity.json", text.encode())
+        self._write(folder, "sensitivity", "success", np.arange(self.flights))
 
 
 def _text(value: float | None) -> str:

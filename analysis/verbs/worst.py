@@ -101,7 +101,7 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
     with chdir(Path.cwd()):  # an FMU may change the folder
         if loop is None:
             plan = read_campaign(system, campaign, options)
-            result = replace(worst_case(plan, options["metric"], **search), again=commands_of(plan).replay)
+            result = replace(worst_case(plan, options["metric"], **search), commands=commands_of(plan))
         else:
             request = margin_asked(
                 Path(system),

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -12,42 +10,31 @@ from typing import Any
 
 import numpy as np
 
-from ...campaigns.draws.declared import input_names
-from ...campaigns.fly.shards.files import write_parquet
 from ...campaigns.tables import align_columns, assumption_lines
-from ...common.atomic import write_atomically
 from ...common.percent import short_percent
-from ..draw_space import DrawSpace
 from ..failure import Failure
-from ..flown import Commands, Flown, strict
-from ..noise import Noise, conditions, noise_line
+from ..flown import StudyResult, strict
+from ..noise import noise_line
 from ..units import unit_of_expression, with_unit
 from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
 from .uncertainty import CONFIDENCE
 
 TOLD = 5  # failures
 APART = 1.0  # standard deviations: a failure nearer to a more probable one is not listed
-FAILURES = "failures.parquet"
 
 
-@dataclass(frozen=True, eq=False)
-class RareResult:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RareResult(StudyResult):
     """The probability of a ``failure``, and the flights that it was found by.
 
-    ``simulation`` has the numbers, ``flown`` every flight, ``facts`` what they depend on, ``noise`` the random numbers
-    that components draw themselves, random or held. ``units`` are those of draws and metrics by name, ``commands``
-    write the command lines that fly points again, where they are known.
+    ``simulation`` has the numbers, of ``samples`` points a level.
     """
+
+    DRAWS = "failures.parquet"
 
     failure: Failure
     simulation: SubsetSimulation
-    space: DrawSpace
-    flown: Flown
-    facts: dict[str, Any]
-    noise: Noise
     samples: int
-    units: Mapping[str, str]
-    commands: Commands | None = None
 
     @property
     def probability(self) -> float | None:
@@ -60,19 +47,9 @@ class RareResult:
         return self.simulation.interval.low, self.simulation.interval.high
 
     @property
-    def flights(self) -> int:
-        """How many were flown."""
-        return self.simulation.evaluations
-
-    @property
     def brute_force(self) -> float | None:
         """How many plain Monte Carlo flights of the campaign say as much; None where nothing says."""
         return self.simulation.equivalent_trials
-
-    @property
-    def conditions(self) -> str:
-        """What the numbers are conditional on, as the end of a line; empty where they are not."""
-        return conditions(self.noise, self.space.held)
 
     @property
     def margin_unit(self) -> str:
@@ -129,10 +106,6 @@ class RareResult:
                 break
         return np.array(chosen, dtype=int)
 
-    def replay(self, folder: Path | None, trial: int) -> str:
-        """The command that flies one of the failures again; empty where it is not written to a folder."""
-        return "" if folder is None or self.commands is None else self.commands.replay(folder / FAILURES, trial)
-
     def values(self) -> dict[str, float]:
         """The numbers that requirements are about: probability, interval[1] and [2], flights."""
         fraction = math.nan if self.probability is None else self.probability
@@ -149,10 +122,7 @@ class RareResult:
             **self.facts,
             "failure": self.failure.text,
             "samples": self.samples,
-            "held": self.space.held,
-            **self.noise.document(),
-            "conditional": bool(self.conditions),
-            "conditions": self.conditions.removeprefix(", "),
+            **self._condition_document(),
             "probability": self.probability,
             "interval": list(self.interval),
             "confidence": CONFIDENCE,
@@ -189,11 +159,7 @@ class RareResult:
         lines += ["", f"levels, thresholds of the margin{unit}{under}", *align_columns(level_rows(simulation))]
         if self.failures:
             lines += ["", f"most probable failures{under}", *align_columns(self._failure_rows(f"margin{unit}"))]
-            replay = self.replay(folder, 0)
-            lines += [
-                "",
-                f"replay: {replay}" if replay else "replay: needs the folder of `output`",
-            ]
+            lines += self._replay_lines(folder)
         return "\n".join(line.rstrip() for line in lines)
 
     def bound_text(self) -> str:
@@ -212,10 +178,10 @@ class RareResult:
 
         Empty also where a value is held, since a batch holds none: its trials would not be those of this result.
         """
-        trials = self.brute_force
-        if not self.simulation.noise_ends or trials is None or self.commands is None or self.space.held:
+        trials, command = self.brute_force, None if self.commands is None else self.commands.monte_carlo
+        if not self.simulation.noise_ends or trials is None or command is None or self.space.held:
             return ""
-        return self.commands.monte_carlo(round(10.0 * trials))
+        return command(round(10.0 * trials))
 
     def _failure_rows(self, margin: str) -> list[list[str]]:
         names = self.space.names
@@ -228,11 +194,7 @@ class RareResult:
 
     def write(self, folder: Path) -> None:
         """Write rare.json, flights.parquet and, where there are failures, failures.parquet for `--draws`."""
-        if self.failures:
-            write_parquet(self.flown.given(input_names(self.space.campaign), self._places), folder / FAILURES)
-        write_parquet(self.flown.table("margin"), folder / "flights.parquet")
-        text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
-        write_atomically(folder / "rare.json", text.encode())
+        self._write(folder, "rare", "margin", self._places)
 
 
 LEVEL_HEADS = [

@@ -71,4 +71,7 @@ def rare_failure(
             where = ("`failure`", failure) if failure is not None else (plan.campaign.file, "success")
             raise InputError(*where, problem, "compare numbers that come near their limits by degrees") from stuck
         units = units_of(space, flights.prepared, flights.facts)
-        return RareResult(wanted, simulation, space, flown.whole(), flights.facts, noise, samples, units)
+        return RareResult(
+            failure=wanted, simulation=simulation, samples=samples, space=space, flown=flown.whole(),
+            facts=flights.facts, noise=noise, units=units,
+        )  # fmt: skip

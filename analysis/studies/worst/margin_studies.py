@@ -11,10 +11,8 @@ import numpy as np
 from loky import ProcessPoolExecutor
 
 from ...campaigns.draws.declared import Columns
-from ...campaigns.draws.given import ALL, GivenDraws, Streams
-from ...campaigns.fly.metadata import provenance
+from ...campaigns.draws.given import Streams
 from ...campaigns.fly.workers import worker_count
-from ...campaigns.spec.campaign import Record
 from ...campaigns.spec.checks import check_draws
 from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError
@@ -24,7 +22,7 @@ from ...stability.dispersion import models_of_trial
 from ...stability.loops.margin_values import Margins
 from ...stability.point.bench import StudyError
 from ...stability.point.point_study import PointStudy
-from ..flights import OWN
+from ..flights import plan_of_samples, study_facts
 from ..noise import make_samples, noise_of
 from .objective import margin_columns
 from .request import MarginAsked
@@ -49,10 +47,7 @@ class MarginStudies:
         self, asked: MarginAsked, first: Columns, *, noise_trial: int | None = None, workers: int | None = None
     ) -> None:
         self._count = worker_count(workers)
-        plain = replace(asked.plan.campaign, record=Record(), group=None, scatters=(), faults=())
-        self._plan = replace(asked.plan, campaign=plain).of_samples(
-            GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)})
-        )
+        self._plan = plan_of_samples(asked.plan, first, faults=())
         self._asked = replace(asked, request=replace(asked.request, plan=self._plan))
         self._study, self._cells = _nominal(self._asked)
         prepared = self.prepared = self._study.prepared
@@ -60,9 +55,11 @@ class MarginStudies:
         check_draws(self._plan, [prepared])
         self.channels = [channel.name for channel in self._study.channels]
         self.reasons: list[str] = []
-        known = provenance(self._plan, {"default": prepared})
-        self.facts = {name: fact for name, fact in known.items() if name not in OWN}
-        self.facts |= {"loop": asked.loop.name, "point": asked.point.name, "time": self._study.bench.time}
+        self.facts = study_facts(self._plan, {"default": prepared}) | {
+            "loop": asked.loop.name,
+            "point": asked.point.name,
+            "time": self._study.bench.time,
+        }
         self._pool: ProcessPoolExecutor | None = None
         if self._count > 1:
             self._pool = ProcessPoolExecutor(self._count, initializer=_begin, initargs=(self._asked, self._cells))

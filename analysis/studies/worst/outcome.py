@@ -2,44 +2,37 @@
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...campaigns.fly.shards.files import write_parquet
 from ...campaigns.tables import align_columns, assumption_lines
-from ...common.atomic import write_atomically
-from ..draw_space import DrawSpace
-from ..flown import Flown
-from ..noise import Noise, conditions, noise_line
+from ..flown import StudyResult
+from ..noise import noise_line
 from ..units import unit_of_expression, with_unit
 from .objective import Objective
 from .realisations import Fresh, Realisations
 from .search import Phase
 
-WORST = "worst.parquet"
 
-
-@dataclass(frozen=True, eq=False)
-class WorstResult:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class WorstResult(StudyResult):
     """The worst point of a box of draws: its ``value`` of ``badness``, infinite where it failed, and ``place`` in the
     unit cube.
 
-    ``row`` and ``random`` are the flights, in ``flown``, of the worst and of the worst of the random trials; ``facts``
-    are what the result depends on, ``noise`` the random numbers that components draw themselves, ``units`` those of
-    draws and metrics by name, ``reason`` why the worst failed, where that is known. ``again`` gives the command that
-    flies or studies a trial of a file of draws again. ``phases`` are those of the search by their points, the random
-    trials first.
+    ``row`` and ``random`` are the flights, in ``flown``, of the worst and of the worst of the random trials,
+    ``reason`` is why the worst failed, where that is known. ``phases`` are those of the search by their points, the
+    random trials first.
 
     Where the noise is random, values of points are those ``over`` its realisations, and ``fresh`` are flights of the
     worst with others; ``noise_matters`` is whether it changed any value of the random trials, None where that was not
     looked at.
     """
+
+    DRAWS = "worst.parquet"
 
     badness: Objective
     sigmas: float
@@ -48,22 +41,11 @@ class WorstResult:
     row: int
     random: int
     random_trials: int
-    space: DrawSpace
-    flown: Flown
-    facts: dict[str, Any]
-    noise: Noise
-    units: Mapping[str, str]
     over: Realisations | None = None
     fresh: Fresh | None = None
     noise_matters: bool | None = None
     reason: str = ""
-    again: Callable[[Path, int], str] | None = None
     phases: tuple[Phase, ...] = ()
-
-    @property
-    def flights(self) -> int:
-        """How many were flown."""
-        return len(self.flown.values)
 
     @property
     def worst(self) -> dict[str, Any]:
@@ -88,11 +70,6 @@ class WorstResult:
         return [self.row, self.random]
 
     @property
-    def conditions(self) -> str:
-        """What the numbers are conditional on, as the end of a line; empty where they are not."""
-        return conditions(self.noise, self.space.held)
-
-    @property
     def unit(self) -> str:
         """The unit of the number that is made worst; empty where it has none, or its text says it."""
         return "" if self.badness.expression is None else unit_of_expression(self.badness.expression, self.units)
@@ -108,15 +85,12 @@ class WorstResult:
 
     def document(self, folder: Path | None = None) -> dict[str, Any]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
-        replay = self._replay(folder)
+        replay = self.replay(folder, 0)
         return {
             **self.facts,
             "metric": self.badness.text,
             "sigmas": self.sigmas,
-            "held": self.space.held,
-            **self.noise.document(),
-            "conditional": bool(self.conditions),
-            "conditions": self.conditions.removeprefix(", "),
+            **self._condition_document(),
             "unit": self.unit,
             "units": dict(self.units),
             **({} if self.over is None else {"objective": self.over.text, "realisations": self.over.count}),
@@ -130,9 +104,6 @@ class WorstResult:
             **({"replay": replay} if replay else {}),
         }
 
-    def _replay(self, folder: Path | None) -> str:
-        return "" if folder is None or self.again is None else self.again(folder / WORST, 0)
-
     def text(self, folder: Path | None = None) -> str:
         """The result for a terminal; ``folder`` as in `document`."""
         case, random, under = self.worst, self.worst_random, self.conditions
@@ -145,12 +116,7 @@ class WorstResult:
             rows += [
                 [with_unit(name, self.units), _format(case[part][name]), _format(random[part][name])] for name in names
             ]
-        replay = self._replay(folder)
-        lines += ["", *([under.removeprefix(", ")] if under else []), *align_columns(rows)]
-        lines += [
-            "",
-            f"replay: {replay}" if replay else "replay: needs the folder of `output`",
-        ]
+        lines += ["", *([under.removeprefix(", ")] if under else []), *align_columns(rows), *self._replay_lines(folder)]
         return "\n".join(line.rstrip() for line in lines)
 
     def headline(self) -> list[str]:
@@ -184,12 +150,7 @@ class WorstResult:
 
     def write(self, folder: Path) -> None:
         """Write worst.json, flights.parquet, and worst.parquet for `--draws`: the worst trial, and the random one."""
-        sampled = [name for draw in self.space.campaign.draws for name in draw.names]
-        write_parquet(self.flown.given(sampled, np.array(self.places)), folder / WORST)
-        write_parquet(self.flown.table("value"), folder / "flights.parquet")
-        write_atomically(
-            folder / "worst.json", f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n".encode()
-        )
+        self._write(folder, "worst", "value", np.array(self.places))
 
 
 def _every(count: int) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Any, Protocol, TypedDict, Unpack
 
 import numpy as np
 
@@ -16,13 +16,13 @@ from ...common.errors import InputError
 from ...runtime.system.prepared import PreparedSystem
 from ..draw_space import DrawSpace
 from ..flights import SampleFlights
-from ..flown import Flown
+from ..flown import Commands, Flown
 from ..noise import Noise
 from ..units import units_of
 from .margin_studies import MarginStudies
 from .objective import SIZES, Objective, margin_objective, metric_objective
 from .outcome import WorstResult
-from .realisations import Fresh, Realisations, read_realisations
+from .realisations import REALISATIONS, Fresh, Realisations, read_realisations
 from .request import MarginAsked
 from .search import LEAST, Phase, largest
 
@@ -52,17 +52,19 @@ class Sampled(Protocol):
     def flown(self) -> np.ndarray: ...
 
 
+class SearchOptions(TypedDict, total=False):
+    """Options of a search by name; ``sigmas`` bound normal draws, the rest is as in `worst_case`."""
+
+    sigmas: float
+    hold: Mapping[str, float] | None
+    noise_trial: int | None
+    realisations: int | None
+    quantile: float | None
+    workers: int | None
+
+
 def worst_case(
-    plan: BatchPlan,
-    metric: str | None = None,
-    *,
-    sigmas: float = SIGMAS,
-    flights: int = FLIGHTS,
-    hold: Mapping[str, float] | None = None,
-    noise_trial: int | None = None,
-    realisations: int | None = None,
-    quantile: float | None = None,
-    workers: int | None = None,
+    plan: BatchPlan, metric: str | None = None, *, flights: int = FLIGHTS, **options: Unpack[SearchOptions]
 ) -> WorstResult:
     """The draws that make an expression largest, within ``sigmas`` of normal draws and the ends of others.
 
@@ -73,24 +75,14 @@ def worst_case(
     to begin with and to compare with. The campaign's seed is that of the search; ``workers`` does not change the
     result. Raises InputError.
     """
-    over = read_realisations(realisations, quantile, flights, noise_trial)
-    box = _Box(plan, sigmas, flights, hold)
+    search = _Search(plan, flights, REALISATIONS, **options)
     objective = metric_objective(plan.campaign, metric)
-    with SampleFlights(plan, box.middle, noise_trial=noise_trial, workers=workers) as flights_of:
-        return box.search(flights_of, objective, over)
+    with SampleFlights(plan, search.middle, noise_trial=search.noise_trial, workers=search.workers) as flights_of:
+        return search.result(flights_of, objective)
 
 
 def worst_margin(
-    asked: MarginAsked,
-    margin: str = MARGIN,
-    *,
-    sigmas: float = SIGMAS,
-    flights: int = STUDIES,
-    hold: Mapping[str, float] | None = None,
-    noise_trial: int | None = None,
-    realisations: int | None = None,
-    quantile: float | None = None,
-    workers: int | None = None,
+    asked: MarginAsked, margin: str = MARGIN, *, flights: int = STUDIES, **options: Unpack[SearchOptions]
 ) -> WorstResult:
     """The draws that make the least margin of a loop's channels smallest, in the box of `worst_case`.
 
@@ -100,34 +92,46 @@ def worst_margin(
     """
     if margin not in SIZES:
         raise InputError("`margin`", margin, "no such margin", f"give {', '.join(SIZES)}")
-    over = read_realisations(realisations, quantile, flights, noise_trial, default=1)
-    box = _Box(asked.plan, sigmas, flights, hold)
-    with MarginStudies(asked, box.middle, noise_trial=noise_trial, workers=workers) as studies:
+    search = _Search(asked.plan, flights, 1, **options)
+    with MarginStudies(asked, search.middle, noise_trial=search.noise_trial, workers=search.workers) as studies:
         objective = margin_objective(asked.loop.name, asked.point.name, studies.channels, margin)
-        result = box.search(studies, objective, over)
-        return replace(result, reason=studies.reasons[result.places[0]], again=asked.replay)
+        result = search.result(studies, objective)
+        return replace(result, reason=studies.reasons[result.places[0]], commands=Commands(asked.replay))
 
 
-class _Box:
-    """Where is searched, and with how many flights. Raises InputError."""
+class _Search:
+    """Search region and budget. Raises InputError."""
 
-    def __init__(self, plan: BatchPlan, sigmas: float, flights: int, hold: Mapping[str, float] | None) -> None:
+    def __init__(
+        self,
+        plan: BatchPlan,
+        flights: int,
+        default_realisations: int,
+        sigmas: float = SIGMAS,
+        hold: Mapping[str, float] | None = None,
+        noise_trial: int | None = None,
+        realisations: int | None = None,
+        quantile: float | None = None,
+        workers: int | None = None,
+    ) -> None:
+        self._over = read_realisations(realisations, quantile, flights, noise_trial, default=default_realisations)
         if flights < LEAST:
             raise InputError("`flights`", str(flights), "too few", f"give {LEAST} or more")
         if not 0.0 < sigmas < 20.0:
             raise InputError("`sigmas`", f"{sigmas:g}", "no such box", "give a number above 0, such as 3")
         self._space = DrawSpace(plan.campaign, hold)
         self._sigmas, self._flights, self._seed = sigmas, flights, plan.campaign.seed
+        self.noise_trial, self.workers = noise_trial, workers
 
     @property
     def middle(self) -> Columns:
         return self._space.from_box(np.full((1, self._space.size), 0.5), self._sigmas)
 
-    def search(self, flights_of: Flights, objective: Objective, over: Realisations) -> WorstResult:
+    def result(self, flights_of: Flights, objective: Objective) -> WorstResult:
         """The worst of random trials and of a search from them. Raises InputError."""
         space, sigmas = self._space, self._sigmas
-        points = _Points(flights_of, objective, over if flights_of.noise.sources else None)
-        budget = self._budget(points)
+        points = _Points(flights_of, objective, self._over if flights_of.noise.sources else None)
+        budget = self._flights - (0 if points.over is None else points.over.fresh)  # those of fresh noise left out
         random = np.random.Generator(np.random.Philox(np.random.SeedSequence(self._seed)))
         own = space.from_normals(standard_normals(random, (int(RANDOM * budget) // points.realisations, space.size)))
         places = space.to_box(own, sigmas)
@@ -147,16 +151,24 @@ class _Box:
         )
         worst, worst_random = points.row_of(place, value), points.row_of(places[int(np.argmax(values))], values.max())
         fresh = points.fly_fresh(worst, input_names(space.campaign)) if points.over is not None else None
-        units = units_of(space, flights_of.prepared, flights_of.facts)
         return WorstResult(
-            objective, sigmas, value, place, worst, worst_random, len(values), space, points.flown.whole(),
-            flights_of.facts, flights_of.noise, units, points.over, fresh, points.effect,
+            badness=objective,
+            sigmas=sigmas,
+            value=value,
+            place=place,
+            row=worst,
+            random=worst_random,
+            random_trials=len(values),
+            space=space,
+            flown=points.flown.whole(),
+            facts=flights_of.facts,
+            noise=flights_of.noise,
+            units=units_of(space, flights_of.prepared, flights_of.facts),
+            over=points.over,
+            fresh=fresh,
+            noise_matters=points.effect,
             phases=(Phase("random trials", len(values)), *phases),
-        )  # fmt: skip
-
-    def _budget(self, points: _Points) -> int:
-        """The flights of the search, those of fresh noise left out."""
-        return self._flights if points.over is None else self._flights - points.over.fresh
+        )
 
 
 class _Points:
