@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import fields
 from pathlib import Path, PurePosixPath
-from typing import Any
 
 from ..runtime.system.options import SystemOptions
 from ..verbs.options.campaigns import BATCH, REPLAY
@@ -36,7 +35,7 @@ def _campaign_name(plan: BatchPlan) -> str:
     return PurePosixPath(inside).stem if inside else plan.campaign.file
 
 
-def _options(plan: BatchPlan, variant: Variant) -> dict[str, Any]:
+def _options(plan: BatchPlan, variant: Variant) -> dict[str, object]:
     """The options of a plan by name; arrays of inputs have no text, and are left out."""
     campaign, settings = plan.campaign, {each.name: getattr(plan.options, each.name) for each in fields(SystemOptions)}
     trials = {"trials": campaign.trials} if plan.given is None else {"draws": plan.given.file}

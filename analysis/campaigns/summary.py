@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -168,17 +169,17 @@ def requirement_values(summary: Summary) -> dict[str, float]:
     """
     values: dict[str, float] = {}
 
-    def walk(prefix: str, entry: Any) -> None:
+    def walk(prefix: str, entry: object) -> None:
         if isinstance(entry, Mapping):
             for key, inner in entry.items():
                 walk(f"{prefix}.{key}", inner)
         elif isinstance(entry, list):
             for index, inner in enumerate(entry):
                 walk(f"{prefix}[{index + 1}]", inner)
-        elif not isinstance(entry, str):
+        elif entry is None or isinstance(entry, float | int):
             values[prefix] = float("nan") if entry is None else float(entry)
-        elif entry in ("inf", "-inf") and prefix.endswith(tuple(f".{key}" for key in QUANTILES)):
-            values[prefix] = float(entry)
+        elif entry in ("inf", "-inf") and prefix.rpartition(".")[2] in QUANTILES:
+            values[prefix] = math.inf if entry == "inf" else -math.inf
 
     for name, variant in summary.items():
         walk(name, to_json(replace(variant, groups={})))

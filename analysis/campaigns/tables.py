@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Sequence
 
 from ..common.percent import percent
 from .requirement_verdicts import RequirementVerdict
@@ -23,9 +22,9 @@ def align_columns(rows: list[list[str]]) -> list[str]:
     ]
 
 
-def assumption_lines(facts: Mapping[str, Any]) -> list[str]:
-    """What a result's ``facts`` assume since an FMU does not declare it, a line for each assumption."""
-    return [f"assumed: {assumption}" for assumption in facts.get("assumptions", ())]
+def assumption_lines(assumptions: Iterable[str]) -> list[str]:
+    """What a result assumes since an FMU does not declare it, a line for each assumption."""
+    return [f"assumed: {assumption}" for assumption in assumptions]
 
 
 def who_heads(group: str | None) -> list[str]:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from ..campaigns.draws.declared import Columns
 from ..campaigns.draws.given import ALL, GivenDraws, Streams
 from ..campaigns.fly.flyer import Flyer
-from ..campaigns.fly.metadata import provenance
+from ..campaigns.fly.metadata import Provenance, provenance
 from ..campaigns.fly.workers import FlyerPool, worker_count
 from ..campaigns.spec.campaign import Record
 from ..campaigns.spec.checks import check_draws, check_plan
@@ -21,8 +20,6 @@ from ..common.errors import InputError
 from ..common.progress import progress_bar
 from ..runtime.system.prepared import PreparedSystem
 from .noise import make_samples, noise_of
-
-OF_A_BATCH = ("trials", "record", "group", "draws_sha256")  # facts that a study of samples has not
 
 
 class SampleFlights:
@@ -45,7 +42,7 @@ class SampleFlights:
         systems = check_plan(self.plan)
         self.variant, self.prepared = next(iter(systems.items()))
         self.noise = noise_of(self.prepared, noise_trial, plan.campaign.seed)
-        self.facts = study_facts(self.plan, systems)
+        self.facts = study_provenance(self.plan, systems)
         self.flown = 0
         self._pool = FlyerPool(self.plan, self._count, self.prepared.flies_in_threads)
         self._progress = progress_bar(unit="flight")
@@ -73,7 +70,7 @@ class SampleFlights:
         self._pool.__enter__()
         return self
 
-    def __exit__(self, *error: Any) -> None:
+    def __exit__(self, *error: object) -> None:
         self._progress.close()
         self._pool.__exit__(*error)
 
@@ -82,12 +79,24 @@ def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> Trials | None:  # of a 
     return flyer.fly_others(variant, plan)
 
 
-def plan_of_samples(plan: BatchPlan, first: Columns, **changes: Any) -> BatchPlan:
+def plan_of_samples(plan: BatchPlan, first: Columns) -> BatchPlan:
     """A plan of draws ``first``, without what a study leaves out of its campaign: records, groups and scatters."""
-    campaign = replace(plan.campaign, record=Record(), group=None, scatters=(), **changes)
+    campaign = replace(plan.campaign, record=Record(), group=None, scatters=())
     return replace(plan, campaign=campaign).of_samples(GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))
 
 
-def study_facts(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
-    """What the numbers of a study of samples depend on; a batch has more."""
-    return {name: fact for name, fact in provenance(plan, systems).items() if name not in OF_A_BATCH}
+class StudyProvenance(Provenance, total=False):
+    """What the numbers of a study depend on; ``loop``, ``point`` and ``time`` (s) are those of a margin."""
+
+    loop: str
+    point: str
+    time: float
+
+
+def study_provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> StudyProvenance:
+    """The provenance of a batch without what a study of samples has not."""
+    entries: StudyProvenance = {**provenance(plan, systems)}
+    del entries["trials"], entries["record"]
+    entries.pop("group", None)
+    entries.pop("draws_sha256", None)
+    return entries

@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple, TypedDict
 
 import numpy as np
 import pyarrow
@@ -16,6 +16,7 @@ from ..campaigns.draws.given import stream_component
 from ..campaigns.fly.shards.files import write_parquet
 from ..common.atomic import write_atomically
 from .draw_space import DrawSpace
+from .flights import StudyProvenance
 from .noise import Noise, conditions
 
 Columns = Mapping[str, np.ndarray]
@@ -28,6 +29,13 @@ def strict(value: float) -> float | None:
 
 def _is_stream(name: str) -> bool:
     return stream_component(name) is not None
+
+
+class FlightDocument(TypedDict):
+    """Draws and metrics of one flight as strict JSON."""
+
+    draws: dict[str, float]
+    metrics: dict[str, float | str | None]
 
 
 class Flown:
@@ -54,10 +62,10 @@ class Flown:
         self.metrics = {name: np.concatenate([part[name] for part in metrics]) for name in metrics[0]}
         return self
 
-    def fact(self, row: int, number: Callable[[float], float | str | None] = strict) -> dict[str, Any]:
+    def fact(self, row: int, number: Callable[[float], float | str | None] = strict) -> FlightDocument:
         """Draws and metrics of one flight as strict JSON: what is not finite is null, unless by ``number``."""
         return {
-            "draws": {name: strict(column[row]) for name, column in self.draws.items() if not _is_stream(name)},
+            "draws": {name: float(column[row]) for name, column in self.draws.items() if not _is_stream(name)},
             "metrics": {name: number(column[row]) for name, column in self.metrics.items()},
         }
 
@@ -74,11 +82,11 @@ class Flown:
         columns = ((stream_component(name), column) for name, column in self.draws.items())
         return {component: int(column[row]) for component, column in columns if component is not None}
 
-    def table(self, worth: str) -> pyarrow.Table:
-        """A row per flight: draws, metrics and, under the name ``worth``, the value."""
+    def table(self, value_name: str) -> pyarrow.Table:
+        """A row per flight: draws, metrics and, under the name ``value_name``, the value."""
         columns = {f"draw.{name}": column for name, column in self.draws.items()}
         columns |= {f"metric.{name}": column for name, column in self.metrics.items()}
-        return pyarrow.table(columns | {worth: self.values})
+        return pyarrow.table(columns | {value_name: self.values})
 
 
 class Commands(NamedTuple):
@@ -100,7 +108,7 @@ class StudyResult:
 
     space: DrawSpace
     flown: Flown
-    facts: dict[str, Any]
+    facts: StudyProvenance
     noise: Noise
     units: Mapping[str, str]
     commands: Commands | None = None
@@ -119,11 +127,11 @@ class StudyResult:
         """The command that flies a row of the file of draws again; empty where it is not written to a folder."""
         return "" if folder is None or self.commands is None else self.commands.replay(folder / self.DRAWS, trial)
 
-    def document(self, folder: Path | None = None) -> dict[str, Any]:
+    def document(self, folder: Path | None = None) -> dict[str, object]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
         raise NotImplementedError
 
-    def _condition_document(self) -> dict[str, Any]:
+    def _condition_document(self) -> dict[str, object]:
         return {
             "held": self.space.held,
             **self.noise.document(),
@@ -134,10 +142,10 @@ class StudyResult:
     def _replay_lines(self, folder: Path | None) -> list[str]:
         return ["", f"replay: {self.replay(folder, 0) or 'needs the folder of `output`'}"]
 
-    def _write(self, folder: Path, name: str, worth: str, rows: np.ndarray) -> None:
+    def _write(self, folder: Path, name: str, value_name: str, rows: np.ndarray) -> None:
         """Write the draws of some flights for `--draws`, all flights, and the document."""
         if rows.size:
             write_parquet(self.flown.draw_table(input_names(self.space.campaign), rows), folder / self.DRAWS)
-        write_parquet(self.flown.table(worth), folder / "flights.parquet")
+        write_parquet(self.flown.table(value_name), folder / "flights.parquet")
         text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
         write_atomically(folder / f"{name}.json", text.encode())

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -41,7 +40,7 @@ class Noise:
         """Random streams where all sources have the noise of the same trial (flights,)."""
         return dict.fromkeys(self.sources, streams)
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """What results say of it as JSON; ``noise_trial`` is None where the noise is random, or there is none."""
         return {
             "noise_trial": self.trial if self.components else None,

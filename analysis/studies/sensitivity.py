@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 
@@ -94,6 +94,17 @@ def _untold(metrics: Mapping[str, np.ndarray], told: list[str]) -> dict[str, str
     return reasons
 
 
+class InputIndices(TypedDict, total=False):
+    """Indices of an input with their intervals, and its rank correlation; noise has none: its realisations have no
+    order."""
+
+    rank: float | None
+    first: float
+    first_interval: list[float | None]
+    total: float
+    total_interval: list[float | None]
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SensitivityResult(StudyResult):
     """Sobol' ``indices`` of the numbers ``told`` (None where there are none), and why others have none, ``untold``.
@@ -114,22 +125,21 @@ class SensitivityResult(StudyResult):
         """What varies: the draws, and the noise as one input where it is random."""
         return [*self.space.names, *([NOISE] if self.noise.sources else [])]
 
-    def of(self, number: str) -> dict[str, dict[str, Any]]:
-        """What each input does to a metric or to ``success``: ``first``, ``total``, their intervals, ``rank``.
-
-        The noise has no rank: its realisations have no order.
-        """
-        rows: dict[str, dict[str, Any]] = {name: {"rank": self.ranks[number].get(name)} for name in self.inputs}
+    def of(self, number: str) -> dict[str, InputIndices]:
+        """What each input does to a metric or to ``success``."""
+        rows: dict[str, InputIndices] = {name: {"rank": self.ranks[number].get(name)} for name in self.inputs}
         if self.indices is not None and number in self.told:
             row = self.told.index(number)
             for index, name in enumerate(self.inputs):
-                for order in ("first", "total"):
-                    rows[name][order] = float(getattr(self.indices, order)[row, index])
-                    ends = getattr(self.indices, f"{order}_interval")[:, row, index]
-                    rows[name][f"{order}_interval"] = [strict(end) for end in ends]
+                rows[name] |= {
+                    "first": float(self.indices.first[row, index]),
+                    "first_interval": [strict(end) for end in self.indices.first_interval[:, row, index]],
+                    "total": float(self.indices.total[row, index]),
+                    "total_interval": [strict(end) for end in self.indices.total_interval[:, row, index]],
+                }
         return rows
 
-    def document(self, folder: Path | None = None) -> dict[str, Any]:
+    def document(self, folder: Path | None = None) -> dict[str, object]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
         replay = self.replay(folder, 0)
         return {
@@ -152,18 +162,15 @@ class SensitivityResult(StudyResult):
         lines += [line for line in (noise_line(self.noise),) if line]
         if self.noise.sources:
             lines.append(f"{NOISE}: all of these components as one input; rank correlations leave it out")
-        lines += assumption_lines(self.facts)
+        lines += assumption_lines(self.facts.get("assumptions", ()))
         for number in self.told:
             indices = self.of(number)
             rows = [[with_unit(number, self.units), "total", percent, "first", percent, "rank"]]
             for name in sorted(indices, key=lambda name: -indices[name]["total"]):
                 entry = indices[name]
-                cells = [
-                    cell
-                    for order in ("total", "first")
-                    for cell in (_text(entry[order]), " to ".join(map(_text, entry[f"{order}_interval"])))
-                ]
-                rows.append([f"  {with_unit(name, self.units)}", *cells, _text(entry["rank"])])
+                total = [_text(entry["total"]), " to ".join(map(_text, entry["total_interval"]))]
+                first = [_text(entry["first"]), " to ".join(map(_text, entry["first_interval"]))]
+                rows.append([f"  {with_unit(name, self.units)}", *total, *first, _text(entry["rank"])])
             lines += ["", *([f"{number}{under}"] if under else []), *align_columns(rows)]
         lines += ["", *(f"{name}: no indices, {why}" for name, why in self.untold.items())] if self.untold else []
         return "\n".join(line.rstrip() for line in [*lines, *self._replay_lines(folder)])

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping
-from typing import Any
 
 from ..campaigns.spec.expressions import Expression
 from ..runtime.system.prepared import PreparedSystem
 from .draw_space import DrawSpace
+from .flights import StudyProvenance
 
 SUMS = (ast.Add, ast.Sub)
 
 
-def units_of(space: DrawSpace, prepared: PreparedSystem, facts: Mapping[str, Any]) -> dict[str, str]:
+def units_of(space: DrawSpace, prepared: PreparedSystem, facts: StudyProvenance) -> dict[str, str]:
     """The units of draws and metrics by name, of those that have one."""
-    units = {name: fact["unit"] for name, fact in facts["metrics"].items()}
+    units: dict[str, str | None] = {name: fact["unit"] for name, fact in facts["metrics"].items()}
     for draw in space.campaign.draws:
         for name in draw.names:
             component = max(

@@ -6,7 +6,6 @@ import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -182,9 +181,9 @@ class Comparison:
         """Whether any of the batches flew with faults."""
         return any(batch.faults for batch in self.batches.values())
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """The comparison as JSON: provenance of every batch, per contender its numbers, per pair theirs."""
-        group = {} if self.group is None else {"group": self.group}
+        group: dict[str, object] = {} if self.group is None else {"group": self.group}
         return group | {
             "batches": {str(batch.folder): batch.provenance for batch in self.batches.values()},
             "notes": list(self.notes),

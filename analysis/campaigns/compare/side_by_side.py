@@ -94,9 +94,11 @@ def _notes(batches: Mapping[str, StoredBatch]) -> Iterator[str]:
     name, first = next(iter(batches.items()))
     for other_name, other in batches.items():
         pair = f"{name} and {other_name}"
+        one: Mapping[str, object] = first.document
+        another: Mapping[str, object] = other.document
         for key, words in DIFFERENCES.items():
-            if first.document[key] != other.document[key]:
-                yield f"{pair} {words}: {first.document[key]} and {other.document[key]}"
+            if one[key] != another[key]:
+                yield f"{pair} {words}: {one[key]} and {another[key]}"
         if None not in (first.group, other.group) and first.group != other.group:
             yield f"{pair} group trials by different values: {first.group} and {other.group}"
         own = {metric.name: metric for metric in first.metrics}

@@ -5,11 +5,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar, Protocol
+from typing import ClassVar, Protocol, TypeAlias
 
 import numpy as np
 
 Columns = dict[str, np.ndarray]
+Argument: TypeAlias = "float | tuple[Argument, ...]"
 
 
 class Distribution(ABC):
@@ -26,7 +27,7 @@ class Distribution(ABC):
         return 0
 
     @property
-    def arguments(self) -> dict[str, Any]:
+    def arguments(self) -> dict[str, Argument]:
         """Its arguments, floats or tuples of floats, under the keys of the campaign file."""
         return {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
 
@@ -110,7 +111,7 @@ class Formula(Protocol):
     def text(self) -> str: ...
     @property
     def where(self) -> tuple[str, str]: ...
-    def evaluate(self, values: Mapping[str, Any]) -> Any: ...
+    def evaluate(self, values: Mapping[str, np.ndarray]) -> float | np.ndarray: ...
 
 
 class Declared(Protocol):
@@ -142,9 +143,9 @@ def designs_of(draws: Sequence[Draw]) -> dict[type[Design], list[Draw]]:
     return groups
 
 
-def _number_text(value: Any) -> str:
+def _number_text(value: Argument) -> str:
     """A number, or numbers in brackets, shortened where they are many."""
-    if not isinstance(value, tuple | list):
+    if not isinstance(value, tuple):
         return f"{value:.10g}"
     inner = [_number_text(entry) for entry in value]
     return f"[{', '.join(inner if len(inner) <= 12 else [*inner[:5], '…', *inner[-2:]])}]"

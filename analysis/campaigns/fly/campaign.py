@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 from ....fmus_src.kernel.functions import VERSION
 from ...common.errors import InputError
@@ -15,7 +14,7 @@ from ..spec.checks import check_plan, prepare_variants
 from ..spec.plan import BatchPlan
 from .folder import begin, cut, resume_folder
 from .manifest import FILE, Manifest, read_manifest
-from .metadata import batch_digest, provenance
+from .metadata import Provenance, batch_digest, provenance
 from .plan_manifest import gather, restore
 from .shards.files import is_flown
 from .shards.numbering import Numbering
@@ -48,9 +47,11 @@ class Campaign:
         return replace(self, plan=plan, manifest=cut(self.folder, self.manifest, plan))
 
     @property
-    def provenance(self) -> dict[str, Any]:
+    def provenance(self) -> Provenance:
         """What its numbers depend on, apart from the trials themselves."""
-        return provenance(self.plan, self.systems) | {"manifest": self.manifest.key}
+        entries = provenance(self.plan, self.systems)
+        entries["manifest"] = self.manifest.key
+        return entries
 
     @property
     def numbering(self) -> Numbering:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 from ...common.atomic import write_atomically
 from ...common.errors import InputError
@@ -19,13 +19,40 @@ MOST_DIFFERENCES = 3  # named in one line
 WRITE = "give a folder that perilune batch or prepare wrote"
 
 
+class SystemDocument(TypedDict):
+    """A system; ``files`` are contents by archive name, ``fmu`` is the one of a stand-alone simulation."""
+
+    name: str
+    label: str
+    description: str
+    sha256: str
+    fmu: str | None
+    files: dict[str, str]
+
+
+class SourceDocument(TypedDict, total=False):
+    """A campaign's file, with those that it extends; ``position`` is that of its own entries among theirs."""
+
+    label: str
+    content: str
+    extends: list[SourceDocument]
+    position: int
+
+
+class CampaignDocument(SourceDocument, total=False):
+    """A campaign's file, with what the command line compares, selects and sweeps."""
+
+    compare: dict[str, list[str]]
+    compared_by: str
+    selected: str
+    sweep: dict[str, str]
+
+
 @dataclass(frozen=True)
 class Manifest:
     """A campaign to be flown in shards; every value can be written as JSON.
 
-    ``system`` has name, label, description, sha256 and ``files``, contents by archive name; ``elsewhere`` are contents
-    that lay outside of it, by what asks for them. ``campaign`` has label, content and what the command line compares,
-    and sweeps if it does.
+    ``elsewhere`` are contents outside of the ``system``, by what asks for them.
     ``options`` are the system options, ``faults`` the user's, ``series`` the inputs over time (label, sha256, content),
     ``draws`` likewise those that are given instead of drawn, ``timeout`` is in s. ``fmus`` are hashes by variant and
     component, ``resets`` the verdicts of reset tests by hash. ``until_decided`` says that it ends with the shard at
@@ -35,9 +62,9 @@ class Manifest:
     """
 
     perilune: str
-    system: Mapping[str, Any]
+    system: SystemDocument
     elsewhere: Mapping[str, str]
-    campaign: Mapping[str, Any]
+    campaign: CampaignDocument
     options: Mapping[str, Any]
     faults: list[str]
     series: Mapping[str, str] | None
@@ -51,9 +78,9 @@ class Manifest:
     shard_size: int
     elementary_functions: int | None = None
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """As JSON has it; without a version of the elementary functions where it has none, so that its key remains."""
-        content: dict[str, Any] = json.loads(json.dumps(asdict(self)))
+        content: dict[str, object] = json.loads(json.dumps(asdict(self)))
         if self.elementary_functions is None:
             del content["elementary_functions"]
         return content
@@ -74,7 +101,7 @@ class Manifest:
         write_atomically(folder / FILE, f"{json.dumps(self.document(), indent=1)}\n".encode())
 
 
-def _contents(campaign: Mapping[str, Any]) -> list[str]:
+def _contents(campaign: SourceDocument) -> list[str]:
     """The contents of a campaign's file, and of those that it extends."""
     return [campaign["content"], *(name for part in campaign.get("extends", []) for name in _contents(part))]
 
@@ -102,7 +129,7 @@ def differences(held: Manifest, asked: Manifest) -> str:
     return "; ".join(phrases[:MOST_DIFFERENCES]) + more
 
 
-def _pairs(name: str, left: Any, right: Any) -> Iterator[tuple[str, Any, Any]]:
+def _pairs(name: str, left: object, right: object) -> Iterator[tuple[str, object, object]]:
     """The values in which two documents differ, by dotted name."""
     if isinstance(left, dict) and isinstance(right, dict):
         for key in {**left, **right}:
@@ -111,7 +138,7 @@ def _pairs(name: str, left: Any, right: Any) -> Iterator[tuple[str, Any, Any]]:
         yield name, left, right
 
 
-def _short(value: Any) -> str:
+def _short(value: object) -> str:
     text = "nothing" if value is None else value if isinstance(value, str) else json.dumps(value)
     return text if len(text) <= 40 else f"{text[:16]}..."
 

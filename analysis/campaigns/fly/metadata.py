@@ -7,7 +7,7 @@ import json
 import re
 from collections.abc import Mapping
 from importlib.metadata import version
-from typing import Any
+from typing import NotRequired, TypedDict
 
 from ...runtime.system.prepared import PreparedSystem
 from ..spec.campaign import Metric
@@ -16,40 +16,121 @@ from ..spec.plan import BatchPlan
 TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
 
 
-def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
-    """What a batch's numbers depend on, apart from the trials themselves."""
+class SignalMetadata(TypedDict, total=False):
+    """Unit, None where none is declared, and FMI type of a signal."""
+
+    unit: str | None
+    type: str
+
+
+class MetricMetadata(TypedDict):
+    """A metric as its campaign declares it, and whether its value is true or false."""
+
+    condition: NotRequired[str]
+    delay: NotRequired[float]
+    expression: str
+    reduction: str
+    unit: str
+    description: str
+    truth: bool
+
+
+class RecordMetadata(TypedDict):
+    """What trials store over time."""
+
+    every: int | None
+    signals: list[str]
+    trials: int | None
+    traces: str
+
+
+class CampaignMetadata(TypedDict, total=False):
+    """Properties of a batch that its numbers do not show.
+
+    ``group``, ``faults``, ``sweep``, ``draws_sha256`` of given draws and a ``draw_scheme`` that is no table (each where
+    there is any), ``success`` (expression), ``signals`` that are recorded, ``targets`` (parameters target_position and
+    target_velocity by variant).
+    """
+
+    group: str
+    faults: list[str]
+    sweep: dict[str, str]
+    draws_sha256: str
+    draw_scheme: str
+    description: str
+    success: str
+    metrics: dict[str, MetricMetadata]
+    record: RecordMetadata
+    signals: dict[str, SignalMetadata]
+    targets: dict[str, dict[str, float]]
+
+
+class Provenance(CampaignMetadata, total=False):
+    """What a batch's numbers depend on, apart from the trials themselves; ``manifest`` is its key."""
+
+    system: str
+    system_sha256: str
+    campaign: str
+    campaign_sha256: str
+    parameter_sets: list[str]
+    set: Mapping[str, object]
+    variant: str | None
+    start_time: float
+    steps: int
+    trials: int
+    seed: int
+    step: float
+    algorithm: str
+    feedthrough: list[str]
+    no_feedthrough: list[str]
+    assumptions: list[str]
+    input: object
+    timeout: float
+    fmus: dict[str, dict[str, str]]
+    perilune: str
+    manifest: str
+
+
+def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Provenance:
+    """What a batch's numbers depend on; ``systems`` are the prepared ones by variant."""
     first = next(iter(systems.values()))
     options = plan.options
-    assumptions = list(dict.fromkeys(note for prepared in systems.values() for note in prepared.assumptions))
-    return {
+    metadata: Provenance = {
         "system": first.archive.name,
         "system_sha256": first.archive.digest,
         "campaign": plan.campaign.file,
         "campaign_sha256": plan.campaign_sha256,
-        "parameter_sets": [*plan.campaign.parameters, *plan.options.parameters],
-        "set": {**plan.campaign.settings, **plan.options.set},
-        "variant": plan.options.variant,
+        "parameter_sets": [*plan.campaign.parameters, *options.parameters],
+        "set": {**plan.campaign.settings, **options.set},
+        "variant": options.variant,
         "start_time": first.start,
         "steps": first.steps,
         "trials": plan.campaign.trials,
         "seed": plan.campaign.seed,
         "step": first.step,
         "algorithm": first.algorithm,
-        **({"feedthrough": list(options.feedthrough)} if options.feedthrough else {}),
-        **({"no_feedthrough": list(options.no_feedthrough)} if options.no_feedthrough else {}),
-        **({"assumptions": assumptions} if assumptions else {}),
-        **(first.drive.facts() if first.drive is not None else {}),
-        **({"timeout": plan.watch.timeout} if plan.watch.timeout is not None else {}),
-        "fmus": {
-            variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
-            for variant, prepared in systems.items()
-        },
-        "perilune": version("perilune"),
-        **campaign_metadata(plan, systems),
     }
+    if options.feedthrough:
+        metadata["feedthrough"] = list(options.feedthrough)
+    if options.no_feedthrough:
+        metadata["no_feedthrough"] = list(options.no_feedthrough)
+    assumptions = list(dict.fromkeys(note for prepared in systems.values() for note in prepared.assumptions))
+    if assumptions:
+        metadata["assumptions"] = assumptions
+    if first.drive is not None:
+        metadata["input"] = first.drive.facts()["input"]
+    if plan.watch.timeout is not None:
+        metadata["timeout"] = plan.watch.timeout
+    metadata["fmus"] = {
+        variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
+        for variant, prepared in systems.items()
+    }
+    metadata["perilune"] = version("perilune")
+    metadata.update(campaign_metadata(plan, systems))
+    return metadata
 
 
-def batch_digest(provenance: Mapping[str, Any]) -> str:
+def batch_digest(provenance: Mapping[str, object]) -> str:
     """The SHA-256 that identifies a batch: of its provenance as JSON with sorted keys.
 
     It is the same for any number of trials, since a batch can be resumed with more.
@@ -57,71 +138,67 @@ def batch_digest(provenance: Mapping[str, Any]) -> str:
     return hashlib.sha256(json.dumps({**provenance, "trials": None}, sort_keys=True).encode()).hexdigest()
 
 
-def campaign_metadata(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
-    """Properties of a batch that its numbers do not show; ``systems`` are the prepared ones by variant.
-
-    ``group``, ``faults``, ``sweep``, ``draws_sha256`` of given draws and a ``draw_scheme`` that is no table (each where
-    there is any), ``description``, ``success`` (expression), ``metrics`` (expression, reduction, unit, description,
-    whether the value is true or false, and what else its reduction has), ``record`` (every, signals, trials, traces),
-    ``signals`` (unit and FMI type of what is recorded), ``targets`` (parameters target_position and target_velocity by
-    variant).
-    """
-    campaign = plan.campaign
+def campaign_metadata(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> CampaignMetadata:
+    """See `CampaignMetadata`."""
+    campaign, record = plan.campaign, plan.campaign.record
     signals = _signals(systems)
-    given = "" if plan.given is None else plan.given.sha256
-    optional = {
-        "group": campaign.group,
-        "faults": plan.fault_texts(),
-        "sweep": dict(campaign.sweeps),
-        "draws_sha256": given,
-        "draw_scheme": campaign.draw_scheme if plan.is_counted else "",
+    metadata: CampaignMetadata = {}
+    if campaign.group:
+        metadata["group"] = campaign.group
+    if faults := plan.fault_texts():
+        metadata["faults"] = faults
+    if campaign.sweeps:
+        metadata["sweep"] = dict(campaign.sweeps)
+    if plan.given is not None and plan.given.sha256:
+        metadata["draws_sha256"] = plan.given.sha256
+    if plan.is_counted:
+        metadata["draw_scheme"] = campaign.draw_scheme
+    metadata["description"] = campaign.description
+    metadata["success"] = campaign.success.text
+    metadata["metrics"] = {metric.name: _metric(metric, signals) for metric in campaign.metrics}
+    metadata["record"] = {
+        "every": record.every,
+        "signals": list(record.signals),
+        "trials": record.trials,
+        "traces": record.traces,
     }
-    return {name: fact for name, fact in optional.items() if fact} | {
-        "description": campaign.description,
-        "success": campaign.success.text,
-        "metrics": {metric.name: _metric(metric, signals) for metric in campaign.metrics},
-        "record": {
-            "every": campaign.record.every,
-            "signals": list(campaign.record.signals),
-            "trials": campaign.record.trials,
-            "traces": campaign.record.traces,
-        },
-        "signals": {name: fact for name, fact in signals.items() if _is_kept(plan, name)},
-        "targets": {variant: _targets(prepared) for variant, prepared in systems.items()},
+    metadata["signals"] = {
+        name: fact
+        for name, fact in signals.items()
+        if record.traces != "none" or name in record.final or name in record.signals
     }
+    metadata["targets"] = {variant: _targets(prepared) for variant, prepared in systems.items()}
+    return metadata
 
 
-def _metric(metric: Metric, signals: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+def _metric(metric: Metric, signals: Mapping[str, SignalMetadata]) -> MetricMetadata:
     expression = metric.expression
-    truth = expression.is_truth or signals.get(expression.text, {}).get("type") == "Boolean"
-    condition = {} if metric.condition is None else {"condition": metric.condition.text, "delay": metric.delay}
-    return condition | {
+    truth = expression.is_truth or (expression.text in signals and signals[expression.text]["type"] == "Boolean")
+    metadata: MetricMetadata = {
         "expression": expression.text,
         "reduction": metric.reduction,
         "unit": metric.unit,
         "description": metric.description,
         "truth": truth and metric.reduction in ("final", "min", "max", "first"),
     }
+    if metric.condition is None:
+        return metadata
+    return {"condition": metric.condition.text, "delay": metric.delay, **metadata}
 
 
-def _is_kept(plan: BatchPlan, name: str) -> bool:
-    record = plan.campaign.record
-    return record.traces != "none" or name in record.final or name in record.signals
-
-
-def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, dict[str, Any]]:
-    """Unit and type of every signal of any variant by name; None for a unit that is not declared."""
-    signals: dict[str, dict[str, Any]] = {}
+def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]:
+    """Unit and type of every signal of any variant by name."""
+    signals: dict[str, SignalMetadata] = {}
     for prepared in systems.values():
         network = prepared.network
         for component, fmu in network.fmus.items():
             for variable in fmu.variables.values():
                 if variable.causality in ("input", "output"):
-                    fact = {"unit": fmu.unit_of(variable), "type": variable.type}
+                    fact = SignalMetadata(unit=fmu.unit_of(variable), type=variable.type)
                     signals.setdefault(f"{component}.{variable.name}", fact)
         for node in network.nodes.values():
             if node.component is None and node.kind not in ("parameter", "calculatedParameter"):
-                fact = {"unit": node.unit.name if node.unit else None, "type": node.type_name or "Real"}
+                fact = SignalMetadata(unit=node.unit.name if node.unit else None, type=node.type_name or "Real")
                 signals.setdefault(node.name, fact)
     return signals
 

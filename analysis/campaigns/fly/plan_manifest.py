@@ -25,7 +25,7 @@ from ..spec.file import parse_campaign
 from ..spec.plan import BatchPlan
 from ..spec.source import CampaignSource
 from ..spec.sweeps import with_sweeps
-from .manifest import CONTENTS, Manifest, content_name, content_path
+from .manifest import CONTENTS, CampaignDocument, Manifest, SourceDocument, content_name, content_path
 from .shards.draws import read_draws
 from .shards.numbering import shard_size
 
@@ -47,8 +47,9 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
         return stored
 
     archive = first.archive
+    unlisted = dict.fromkeys(name for prepared in systems.values() for name in prepared.archive.besides)
     with chdir(plan.options.folder):  # from which paths are meant
-        files = {name: keep(archive.read(name, name), name) for name in {**archive.files, **_read_besides(systems)}}
+        files = {name: keep(archive.read(name, name), name) for name in (*archive.files, *unlisted)}
         elsewhere = {
             requested: keep(read(), requested)
             for prepared in systems.values()
@@ -65,18 +66,27 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
     campaign = plan.campaign
     options = {name: value for name, value in asdict(plan.options).items() if name not in NOT_ASKED}
     fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
+    document: CampaignDocument = {
+        **_source(plan.source, campaign.file, keep),
+        "compare": {slot: list(names) for slot, names in campaign.compare.items()},
+        "compared_by": plan.compared_by,
+    }
+    if campaign.selected is not None:
+        document["selected"] = campaign.selected
+    if campaign.sweeps:
+        document["sweep"] = dict(campaign.sweeps)
     manifest = Manifest(
         perilune=version("perilune"),
-        system=_system(archive) | {"files": files},
-        elsewhere=elsewhere,
-        campaign={
-            "label": campaign.file,
-            **_source(plan.source, keep),
-            "compare": {slot: list(names) for slot, names in campaign.compare.items()},
-            "compared_by": plan.compared_by,
-            **({} if campaign.selected is None else {"selected": campaign.selected}),
-            **({"sweep": dict(campaign.sweeps)} if campaign.sweeps else {}),
+        system={
+            "name": archive.name,
+            "label": archive.label,
+            "description": archive.description,
+            "sha256": archive.digest,
+            "fmu": archive.path.name if archive.is_fmu else None,
+            "files": files,
         },
+        elsewhere=elsewhere,
+        campaign=document,
         options=options,
         faults=[str(fault) for fault in plan.faults],
         series=series,
@@ -96,21 +106,11 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
     return manifest, contents
 
 
-def _source(source: CampaignSource, keep: Callable[[bytes, str], str]) -> dict[str, Any]:
+def _source(source: CampaignSource, label: str, keep: Callable[[bytes, str], str]) -> SourceDocument:
     """The contents of a campaign's file, and of those that it extends."""
-    extends = [{"label": part.label, **_source(part, keep)} for part in source.extends]
-    own = {"content": keep(source.raw, source.label)}
-    return own | {"extends": extends, "position": source.position} if extends else own
-
-
-def _system(archive: SystemArchive) -> dict[str, Any]:
-    return {
-        "name": archive.name,
-        "label": archive.label,
-        "description": archive.description,
-        "sha256": archive.digest,
-        "fmu": archive.path.name if archive.is_fmu else None,
-    }
+    extends = [_source(part, part.label, keep) for part in source.extends]
+    own: SourceDocument = {"label": label, "content": keep(source.raw, source.label)}
+    return {**own, "extends": extends, "position": source.position} if extends else own
 
 
 def _table(columns: Mapping[str, np.ndarray]) -> bytes:
@@ -118,11 +118,6 @@ def _table(columns: Mapping[str, np.ndarray]) -> bytes:
     sink = pyarrow.BufferOutputStream()
     pyarrow.parquet.write_table(pyarrow.table(dict(columns)), sink)
     return bytes(sink.getvalue())
-
-
-def _read_besides(systems: Mapping[str, PreparedSystem]) -> dict[str, None]:
-    """Files of a system's folder that its list of files lacks, and that some variant has read."""
-    return {name: None for prepared in systems.values() for name in prepared.archive.besides}
 
 
 def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: Path | None = None) -> BatchPlan:
@@ -146,13 +141,17 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: 
     options: dict[str, Any] = {
         name: tuple(value) if isinstance(value, list) else value for name, value in manifest.options.items()
     }
+    series = None
+    if manifest.series is not None:
+        columns = _read_columns(contents, manifest.series)
+        series = InputSeries(manifest.series["label"], manifest.series["sha256"], columns.pop("time"), columns)
     plan = BatchPlan(
         manifest.system["label"],
         campaign,
         SystemOptions(**options, folder=str(contents)),
         source.sha256,
         faults=tuple(parse_fault(text) for text in manifest.faults),
-        series=None if manifest.series is None else _restore_series(contents, manifest.series),
+        series=series,
         watch=Watch(manifest.timeout, log),
         compared_by=manifest.campaign["compared_by"],
         source=source,
@@ -160,7 +159,9 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: 
         archive=_restore_archive(contents, manifest),
     )
     if manifest.draws is not None:
-        plan = plan.of_samples(_restore_given(contents, manifest.draws)).of_first(manifest.trials)
+        draw_columns = part_streams(_read_columns(contents, manifest.draws))
+        given = GivenDraws(*draw_columns, manifest.draws["label"], manifest.draws["sha256"])
+        plan = plan.of_samples(given).of_first(manifest.trials)
     elif not plan.is_counted:
         stored_table = read_draws((draws or folder).absolute(), manifest.trials, plan.campaign.input_names())
         plan = replace(plan, known_draws=stored_table)  # made anew they could differ
@@ -169,14 +170,14 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: 
     return plan
 
 
-def _restore_source(contents: Path, campaign: Mapping[str, Any]) -> CampaignSource:
+def _restore_source(contents: Path, campaign: SourceDocument) -> CampaignSource:
     extends = tuple(_restore_source(contents, part) for part in campaign.get("extends", []))
     data = content_path(contents, campaign["content"]).read_bytes()
     return CampaignSource(campaign["label"], data, extends, campaign.get("position", 0))
 
 
 def _restore_archive(contents: Path, manifest: Manifest) -> SystemArchive:
-    system: Mapping[str, Any] = manifest.system
+    system = manifest.system
     files = {name: content_path(contents, content) for name, content in system["files"].items()}
     return SystemArchive(
         name=system["name"],
@@ -189,13 +190,6 @@ def _restore_archive(contents: Path, manifest: Manifest) -> SystemArchive:
     )
 
 
-def _restore_series(contents: Path, series: Mapping[str, str]) -> InputSeries:
-    table = pyarrow.parquet.read_table(content_path(contents, series["content"]))
-    columns = {name: table[name].to_numpy() for name in table.column_names}
-    return InputSeries(series["label"], series["sha256"], columns.pop("time"), columns)
-
-
-def _restore_given(contents: Path, given: Mapping[str, str]) -> GivenDraws:
-    table = pyarrow.parquet.read_table(content_path(contents, given["content"]))
-    columns = {name: table[name].to_numpy() for name in table.column_names}
-    return GivenDraws(*part_streams(columns), given["label"], given["sha256"])
+def _read_columns(contents: Path, table: Mapping[str, str]) -> dict[str, np.ndarray]:
+    read = pyarrow.parquet.read_table(content_path(contents, table["content"]))
+    return {name: read[name].to_numpy() for name in read.column_names}

@@ -20,7 +20,7 @@ from ..tables import assumption_lines, faults_line, summary_text
 from ..trials import Trials
 from .campaign import Campaign
 from .folder import tidy
-from .metadata import batch_digest
+from .metadata import Provenance, batch_digest
 from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
 from .shards.numbering import Numbering, shard_size
 from .store import FlownRows
@@ -35,7 +35,7 @@ class BatchResult:
 
     plan: BatchPlan
     rows: Mapping[str, FlownRows]
-    provenance: dict[str, Any]
+    provenance: Provenance
     folder: Path | None = None
 
     @classmethod
@@ -81,7 +81,7 @@ class BatchResult:
         table = trial_table(self.plan, self.trials)
         return table.replace_schema_metadata({"perilune": json.dumps(self.provenance)})
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """The machine-readable result: provenance and the summary of each variant."""
         return {**self.provenance, "variants": to_json(self.summary)}
 
@@ -89,7 +89,7 @@ class BatchResult:
         """The summary for a terminal."""
         faults = self.plan.fault_texts()
         lines = [summary_text(self.summary, self.plan.campaign.group), *([faults_line(faults)] if faults else [])]
-        return "\n".join([*lines, *assumption_lines(self.provenance)])
+        return "\n".join([*lines, *assumption_lines(self.provenance.get("assumptions", ()))])
 
     def write(self, folder: Path) -> None:
         """Write trials/, draws.parquet, summary.json, and traces/ where the campaign keeps them.

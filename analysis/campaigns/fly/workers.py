@@ -15,7 +15,7 @@ from concurrent.futures import wait as wait_for
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from loky import ProcessPoolExecutor, cpu_count
 from loky.process_executor import TerminatedWorkerError
@@ -217,5 +217,5 @@ def _leave() -> None:
         leave(0)
 
 
-def _call(function: Callable[..., Result], task: tuple) -> Any:
+def _call(function: Callable[..., Result], task: tuple) -> Result:
     return function(_local.flyer, *task)

@@ -5,15 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 from ...common.errors import InputError
 from ..fly.campaign import open_folder
 from ..fly.manifest import FILE as MANIFEST
 from ..fly.manifest import WRITE
-from ..fly.metadata import batch_digest
+from ..fly.metadata import Provenance, batch_digest
 from ..fly.shards.files import AGAIN, FOLDER, SUMMARY, describe_columns, trials_in
-from .stored import read_summary
+from .stored import read_summary, without_summary
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,7 @@ class ResultFolder:
     """
 
     folder: Path
-    provenance: dict[str, Any]
+    provenance: Provenance
     is_whole: bool
     paths: tuple[Path, ...]
 
@@ -84,8 +83,7 @@ def read_folder(folder: Path) -> ResultFolder:
     folder = folder.absolute()
     paths = tuple(path for path in sorted((folder / FOLDER).glob("*.parquet")) if path.stem.isdecimal())
     if (folder / SUMMARY).is_file():
-        document = read_summary(folder / SUMMARY)
-        return ResultFolder(folder, {key: value for key, value in document.items() if key != "variants"}, True, paths)
+        return ResultFolder(folder, without_summary(read_summary(folder / SUMMARY)), True, paths)
     if not (folder / MANIFEST).is_file():
         raise InputError(folder, MANIFEST, "not found", WRITE)
     return ResultFolder(folder, open_folder(folder).provenance, False, paths)

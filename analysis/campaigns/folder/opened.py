@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -17,6 +17,7 @@ from pyarrow.fs import LocalFileSystem
 
 from ...common.errors import suggestion
 from ..draws.given import stream_component
+from ..fly.metadata import Provenance
 from ..fly.shards.files import read_table
 from ..statistics import quantile
 from .folder import ResultFolder
@@ -44,12 +45,12 @@ FAULT = {
 }
 
 
-def columns_of(names: Iterable[str], provenance: Mapping[str, Any]) -> dict[str, Column]:
+def columns_of(names: Iterable[str], provenance: Provenance) -> dict[str, Column]:
     """Unit and meaning of columns by name, as ``provenance`` of their campaign says."""
     return {name: _column(name, provenance) for name in names}
 
 
-def _column(name: str, provenance: Mapping[str, Any]) -> Column:
+def _column(name: str, provenance: Provenance) -> Column:
     if name in FLIGHT:
         return FLIGHT[name]
     if name == "success":
@@ -83,7 +84,7 @@ class OpenedResults:
         self.source = source
 
     @property
-    def provenance(self) -> dict[str, Any]:
+    def provenance(self) -> Provenance:
         """What the numbers depend on, as in summary.json: system, campaign, seed, hashes."""
         return self.source.provenance
 

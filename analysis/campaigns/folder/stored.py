@@ -8,7 +8,6 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyarrow
@@ -18,7 +17,7 @@ from ...common.errors import InputError
 from ...runtime.system.names import split_name
 from ..fly.manifest import FILE as MANIFEST
 from ..fly.manifest import WRITE
-from ..fly.metadata import batch_digest
+from ..fly.metadata import Provenance, batch_digest
 from ..fly.shards.files import (
     AGAIN,
     DRAWS,
@@ -37,6 +36,13 @@ from ..spec.campaign import Group, Metric, groups_of
 from ..spec.expressions import Expression
 from ..trials import Trials, join_trials
 
+
+class SummaryDocument(Provenance, total=False):
+    """summary.json: the provenance, and the summary by variant."""
+
+    variants: Mapping[str, object]
+
+
 FACTS = (
     "system", "system_sha256", "campaign", "campaign_sha256", "parameter_sets", "set", "variant", "trials", "seed",
     "step", "algorithm", "fmus", "perilune", "description", "success", "metrics", "record", "signals", "targets",
@@ -53,7 +59,7 @@ class StoredBatch:
     """
 
     folder: Path
-    document: dict[str, Any]
+    document: SummaryDocument
     metrics: tuple[Metric, ...]
     draws: dict[str, np.ndarray]
     variants: dict[str, Trials]
@@ -61,9 +67,9 @@ class StoredBatch:
     strangers: int
 
     @property
-    def provenance(self) -> dict[str, Any]:
-        """What the batch's numbers depend on: summary.json without the summary."""
-        return {key: value for key, value in self.document.items() if key != "variants"}
+    def provenance(self) -> Provenance:
+        """What the batch's numbers depend on."""
+        return without_summary(self.document)
 
     @property
     def group(self) -> str | None:
@@ -103,8 +109,7 @@ def read_batch(folder: Path) -> StoredBatch:
     for name in (SUMMARY, FOLDER):
         _check_there(folder, name)
     document = read_summary(folder / SUMMARY)
-    provenance = {key: value for key, value in document.items() if key != "variants"}
-    batch = batch_digest(provenance)
+    batch = batch_digest(without_summary(document))
     shards = _read_shards(folder, batch, document["trials"])
     metrics = _metrics(document, folder / SUMMARY)
     columns = _draws(folder, shards, document.get("draw_scheme") == "counter")
@@ -159,7 +164,14 @@ def _read_shards(folder: Path, batch: str, trials: int) -> dict[Path, pyarrow.Ta
     return tables
 
 
-def read_summary(path: Path) -> dict[str, Any]:
+def without_summary(document: SummaryDocument) -> Provenance:
+    """summary.json without the summary: what the batch's numbers depend on."""
+    entries = document.copy()
+    del entries["variants"]
+    return entries
+
+
+def read_summary(path: Path) -> SummaryDocument:
     """The content of summary.json. Raises InputError for what is none, or of an older version."""
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
@@ -174,7 +186,7 @@ def read_summary(path: Path) -> dict[str, Any]:
     return document
 
 
-def _metrics(document: Mapping[str, Any], path: Path) -> tuple[Metric, ...]:
+def _metrics(document: SummaryDocument, path: Path) -> tuple[Metric, ...]:
     try:
         return tuple(
             Metric(
@@ -183,17 +195,15 @@ def _metrics(document: Mapping[str, Any], path: Path) -> tuple[Metric, ...]:
                 reduction=fact["reduction"],
                 unit=fact["unit"],
                 description=fact["description"],
-                condition=_condition(fact, (str(path), f"metrics.{name}.condition")),
+                condition=Expression(fact["condition"], (str(path), f"metrics.{name}.condition"))
+                if "condition" in fact
+                else None,
                 delay=fact.get("delay", 0.0),
             )
             for name, fact in document["metrics"].items()
         )
     except (AttributeError, KeyError, TypeError) as error:
         raise InputError(path, "metrics", "not as perilune batch writes them", AGAIN) from error
-
-
-def _condition(fact: Mapping[str, Any], where: tuple[str, str]) -> Expression | None:
-    return Expression(fact["condition"], where) if "condition" in fact else None
 
 
 def _variants(
@@ -227,7 +237,7 @@ def _column(draw: str) -> str:
     return "trial" if draw == "trial" else f"draw.{draw}"
 
 
-def _check_summary(document: Mapping[str, Any], variants: Mapping[str, Trials], path: Path) -> None:
+def _check_summary(document: SummaryDocument, variants: Mapping[str, Trials], path: Path) -> None:
     """Refuse a summary that does not count what the table holds."""
     if list(document["variants"]) != list(variants):
         raise InputError(path, "variants", "not those of trials/", AGAIN)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
@@ -41,7 +41,7 @@ def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
     systems = list(systems)
     _check_streams(plan, systems)
     sampled = set(plan.campaign.input_names())
-    varied = [(prepared, _variables(plan, prepared, sampled)) for prepared in systems]
+    varied = [(prepared, _varied_variables(plan, prepared, sampled)) for prepared in systems]
     first = 0
     for part in plan.draw_parts():
         trials = plan.values_from(part, range(first, first + part.trials))
@@ -65,7 +65,15 @@ def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
             raise InputError(*where, "no component that draws random numbers has this name", remedy)
 
 
-def _variables(plan: BatchPlan, prepared: PreparedSystem, drawn: set[str]) -> dict[str, Any]:
+class _Variable(NamedTuple):
+    """The FMI type of a variable that is varied, and its limits."""
+
+    type: str
+    minimum: float
+    maximum: float
+
+
+def _varied_variables(plan: BatchPlan, prepared: PreparedSystem, drawn: set[str]) -> dict[str, _Variable]:
     """The variables that draws set, by name; what is varied and is no parameter is refused."""
     variables = {name: _vary(plan, prepared, name) for name in variant_names(plan, prepared).varied}
     return {name: variable for name, variable in variables.items() if name in drawn}
@@ -87,7 +95,7 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
             raise InputError("`set`", name, "the campaign draws it in every trial", "change the campaign, or `seed`")
 
 
-def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> Any:
+def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> _Variable:
     """The variable that is varied under a name; refused where it is no parameter, or cannot be drawn."""
     place = plan.campaign.place_of(name)
     known: list[str] = []
@@ -104,18 +112,17 @@ def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> Any:
     variable = prepared.network.fmus[component].variables[name.removeprefix(f"{component}.")]
     if variable.type == "String" and name in plan.campaign.input_names():
         raise InputError(place, name, "a String cannot be drawn", "draw numbers only")
-    return variable
+    minimum = -np.inf if variable.min is None else float(variable.min)
+    return _Variable(variable.type, minimum, np.inf if variable.max is None else float(variable.max))
 
 
-def _check_values(plan: BatchPlan, name: str, variable: Any, values: np.ndarray, first: int) -> None:
+def _check_values(plan: BatchPlan, name: str, variable: _Variable, values: np.ndarray, first: int) -> None:
     """Refuse values that a parameter cannot have, of trials from ``first`` on."""
     place = plan.campaign.place_of(name)
     if variable.type != "Real" and np.any(values != np.round(values)):
         remedy = "sweep whole numbers" if name in plan.campaign.sweeps else "use a choice"
         raise InputError(place, name, f"drawn values are not whole, it is {variable.type}", remedy)
-    low, high = (
-        limit if bound is None else float(bound) for bound, limit in ((variable.min, -np.inf), (variable.max, np.inf))
-    )
+    _, low, high = variable
     outside = np.flatnonzero((values < low) | (values > high))
     if outside.size:
         problem = f"{values[outside[0]]:g} in trial {first + outside[0]} is outside {low:g} to {high:g}"

@@ -78,8 +78,9 @@ class _UniformDesign(_Interval, Design):
         points = cls._points(draws, trials, seed, file)
         whole = {}
         for index, draw in enumerate(draws):
-            low, high = draw.distribution.arguments["low"], draw.distribution.arguments["high"]
-            whole[draw.name] = low + (high - low) * points[index]
+            interval = draw.distribution
+            assert isinstance(interval, _Interval)  # as all draws of this kind
+            whole[draw.name] = interval.low + (interval.high - interval.low) * points[index]
         return lambda part: {name: column[part.start : part.stop] for name, column in whole.items()}
 
     @classmethod

@@ -14,9 +14,10 @@ import functools
 import math
 import textwrap
 from collections.abc import Callable, Mapping
-from typing import Any, NoReturn
+from typing import NoReturn
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...common.elementary import elementary
 from ...common.errors import InputError, suggestion
@@ -33,17 +34,10 @@ def _over(function: Callable) -> Callable:
 
 # name: (function, fewest arguments, most arguments or None for any number)
 FUNCTIONS: dict[str, tuple[Callable, int, int | None]] = {
-    "sin": (elementary("sin"), 1, 1),
-    "cos": (elementary("cos"), 1, 1),
-    "tan": (elementary("tan"), 1, 1),
-    "asin": (elementary("asin"), 1, 1),
-    "acos": (elementary("acos"), 1, 1),
-    "atan": (elementary("atan"), 1, 1),
+    **{name: (elementary(name), 1, 1) for name in ("sin", "cos", "tan", "asin", "acos", "atan")},
     "atan2": (elementary("atan2"), 2, 2),
     "sqrt": (np.sqrt, 1, 1),
-    "exp": (elementary("exp"), 1, 1),
-    "log": (elementary("log"), 1, 1),
-    "log10": (elementary("log10"), 1, 1),
+    **{name: (elementary(name), 1, 1) for name in ("exp", "log", "log10")},
     "abs": (np.abs, 1, 1),
     "min": (_over(np.minimum), 2, None),
     "max": (_over(np.maximum), 2, None),
@@ -69,7 +63,7 @@ COMPARISONS: dict[type[ast.cmpop], Callable] = {
 }
 
 
-def _truth(value: Any) -> Any:
+def _truth(value: np.ndarray) -> np.ndarray:
     """Booleans as doubles: numpy would add two of them to True instead of 2, and refuses to subtract them."""
     return np.multiply(value, 1.0)
 
@@ -80,7 +74,7 @@ def _chain(operators: list[Callable]) -> Callable:
     if len(operators) == 1:
         return lambda one, other: _truth(operators[0](one, other))
 
-    def compare(*operands: Any) -> Any:
+    def compare(*operands: np.ndarray) -> np.ndarray:
         links = zip(operators, operands, operands[1:], strict=False)
         return _truth(functools.reduce(np.logical_and, [operator(a, b) for operator, a, b in links]))
 
@@ -132,7 +126,7 @@ class _Translator:
         self.text = text
         self.where = where
         self.slots: dict[str, str] = {}
-        self.namespace: dict[str, Any] = {"__builtins__": {}, **OPERATIONS}
+        self.namespace: dict[str, object] = {"__builtins__": {}, **OPERATIONS}
 
     def refuse(self, problem: str, remedy: str = f"use {ALLOWED}") -> NoReturn:
         raise InputError(*self.where, f"{problem} in {textwrap.shorten(self.text, 100)!r}", remedy)
@@ -246,7 +240,7 @@ class Expression:
             isinstance(body, ast.UnaryOp) and isinstance(body.op, ast.Not)
         )
 
-    def evaluate(self, values: Mapping[str, Any]) -> float | np.ndarray:
+    def evaluate(self, values: Mapping[str, ArrayLike]) -> float | np.ndarray:
         """The value: a float, or an array of doubles where a value it uses is an array.
 
         ``values`` maps at least ``names`` to floats, integers, booleans or arrays of one shape.

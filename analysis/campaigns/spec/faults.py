@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -74,11 +73,11 @@ def read_fault(name: str, table: Table) -> CampaignFault:
     )
 
 
-def _value(table: Table, key: str, value: Any) -> Expression | bool:
+def _value(table: Table, key: str, value: object) -> Expression | bool:
     return value if isinstance(value, bool) else _formula(table, key, value)
 
 
-def _formula(table: Table, key: str, value: Any) -> Expression:
+def _formula(table: Table, key: str, value: object) -> Expression:
     """A finite number, or a text that is an expression."""
     if isinstance(value, str):
         return expression(table, key, value)

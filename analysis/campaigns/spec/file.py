@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
 
 from ...common.errors import InputError, suggestion
 from ..draws.declared import Draw
@@ -65,7 +64,7 @@ def _check_names_in(formula: Expression, known: Iterable[str], kind: str) -> Non
         raise InputError(*formula.where, f"{unknown!r} is not {kind}", suggestion(unknown, known))
 
 
-def _pair(table: Table, key: str, value: Any) -> tuple[float, float]:
+def _pair(table: Table, key: str, value: object) -> tuple[float, float]:
     ends = sequence(bound)(table, key, value)
     if len(ends) != 2 or not ends[0] < ends[1]:
         raise table.error(key, f"{value!r} is not an interval", "write [low, high] with low < high")
@@ -91,7 +90,7 @@ def _metric(name: str, table: Table) -> Metric:
     )
 
 
-def _seconds_later(table: Table, key: str, value: Any) -> float:
+def _seconds_later(table: Table, key: str, value: object) -> float:
     seconds = number(table, key, value)
     if seconds < 0.0:
         raise table.error(key, f"{value!r} is before the condition", "give seconds, 0 or more")
@@ -232,15 +231,18 @@ def read_settings(table: Table, dispersed: Sequence[str]) -> dict[str, Setting]:
     """The values of [set]. Raises InputError."""
     settings: dict[str, Setting] = {}
     for name, value in table.flat():
-        numbers = isinstance(value, list) and value and all(isinstance(item, float | int) for item in value)
-        if not numbers and not isinstance(value, float | int | bool | str):
-            remedy = "give a number, true, false or a text; of a vector a list of numbers"
-            raise table.error(name, f"{value!r} is no value", remedy)
+        match value:
+            case bool() | float() | int() | str():
+                settings[name] = value
+            case list() if value and all(isinstance(item, float | int) for item in value):
+                settings[name] = value
+            case _:
+                remedy = "give a number, true, false or a text; of a vector a list of numbers"
+                raise table.error(name, f"{value!r} is no value", remedy)
         if "." not in name:
             raise table.error(name, "names no component", "write component.variable = value")
         if name in dispersed:
             raise table.error(name, "also dispersed or derived", "keep one of the two")
-        settings[name] = value
     return settings
 
 

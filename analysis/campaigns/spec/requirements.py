@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import Any
 
 from ...common.errors import suggestion
 from ..draws.declared import Design, Draw
@@ -75,17 +74,18 @@ def _requirement(name: str, table: Table, metrics: Collection[str]) -> Requireme
     )
 
 
-def _share(table: Table, key: str, value: Any) -> float:
+def _share(table: Table, key: str, value: object) -> float:
     """A number between 0 and 1, or a text in per cent: "99.87 %"."""
-    percent = isinstance(value, str) and value.strip().endswith("%")
-    fraction = number(table, key, value.strip()[:-1] if percent else value) / (100.0 if percent else 1.0)
+    written = value.strip() if isinstance(value, str) else ""
+    percent = written.endswith("%")
+    fraction = number(table, key, written[:-1] if percent else value) / (100.0 if percent else 1.0)
     if not 0.0 < fraction < 1.0:
         problem = f"{value!r} is not between 0 and 1"
         raise table.error(key, problem, 'write a share of 1, or per cent in quotes: 0.9987 or "99.87 %"')
     return fraction
 
 
-def _confidence(table: Table, key: str, value: Any) -> float:
+def _confidence(table: Table, key: str, value: object) -> float:
     confidence = _share(table, key, value)
     if confidence < 0.5:
         raise table.error(key, f"{value!r}: below a half, met and not met could both be shown", 'write 0.9, or "90 %"')

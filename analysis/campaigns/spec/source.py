@@ -10,7 +10,6 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive
@@ -53,7 +52,7 @@ class CampaignSource:
         The entries of [draw], [metric], [requirement], [fault], [scatter] and [configuration] are tables, those of
         [set], [derive], [compare], [record], [group] and [success] are values. Raises InputError.
         """
-        content: dict[str, Any] = {}
+        content: dict[str, object] = {}
         origins: dict[str, Origin] = {}
         for index, part in enumerate((*self.extends, self)):
             if index == self.position:
@@ -64,7 +63,7 @@ class CampaignSource:
                 origins |= inherited.origins
         return Table(content, self.label, origins=origins)
 
-    def _add_own(self, content: dict[str, Any], origins: dict[str, Origin]) -> None:
+    def _add_own(self, content: dict[str, object], origins: dict[str, Origin]) -> None:
         own = parse_toml(self.raw, self.label)
         own.pop(EXTENDS, None)
         _merge(content, own, self.label)
@@ -126,7 +125,7 @@ def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes,
     raise InputError(origin, EXTENDS, f"no file {name}", remedy)
 
 
-def parse_toml(raw: bytes, label: str) -> dict[str, Any]:
+def parse_toml(raw: bytes, label: str) -> dict[str, object]:
     """The content of a TOML file. Raises InputError."""
     try:
         return tomllib.loads(raw.decode("utf-8"))
@@ -136,7 +135,7 @@ def parse_toml(raw: bytes, label: str) -> dict[str, Any]:
         raise InputError(label, "", f"not TOML: {error}", "correct the file there") from error
 
 
-def _merge(content: dict[str, Any], later: Mapping[str, Any], label: str) -> None:
+def _merge(content: dict[str, object], later: Mapping[str, object], label: str) -> None:
     """Put the entries of a later file into ``content``: the tables entry by entry, everything else whole."""
     for key, value in later.items():
         if isinstance(value, Mapping):

@@ -22,7 +22,7 @@ class Table:
 
     def __init__(
         self,
-        content: Mapping[str, Any],
+        content: Mapping[str, object],
         file: str,
         element: str = "",
         origins: Mapping[str, tuple[str, int]] | None = None,
@@ -56,7 +56,7 @@ class Table:
             if key not in names:
                 raise self.error(key, "unknown key", f"allowed here: {', '.join(names)}")
 
-    def get(self, key: str, kind: Callable[[Table, str, Any], T], default: T = REQUIRED) -> T:
+    def get(self, key: str, kind: Callable[[Table, str, object], T], default: T = REQUIRED) -> T:
         """The value of ``key`` read by ``kind`` (`text`, `number`, ...), or ``default`` where it is absent."""
         if key in self.content:
             return kind(self, key, self.content[key])
@@ -71,17 +71,17 @@ class Table:
             raise self.error(key, "not a table", f"write [{self.place(key)}] and its keys below it")
         return Table(value, self.file, self.place(key), self.origins)
 
-    def flat(self, of_tables: bool = False) -> Iterator[tuple[str, Any]]:
+    def flat(self, of_tables: bool = False) -> Iterator[tuple[str, object]]:
         """Name and value of the entries; nested tables become dotted names: a.b = 1 is the same as "a.b" = 1.
 
         With ``of_tables`` the entries are tables themselves, and only tables of tables are unfolded.
         """
 
-        def walk(prefix: str, content: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+        def walk(prefix: str, content: Mapping[str, object]) -> Iterator[tuple[str, object]]:
             for key, value in content.items():
-                inner = value.values() if isinstance(value, dict) else ()
-                if inner and (not of_tables or all(isinstance(entry, dict) for entry in inner)):
-                    yield from walk(f"{prefix}{key}.", value)
+                inner = value if isinstance(value, dict) else {}
+                if inner and (not of_tables or all(isinstance(entry, dict) for entry in inner.values())):
+                    yield from walk(f"{prefix}{key}.", inner)
                 else:
                     yield prefix + key, value
 
@@ -93,21 +93,21 @@ class Table:
             yield name, value
 
 
-def text(table: Table, key: str, value: Any) -> str:
+def text(table: Table, key: str, value: object) -> str:
     """A string that is not empty."""
     if not isinstance(value, str) or not value.strip():
         raise table.error(key, f"{value!r} is not a text", 'write it in quotes: "..."')
     return value.strip()
 
 
-def integer(table: Table, key: str, value: Any) -> int:
+def integer(table: Table, key: str, value: object) -> int:
     """A whole number."""
     if isinstance(value, bool) or not isinstance(value, int):
         raise table.error(key, f"{value!r} is not a whole number", "write an integer")
     return value
 
 
-def bound(table: Table, key: str, value: Any) -> float:
+def bound(table: Table, key: str, value: object) -> float:
     """A number, infinite ones included, or a text that is a constant expression, such as "-pi/4"."""
     if isinstance(value, str):
         formula = Expression(value, table.where(key))
@@ -119,7 +119,7 @@ def bound(table: Table, key: str, value: Any) -> float:
     return float(value)
 
 
-def number(table: Table, key: str, value: Any) -> float:
+def number(table: Table, key: str, value: object) -> float:
     """A finite number, or a text that is a constant expression."""
     read = bound(table, key, value)
     if not math.isfinite(read):
@@ -127,10 +127,10 @@ def number(table: Table, key: str, value: Any) -> float:
     return read
 
 
-def sequence(kind: Callable[[Table, str, Any], T]) -> Callable[[Table, str, Any], tuple[T, ...]]:
+def sequence(kind: Callable[[Table, str, object], T]) -> Callable[[Table, str, object], tuple[T, ...]]:
     """An array of at least one value, each of one kind."""
 
-    def read(table: Table, key: str, value: Any) -> tuple[T, ...]:
+    def read(table: Table, key: str, value: object) -> tuple[T, ...]:
         if not isinstance(value, list) or not value:
             raise table.error(key, f"{value!r} is not a list of values", "write [a, b, ...] with one or more values")
         return tuple(kind(table, f"{key}[{index + 1}]", entry) for index, entry in enumerate(value))
@@ -138,12 +138,12 @@ def sequence(kind: Callable[[Table, str, Any], T]) -> Callable[[Table, str, Any]
     return read
 
 
-def numbers(table: Table, key: str, value: Any) -> tuple[float, ...]:
+def numbers(table: Table, key: str, value: object) -> tuple[float, ...]:
     """An array of at least one finite number."""
     return sequence(number)(table, key, value)
 
 
-def names(table: Table, key: str, value: Any) -> tuple[str, ...]:
+def names(table: Table, key: str, value: object) -> tuple[str, ...]:
     """An array of at least one text, none of them twice."""
     listed = sequence(text)(table, key, value)
     for name in listed:
@@ -152,15 +152,15 @@ def names(table: Table, key: str, value: Any) -> tuple[str, ...]:
     return listed
 
 
-def expression(table: Table, key: str, value: Any) -> Expression:
+def expression(table: Table, key: str, value: object) -> Expression:
     """A text that is an expression, see `Expression`."""
     return Expression(text(table, key, value), table.where(key))
 
 
-def choice_of(*allowed: str) -> Callable[[Table, str, Any], str]:
+def choice_of(*allowed: str) -> Callable[[Table, str, object], str]:
     """One of the texts ``allowed``."""
 
-    def read(table: Table, key: str, value: Any) -> str:
+    def read(table: Table, key: str, value: object) -> str:
         if value not in allowed:
             raise table.error(key, f"{value!r} is not known", f"use one of {', '.join(allowed)}")
         return value

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -102,15 +103,21 @@ def bars_of(result: SensitivityResult, metric: str) -> list[Bar]:
         Bar(
             name,
             entry["total"],
-            tuple(entry["total_interval"]),
+            _ends(entry["total_interval"]),
             entry["first"],
-            tuple(entry["first_interval"]),
+            _ends(entry["first_interval"]),
             entry["rank"],
         )
         for name, entry in result.of(metric).items()
         if "total" in entry
     ]
     return sorted(bars, key=lambda bar: -bar.total)
+
+
+def _ends(interval: list[float | None]) -> tuple[float, float]:
+    """The ends of an interval, nan where JSON has none."""
+    low, high = (math.nan if end is None else end for end in interval)
+    return low, high
 
 
 def index_panels(result: SensitivityResult) -> list[Panel]:

@@ -103,14 +103,14 @@ def fresh_cells(result: WorstResult) -> FreshCells | None:
     """What fresh noise does to the worst case; None where the noise is not random."""
     if result.fresh is None or result.over is None:
         return None
-    fresh = result.document()["fresh"]
-    worst, quantile = (with_unit(fresh[name], result.unit) for name in ("worst", "at_quantile"))
+    fresh = result.fresh.document(result.as_json)
+    worst, quantile = (with_unit(number, result.unit) for number in (fresh["worst"], fresh["at_quantile"]))
     return FreshCells(fresh["realisations"], worst, result.over.name, quantile)
 
 
 def replays_of(result: WorstResult, folder: Path | None) -> list[tuple[str, str]]:
     """The command that flies the worst case again; none where nothing was written."""
-    replay = result.document(folder).get("replay")
+    replay = result.replay(folder, 0)
     return [("worst case", replay)] if replay else []
 
 

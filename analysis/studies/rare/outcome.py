@@ -6,14 +6,14 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import NotRequired
 
 import numpy as np
 
 from ...campaigns.tables import align_columns, assumption_lines
 from ...common.percent import short_percent
 from ..failure import Failure
-from ..flown import StudyResult, strict
+from ..flown import FlightDocument, StudyResult, strict
 from ..noise import noise_line
 from ..units import unit_of_expression, with_unit
 from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
@@ -21,6 +21,20 @@ from .uncertainty import CONFIDENCE
 
 TOLD = 5  # failures
 APART = 1.0  # standard deviations: a failure nearer to a more probable one is not listed
+
+
+class FailedFlight(FlightDocument):
+    """A row of failures.parquet: ``trial`` is its number.
+
+    ``distance`` is in standard deviations from the medians of the draws, as independent normal ones. Of noise that
+    is random, ``streams`` are the trials whose noise each component had.
+    """
+
+    trial: int
+    distance: float
+    margin: float | None
+    streams: NotRequired[dict[str, int]]
+    replay: NotRequired[str]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -71,22 +85,16 @@ class RareResult(StudyResult):
         return f"levels end at level {place}: {rate} % of the noise moves are accepted, below {minimum} %{lowest}"
 
     @cached_property
-    def failures(self) -> list[dict[str, Any]]:
-        """The most probable failed flights: ``trial`` of failures.parquet, ``distance``, ``margin``, draws and metrics.
+    def failures(self) -> list[FailedFlight]:
+        """The most probable failed flights."""
+        return [self._failure(trial, row) for trial, row in enumerate(self._places.tolist())]
 
-        The distance is in standard deviations from the medians of the draws, as independent normal ones. Of noise that
-        is random, ``streams`` are the trials whose noise each component had.
-        """
-        return [
-            {
-                "trial": trial,
-                "distance": float(np.linalg.norm(self.flown.points[place])),
-                "margin": strict(self.flown.values[place]),
-                **self.flown.fact(place),
-                **({"streams": self.flown.streams(int(place))} if self.noise.sources else {}),
-            }
-            for trial, place in enumerate(self._places)
-        ]
+    def _failure(self, trial: int, row: int) -> FailedFlight:
+        distance, margin = float(np.linalg.norm(self.flown.points[row])), strict(self.flown.values[row])
+        failure = FailedFlight(trial=trial, distance=distance, margin=margin, **self.flown.fact(row))
+        if self.noise.sources:
+            failure["streams"] = self.flown.streams(row)
+        return failure
 
     @cached_property
     def _places(self) -> np.ndarray:
@@ -112,7 +120,7 @@ class RareResult(StudyResult):
         low, high = self.interval
         return {"probability": fraction, "interval[1]": low, "interval[2]": high, "flights": float(self.flights)}
 
-    def document(self, folder: Path | None = None) -> dict[str, Any]:
+    def document(self, folder: Path | None = None) -> dict[str, object]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
         simulation = self.simulation
         failures = self.failures
@@ -136,7 +144,7 @@ class RareResult(StudyResult):
             "failures": failures,
         }
 
-    def _level(self, level: Level) -> dict[str, Any]:
+    def _level(self, level: Level) -> dict[str, object]:
         """A level as JSON has it."""
         source = None if level.source is None else self.noise.sources[level.source]
         return vars(level) | {
@@ -154,7 +162,7 @@ class RareResult(StudyResult):
         under, simulation = self.conditions, self.simulation
         lines = [self.headline(), cost_text(simulation, under)]
         lines += [line for line in (noise_line(self.noise), self.bound_text()) if line]
-        lines += assumption_lines(self.facts)
+        lines += assumption_lines(self.facts.get("assumptions", ()))
         unit = f" ({self.margin_unit})" if self.margin_unit else ""
         lines += ["", f"levels, thresholds of the margin{unit}{under}", *align_columns(level_rows(simulation))]
         if self.failures:

@@ -8,7 +8,7 @@ Where chains cannot renew the noise of a level, levels end, and what is left is 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 
@@ -229,7 +229,7 @@ def _next_threshold(margins: np.ndarray) -> float:
 
 def _level(population: _Population, inside: np.ndarray | None) -> Level:
     """The facts of a level, whose points ``inside`` are in the next event; None where it has none."""
-    of_moves = {} if population.grown is None else _moves(population.grown)
+    of_moves: _Moves = {} if population.grown is None else _moves(population.grown)
     if inside is None:
         return Level(population.threshold, population.margins.size, None, **of_moves)
     probability = float(inside.mean())
@@ -242,13 +242,21 @@ def _level(population: _Population, inside: np.ndarray | None) -> Level:
     )
 
 
-def _moves(chains: Chains) -> dict[str, Any]:
+class _Moves(TypedDict, total=False):
+    draw_acceptance: float | None
+    spread: float
+    noise_acceptance: float
+    least_acceptance: float
+    source: int
+
+
+def _moves(chains: Chains) -> _Moves:
     """The acceptance rates of a level's chains."""
-    facts: dict[str, Any] = {"draw_acceptance": chains.draw_acceptance, "spread": chains.spread}
+    acceptance: _Moves = {"draw_acceptance": chains.draw_acceptance, "spread": chains.spread}
     moves, accepted = chains.noise_moves, chains.noise_accepted
     if moves.sum():
-        facts["noise_acceptance"] = float(accepted.sum() / moves.sum())
+        acceptance["noise_acceptance"] = float(accepted.sum() / moves.sum())
         rates = np.where(moves >= FEW, accepted / np.maximum(moves, 1), np.inf)
         if rates.min() < np.inf:
-            facts |= {"least_acceptance": float(rates.min()), "source": int(np.argmin(rates))}
-    return facts
+            acceptance |= {"least_acceptance": float(rates.min()), "source": int(np.argmin(rates))}
+    return acceptance

@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from loky import ProcessPoolExecutor
@@ -22,7 +22,7 @@ from ...stability.dispersion import models_of_trial
 from ...stability.loops.margin_values import Margins
 from ...stability.point.bench import StudyError
 from ...stability.point.point_study import PointStudy
-from ..flights import plan_of_samples, study_facts
+from ..flights import plan_of_samples, study_provenance
 from ..noise import make_samples, noise_of
 from .objective import margin_columns
 from .request import MarginAsked
@@ -47,7 +47,7 @@ class MarginStudies:
         self, asked: MarginAsked, first: Columns, *, noise_trial: int | None = None, workers: int | None = None
     ) -> None:
         self._count = worker_count(workers)
-        self._plan = plan_of_samples(asked.plan, first, faults=())
+        self._plan = plan_of_samples(replace(asked.plan, campaign=replace(asked.plan.campaign, faults=())), first)
         self._asked = replace(asked, request=replace(asked.request, plan=self._plan))
         self._study, self._cells = _nominal(self._asked)
         prepared = self.prepared = self._study.prepared
@@ -55,11 +55,8 @@ class MarginStudies:
         check_draws(self._plan, [prepared])
         self.channels = [channel.name for channel in self._study.channels]
         self.reasons: list[str] = []
-        self.facts = study_facts(self._plan, {"default": prepared}) | {
-            "loop": asked.loop.name,
-            "point": asked.point.name,
-            "time": self._study.bench.time,
-        }
+        self.facts = study_provenance(self._plan, {"default": prepared})
+        self.facts |= {"loop": asked.loop.name, "point": asked.point.name, "time": self._study.bench.time}
         self._pool: ProcessPoolExecutor | None = None
         if self._count > 1:
             self._pool = ProcessPoolExecutor(self._count, initializer=_begin, initargs=(self._asked, self._cells))
@@ -89,7 +86,7 @@ class MarginStudies:
     def __enter__(self) -> MarginStudies:
         return self
 
-    def __exit__(self, *_: Any) -> None:
+    def __exit__(self, *_: object) -> None:
         self._progress.close()
         if self._pool is not None:
             self._pool.shutdown(kill_workers=True)

@@ -5,17 +5,29 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from ...campaigns.tables import align_columns, assumption_lines
-from ..flown import StudyResult
+from ..flown import FlightDocument, StudyResult
 from ..noise import noise_line
 from ..units import unit_of_expression, with_unit
 from .objective import Objective
 from .realisations import Fresh, Realisations
 from .search import Phase
+
+
+class WorstFlight(FlightDocument):
+    """A flight of worst.parquet; ``value`` is None where it failed."""
+
+    trial: int
+    value: float | str | None
+
+
+class RandomFlight(WorstFlight):
+    """The worst of the random trials, and whether it is ``inside`` the box."""
+
+    inside: bool
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -48,19 +60,19 @@ class WorstResult(StudyResult):
     phases: tuple[Phase, ...] = ()
 
     @property
-    def worst(self) -> dict[str, Any]:
+    def worst(self) -> WorstFlight:
         """The worst flight: ``value`` (None where it failed), ``trial`` of worst.parquet, ``draws``, ``metrics``."""
-        return {"trial": 0, "value": self._text(self.value), **self.flown.fact(self.places[0], self.badness.fact)}
+        return {"trial": 0, "value": self.as_json(self.value), **self.flown.fact(self.places[0], self.badness.fact)}
 
     @property
-    def worst_random(self) -> dict[str, Any]:
+    def worst_random(self) -> RandomFlight:
         """The worst of the random trials, and whether it is ``inside`` the box."""
         place = self.flown.points[self.random]
         inside = bool(np.all((place >= 0.0) & (place <= 1.0)))
-        value = self._text(float(self.flown.values[self.random]))
+        value = self.as_json(float(self.flown.values[self.random]))
         return {"trial": 1, "value": value, "inside": inside, **self.flown.fact(self.random, self.badness.fact)}
 
-    def _text(self, value: float) -> float | str | None:
+    def as_json(self, value: float) -> float | str | None:
         """A value as JSON has it: null where it failed, of a margin a word where it is no number."""
         return self.badness.fact(self.badness.size(value))
 
@@ -83,7 +95,7 @@ class WorstResult(StudyResult):
         }
         return {name: self.badness.size(value) for name, value in values.items()} | {"flights": float(self.flights)}
 
-    def document(self, folder: Path | None = None) -> dict[str, Any]:
+    def document(self, folder: Path | None = None) -> dict[str, object]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
         replay = self.replay(folder, 0)
         return {
@@ -94,7 +106,7 @@ class WorstResult(StudyResult):
             "unit": self.unit,
             "units": dict(self.units),
             **({} if self.over is None else {"objective": self.over.text, "realisations": self.over.count}),
-            **({} if self.fresh is None else {"fresh": self.fresh.document(self._text)}),
+            **({} if self.fresh is None else {"fresh": self.fresh.document(self.as_json)}),
             **({} if self.noise_matters is None else {"noise_matters": self.noise_matters}),
             "flights": self.flights,
             "random_trials": self.random_trials,
@@ -109,7 +121,7 @@ class WorstResult(StudyResult):
         case, random, under = self.worst, self.worst_random, self.conditions
         lines = [*self.headline(), *([f"failed: {self.reason}"] if self.reason else [])]
         lines += [line for line in (noise_line(self.noise),) if line and self.over is None]
-        lines += assumption_lines(self.facts)
+        lines += assumption_lines(self.facts.get("assumptions", ()))
         rows = [["", "trial 0: worst", "trial 1: random"]]
         for part in ("draws", "metrics"):
             names = self.space.names if part == "draws" else list(case[part])
@@ -136,7 +148,7 @@ class WorstResult(StudyResult):
         """What fresh noise does to the worst point, and how the noise was flown; none where it is not random."""
         if self.fresh is None or self.over is None:
             return []
-        worst, quantile = (_format(self._text(value)) for value in (self.fresh.worst, self.fresh.at_quantile))
+        worst, quantile = (_format(self.as_json(value)) for value in (self.fresh.worst, self.fresh.at_quantile))
         at_quantile = "" if self.over.quantile == 1.0 else f", {self.over.name} {quantile}{unit}"
         lines = [
             f"the worst point under {self.fresh.values.size} fresh noise realisations: "

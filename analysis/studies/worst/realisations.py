@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 
@@ -70,6 +71,15 @@ def read_realisations(
     return realisations
 
 
+class FreshDocument(TypedDict):
+    """Fresh flights of the worst point as JSON."""
+
+    realisations: int
+    worst: float | str | None
+    quantile: float
+    at_quantile: float | str | None
+
+
 @dataclass(frozen=True, eq=False)
 class Fresh:
     """The point that won under fresh noise: ``values`` (realisations,) of the objective, the larger the worse."""
@@ -85,7 +95,7 @@ class Fresh:
     def at_quantile(self) -> float:
         return float(quantiles(self.values, (self.quantile,))[0])
 
-    def document(self, fact: Any) -> dict[str, Any]:
+    def document(self, fact: Callable[[float], float | str | None]) -> FreshDocument:
         """As JSON; ``fact`` maps a value to what JSON has for it."""
         return {
             "realisations": int(self.values.size),

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError
@@ -51,7 +50,7 @@ class MarginAsked:
         return PointStudy(subject, self.point, [self.loop], vary(self.plan))
 
 
-def check_options(loop: str | None, options: Mapping[str, Any]) -> None:
+def check_options(loop: str | None, options: Mapping[str, object]) -> None:
     """Refuse options, by name, that do not go with a loop, or go with one only. Raises InputError."""
     for name in OF_A_LOOP if loop is None else ():
         if options[name] is not None:

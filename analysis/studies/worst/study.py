@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Protocol, TypedDict, Unpack
+from typing import Protocol, TypedDict, Unpack
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError
 from ...runtime.system.prepared import PreparedSystem
 from ..draw_space import DrawSpace
-from ..flights import SampleFlights
+from ..flights import SampleFlights, StudyProvenance
 from ..flown import Commands, Flown
 from ..noise import Noise
 from ..units import units_of
@@ -36,7 +36,7 @@ RANDOM = 0.2  # of the flights are random trials, which the worst is told beside
 class Flights(Protocol):
     """Who flies draws, or studies them; ``fly`` gives what they come to, and the drawn and derived values."""
 
-    facts: dict[str, Any]
+    facts: StudyProvenance
     noise: Noise
     prepared: PreparedSystem
 

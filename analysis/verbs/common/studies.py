@@ -110,5 +110,5 @@ def condition_lines(result: StudyResult) -> list[str]:
         f"campaign {stated.campaign}",
         stated.noise.rstrip("."),
         stated.given.removeprefix(", "),
-        *assumption_lines(result.facts),
+        *assumption_lines(result.facts.get("assumptions", ())),
     ]

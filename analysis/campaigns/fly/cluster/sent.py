@@ -10,7 +10,6 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 from .....fmus_src.paths import PACKAGE
 from ....common.errors import InputError
@@ -35,7 +34,7 @@ def identity() -> Identity:
     return version("perilune"), total.hexdigest()
 
 
-def refuse_others(ours: Identity, theirs: Any, worker: str) -> None:
+def refuse_others(ours: Identity, theirs: Identity | BaseException, worker: str) -> None:
     """Raise InputError unless a worker has the same perilune; ``theirs`` is an exception where it has none."""
     if isinstance(theirs, BaseException):
         problem = f"worker {worker} cannot load perilune: {' '.join(str(theirs).split())}"

@@ -6,7 +6,6 @@ import json
 import shutil
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyarrow
@@ -93,7 +92,7 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
     variants = list(trials.values())
     numbers = variants[0].trial
     sampled = plan.values_of(range(int(numbers[0]), int(numbers[-1]) + 1))
-    columns: dict[str, Any] = {
+    columns: dict[str, np.ndarray | pyarrow.Array] = {
         "variant": texts_of(name for name, part in trials.items() for _ in part.trial),
         "trial": _join_tables(variants, lambda part: part.trial),
         "status": texts_of(status for part in variants for status in part.statuses),
@@ -125,11 +124,11 @@ def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> 
         pyarrow.parquet.write_table(table, partial, row_group_size=rows, write_page_checksum=True)
 
 
-def _describe_field(table: pyarrow.Table, about: Mapping[str, Any]) -> pyarrow.Table:
+def _describe_field(table: pyarrow.Table, about: Mapping[str, object]) -> pyarrow.Table:
     return table.replace_schema_metadata({"perilune": json.dumps(about)})
 
 
-def describe_columns(path: Path) -> Any:
+def describe_columns(path: Path) -> object:
     """What a file that `write_shard` wrote says of itself; None where it says nothing, or is not there.
 
     Raises InputError for one that is damaged.
@@ -150,7 +149,7 @@ def unreadable(path: Path, error: Exception) -> InputError:
     return InputError(path, "", problem, "remove it: the batch's command with `resume` flies what is missing")
 
 
-def about_of(schema: pyarrow.Schema) -> Any:
+def about_of(schema: pyarrow.Schema) -> object:
     """What a table says of itself; None where it says nothing."""
     try:
         return json.loads((schema.metadata or {}).get(b"perilune", b"null"))
@@ -211,7 +210,7 @@ def trials_of(table: pyarrow.Table, metrics: Iterable[str], path: Path) -> dict[
     return by_variant
 
 
-def trials_in(path: Path, about: Any, batch: str, whose: str) -> range:
+def trials_in(path: Path, about: object, batch: str, whose: str) -> range:
     """The trials of a shard's file, of which ``about`` is what it says of itself.
 
     Raises InputError for one of another batch than that of the file ``whose``, and for one that has another's name.
