@@ -55,6 +55,9 @@ def statistics(column: Blocks, unit: str) -> MetricStatistics:
             minimum, maximum = min(minimum, float(finite.min())), max(maximum, float(finite.max()))
     mean = _sum(column, lambda values: values) / count if count else 0.0
     squares = _sum(column, lambda values: np.square(values - mean)) if count > 1 else 0.0
+    quantiles: list[float | None] = [None] * len(QUANTILES)
+    if known:
+        quantiles = [*column_quantiles(column, known, [percent / 100.0 for percent in QUANTILES.values()])]
     return MetricStatistics(
         count=count,
         mean=mean if count else None,
@@ -62,7 +65,7 @@ def statistics(column: Blocks, unit: str) -> MetricStatistics:
         max=maximum if count else None,
         min=minimum if count else None,
         rms=math.sqrt(_sum(column, np.square) / count) if count else None,
-        **_quantiles(column, known),
+        **dict(zip(QUANTILES, quantiles, strict=True)),
         unit=unit,
     )
 
@@ -84,13 +87,6 @@ def _sum(column: Blocks, of: Callable[[np.ndarray], np.ndarray]) -> float:
         return math.fsum(itertools.chain.from_iterable(terms))
     except OverflowError:
         return math.inf
-
-
-def _quantiles(column: Blocks, known: int) -> dict[str, float | None]:
-    if not known:
-        return dict.fromkeys(QUANTILES)
-    values = column_quantiles(column, known, [percent / 100.0 for percent in QUANTILES.values()])
-    return dict(zip(QUANTILES, values, strict=True))
 
 
 def quantile(column: Blocks, fraction: float) -> float:

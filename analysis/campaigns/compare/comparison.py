@@ -204,7 +204,9 @@ class Comparison:
         """The comparison for a terminal: rates with intervals, then metrics of the successful trials."""
         names = [name_of(rate) for rate in self.rates]
         rows = summary_rows(self.summary)
-        cells = [[*who_heads(self.group), "trials", *map(_head, names)]]
+        level = f"({100 * CONFIDENCE:g} %)"  # metrics are over all trials, unlike those of a batch's own summary
+        heads = [f"{name} % {level}" if name == SUCCESS else f"{name} % of all {level}" for name in names]
+        cells = [[*who_heads(self.group), "trials", *heads]]
         for row in rows:
             rates = [rate_text(row.entry.rates[name]) for name in names]
             cells.append([*who_cells(row, self.group), str(row.entry.trials), *rates])
@@ -218,11 +220,6 @@ class Comparison:
         if not self.has_faults:
             return []
         return list(lines.values()) if len(lines) == 1 else [f"{name}: {line}" for name, line in lines.items()]
-
-
-def _head(name: str) -> str:
-    """What heads a rate: of success, or of a metric, which a batch's own summary has over its successful trials."""
-    return f"{name} %{'' if name == SUCCESS else ' of all'} ({100 * CONFIDENCE:g} %)"
 
 
 def rate_text(rate: Rate, text: Callable[[float], str] = percent) -> str:

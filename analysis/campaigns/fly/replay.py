@@ -61,19 +61,7 @@ def replay_trial(
     _check_trial(folder, trial, campaign.manifest.trials)
     manifest = read_manifest(folder)
     plan = restore(folder, manifest if timeout is None else replace(manifest, timeout=timeout), log)
-    flight, outcome = Flyer(plan).replay(variant.name, trial)
-    stored = _read_stored(campaign, variant, trial)
-    return ReplayedTrial(
-        plan=plan,
-        prepared=campaign.systems[variant.name],
-        configuration=variant.name,
-        trial=trial,
-        flight=flight,
-        outcome=outcome,
-        faults=tuple(str(fault) for fault in plan.faults_of(trial) if fault is not None),
-        stored=stored is not None,
-        differences=() if stored is None else _differences(stored, outcome),
-    )
+    return _replay(plan, campaign.systems[variant.name], variant, trial, campaign)
 
 
 def replay_plan(plan: BatchPlan, trial: int, configuration: str | None = None) -> ReplayedTrial:
@@ -81,17 +69,25 @@ def replay_plan(plan: BatchPlan, trial: int, configuration: str | None = None) -
     check_plan(plan)
     variant = _variant_of(plan, plan.campaign.file, configuration)
     _check_trial(plan.campaign.file, trial, plan.campaign.trials)
+    return _replay(plan, plan.prepare(variant), variant, trial, None)
+
+
+def _replay(
+    plan: BatchPlan, prepared: PreparedSystem, variant: Variant, trial: int, campaign: Campaign | None
+) -> ReplayedTrial:
+    """The flight of a trial; compared with what the folder of ``campaign`` has of it, if there is one."""
     flight, outcome = Flyer(plan).replay(variant.name, trial)
+    stored = None if campaign is None else _read_stored(campaign, variant, trial)
     return ReplayedTrial(
         plan=plan,
-        prepared=plan.prepare(variant),
+        prepared=prepared,
         configuration=variant.name,
         trial=trial,
         flight=flight,
         outcome=outcome,
         faults=tuple(str(fault) for fault in plan.faults_of(trial) if fault is not None),
-        stored=False,
-        differences=(),
+        stored=stored is not None,
+        differences=() if stored is None else _differences(stored, outcome),
     )
 
 

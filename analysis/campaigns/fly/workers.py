@@ -115,7 +115,8 @@ class FlyerPool:
                 deaths = deaths + 1 if hung == known else 0
                 known = hung
                 if deaths == MOST_DEATHS:
-                    raise WorkersDiedError(f"worker processes end again and again: {_how(error)}") from error
+                    how = " ".join(str(error).split())  # which loky says in several lines
+                    raise WorkersDiedError(f"worker processes end again and again: {how}") from error
                 assert self._make is not None
                 self._executor = self._make()
 
@@ -165,7 +166,9 @@ class FlyerPool:
             self._executor.shutdown()
         if self._flyer is not None:
             self._flyer.close()
-        _close_threads(self.plan)
+        for flyer in [each for each in _flyers if each.plan is self.plan]:  # processes free their own instances
+            flyer.close()
+            _flyers.remove(flyer)
         if self._words is not None:
             self._words.cleanup()
 
@@ -174,21 +177,9 @@ def _is_broken(future: Future) -> bool:
     return isinstance(future.exception(), TerminatedWorkerError)
 
 
-def _how(error: BaseException) -> str:
-    """How worker processes ended, which loky says in several lines, in one."""
-    return " ".join(str(error).split())
-
-
 def _start(plan: BatchPlan, words: LastWords | None = None) -> None:
     _local.flyer = Flyer(plan, words)
     _flyers.append(_local.flyer)
-
-
-def _close_threads(plan: BatchPlan) -> None:
-    """Free what the threads of a batch have instantiated; processes free their own."""
-    for flyer in [flyer for flyer in _flyers if flyer.plan is plan]:
-        flyer.close()
-        _flyers.remove(flyer)
 
 
 def _start_process(plan: BatchPlan, words: Path | None) -> None:

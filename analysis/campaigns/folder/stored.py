@@ -36,6 +36,8 @@ from ..spec.campaign import Group, Metric, groups_of
 from ..spec.expressions import Expression
 from ..trials import Trials, join_trials
 
+RESUME = "resume it: the batch's command with `resume`"
+
 
 class SummaryDocument(Provenance, total=False):
     """summary.json: the provenance, and the summary by variant."""
@@ -138,11 +140,8 @@ def _draws(folder: Path, shards: Mapping[Path, pyarrow.Table], is_counted: bool)
 
 def _check_there(folder: Path, name: str) -> None:
     if not (folder / name).exists():
-        raise InputError(folder, name, "not found", _how_to_end(folder))
-
-
-def _how_to_end(folder: Path) -> str:
-    return "resume it: the batch's command with `resume`" if (folder / MANIFEST).is_file() else WRITE
+        is_unfinished = (folder / MANIFEST).is_file()
+        raise InputError(folder, name, "not found", RESUME if is_unfinished else WRITE)
 
 
 def _read_shards(folder: Path, batch: str, trials: int) -> dict[Path, pyarrow.Table]:

@@ -41,7 +41,10 @@ def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
     systems = list(systems)
     _check_streams(plan, systems)
     sampled = set(plan.campaign.input_names())
-    varied = [(prepared, _varied_variables(plan, prepared, sampled)) for prepared in systems]
+    varied = []
+    for prepared in systems:
+        variables = {name: _vary(plan, prepared, name) for name in variant_names(plan, prepared).varied}
+        varied.append((prepared, {name: each for name, each in variables.items() if name in sampled}))
     first = 0
     for part in plan.draw_parts():
         trials = plan.values_from(part, range(first, first + part.trials))
@@ -71,12 +74,6 @@ class _Variable(NamedTuple):
     type: str
     minimum: float
     maximum: float
-
-
-def _varied_variables(plan: BatchPlan, prepared: PreparedSystem, drawn: set[str]) -> dict[str, _Variable]:
-    """The variables that draws set, by name; what is varied and is no parameter is refused."""
-    variables = {name: _vary(plan, prepared, name) for name in variant_names(plan, prepared).varied}
-    return {name: variable for name, variable in variables.items() if name in drawn}
 
 
 def _refuse_conflicts(plan: BatchPlan) -> None:

@@ -20,6 +20,10 @@ SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
 # of records, of the results' table and of files of draws
 COLUMNS = frozenset({"time", "trial", "variant", "status", "success"})
 REDUCTION_OF = {"band": "last_outside", "condition": "first", "delay": "first"}  # keys that go with one reduction only
+TABLE = (
+    "system", "description", "trials", "seed", "parameters", "draw_scheme", "set", "compare", "configuration", "draw",
+    "derive", "fault", "group", "metric", "record", "success", "requirement", "scatter",
+)  # fmt: skip
 SCATTER = ("x", "y", "circle", "title")
 
 
@@ -125,10 +129,7 @@ def _record(table: Table) -> Record:
 
 
 def _faults(table: Table, drawn: list[str]) -> tuple[CampaignFault, ...]:
-    for name in table.content:
-        if not name.isidentifier():
-            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
-    faults = tuple(read_fault(name, table.table(name)) for name in table.content)
+    faults = tuple(read_fault(name, each) for name, each in table.subtables())
     for fault in faults:
         for formula in fault.formulas:
             _check_names_in(formula, drawn, "a draw or a derived value")
@@ -148,13 +149,6 @@ def _success(table: Table, metrics: tuple[Metric, ...]) -> Expression:
     success = table.get("expression", expression)
     _check_names_in(success, [metric.name for metric in metrics], "a metric")
     return success
-
-
-def _scatters(table: Table, metrics: tuple[Metric, ...]) -> tuple[Scatter, ...]:
-    for name in table.content:
-        if not name.isidentifier():
-            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
-    return tuple(_scatter(name, table.table(name), metrics) for name in table.content)
 
 
 def _scatter(name: str, table: Table, metrics: tuple[Metric, ...]) -> Scatter:
@@ -177,21 +171,7 @@ def parse_campaign(table: Table) -> Campaign:
     if SYNTHESIS in table.content:
         remedy = "search with perilune design search, then fly the law with a campaign without this table"
         raise table.error(SYNTHESIS, "a search, not a batch", remedy)
-    keys = ["system", "description", "trials", "seed", "parameters", "draw_scheme"]
-    tables = [
-        "set",
-        "compare",
-        "configuration",
-        "draw",
-        "derive",
-        "fault",
-        "group",
-        "metric",
-        "record",
-        "success",
-        "requirement",
-    ]
-    table.only([*keys, *tables, "scatter"])
+    table.only(TABLE)
     draws = _draws(table.table("draw"))
     derived = _read_derived(table.table("derive"), draws)
     sampled = [name for draw in draws for name in draw.names] + list(derived)
@@ -214,7 +194,7 @@ def parse_campaign(table: Table) -> Campaign:
         description=" ".join(table.get("description", text, "").split()),
         group=_group(table.table("group"), sampled) if "group" in table.content else None,
         faults=_faults(table.table("fault"), sampled),
-        scatters=_scatters(table.table("scatter"), metrics),
+        scatters=tuple(_scatter(name, each, metrics) for name, each in table.table("scatter").subtables()),
         requirements=read_requirements(table.table("requirement"), [metric.name for metric in metrics], draws),
     )
 

@@ -46,10 +46,7 @@ def read_requirements(table: Table, metrics: Collection[str], draws: Iterable[Dr
             problem = f"{draw.name} is drawn by {draw.distribution.keyword}, and verdicts need independent trials"
             remedy = f"draw it by {draw.distribution.alternative}, or drop the requirements"
             raise table.error("", problem, remedy)
-    for name in table.content:
-        if not name.isidentifier():
-            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
-    return tuple(_requirement(name, table.table(name), metrics) for name in table.content)
+    return tuple(_requirement(name, each, metrics) for name, each in table.subtables())
 
 
 def _requirement(name: str, table: Table, metrics: Collection[str]) -> Requirement:

@@ -71,6 +71,13 @@ class Table:
             raise self.error(key, "not a table", f"write [{self.place(key)}] and its keys below it")
         return Table(value, self.file, self.place(key), self.origins)
 
+    def subtables(self) -> list[tuple[str, Table]]:
+        """Name and table of every entry; names are identifiers."""
+        for name in self.content:
+            if not name.isidentifier():
+                raise self.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
+        return [(name, self.table(name)) for name in self.content]
+
     def flat(self, of_tables: bool = False) -> Iterator[tuple[str, object]]:
         """Name and value of the entries; nested tables become dotted names: a.b = 1 is the same as "a.b" = 1.
 

@@ -155,18 +155,15 @@ class WorstResult(StudyResult):
             f"worst {worst}{unit}{at_quantile}{self.conditions}"
         ]
         names = ", ".join(self.noise.components)
-        every = f"{_every(self.over.count)} at every point"
+        count = self.over.count
+        every = f"the same {'realisation' if count == 1 else f'{count} realisations'} at every point"
         if self.noise_matters is False:
-            every = f"changes none of the random trials in {self.over.count} realisations, so that the search flew one"
+            every = f"changes none of the random trials in {count} realisations, so that the search flew one"
         return [*lines, f"noise of {names}: {every}"]
 
     def write(self, folder: Path) -> None:
         """Write worst.json, flights.parquet, and worst.parquet for `--draws`: the worst trial, and the random one."""
         self._write(folder, "worst", "value", np.array(self.places))
-
-
-def _every(count: int) -> str:
-    return "the same realisation" if count == 1 else f"the same {count} realisations"
 
 
 def _format(value: float | str | None) -> str:
