@@ -38,7 +38,6 @@ class MetricStatistics:
     unit: str
 
     def value(self, name: str) -> float | None:
-        """One of `STATISTICS` by its name."""
         number: float | None = getattr(self, name)
         return number
 

@@ -35,7 +35,6 @@ class TrialColumns:
     draws: Mapping[str, np.ndarray] = field(default_factory=dict, kw_only=True)
 
     def parts(self, *names: str) -> Iterator[Part]:
-        """See `TrialRows`."""
         yield {name: self.column(name) for name in names}
 
     def column(self, name: str) -> np.ndarray:
@@ -107,11 +106,10 @@ class Trials(TrialColumns):
         return len(self.trial)
 
     def whole(self) -> Trials:
-        """All of them, which they are."""
+        """Already in memory: returns itself."""
         return self
 
     def column(self, name: str) -> np.ndarray:
-        """A column by the name that files of trials give it. Raises KeyError."""
         kind, _, own = name.partition(".")
         if kind == "final":
             return self.final[own]

@@ -52,7 +52,6 @@ class DrawSpace:
 
     @property
     def names(self) -> list[str]:
-        """The draws that vary."""
         return [name for names, _ in self._varied for name in names]
 
     def from_normals(self, u: np.ndarray) -> Columns:

@@ -55,7 +55,6 @@ class Flown:
         self._parts.append((points, draws, metrics, values))
 
     def whole(self) -> Flown:
-        """With all of them joined."""
         points, draws, metrics, values = zip(*self._parts, strict=True)
         self.points, self.values = np.concatenate(points), np.concatenate(values)
         self.draws = {name: np.concatenate([part[name] for part in draws]) for name in draws[0]}
@@ -115,7 +114,6 @@ class StudyResult:
 
     @property
     def flights(self) -> int:
-        """How many were flown."""
         return len(self.flown.values)
 
     @property

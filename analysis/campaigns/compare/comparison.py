@@ -67,7 +67,6 @@ class Comparison:
 
     @property
     def groups(self) -> list[Group]:
-        """The groups of trials."""
         return [] if self._grouping is None else self._grouping.groups
 
     @cached_property
@@ -165,7 +164,6 @@ class Comparison:
         return second.name == self.reference if first.batch == second.batch else second.batch == 0
 
     def compare_rates(self, pair: tuple[str, str], rate: Metric | None) -> PairedRates:
-        """A rate of two contenders on the same trials."""
         return compare_rates(self.outcomes(pair[0], rate), self.outcomes(pair[1], rate))
 
     def pair_values(self, pair: tuple[str, str], metric: str, successful: bool) -> PairedValues:
@@ -229,5 +227,4 @@ def rate_text(rate: Rate, text: Callable[[float], str] = percent) -> str:
 
 
 def name_of(rate: Metric | None) -> str:
-    """The name of a rate."""
     return SUCCESS if rate is None else rate.name

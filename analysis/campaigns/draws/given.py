@@ -50,7 +50,6 @@ class GivenDraws:
         return trial if streams is None else int(streams[trial])
 
     def of_part(self, trials: range) -> GivenDraws:
-        """Those of trials in a row, which are counted from 0 then."""
         rows = slice(trials.start, trials.stop)
         streams = dict(self.streams)
         if trials.start and ALL not in streams:

@@ -45,16 +45,13 @@ class DrawTable:
     columns: Mapping[str, np.ndarray]
 
     def of_first(self, trials: int) -> DrawTable:
-        """Those of the first ``trials`` trials."""
         return self.of_part(range(trials))
 
     def of_part(self, trials: range) -> DrawTable:
-        """Those of trials in a row, which are counted from 0 then."""
         rows = slice(trials.start, trials.stop)
         return DrawTable(len(trials), {name: column[rows] for name, column in self.columns.items()})
 
     def row(self, trial: int) -> dict[str, float]:
-        """Every value of one trial."""
         return {name: column.item(trial) for name, column in self.columns.items()}
 
     def parameters(self, trial: int) -> dict[str, float]:

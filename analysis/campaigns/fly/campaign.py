@@ -63,7 +63,6 @@ class Campaign:
         return batch_digest(self.provenance)
 
     def store(self) -> HeldShards | StoredShards:
-        """Where its shards go."""
         return HeldShards(self.plan) if self.folder is None else StoredShards(self.flown, self.folder, self.batch)
 
     def shard_rows(self, shard: int) -> Mapping[str, FlownRows]:

@@ -151,14 +151,12 @@ class Flyer:
             return nothing_flown(simulation, str(error))
 
     def close(self) -> None:
-        """Free all instances."""
         for simulation, _ in self._ready.values():
             simulation.close()
         self._ready = {}
 
 
 def _result(trials: Trials) -> TrialResult:
-    """One flight, of itself."""
     return TrialResult(
         status=trials.statuses[0],
         message=next(iter(trials.messages.values()), ""),

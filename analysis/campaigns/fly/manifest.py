@@ -97,7 +97,6 @@ class Manifest:
         return sorted({*self.system["files"].values(), *self.elsewhere.values(), *_contents(self.campaign), *tables})
 
     def write(self, folder: Path) -> None:
-        """Write it to ``folder``/manifest.json."""
         write_atomically(folder / FILE, f"{json.dumps(self.document(), indent=1)}\n".encode())
 
 
@@ -148,7 +147,6 @@ COPY_AGAIN = "copy the campaign's folder again, with all of its files"
 
 
 def content_name(content: bytes, suffix: str) -> str:
-    """The name under which a content is stored."""
     return f"{hashlib.sha256(content).hexdigest()}{suffix}"
 
 

@@ -110,7 +110,6 @@ def _rows(campaign: Campaign, store: HeldShards | StoredShards, decision: Decisi
 def _fly_here(
     campaign: Campaign, shards: Sequence[int], workers: int | None, engine: str | None
 ) -> Generator[tuple[int, dict[str, Trials]]]:
-    """Fly shards on this machine, in threads or processes."""
     count = worker_count(workers)
     threads = in_threads(campaign.systems.values(), engine)
     flights = sum(len(campaign.numbering.of(shard)) for shard in shards) * len(campaign.plan.campaign.variants())

@@ -50,7 +50,6 @@ class ShardRows:
             yield {name: numpy_of(table[name]) for name in names}
 
     def whole(self) -> Trials:
-        """All of them in memory, with their traces. Raises InputError."""
         return join_trials(self._trials(shard) for shard in self.shards)
 
     def _table(self, shard: int, names: list[str] | None = None) -> pyarrow.Table:
@@ -92,7 +91,6 @@ class HeldShards:
         self._parts: dict[int, Mapping[str, Trials]] = {}
 
     def add(self, shard: int, trials: Mapping[str, Trials]) -> None:
-        """Keep the trials of a shard, by variant."""
         self._parts[shard] = trials
 
     def rows(self, numbering: Numbering) -> dict[str, FlownRows]:
@@ -111,7 +109,6 @@ class StoredShards:
         self._batch = batch
 
     def add(self, shard: int, trials: Mapping[str, Trials]) -> None:
-        """Write the trials of a shard, by variant."""
         write_shard(self._folder, self._batch, shard, self._plan, trials)
 
     def rows(self, numbering: Numbering, shards: range | None = None) -> dict[str, FlownRows]:

@@ -38,12 +38,10 @@ class ResultFolder:
 
     @property
     def variants(self) -> list[str]:
-        """The campaign's variants by name."""
         return list(self.provenance["fmus"])
 
     @cached_property
     def batch(self) -> str:
-        """The digest that the campaign's files carry."""
         return batch_digest(self.provenance)
 
     @cached_property

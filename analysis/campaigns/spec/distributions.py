@@ -142,7 +142,6 @@ class Choice(Discrete, Independent):
 
     @classmethod
     def read(cls, table: Table) -> Self:
-        """From its table of a campaign. Raises InputError."""
         table.only(["distribution", *cls.keys])
         values = table.get("values", numbers)
         weights = table.get("weights", numbers, (1.0,) * len(values))

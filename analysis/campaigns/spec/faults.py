@@ -37,7 +37,6 @@ class CampaignFault:
 
     @property
     def formulas(self) -> list[Expression]:
-        """Its expressions."""
         return [part for part in (self.value, self.start, self.end, self.when) if isinstance(part, Expression)]
 
     def where(self, key: str) -> tuple[str, str]:

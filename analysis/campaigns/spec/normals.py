@@ -65,7 +65,6 @@ class Normal(_Jointly):
 
     @classmethod
     def read(cls, table: Table) -> Self:
-        """From its table of a campaign. Raises InputError."""
         table.only(["distribution", *cls.keys])
         mean, sigma = table.get("mean", number), table.get("sigma", number)
         if not sigma > 0.0:
@@ -95,7 +94,6 @@ class CorrelatedNormal(_Jointly):
 
     @classmethod
     def read(cls, table: Table) -> Self:
-        """From its table of a campaign. Raises InputError."""
         table.only(["distribution", *cls.keys])
         size = len(table.get("names", names))
         mean, covariance = table.get("mean", numbers), table.get("covariance", sequence(numbers))

@@ -35,7 +35,6 @@ class DrawnTrials:
     faults: Sequence[DrawnFault]
 
     def row(self, trial: int) -> dict[str, float]:
-        """All drawn and derived values of a trial."""
         return self.table.row(trial - self.numbers.start)
 
     def faults_of(self, trial: int) -> list[Fault | None]:
@@ -158,7 +157,6 @@ class BatchPlan:
         return self.values_of(range(trial, trial + 1)).faults_of(trial)
 
     def fault_texts(self) -> list[str]:
-        """All faults as results name them."""
         return [str(fault) for fault in (*self.campaign.faults, *self.faults)]
 
     def prepare(self, variant: Variant) -> PreparedSystem:

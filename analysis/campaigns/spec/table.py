@@ -50,7 +50,6 @@ class Table:
         return InputError(*self.where(key), problem, remedy)
 
     def only(self, allowed: Iterable[str]) -> None:
-        """Refuse keys that are not ``allowed``."""
         names = list(allowed)
         for key in self.content:
             if key not in names:
@@ -108,7 +107,6 @@ def text(table: Table, key: str, value: object) -> str:
 
 
 def integer(table: Table, key: str, value: object) -> int:
-    """A whole number."""
     if isinstance(value, bool) or not isinstance(value, int):
         raise table.error(key, f"{value!r} is not a whole number", "write an integer")
     return value
@@ -165,7 +163,6 @@ def expression(table: Table, key: str, value: object) -> Expression:
 
 
 def choice_of(*allowed: str) -> Callable[[Table, str, object], str]:
-    """One of the texts ``allowed``."""
 
     def read(table: Table, key: str, value: object) -> str:
         if value not in allowed:

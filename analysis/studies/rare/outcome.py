@@ -145,7 +145,6 @@ class RareResult(StudyResult):
         }
 
     def _level(self, level: Level) -> dict[str, object]:
-        """A level as JSON has it."""
         source = None if level.source is None else self.noise.sources[level.source]
         return vars(level) | {
             "threshold": None if level.threshold is None else strict(level.threshold),
@@ -227,7 +226,6 @@ def cost_text(simulation: SubsetSimulation, conditions: str) -> str:
 
 
 def level_rows(simulation: SubsetSimulation) -> list[list[str]]:
-    """The table of levels, its heading first."""
     return [LEVEL_HEADS, *(_level_cells(number, level) for number, level in enumerate(simulation.levels, 1))]
 
 

@@ -251,7 +251,6 @@ class _Moves(TypedDict, total=False):
 
 
 def _moves(chains: Chains) -> _Moves:
-    """The acceptance rates of a level's chains."""
     acceptance: _Moves = {"draw_acceptance": chains.draw_acceptance, "spread": chains.spread}
     moves, accepted = chains.noise_moves, chains.noise_accepted
     if moves.sum():

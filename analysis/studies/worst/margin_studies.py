@@ -120,7 +120,6 @@ _held: tuple[PointStudy, Sequence[int]] | None = None  # of a worker process
 
 
 def _begin(asked: MarginAsked, cells: Sequence[int]) -> None:
-    """The first thing that a worker process does."""
     global _held
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all; the parent decides
     leave_when_done()

@@ -37,7 +37,6 @@ class Realisations:
 
     @property
     def text(self) -> str:
-        """The objective in words."""
         return "one noise realisation" if self.count == 1 else f"{self.name} of {self.count} noise realisations"
 
     def objective(self, values: np.ndarray) -> np.ndarray:

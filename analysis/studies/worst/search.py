@@ -53,12 +53,10 @@ class _Counted:
         self.point, self.value = points[best], float(values[best])
 
     def begin(self, phase: str) -> None:
-        """What is evaluated from here on is of a phase."""
         if not self._begun or self._begun[-1][0] != phase:
             self._begun.append((phase, self.left))
 
     def phases(self) -> tuple[Phase, ...]:
-        """The phases that have evaluated anything."""
         ends = [left for _, left in self._begun[1:]] + [self.left]
         used = [Phase(name, left - end) for (name, left), end in zip(self._begun, ends, strict=True)]
         return tuple(phase for phase in used if phase.evaluations)

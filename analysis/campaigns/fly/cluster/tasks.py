@@ -33,7 +33,6 @@ class Portions:
         self._seconds: dict[str, float] = {}  # of a trial, by variant
 
     def record_duration(self, piece: Piece, seconds: float) -> None:
-        """Remember how long a piece took in a worker."""
         self._seconds[piece.variant] = seconds / len(piece.trials)
 
     def next(self, threads: int) -> list[Piece]:

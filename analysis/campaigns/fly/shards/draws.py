@@ -27,7 +27,6 @@ class StoredDraws:
     names: tuple[str, ...]
 
     def of_first(self, trials: int) -> StoredDraws:
-        """Those of the first ``trials`` trials."""
         return replace(self, trials=trials)
 
     def of_part(self, trials: range) -> DrawTable:

@@ -23,7 +23,6 @@ SUMMARY = "summary.json"
 
 
 def shard_path(folder: Path, shard: int) -> Path:
-    """Where a shard's trials lie."""
     return folder / FOLDER / f"{shard:06d}.parquet"
 
 

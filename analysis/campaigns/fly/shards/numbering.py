@@ -22,7 +22,6 @@ class Numbering:
         return -(-self.trials // self.size)
 
     def of(self, shard: int) -> range:
-        """The trials of a shard."""
         return range(shard * self.size, min((shard + 1) * self.size, self.trials))
 
 
