@@ -11,6 +11,7 @@ from ..campaigns.draws.declared import Columns
 from ..campaigns.draws.given import ALL, GivenDraws, Streams
 from ..campaigns.fly.flyer import Flyer
 from ..campaigns.fly.metadata import Provenance, provenance
+from ..campaigns.fly.shards.flights import task_size
 from ..campaigns.fly.workers import FlyerPool, worker_count
 from ..campaigns.spec.campaign import Record
 from ..campaigns.spec.checks import check_draws, check_plan
@@ -55,7 +56,7 @@ class SampleFlights:
         plan = self.plan.of_samples(make_samples(columns, streams, self.noise))
         check_draws(plan, [self.prepared])
         trials = plan.campaign.trials
-        size = max(1, min(50 if self.prepared.flies_in_threads else 10, trials // (4 * self._count)))
+        size = task_size(trials, self._count, self.prepared.flies_in_threads)
         pieces = [range(first, min(first + size, trials)) for first in range(0, trials, size)]
         parts: dict[int, Trials] = {}
         for place, flown in self._pool.work(_fly, [(self.variant, plan.of_part(piece)) for piece in pieces]):

@@ -97,12 +97,7 @@ class Campaign:
 
 
 def open_campaign(
-    plan: BatchPlan,
-    output: Path | None,
-    *,
-    resume: bool = False,
-    engine: str | None = None,
-    workers: int | None = None,
+    plan: BatchPlan, output: Path | None, *, resume: bool = False, engine: str | None = None, workers: int | None = None
 ) -> Campaign:
     """Check a plan and write down what it flies. Raises InputError before anything is written or flown.
 

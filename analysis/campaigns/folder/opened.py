@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -45,12 +45,8 @@ FAULT = {
 }
 
 
-def columns_of(names: Iterable[str], provenance: Provenance) -> dict[str, Column]:
-    """Unit and meaning of columns by name, as ``provenance`` of their campaign says."""
-    return {name: _column(name, provenance) for name in names}
-
-
 def _column(name: str, provenance: Provenance) -> Column:
+    """Unit and meaning of a column, as ``provenance`` of its campaign says."""
     if name in FLIGHT:
         return FLIGHT[name]
     if name == "success":
@@ -117,7 +113,8 @@ class OpenedResults:
     @cached_property
     def columns(self) -> dict[str, Column]:
         """Unit and meaning of every column, in their order."""
-        return columns_of(pyarrow.parquet.read_schema(self.source.shards[0].path).names, self.provenance)
+        names = pyarrow.parquet.read_schema(self.source.shards[0].path).names
+        return {name: _column(name, self.provenance) for name in names}
 
     @cached_property
     def _schema(self) -> pyarrow.Schema:
@@ -152,12 +149,7 @@ class OpenedResults:
                 yield from table.to_batches()
 
     def quantile(
-        self,
-        metric: str,
-        share: float,
-        variant: str | None = None,
-        *,
-        where: pyarrow.compute.Expression | None = None,
+        self, metric: str, share: float, variant: str | None = None, *, where: pyarrow.compute.Expression | None = None
     ) -> float:
         """The least value of a metric that a ``share`` of the trials does not exceed: exact, in bounded memory.
 

@@ -48,11 +48,7 @@ def trace_dataset(results: ResultFolder, variant: str, names: Sequence[str] | No
             for name, values in arrays.items()
         },
         coords={"trial": list(paths), TIME: (TIME, grid, {"units": "s"})},
-        attrs={
-            "system": results.provenance["system"],
-            "campaign": results.provenance["campaign"],
-            "variant": variant,
-        },
+        attrs={"system": results.provenance["system"], "campaign": results.provenance["campaign"], "variant": variant},
     )
 
 

@@ -187,7 +187,7 @@ def parse_campaign(table: Table) -> Campaign:
         draws=draws,
         derived=derived,
         settings=read_settings(table.table("set"), sampled),
-        compare=read_compare(table.table("compare")),
+        compare={slot: names(each, slot, fmus) for each in [table.table("compare")] for slot, fmus in each.flat()},
         configurations=read_configurations(table, sampled),
         parameters=table.get("parameters", names, ()),
         record=_record(table.table("record")),
@@ -224,11 +224,6 @@ def read_settings(table: Table, dispersed: Sequence[str]) -> dict[str, Setting]:
         if name in dispersed:
             raise table.error(name, "also dispersed or derived", "keep one of the two")
     return settings
-
-
-def read_compare(table: Table) -> dict[str, tuple[str, ...]]:
-    """The FMUs of [compare], by slot. Raises InputError."""
-    return {slot: names(table, slot, value) for slot, value in table.flat()}
 
 
 def read_configurations(campaign: Table, dispersed: Sequence[str]) -> tuple[Variant, ...]:

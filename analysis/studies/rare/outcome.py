@@ -154,16 +154,24 @@ class RareResult(StudyResult):
 
     def headline(self) -> str:
         """The failure, its probability and what that is conditional on."""
-        return f"{self.failure.text}: {estimate_text(self.simulation)}{self.conditions}"
+        percent, (low, high) = f"{100 * CONFIDENCE:g} %", self.interval
+        estimate = f"not reached; probability below {high:.3g}, {percent}"
+        if self.probability is not None:
+            estimate = f"probability {self.probability:.3g}, {percent} interval {low:.3g} to {high:.3g}"
+        return f"{self.failure.text}: {estimate}{self.conditions}"
 
     def text(self, folder: Path | None = None) -> str:
         """The result for a terminal; ``folder`` as in `document`."""
         under, simulation = self.conditions, self.simulation
-        lines = [self.headline(), cost_text(simulation, under)]
+        levels, trials = simulation.levels, simulation.equivalent_trials
+        cost = f"{simulation.evaluations} flights in {len(levels)} level{'s' if len(levels) > 1 else ''}"
+        cost += "" if trials is None else f"; equivalent Monte Carlo sample size: {trials:.2g}{under}"
+        lines = [self.headline(), cost]
         lines += [line for line in (noise_line(self.noise), self.bound_text()) if line]
         lines += assumption_lines(self.facts.get("assumptions", ()))
         unit = f" ({self.margin_unit})" if self.margin_unit else ""
-        lines += ["", f"levels, thresholds of the margin{unit}{under}", *align_columns(level_rows(simulation))]
+        cells = [LEVEL_HEADS, *(_level_cells(number, level) for number, level in enumerate(levels, 1))]
+        lines += ["", f"levels, thresholds of the margin{unit}{under}", *align_columns(cells)]
         if self.failures:
             lines += ["", f"most probable failures{under}", *align_columns(self._failure_rows(f"margin{unit}"))]
             lines += self._replay_lines(folder)
@@ -207,26 +215,6 @@ class RareResult(StudyResult):
 LEVEL_HEADS = [
     "level", "threshold", "samples", "probability", "accepted: draws", "noise", "lowest source", "gamma", "c.o.v.",
 ]  # fmt: skip
-
-
-def estimate_text(simulation: SubsetSimulation) -> str:
-    """What is known of the probability."""
-    interval, percent = simulation.interval, f"{100 * CONFIDENCE:g} %"
-    if simulation.probability is None:
-        return f"not reached; probability below {interval.high:.3g}, {percent}"
-    return f"probability {simulation.probability:.3g}, {percent} interval {interval.low:.3g} to {interval.high:.3g}"
-
-
-def cost_text(simulation: SubsetSimulation, conditions: str) -> str:
-    """How many flights it took, and how many plain Monte Carlo takes for as much under the same ``conditions``."""
-    levels = len(simulation.levels)
-    text = f"{simulation.evaluations} flights in {levels} level{'s' if levels > 1 else ''}"
-    trials = simulation.equivalent_trials
-    return text if trials is None else f"{text}; equivalent Monte Carlo sample size: {trials:.2g}{conditions}"
-
-
-def level_rows(simulation: SubsetSimulation) -> list[list[str]]:
-    return [LEVEL_HEADS, *(_level_cells(number, level) for number, level in enumerate(simulation.levels, 1))]
 
 
 def _level_cells(number: int, level: Level) -> list[str]:

@@ -96,13 +96,7 @@ class _Population:
 
 
 def subset_simulation(
-    margin: MarginOf,
-    dimensions: int,
-    sources: int = 0,
-    *,
-    seed: int = 0,
-    samples: int = 4500,
-    least: float = 1e-9,
+    margin: MarginOf, dimensions: int, sources: int = 0, *, seed: int = 0, samples: int = 4500, least: float = 1e-9
 ) -> SubsetSimulation:
     """The probability that ``margin`` is 0 or more over standard normal draws and the noise of independent sources.
 
