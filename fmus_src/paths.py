@@ -21,7 +21,7 @@ FLAVOURS = ("native", "python")  # of FMUs; in this order where none is asked fo
 CACHE = BUILD / "cache" if IS_CHECKOUT else user_cache_path("perilune", appauthor=False)
 
 
-def built_fmu(name: str, flavour: str) -> Path:
+def shipped_fmu(name: str, flavour: str) -> Path:
     """The file that `build_fmus.py` writes for a block; it need not exist."""
     return BUILD / "fmus" / flavour / f"{name}.fmu"
 

@@ -19,7 +19,7 @@ class Port:
 
     def input(self, description: str | None = None, *, start: Any = None, **changes: Any) -> Input:
         """An input for it."""
-        return Input(*self._start(start), **self._changed(description, changes))
+        return Input(*self._start(start), **self._complete(description, changes))
 
     def output(
         self,
@@ -30,20 +30,20 @@ class Port:
         **changes: Any,
     ) -> Output:
         """An output of it."""
-        return Output(*self._start(start), direct=direct, **self._changed(description, changes))
+        return Output(*self._start(start), direct=direct, **self._complete(description, changes))
 
     def parameter(self, start: Any = None, description: str | None = None, **changes: Any) -> Parameter:
         """A parameter that sets it."""
-        return Parameter(*self._start(start), **self._changed(description, changes))
+        return Parameter(*self._start(start), **self._complete(description, changes))
 
     def state(self, description: str | None = None, *, start: Any = None, **changes: Any) -> State:
         """A state that keeps it."""
-        return State(*self._start(start), **self._changed(description, changes))
+        return State(*self._start(start), **self._complete(description, changes))
 
     def _start(self, start: Any) -> tuple[Any]:
         return (self.start if start is None else start,)
 
-    def _changed(self, description: str | None, changes: dict[str, Any]) -> dict[str, Any]:
+    def _complete(self, description: str | None, changes: dict[str, Any]) -> dict[str, Any]:
         if description is not None:
             changes["description"] = description
         return {**self.declaration, **changes}

@@ -16,7 +16,7 @@ import pytest
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.closure import closure_of
 from perilune.fmus_src.export.command import main as build_fmus
-from perilune.fmus_src.paths import BUILD, built_fmu
+from perilune.fmus_src.paths import BUILD, shipped_fmu
 from tests.support.built import native_are_current
 from tests.support.kernels.programs import NO_QEMU
 from tests.support.lengths import LONG, either
@@ -81,7 +81,7 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
 
 
 def _is_current(name: str, package: str) -> bool:
-    path = built_fmu(name, "python")
+    path = shipped_fmu(name, "python")
     if not path.is_file():
         return False
     with zipfile.ZipFile(path) as archive:
@@ -100,7 +100,7 @@ def _build_where_old(_: Path) -> None:
 def fmus(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of this repository's Python FMUs, built with the native ones if missing or of older sources."""
     made_once(tmp_path_factory, "fmus_looked_at", _build_where_old)
-    return built_fmu("x", "python").parent
+    return shipped_fmu("x", "python").parent
 
 
 @pytest.fixture(scope="session")

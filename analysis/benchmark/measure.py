@@ -15,7 +15,7 @@ from loky import cpu_count
 
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.ssp_package import list_fmus, pack_system
-from ...fmus_src.paths import SYSTEMS, built_fmu
+from ...fmus_src.paths import SYSTEMS, shipped_fmu
 from ..common.errors import InputError, suggestion
 from ..common.progress import progress_bar
 from ..runtime.ssp.archive import system_names
@@ -86,7 +86,7 @@ def _pack(system: str, folder: Path, listed: Sequence[Contestant], unavailable: 
     for flavour in OURS:
         try:
             files = [fmu_file(Path(source).stem, flavour) for source in list_fmus(SYSTEMS / system)]
-            folders = [*dict.fromkeys(path.parent for path in files if path), built_fmu("x", flavour).parent]
+            folders = [*dict.fromkeys(path.parent for path in files if path), shipped_fmu("x", flavour).parent]
             archives[flavour] = pack_system(SYSTEMS / system, folders, folder / flavour)
         except ValueError as error:
             unavailable |= {each.name: str(error) for each in listed if each.flavour == flavour}

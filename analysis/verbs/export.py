@@ -22,7 +22,7 @@ from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with,
 from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
 from ...fmus_src.export.sources import record_source, remove_outdated
 from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
-from ...fmus_src.paths import FLAVOURS, IS_CHECKOUT, built_fmu, own_fmu, own_fmus
+from ...fmus_src.paths import FLAVOURS, IS_CHECKOUT, own_fmu, own_fmus, shipped_fmu
 from ..common.atomic import write_atomically
 from ..common.errors import InputError, SeveralProblemsError, suggestion
 from ..common.targets import check_file
@@ -154,7 +154,7 @@ def _build(block: type[Block], path: Path, flavour: str, platforms: list[str]) -
     elif block.python_only:
         raise InputError("export", block.fmu_name, "needs Python and has no native form", "give `flavour` python")
     elif not IS_CHECKOUT:
-        files = read_zip(built_fmu(block.fmu_name, flavour))
+        files = read_zip(shipped_fmu(block.fmu_name, flavour))
         left_out = tuple(f"binaries/{name}/" for name in PLATFORMS if name not in platforms)
         write_zip(path, {name: content for name, content in files.items() if not name.startswith(left_out)})
     elif not platforms:

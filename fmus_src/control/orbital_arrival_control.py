@@ -18,7 +18,7 @@ class OrbitalArrivalControl(OrbitalControl):
     Equations: docs/systems/orbital_attitude.md.
     """
 
-    def turned(self, time: float) -> tuple[float, float]:
+    def lead_yaw(self, time: float) -> tuple[float, float]:
         """The yaw to be led to (rad) and its rate (rad/s), ``time`` (s) after the start."""
         ramp = abs(self.turn_angle) / self.turn_rate
         rate = math.copysign(self.turn_rate, self.turn_angle)
@@ -52,7 +52,7 @@ class OrbitalArrivalControl(OrbitalControl):
         return 0.0
 
     def regulate(self, time: float) -> None:
-        yaw, led = self.turned(time)
+        yaw, led = self.lead_yaw(time)
         rates = angle_rates(self.estimated_angles, self.estimated_angular_velocity, self.orbital_rate)
         x = self.torque_about(0, self.estimated_angles.x, 0.0, rates.x, time)
         y = self.torque_about(1, self.estimated_angles.y - yaw, led, rates.y, time)

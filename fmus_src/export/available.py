@@ -12,7 +12,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from ..catalogue import catalogue
-from ..paths import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, built_fmu, own_fmu, own_fmus
+from ..paths import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, own_fmu, own_fmus, shipped_fmu
 from .pythonfmu_fmu import build_python_fmu
 
 
@@ -21,7 +21,7 @@ def fmu_file(name: str, flavour: str, system: Path | None = None) -> Path | None
 
     None where there is none.
     """
-    shipped = built_fmu(name, flavour)
+    shipped = shipped_fmu(name, flavour)
     if shipped.is_file():
         return shipped
     if not IS_CHECKOUT and flavour == "python" and name in catalogue():
@@ -37,7 +37,7 @@ def fmu_flavours() -> dict[str, dict[str, Path | None]]:
         if not IS_CHECKOUT and flavour == "python":
             for name in catalogue():
                 files.setdefault(name, {})[flavour] = None
-        for folder in (built_fmu("x", flavour).parent, own_fmu("x", flavour).parent):
+        for folder in (shipped_fmu("x", flavour).parent, own_fmu("x", flavour).parent):
             for path in sorted(folder.glob("*.fmu")):
                 files.setdefault(path.stem, {}).setdefault(flavour, path)
     return files

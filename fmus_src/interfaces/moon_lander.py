@@ -21,7 +21,7 @@ class Burn(Record):
     gain = Field(unit="m/s", description="the speed gained, of the rocket equation")
 
 
-def scaled(burn: Burn, simpson: float) -> Burn:
+def scale(burn: Burn, simpson: float) -> Burn:
     """A burn whose mean by Simpson's rule, ``simpson`` (m/s), is its gain."""
     return Burn(
         start=burn.start * burn.gain / simpson,
@@ -122,7 +122,7 @@ class MoonLander(Block, interface=True):
         burn = self.burn(h, commanded)
         simpson = h * (burn.start + 4.0 * burn.middle + burn.end) / 6.0
         if simpson > 0.0:
-            burn = scaled(burn, simpson)
+            burn = scale(burn, simpson)
         first = burn.start * self.attitude
         self.turn(t, 0.5 * h)
         middle = burn.middle * self.attitude

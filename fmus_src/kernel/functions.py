@@ -31,7 +31,7 @@ def _refuse(y: float, if_infinite: str) -> None:
     raise ValueError(DOMAIN_ERROR)
 
 
-def _checked(function: Callable[[float], float], if_infinite: str) -> Callable[[float], float]:
+def _check_result(function: Callable[[float], float], if_infinite: str) -> Callable[[float], float]:
     """A function of one argument that raises where its result is NaN, or infinite, of a finite argument."""
 
     @functools.wraps(function)
@@ -45,7 +45,7 @@ def _checked(function: Callable[[float], float], if_infinite: str) -> Callable[[
     return call
 
 
-def _checked_power(function: Callable[[float, float], float]) -> Callable[[float, float], float]:
+def _check_power(function: Callable[[float, float], float]) -> Callable[[float, float], float]:
     """x^y, which raises where it is NaN, or infinite, of finite arguments."""
 
     @functools.wraps(function)
@@ -65,23 +65,23 @@ def unchecked(function: Any) -> FunctionType:
     return computing
 
 
-sin = _checked(trigonometric.sin, DOMAIN_ERROR)
-cos = _checked(trigonometric.cos, DOMAIN_ERROR)
-tan = _checked(trigonometric.tan, DOMAIN_ERROR)
-asin = _checked(inverse.asin, DOMAIN_ERROR)
-acos = _checked(inverse.acos, DOMAIN_ERROR)
+sin = _check_result(trigonometric.sin, DOMAIN_ERROR)
+cos = _check_result(trigonometric.cos, DOMAIN_ERROR)
+tan = _check_result(trigonometric.tan, DOMAIN_ERROR)
+asin = _check_result(inverse.asin, DOMAIN_ERROR)
+acos = _check_result(inverse.acos, DOMAIN_ERROR)
 atan = inverse.atan
 atan2 = inverse.atan2
-exp = _checked(exponential.exp, RANGE_ERROR)
-exp2 = _checked(exponential.exp2, RANGE_ERROR)
-expm1 = _checked(exponential.expm1, RANGE_ERROR)
-log = _checked(logarithm.log, DOMAIN_ERROR)
-log2 = _checked(logarithm.log2, DOMAIN_ERROR)
-log10 = _checked(logarithm.log10, DOMAIN_ERROR)
-log1p = _checked(logarithm.log1p, DOMAIN_ERROR)
-pow = _checked_power(power.pow)
-sinh = _checked(hyperbolic.sinh, RANGE_ERROR)
-cosh = _checked(hyperbolic.cosh, RANGE_ERROR)
+exp = _check_result(exponential.exp, RANGE_ERROR)
+exp2 = _check_result(exponential.exp2, RANGE_ERROR)
+expm1 = _check_result(exponential.expm1, RANGE_ERROR)
+log = _check_result(logarithm.log, DOMAIN_ERROR)
+log2 = _check_result(logarithm.log2, DOMAIN_ERROR)
+log10 = _check_result(logarithm.log10, DOMAIN_ERROR)
+log1p = _check_result(logarithm.log1p, DOMAIN_ERROR)
+pow = _check_power(power.pow)
+sinh = _check_result(hyperbolic.sinh, RANGE_ERROR)
+cosh = _check_result(hyperbolic.cosh, RANGE_ERROR)
 tanh = hyperbolic.tanh
 cbrt = roots.cbrt
 fmod = math.fmod  # exact by definition

@@ -103,7 +103,7 @@ class FreeFlyingRobot(Block):
         self.gimbal_angles = self.gimbal_angles + h * self.gimbal_rates
         self.measure_gyros()
 
-    def slopes(self, s: RobotRotation) -> RobotRotation:
+    def derivatives(self, s: RobotRotation) -> RobotRotation:
         """q' = q w/2 and G' = R(q) M, at the gyros' present state."""
         return RobotRotation(
             quaternion=multiply(s.quaternion, quaternion(0.0, 0.5 * self.rate(s.quaternion, s.angular_momentum))),
@@ -121,15 +121,15 @@ class FreeFlyingRobot(Block):
         by Nystrom's form from the forces of all stages. As derivatives of one state both would round otherwise.
         """
         s1 = RobotRotation(quaternion=self.quaternion, angular_momentum=self.angular_momentum)
-        k1 = self.slopes(s1)
+        k1 = self.derivatives(s1)
         self.turn_gimbals(0.5 * h)
         s2 = s1 + 0.5 * h * k1
-        k2 = self.slopes(s2)
+        k2 = self.derivatives(s2)
         s3 = s1 + 0.5 * h * k2
-        k3 = self.slopes(s3)
+        k3 = self.derivatives(s3)
         self.turn_gimbals(0.5 * h)
         s4 = s1 + h * k3
-        k4 = self.slopes(s4)
+        k4 = self.derivatives(s4)
         # the zeros make no sum of them -0
         zero = vector(0.0, 0.0, 0.0)
         still = RobotRotation(quaternion=vector(0.0, 0.0, 0.0, 0.0), angular_momentum=zero)

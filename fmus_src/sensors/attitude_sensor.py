@@ -43,7 +43,7 @@ class AttitudeSensor(RandomSensor):
         constant = normals(self.generator)
         self.misalignment = self.constant_sigma * constant
 
-    def turned(self, axis: Vector3, rotation: Vector3) -> Vector3:
+    def turn(self, axis: Vector3, rotation: Vector3) -> Vector3:
         """An axis after a small rotation (rad); as it is where it has no length."""
         moved = axis + cross(rotation, axis)
         length = norm(moved)
@@ -54,7 +54,7 @@ class AttitudeSensor(RandomSensor):
     def measure(self) -> None:
         """Take a sample."""
         numbers = normals(self.generator)
-        self.measured_attitude = self.turned(self.attitude, self.misalignment + self.attitude_sigma * numbers)
+        self.measured_attitude = self.turn(self.attitude, self.misalignment + self.attitude_sigma * numbers)
         numbers = normals(self.generator)
         self.measured_angular_rate = self.angular_rate + self.rate_sigma * numbers
         self.sample_count = self.sample_count + 1

@@ -15,7 +15,7 @@ from perilune.analysis.runtime.flight.instance import Instance, instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.fmus_src.block import Block, Input, Parameter
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.paths import built_fmu
+from perilune.fmus_src.paths import shipped_fmu
 from perilune.fmus_src.runtime import Component
 from tests.support.kernels import samples
 from tests.support.kernels.comparison import LONGEST_FLIGHT, bits, draw, elements, only_switches
@@ -74,7 +74,7 @@ def drawn(block: type[Block], kind: type, random: Random, h: float, before: list
 @pytest.mark.parametrize("block", BLOCKS[:: either(1, 6)], ids=lambda block: block.fmu_name)
 @pytest.mark.usefixtures("fmus")
 def test_three_faces_agree(block: type[Block]) -> None:
-    files = [built_fmu(block.fmu_name, flavour) for flavour in ("python", "native")]
+    files = [shipped_fmu(block.fmu_name, flavour) for flavour in ("python", "native")]
     wanted = STEPS if block.fmu_name not in LONG else STEPS // 4
     instances = [instantiate(load_fmu(file.read_bytes(), str(file)), block.fmu_name) for file in files]
     faces = [Face(block, instance) for instance in instances]

@@ -10,7 +10,7 @@ from scipy.linalg import expm
 from perilune import modal
 from perilune.analysis.runtime.flight.instance import instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
-from perilune.fmus_src.paths import built_fmu
+from perilune.fmus_src.paths import shipped_fmu
 from tests.support.loops.exact_orbital import linear_matrix
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -31,7 +31,7 @@ class Fmu:
     """A native FMU, initialised with parameters."""
 
     def __init__(self, name, **parameters):
-        path = built_fmu(name, "native")
+        path = shipped_fmu(name, "native")
         fmu = load_fmu(path.read_bytes(), str(path))
         self.instance = instantiate(fmu, name)
         self.references = {key: variable.valueReference for key, variable in fmu.variables.items()}

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from perilune import fmus_src
-from perilune.fmus_src.paths import built_fmu
+from perilune.fmus_src.paths import shipped_fmu
 
 
 @cache
@@ -19,5 +19,5 @@ def newest_source() -> float:
 
 def native_are_current(names: Iterable[str]) -> bool:
     """Whether these native FMUs are there, and not older than any source."""
-    paths = [built_fmu(name, "native") for name in names]
+    paths = [shipped_fmu(name, "native") for name in names]
     return all(path.is_file() and path.stat().st_mtime >= newest_source() for path in paths)

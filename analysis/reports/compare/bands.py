@@ -40,7 +40,7 @@ class Bands:
     singles: list[History]
     failed: list[History]
 
-    def shown(self) -> np.ndarray:
+    def finite_values(self) -> np.ndarray:
         """All finite values of the bands and of the single flights in them."""
         values = np.concatenate([self.percentiles.ravel(), *(row for _, row in self.singles)])
         return values[np.isfinite(values)]
@@ -118,7 +118,7 @@ class Frame:
 def frame_of(quantity: Quantity, bands: Mapping[str, Bands]) -> Frame:
     """One scale for all, which failed flights may leave, and errors over sigma far beyond what is to be expected."""
     expected = expectation(quantity)
-    everything = np.concatenate([band.shown() for band in bands.values()] + [np.asarray(expected)])
+    everything = np.concatenate([band.finite_values() for band in bands.values()] + [np.asarray(expected)])
     factor, unit = display_factor(quantity.unit), display_unit(quantity.unit)
     if quantity.unit == "m":
         factor, unit = far(everything)
@@ -140,7 +140,7 @@ def band_panels(quantity: Quantity, bands: Mapping[str, Bands], looks: Mapping[s
         def draw(axes: Axes, band: Bands = band, colour: str = looks[label].colour) -> None:
             _draw(axes, band, frame.factor, colour, quantity.held)
             frame.dress(axes)
-            ends = (band.shown().min(), band.shown().max())
+            ends = (band.finite_values().min(), band.finite_values().max())
             if not all(frame.low <= value <= frame.high for value in ends):
                 low, high = (number(frame.factor * float(value), 3) for value in ends)
                 axes.set_title(f"clipped; full range {low} to {high}", loc="right", fontsize=8.0, color=FAINT)

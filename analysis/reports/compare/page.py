@@ -164,7 +164,7 @@ def _histories(comparison: Comparison, flights: Mapping[str, list[Flight]], look
         displayed = {label: band for label, band in bands.items() if band is not None and band.time.size}
         if not displayed:
             continue
-        values = np.concatenate([band.shown() for band in displayed.values()])
+        values = np.concatenate([band.finite_values() for band in displayed.values()])
         if values.size and np.ptp(values) == 0.0:  # the same throughout in all flights
             histories.append(History(quantity, [], [], float(values[0]), expectation(quantity)))
             continue

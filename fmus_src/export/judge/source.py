@@ -72,11 +72,11 @@ def _plain(node: ast.FunctionDef, count: int) -> ast.FunctionDef:
     plain.args.args += [ast.copy_location(ast.arg(name, several.annotation), several) for name in names]
     for call in ast.walk(plain):
         if isinstance(call, ast.Call):
-            call.args = [part for argument in call.args for part in _unstarred(argument, several.arg, names)]
+            call.args = [part for argument in call.args for part in _expand(argument, several.arg, names)]
     return plain
 
 
-def _unstarred(argument: ast.expr, several: str, names: list[str]) -> list[ast.expr]:
+def _expand(argument: ast.expr, several: str, names: list[str]) -> list[ast.expr]:
     """The arguments that an argument stands for: ``*inputs`` for as many names."""
     starred = isinstance(argument, ast.Starred) and isinstance(argument.value, ast.Name)
     if starred and argument.value.id == several:  # type: ignore[attr-defined]

@@ -133,11 +133,11 @@ def _functions(kernel: Kernel, names: Names, type_name: str) -> list[str]:
             file = here
         definitions.append("\n".join([*write_function(function, names, type_name), ""]))
         if function.source.function in FAULTS:
-            definitions.append(_checked(function, names.functions[function]))
+            definitions.append(_define_checked(function, names.functions[function]))
     return definitions
 
 
-def _checked(function: Function, c_name: str) -> str:
+def _define_checked(function: Function, c_name: str) -> str:
     """The form of an elementary function that records a fault, ``py_sin``, at its caller's line."""
     error = FAULTS[function.source.function]
     if error == EITHER_ERROR:
@@ -168,7 +168,7 @@ def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
     for name, variable in block_class.variables.items():
         values = ", ".join(map(literal, variable.elements))
         if variable.record is not None:
-            values = _braced(variable.record.of_elements(variable.elements))
+            values = _initialise(variable.record.of_elements(variable.elements))
         elif variable.is_array:
             values = f"{{{{{values}}}}}" if variable.is_vector else f"{{{values}}}"
         starts.add(f".{identifier(name)} = {values},")
@@ -207,12 +207,12 @@ def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
     )
 
 
-def _braced(value: Any) -> str:
+def _initialise(value: Any) -> str:
     """A number, vector or record as C initialises it."""
     if isinstance(value, vector_types.Vector):
         return f"{{{{{', '.join(map(literal, value))}}}}}"
     if isinstance(value, Record):
-        return f"{{{', '.join(_braced(getattr(value, name)) for name in value.fields)}}}"
+        return f"{{{', '.join(_initialise(getattr(value, name)) for name in value.fields)}}}"
     return literal(value)
 
 

@@ -15,7 +15,7 @@ from docs.reference.blocks import block_page, fitting, slots_of
 from docs.reference.usage import usages
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.paths import ROOT, built_fmu
+from perilune.fmus_src.paths import ROOT, shipped_fmu
 
 # Blocks that count, compare or pass on, without a model of anything that could be left out.
 WITHOUT_MODEL = {
@@ -59,7 +59,7 @@ def test_the_page_has_every_variable(name):
         for row in page.splitlines()
         if row.startswith("| `")
     }
-    description = read_model_description(str(built_fmu(name, "python")), validate=False)
+    description = read_model_description(str(shipped_fmu(name, "python")), validate=False)
     seen = set()
     for variable in description.modelVariables:
         if variable.causality == "independent":

@@ -15,7 +15,7 @@ from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import PLATFORMS, build_library, local_platform
 from perilune.fmus_src.export.native_fmu import native_sources
-from perilune.fmus_src.paths import BUILD, built_fmu
+from perilune.fmus_src.paths import BUILD, shipped_fmu
 from tests.support.built import native_are_current
 
 CACHE = BUILD / "cache"
@@ -69,7 +69,7 @@ def built(block_class: type[Block]) -> tuple[ctypes.CDLL, str] | None:
     name, platform = block_class.fmu_name, local_platform()
     if platform is None or catalogue().get(name) is not block_class or not native_are_current([name]):
         return None
-    with zipfile.ZipFile(built_fmu(name, "native")) as archive, tempfile.TemporaryDirectory() as folder:
+    with zipfile.ZipFile(shipped_fmu(name, "native")) as archive, tempfile.TemporaryDirectory() as folder:
         file = Path(archive.extract(f"binaries/{platform}/{name}{PLATFORMS[platform].extension}", folder))
         guid = etree.fromstring(archive.read("modelDescription.xml")).get("guid", "")
         return opened(file), guid
