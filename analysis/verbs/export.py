@@ -59,9 +59,9 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
 
     ``name`` is a block's, a system's (or its folder), or a file; a block of one's own is looked up by its name in the
     .py files of the working folder. ``platforms`` are of native FMUs (linux64, win64, darwin64), by default those that
-    come built, or that a compiler here serves; ``flavour`` is native by default, of a file both as far as a compiler is
-    here; ``output`` is NAME.fmu or NAME.ssp in the working folder, of a file its build/fmus. Raises InputError, with a
-    line for each thing that is wrong with a block.
+    are prebuilt, or for which a compiler is installed; ``flavour`` is native by default, of a file both where one
+    is installed; ``output`` is NAME.fmu or NAME.ssp in the working folder, of a file its build/fmus. Raises InputError,
+    with a line for each thing that is wrong with a block.
     """
     platforms, flavour = options["platforms"], options["flavour"]
     text = os.fspath(name)

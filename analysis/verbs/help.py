@@ -68,7 +68,7 @@ def verb_help(verb: Verb) -> str:
 def exit_status(verb: Verb) -> str:
     """What the exit statuses of a verb mean."""
     not_met = f"{verb.not_met}, or interrupted" if verb.not_met else "interrupted"
-    return f"Exit status: 0: done, and all is met. 1: {not_met}. 2: wrong input, or a result could not be written."
+    return f"Exit status: 0: success. 1: {not_met}. 2: wrong input, or a result could not be written."
 
 
 def _rows(rows: list[tuple[str, str]]) -> list[str]:

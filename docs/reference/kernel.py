@@ -49,7 +49,7 @@ def kernel_page() -> str:
     constants = ", ".join(f"`math.{name}`" for name in MATH_CONSTANTS)
     parts = [
         f"# {LANGUAGE_PAGE}",
-        "`initialize`, `step` and all that they call are a *kernel*: Python as it stands, which `perilune export` also "
+        "`initialize`, `step` and all that they call are a *kernel*: plain Python, which `perilune export` also "
         "writes as C with the same bits. What is refused is named with its line and with what to write instead. A "
         "block that needs more says `python_only = True`, and then has a Python FMU only.",
         "## Statements",
@@ -63,7 +63,7 @@ def kernel_page() -> str:
         "## Integrators",
         "They call a function that they are given: `runge_kutta_4(self.derivatives, t, self.state, h, force)`. "
         "Write `from perilune import runge_kutta_4`.",
-        table(["function", "what it gives"], _signatures(INTEGRATORS)),
+        table(["function", "result"], _signatures(INTEGRATORS)),
         "## Elementary functions",
         f"Write `from perilune import {', '.join(list(ELEMENTARY_FUNCTIONS)[:3])}` at the top of the file. They have "
         "the same bits on every processor, in Python and in C, which those of `math` do not; their errors are below "
@@ -79,7 +79,7 @@ def kernel_page() -> str:
         "`perilune`, too.",
     ]
     for name, functions in _helpers():
-        parts += [f"### {name}", table(["function", "what it gives"], _signatures(functions))]
+        parts += [f"### {name}", table(["function", "result"], _signatures(functions))]
     refused = [(f"`{name}`", escaped(remedy)) for name, remedy in REFUSED_FUNCTIONS.items()]
     rules = [*REFUSED_SYNTAX.values(), *RULES.values()]
     said = {rule.what: rule.remedy for rule in rules if not any(mark in rule.what + rule.remedy for mark in FREE)}

@@ -12,7 +12,7 @@ class GyroSteeringExplicit(GyroSteering):
     The torque at the sample instant is exact. With the declared rho no momentum below 1.96 of one rotor's is singular
     under the law; law_gain leads angles that are off it back to it. Where a divisor of the law
     falls below least_divisor (|h| > 1.93), the rates are those of the singularity-robust pseudo-inverse: the
-    torque is then approximate and the status 1. Source: Somov 2013; see docs/systems/robot_rendezvous.md.
+    torque is then approximate and the status 1. Source: Somov 2013; see docs/theory/rendezvous.md.
     """
 
     rho = Parameter(ISOTROPIC_RHO, unit="1", minimum=0.0, maximum=0.999, description="bias of the distribution law")

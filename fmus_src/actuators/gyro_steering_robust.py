@@ -11,7 +11,7 @@ class GyroSteeringRobust(GyroSteering):
     The torque is exact while singularity is at least damping_threshold (k = 0); below it rates stay
     bounded, the torque is approximate and the status 1. swing leads out of singular states. The
     pseudo-inverse leaves the isotropic angles and does not come back to them. Source: Nakamura and Hanafusa
-    1986; Wie 2005; see docs/systems/robot_rendezvous.md.
+    1986; Wie 2005; see docs/theory/rendezvous.md.
     """
 
     def steer(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:

@@ -10,7 +10,7 @@ class JetAllocationLeastPropellant(JetAllocation):
     The optimum of the linear programme min sum(p), B p = wrench, 0 <= p <= maximum_thrust, in closed
     form. A wrench that no thrusts give is scaled to the largest of its direction that some do. For
     a force without torque all is attainable up to |Fi| + |Fj| = 1.155 N for each two axes, with the
-    declared jets. Derivation: docs/systems/robot_rendezvous.md.
+    declared jets. Derivation: docs/theory/rendezvous.md.
     """
 
     def allocate(self) -> None:

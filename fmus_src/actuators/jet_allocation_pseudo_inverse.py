@@ -10,7 +10,7 @@ class JetAllocationPseudoInverse(JetAllocation):
     Gives the wanted wrench only where largest - least of the pseudo-inverse is within maximum_thrust:
     for a force without torque |F1| + |F2| + |F3| <= 1.154 N with the declared jets. Beyond, a
     smaller wrench of the same direction. Source: Somov, Butyrin, Somov and Somova, see
-    docs/systems/robot_rendezvous.md; the factor maximum_thrust is missing in print.
+    docs/theory/rendezvous.md; the factor maximum_thrust is missing in print.
     """
 
     def allocate(self) -> None:

@@ -17,7 +17,7 @@ class JetAllocationQuantised(JetAllocation):
     propellant. What it lacks is added to the next command as an impulse in inertial axes (first-order
     sigma-delta), so that the mean force is the wanted one. A force beyond what is attainable is scaled
     first, and what that takes off is not carried. A torque command is left out and reported, as is a
-    force that the geometry cannot give. Derivation: docs/systems/robot_rendezvous.md.
+    force that the geometry cannot give. Derivation: docs/theory/rendezvous.md.
     """
 
     thrust_quantum = Parameter(0.05, unit="N", minimum=1e-6, description="thrusts are multiples of it")

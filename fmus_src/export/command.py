@@ -32,7 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--platform",
         action="append",
         choices=tuple(PLATFORMS),
-        help="platforms of native FMUs; may be repeated; default: all that a compiler here serves",
+        help="platforms of native FMUs; may be repeated; default: all for which a compiler is installed",
     )
     parser.add_argument("--portable", action="store_true", help="compile with zig, against an old C library")
     options = parser.parse_args(arguments)

@@ -16,7 +16,7 @@ class PlanarNetworkOperator(NetworkOperatorLaw):
     Source: Diveev, Pupkov and Sofronova 2013; see docs/systems/lunar_descent_2d.md.
     """
 
-    final_altitude = Parameter(1500.0, unit="m", description="hf, where to arrive")
+    final_altitude = Parameter(1500.0, unit="m", description="hf, altitude at arrival")
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.0, "guidance cycle; 0: every communication point")
     measured_path_angle = landing.MEASURED_PATH_ANGLE.input()
     measured_altitude = landing.MEASURED_ALTITUDE.input("altitude", start=18148.0)

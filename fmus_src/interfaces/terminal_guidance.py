@@ -56,7 +56,7 @@ class TerminalGuidance(Block, interface=True):
 
     to_write = ("solve",)
 
-    target_position = landing.POSITION.parameter([0.0, 0.0, 2000.0], "where to arrive")
+    target_position = landing.POSITION.parameter([0.0, 0.0, 2000.0], "target position")
     target_velocity = landing.VELOCITY.parameter(description="velocity to arrive with")
     gravity = landing.GRAVITY.parameter()
     gravity_correction = Parameter(

@@ -20,7 +20,7 @@ def central_angle(position: Vector3, radius: float) -> float:
 
 
 def ground_range(position: Vector3, radius: float) -> float:
-    """Way (m) on the sphere of ``radius`` from below ``position`` to the origin."""
+    """Arc (m) on the sphere of ``radius`` from below ``position`` to the origin."""
     centred = from_centre(position, radius)
     return radius * atan2(math.sqrt(centred.x * centred.x + centred.y * centred.y), centred.z)
 

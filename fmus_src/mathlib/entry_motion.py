@@ -61,7 +61,7 @@ def in_body(axes: BodyAxes, v: Vector3) -> Vector3:
 
 
 def earth_forces(s: EntryState, gravitational_parameter: float, earth_rate: float) -> Vector3:
-    """Gravity and what the Earth's turn adds to it (m/s2, velocity axes)."""
+    """Gravity and the terms of the Earth's rotation (m/s2, velocity axes)."""
     sin_path = sin(s.flight_path_angle)
     cos_path = cos(s.flight_path_angle)
     sin_heading = sin(s.heading)
@@ -114,7 +114,7 @@ def velocity_axes_rate(s: EntryState, rate: PathRate, earth_rate: float) -> Vect
 
 
 def attitude_rates(attitude: Vector3, n: Vector3) -> Vector3:
-    """Rates of bank, sideslip and attack for an angular velocity n (rad/s, body) against the velocity axes."""
+    """Rates (rad/s) of bank, sideslip and attack for an angular velocity n (rad/s, body) against the velocity axes."""
     sa = sin(attitude.z)
     ca = cos(attitude.z)
     along = n.x * ca - n.y * sa

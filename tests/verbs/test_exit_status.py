@@ -177,6 +177,4 @@ def test_the_help_of_a_verb(verb, capsys):
     assert stop.value.code == 0
     words = " ".join(capsys.readouterr().out.split())
     one = f"{FAILURES[verb]}, or interrupted" if verb in FAILURES else "interrupted"
-    assert words.endswith(
-        f"Exit status: 0: done, and all is met. 1: {one}. 2: wrong input, or a result could not be written."
-    )
+    assert words.endswith(f"Exit status: 0: success. 1: {one}. 2: wrong input, or a result could not be written.")

@@ -75,7 +75,7 @@ class CampaignOptions(SystemOptions, SimulationOptions, total=False):
     ]
     configuration: Annotated[
         str | None,
-        Option("only this variant of the campaign: a configuration, or a compared FMU", metavar="NAME"),
+        Option("only this configuration of the campaign, or this compared FMU", metavar="NAME"),
     ]
 
 
@@ -85,7 +85,11 @@ class TrialsOptions(TypedDict, total=False):
     trials: Annotated[int | None, Option("instead of the campaign's number of trials", metavar="N")]
     draws: Annotated[
         FilePath | None,
-        Option("given samples, one row per trial, not random ones", metavar="F.parquet", completer="parquet_files"),
+        Option(
+            "read the samples from a file, one row per trial, instead of drawing them",
+            metavar="F.parquet",
+            completer="parquet_files",
+        ),
     ]
 
 
@@ -94,7 +98,8 @@ class ExecutionOptions(TypedDict, total=False):
 
     workers: Workers
     engine: Annotated[
-        Literal["threads", "processes"] | None, Option("parallel threads or processes; default: threads where FMUs can")
+        Literal["threads", "processes"] | None,
+        Option("parallel threads or processes; default: threads where the FMUs allow them"),
     ]
     scheduler: Annotated[str | None, Option("run on the workers of this dask scheduler instead", metavar="ADDRESS")]
 
@@ -151,7 +156,7 @@ BATCH = Verb(
 )
 PREPARE = Verb(
     "prepare",
-    "write a campaign to a folder without simulating it, for shard",
+    "write a campaign to a folder, to be simulated by `shard`",
     (SYSTEM, CAMPAIGN, Argument("output", "DIR", "the folder to write", is_option=True)),
     options=PrepareOptions,
     function="shard.prepare",
@@ -162,7 +167,7 @@ PREPARE = Verb(
 )
 SHARD = Verb(
     "shard",
-    "simulate some shards of a campaign that prepare wrote, or that batch left unfinished",
+    "simulate some shards of a prepared campaign, or of an unfinished batch",
     (FOLDER, Argument("numbers", "K", "numbers of shards, the first is 0; A-B: from A to B", many=True)),
     options=ExecutionOptions,
     examples={

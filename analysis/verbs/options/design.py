@@ -202,7 +202,7 @@ class BoundOptions(SystemOptions, VehicleOptions, total=False):
 
 BOUND = Verb(
     "design bound",
-    "bound the propellant of a single-burn braking and landing: a point mass, attitude free",
+    "bound the propellant of a single-burn braking and landing, for a point mass with free attitude",
     (LANDING_SYSTEM,),
     options=BoundOptions,
     files=ReportFiles,

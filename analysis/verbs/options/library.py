@@ -125,7 +125,11 @@ class ExportOptions(TypedDict, total=False):
 
     platforms: Annotated[
         Sequence[Literal["linux64", "win64", "darwin64"]],
-        Option("of native FMUs; default: those that come built, or that a compiler here serves", (), flag="platform"),
+        Option(
+            "of native FMUs; default: the prebuilt ones, and those for which a compiler is installed",
+            (),
+            flag="platform",
+        ),
     ]
     flavour: Annotated[
         Literal["native", "python"] | None,

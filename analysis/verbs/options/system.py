@@ -114,6 +114,6 @@ class ReportFiles(JsonFile, total=False):
 Seed = Annotated[int | None, Option("instead of the campaign's root seed", metavar="S")]
 Workers = Annotated[int | None, Option("simulations in parallel; default: one per processor", metavar="N")]
 Overwrite = Annotated[bool, Option("overwrite existing results in the folder of --output", False)]
-UntilDecided = Annotated[bool, Option("stop as soon as the campaign's requirements are met, or are not", False)]
+UntilDecided = Annotated[bool, Option("stop as soon as the campaign's requirements are met or violated", False)]
 
 SHARED = {"system options": SystemOptions, "simulation options": SimulationOptions}  # which --help-all explains

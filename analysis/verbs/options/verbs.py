@@ -11,9 +11,9 @@ from .verb import Verb
 PURPOSES = {  # headings of `perilune --help`
     "Simulate": (RUN, BATCH, REPLAY),
     "Study": (COMPARE, STABILITY, RARE, WORST, SENSITIVITY),
-    "Look": (LIST, DESCRIBE, VALIDATE, BENCHMARK, DOCS),
-    "Make": (NEW_BLOCK, NEW_SYSTEM, LAW, SEARCH, TRANSFER, BOUND),
-    "Share": (EXPORT, PREPARE, SHARD, MERGE),
+    "Inspect": (LIST, DESCRIBE, VALIDATE, BENCHMARK, DOCS),
+    "Create": (NEW_BLOCK, NEW_SYSTEM, LAW, SEARCH, TRANSFER, BOUND),
+    "Distribute": (EXPORT, PREPARE, SHARD, MERGE),
 }
 VERBS: dict[str, Verb] = {verb.name: verb for verbs in PURPOSES.values() for verb in verbs}
 GROUPS = {  # first word of verbs -> what they do

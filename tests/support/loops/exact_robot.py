@@ -6,7 +6,7 @@ samples at kT - T + T/n, ..., kT; the acceleration it asks for acts from kT + d 
     x(kT + s) = x_k + s v_k + min(s, d) (s - min(s, d)/2) a_(k-1) + max(s - d, 0)^2/2 a_k        0 <= s <= T
 
 which is linear, so y_(k+1) is the mean of this over s = iT/n, i = 1 ... n. L(z) is the lead times the transfer from a
-to y: minus the loop's transfer, since a = -C y. Derivation: docs/systems/robot_rendezvous.md.
+to y: minus the loop's transfer, since a = -C y. Derivation: docs/theory/rendezvous.md.
 """
 
 import math
