@@ -2,7 +2,7 @@
 
 from ..block import State
 from ..interfaces.orbital_control import OrbitalControl
-from ..mathlib.matrices import multiply
+from ..kernel.matrices import multiply
 from ..mathlib.orbital import apply_matrix, linear_model
 from ..mathlib.vectors import vector
 

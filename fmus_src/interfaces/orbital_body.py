@@ -4,7 +4,7 @@ import math
 
 from ..block import Block, Parameter, State
 from ..kernel.integrators import runge_kutta_4
-from ..mathlib.matrices import inverse
+from ..kernel.matrices import inverse
 from ..mathlib.orbital import AttitudeState, angle_rates, angular_acceleration
 from ..mathlib.vectors import Vector3, vector
 from .ports import body

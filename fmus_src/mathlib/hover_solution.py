@@ -5,9 +5,9 @@ Programmes, shapes and vehicles as in `hover_shape` and `hover_motion`.
 
 import math
 
+from ..kernel.matrices import inverse
 from .hover_motion import HoverVehicle, end_motion, propellant
 from .hover_shape import HoverProgramme, shape_of
-from .matrices import inverse
 from .vectors import Vector4, vector
 
 NONE = 0

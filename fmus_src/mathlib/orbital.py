@@ -7,8 +7,8 @@ Source: Lapin, thesis, chapter 1.1.
 """
 
 from ..kernel.functions import cos, sin, tan
+from ..kernel.matrices import multiply
 from ..kernel.records import Field, Record
-from .matrices import multiply
 from .vectors import Vector3, cross, vector
 
 

@@ -3,7 +3,7 @@
 from ..block import Parameter
 from ..interfaces.full_attitude_observer import FullAttitudeObserver
 from ..kernel.functions import exp
-from ..mathlib.matrices import exponential
+from ..kernel.matrices import exponential
 from ..mathlib.orbital import index_of_measured, linear_model
 
 

@@ -6,6 +6,7 @@ from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, entry, landing, sampling
 from ..kernel.functions import atan2
 from ..kernel.integrators import runge_kutta_4
+from ..kernel.matrices import inverse
 from ..kernel.records import replace
 from ..mathlib.cubic_spline import cubic_value, curvatures
 from ..mathlib.entry_motion import (
@@ -17,7 +18,6 @@ from ..mathlib.entry_motion import (
     path_rate,
     velocity_axes_rate,
 )
-from ..mathlib.matrices import inverse
 from ..mathlib.newtonian_cap import cap_tables
 from ..mathlib.orbital import apply_matrix
 from ..mathlib.pulses import left_after, lengths_of, next_switch_off

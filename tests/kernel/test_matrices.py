@@ -7,7 +7,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from perilune.fmus_src.mathlib.matrices import exponential, identity, inverse, multiply
+from perilune.fmus_src.kernel.matrices import exponential, identity, inverse, multiply
 
 seeds = st.integers(0, 2**32 - 1)
 sizes = st.integers(1, 6)
