@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | figures | bench | sanitize | elementary | processors | browser | emulator | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | checks | figures | bench | sanitize | elementary | processors | browser | emulator | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # On a terminal pip shows what it does, in a log nothing.
@@ -60,6 +60,10 @@ explore: build
 gains: .venv/ready
 	$(BIN)/python -m docs.figures.entry_gains
 
+# The checks of blocks, from truths that share no line with them: fmus_src/KIND/checks/NAME.csv and NAME.toml.
+checks: .venv/ready
+	$(BIN)/python -m tests.support.checks
+
 # The pictures of docs/images, each below 100 kB; those of modal synthesis take two minutes.
 FIGURES := concept system_figures readme_figure rendezvous_figures modal_comparison
 
@@ -116,4 +120,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build docs wheel notebooks explore gains bench large sanitize browser lint clean
+.PHONY: demo test quick long long-campaigns build docs wheel notebooks explore gains checks bench large sanitize browser lint clean

@@ -25,7 +25,7 @@ LISTS = {
     "analysis/verbs",
     "fmus_src/mathlib",
     "tests/mathlib",
-    *(f"fmus_src/{kind}" for kind in KINDS),
+    *(f"fmus_src/{kind}{room}" for kind in KINDS for room in ("", "/checks")),
 }  # of things alike, where one looks for a name
 
 

@@ -48,6 +48,6 @@ def _python_folder() -> Path:
     """Where Python FMUs of these sources are kept."""
     sources = PACKAGE / "fmus_src"
     digest = hashlib.sha256(version("pythonfmu").encode())
-    for path in sorted(sources.rglob("*.py")):
+    for path in sorted((*sources.rglob("*.py"), *sources.glob("*/checks/*"))):
         digest.update(b"\0" + path.relative_to(sources).as_posix().encode() + b"\0" + path.read_bytes())
     return CACHE / "fmus" / digest.hexdigest()[:16]

@@ -9,6 +9,7 @@ from pathlib import Path
 import fmpy
 
 from ..block import Block
+from ..checks import check_files
 from ..paths import CACHE
 from .archive import content_guid, write_zip
 from .compilers import PLATFORMS, build_library
@@ -67,7 +68,7 @@ def build_native_fmu(
     for platform in platforms:
         library = build_library(sources, f"{name}.c", platform, cache, portable=portable)
         files[f"binaries/{platform}/{name}{PLATFORMS[platform].extension}"] = library
-    write_zip(path, files)
+    write_zip(path, files | check_files(block_class))
     return path
 
 

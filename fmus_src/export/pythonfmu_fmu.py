@@ -10,6 +10,7 @@ from pathlib import Path
 from pythonfmu import FmuBuilder
 
 from ..block import Block
+from ..checks import check_files
 from .archive import content_guid, read_zip, write_zip
 from .attributes import check_attributes
 from .closure import Closure, closure_of
@@ -57,7 +58,7 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
     files["modelDescription.xml"] = model_description(
         block_class, guid=guid, generation_tool=tool, needs_execution_tool=True
     )
-    write_zip(path, files)
+    write_zip(path, files | check_files(block_class))
     return path
 
 

@@ -14,7 +14,7 @@ from perilune.fmus_src.paths import shipped_fmu
 def newest_source() -> float:
     """When a source of the FMUs changed last: how a native one comes out depends on the translator, too."""
     sources = Path(fmus_src.__file__).parent.rglob("*")
-    return max(source.stat().st_mtime for source in sources if source.suffix in (".py", ".c", ".h"))
+    return max(source.stat().st_mtime for source in sources if source.suffix in (".py", ".c", ".h", ".csv", ".toml"))
 
 
 def native_are_current(names: Iterable[str]) -> bool:

@@ -1,0 +1,11 @@
+"""All truths: FMU name -> kind of block and function that computes the check."""
+
+from collections.abc import Callable
+
+from tests.support.checks import plants
+from tests.support.checks.check import Check
+
+MODULES = {"plants": plants}
+TRUTHS: dict[str, tuple[str, Callable[[], Check]]] = {
+    name: (kind, truth) for kind, module in MODULES.items() for name, truth in module.TRUTHS.items()
+}
