@@ -23,8 +23,6 @@ KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", 
 MOST = 15
 LISTS = {
     "analysis/verbs",
-    "fmus_src/mathlib",
-    "tests/mathlib",
     *(f"fmus_src/{kind}{room}" for kind in KINDS for room in ("", "/checks")),
 }  # of things alike, where one looks for a name
 

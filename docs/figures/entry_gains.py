@@ -21,8 +21,8 @@ from perilune.analysis.common.atomic import write_atomically
 from perilune.analysis.design.poles.zeroth_level import output_feedback_levels
 from perilune.analysis.runtime.ssp.parameter_sets import write_parameter_set
 from perilune.fmus_src.kernel.records import replace
-from perilune.fmus_src.mathlib.entry_motion import body_axes, in_body
-from perilune.fmus_src.mathlib.standard_atmosphere import Air, air
+from perilune.fmus_src.mathlib.entry.motion import body_axes, in_body
+from perilune.fmus_src.mathlib.entry.standard_atmosphere import Air, air
 from perilune.fmus_src.mathlib.vectors import cross, vector
 from perilune.fmus_src.paths import ROOT
 from perilune.fmus_src.plants.entry_capsule import EntryCapsule

@@ -92,15 +92,15 @@ def kernel_page() -> str:
 
 def _helpers() -> Iterator[tuple[str, list[FunctionType]]]:
     """The public functions of each module of mathlib."""
-    for module in pkgutil.iter_modules(mathlib.__path__):
-        callables = import_module(f"{mathlib.__name__}.{module.name}")
+    for module in pkgutil.walk_packages(mathlib.__path__, f"{mathlib.__name__}."):
+        callables = import_module(module.name)
         functions = [
             value
             for name, value in vars(callables).items()
             if isinstance(value, FunctionType) and value.__module__ == callables.__name__ and not name.startswith("_")
         ]
         if functions:
-            yield module.name, functions
+            yield module.name.removeprefix(f"{mathlib.__name__}."), functions
 
 
 def _rows(functions: Mapping[str, MathFunction], prefix: str) -> list[list[str]]:

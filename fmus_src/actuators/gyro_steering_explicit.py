@@ -2,7 +2,7 @@
 
 from ..block import Parameter
 from ..interfaces.gyro_steering import GyroSteering, GyroSteeringStatus
-from ..mathlib.gyros import ISOTROPIC_RHO, distribute_rates, robust_rates
+from ..mathlib.actuators.gyros import ISOTROPIC_RHO, distribute_rates, robust_rates
 from ..mathlib.vectors import Vector3, Vector4
 
 

@@ -1,7 +1,7 @@
 """Gyro steering by the singularity-robust pseudo-inverse."""
 
 from ..interfaces.gyro_steering import GyroSteering, GyroSteeringStatus
-from ..mathlib.gyros import robust_rates
+from ..mathlib.actuators.gyros import robust_rates
 from ..mathlib.vectors import Vector3, Vector4
 
 

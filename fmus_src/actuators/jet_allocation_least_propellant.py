@@ -1,7 +1,7 @@
 """Jet allocation with the least propellant, in closed form."""
 
 from ..interfaces.jet_allocation import JetAllocation, JetAllocationStatus
-from ..mathlib.jets import least_propellant, pseudo_inverse
+from ..mathlib.actuators.jets import least_propellant, pseudo_inverse
 
 
 class JetAllocationLeastPropellant(JetAllocation):

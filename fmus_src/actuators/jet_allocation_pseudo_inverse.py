@@ -1,7 +1,7 @@
 """Jet allocation by the pseudo-inverse, lifted and scaled."""
 
 from ..interfaces.jet_allocation import JetAllocation, JetAllocationStatus
-from ..mathlib.jets import pseudo_inverse, shift_and_scale
+from ..mathlib.actuators.jets import pseudo_inverse, shift_and_scale
 
 
 class JetAllocationPseudoInverse(JetAllocation):

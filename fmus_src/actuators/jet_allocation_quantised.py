@@ -4,8 +4,8 @@ import math
 
 from ..block import Parameter, State
 from ..interfaces.jet_allocation import JetAllocation, JetAllocationStatus
-from ..mathlib.jets import nearest_levels, thrust_of_levels
-from ..mathlib.quaternion import to_body, to_reference
+from ..mathlib.actuators.jets import nearest_levels, thrust_of_levels
+from ..mathlib.attitude.quaternion import to_body, to_reference
 from ..mathlib.vectors import vector
 
 

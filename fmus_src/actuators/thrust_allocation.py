@@ -4,8 +4,8 @@ from ..block import Parameter, State
 from ..interfaces.allocation import Allocation, AllocationStatus
 from ..interfaces.ports import landing, sampling
 from ..kernel.functions import exp
+from ..mathlib.attitude.rotation import turn_towards
 from ..mathlib.rng import normal, seed_streams
-from ..mathlib.rotation import turn_towards
 from ..mathlib.vectors import clip, dot, norm, vector
 
 

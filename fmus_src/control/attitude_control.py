@@ -4,8 +4,8 @@ import math
 
 from ..block import Block, Input, Parameter, State
 from ..interfaces.ports import body, sampling
+from ..mathlib.attitude.quaternion import quaternion, to_body
 from ..mathlib.lead import advance_lead, lead_output, tustin_lead
-from ..mathlib.quaternion import quaternion, to_body
 from ..mathlib.vectors import Vector3, cross, dot, is_finite, vector
 from ..ports import Status, outcome
 

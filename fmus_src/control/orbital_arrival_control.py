@@ -3,7 +3,7 @@
 import math
 
 from ..interfaces.orbital_control import OrbitalControl
-from ..mathlib.orbital import angle_rates
+from ..mathlib.orbits.attitude import angle_rates
 from ..mathlib.vectors import vector
 
 WORTHWHILE = 0.3  # of the wanted rate: a smaller change is not worth a pulse

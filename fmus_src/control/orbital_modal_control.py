@@ -3,7 +3,7 @@
 from ..block import State
 from ..interfaces.orbital_control import OrbitalControl
 from ..kernel.matrices import multiply
-from ..mathlib.orbital import apply_matrix, linear_model
+from ..mathlib.orbits.attitude import apply_matrix, linear_model
 from ..mathlib.vectors import vector
 
 

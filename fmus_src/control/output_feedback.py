@@ -3,7 +3,7 @@
 from ..block import Parameter
 from ..interfaces.entry_control import EntryControl
 from ..kernel.functions import cos, log, sin
-from ..mathlib.orbital import apply_matrix
+from ..mathlib.orbits.attitude import apply_matrix
 from ..mathlib.vectors import Vector3, vector
 
 

@@ -4,7 +4,7 @@ import math
 
 from ..block import Block, Output, Parameter
 from ..interfaces.ports import landing, sampling
-from ..mathlib.rotation import rotation_between
+from ..mathlib.attitude.rotation import rotation_between
 from ..mathlib.vectors import Vector3, across, cross, limit_length, norm, vector
 from ..ports import Status, outcome
 from ..units import deg

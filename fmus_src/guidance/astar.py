@@ -2,7 +2,7 @@
 
 from ..block import State
 from ..interfaces.terminal_guidance import NO_SOLUTION, NOT_CONVERGED
-from ..mathlib.terminal import impulse_and_miss
+from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import Vector3, dot, norm, vector
 from .astar_programme import AstarProgramme
 

@@ -1,7 +1,7 @@
 """Method A* made to work for every start: time-to-go from the cubic or the least effort, thrust from |a0|."""
 
 from ..interfaces.terminal_guidance import GOOD
-from ..mathlib.terminal import impulse_and_miss
+from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import norm
 from .astar_programme import AstarProgramme
 from .certain_time import CertainTime

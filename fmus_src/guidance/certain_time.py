@@ -2,7 +2,7 @@
 
 from ..block import State
 from ..interfaces.terminal_guidance import TerminalGuidance
-from ..mathlib.terminal import cubic_time, effort_rises, least_effort_time, linear_thrust, steady
+from ..mathlib.lunar.terminal import cubic_time, effort_rises, least_effort_time, linear_thrust, steady
 from ..mathlib.vectors import Vector3
 
 AGREEMENT = 0.05  # of the time; where the two times are this close, a flight of least effort goes over to braking

@@ -4,9 +4,9 @@ from ..block import Input, Output, Parameter, State
 from ..interfaces.ports import landing, sampling
 from ..interfaces.ports.landing import UNLIMITED
 from ..kernel.functions import expm1, tan
-from ..mathlib.gravity import STANDARD_GRAVITY
-from ..mathlib.lagged_thrust import lagged_thrust
-from ..mathlib.rotation import TurningDirection
+from ..mathlib.actuators.lagged_thrust import lagged_thrust
+from ..mathlib.attitude.rotation import TurningDirection
+from ..mathlib.lunar.gravity import STANDARD_GRAVITY
 from ..mathlib.vectors import across, clip, dot, limit_length, norm, vector
 from ..units import deg
 from .hover_plan import HOLDING, POLYNOMIAL, HoverPlan, HoverStatus

@@ -6,13 +6,12 @@ from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import landing
 from ..kernel.functions import cos, expm1, sin
 from ..kernel.integrators import Translation
-from ..mathlib.gravity import STANDARD_GRAVITY, from_centre, vertical_at
-from ..mathlib.hover_motion import HoverVehicle, motion, propellant, thrust_impulse
-from ..mathlib.hover_programme import programme
-from ..mathlib.hover_shape import HoverProgramme, HoverShape, pitch, shape_of, without_programme
-from ..mathlib.hover_solution import NONE, VERTICAL
-from ..mathlib.rotation import TurningDirection
-from ..mathlib.transfer_polynomial import (
+from ..mathlib.attitude.rotation import TurningDirection
+from ..mathlib.hover.motion import HoverVehicle, motion, propellant, thrust_impulse
+from ..mathlib.hover.programme import programme
+from ..mathlib.hover.shape import HoverProgramme, HoverShape, pitch, shape_of, without_programme
+from ..mathlib.hover.solution import NONE, VERTICAL
+from ..mathlib.hover.transfer_polynomial import (
     TRANSFER,
     TransferLimits,
     capture,
@@ -22,11 +21,12 @@ from ..mathlib.transfer_polynomial import (
     thrust_along,
     transfer,
 )
+from ..mathlib.lunar.gravity import STANDARD_GRAVITY, from_centre, vertical_at
 from ..mathlib.vectors import Vector3, add_along, clip, cross, dot, is_finite, norm, smallest_component, vector
 from ..ports import Status, outcome
 from ..units import deg
 
-HOLDING = 0  # kinds of plans besides those of mathlib.hover_solution
+HOLDING = 0  # kinds of plans besides those of mathlib.hover.solution
 POLYNOMIAL = 4
 
 

@@ -5,8 +5,8 @@ import math
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, robot
 from ..kernel.integrators import Translation
-from ..mathlib.quaternion import from_rotation_vector
-from ..mathlib.rotation import rotation_between
+from ..mathlib.attitude.quaternion import from_rotation_vector
+from ..mathlib.attitude.rotation import rotation_between
 from ..mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
 from ..mathlib.vectors import norm, vector
 

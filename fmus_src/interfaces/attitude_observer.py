@@ -5,7 +5,7 @@ import math
 from ..block import Input, Output, Parameter, State
 from ..kernel.integrators import runge_kutta_4
 from ..kernel.records import replace
-from ..mathlib.orbital import AttitudeState
+from ..mathlib.orbits.attitude import AttitudeState
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
 from ..ports import Status, outcome
 from ..units import deg

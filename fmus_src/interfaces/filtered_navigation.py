@@ -3,8 +3,8 @@
 import math
 
 from ..block import Output, Parameter, State
-from ..mathlib.gravity import from_centre
-from ..mathlib.inertial import sensor_addition
+from ..mathlib.estimation.inertial import sensor_addition
+from ..mathlib.lunar.gravity import from_centre
 from ..mathlib.vectors import Vector3, norm, vector
 from ..ports import Status, outcome
 from ..units import deg

@@ -1,7 +1,7 @@
 """What observers of the whole state have in common: one gain for angles and rates."""
 
 from ..block import State
-from ..mathlib.orbital import AttitudeState, index_of_measured
+from ..mathlib.orbits.attitude import AttitudeState, index_of_measured
 from ..mathlib.vectors import Vector3, vector
 from .attitude_observer import AttitudeObserver
 

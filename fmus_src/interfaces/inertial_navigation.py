@@ -1,7 +1,7 @@
 """What navigations that integrate an inertial sensor have in common."""
 
 from ..block import State
-from ..mathlib.inertial import dead_reckon
+from ..mathlib.estimation.inertial import dead_reckon
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import vector
 from .navigation import Navigation

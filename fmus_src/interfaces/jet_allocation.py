@@ -1,8 +1,8 @@
 """The slot of jet allocation: from the force and torque wanted to the thrusts of eight jets."""
 
 from ..block import Block, State
-from ..mathlib.jets import JETS, jet_strengths, jet_wrench
-from ..mathlib.quaternion import normalise, to_body
+from ..mathlib.actuators.jets import JETS, jet_strengths, jet_wrench
+from ..mathlib.attitude.quaternion import normalise, to_body
 from ..mathlib.vectors import vector
 from ..ports import Status, outcome
 from .ports import body, inertial, robot, sampling

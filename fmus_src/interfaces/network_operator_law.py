@@ -3,7 +3,7 @@
 import math
 
 from ..block import Block, Parameter, State
-from ..mathlib.gravity import STANDARD_GRAVITY
+from ..mathlib.lunar.gravity import STANDARD_GRAVITY
 from ..mathlib.network_operator import LARGEST, LOG_LARGEST, MAXIMUM_EDGES, SIZE, SOURCES, decode, evaluate, neutral
 from ..mathlib.vectors import clip
 

@@ -5,7 +5,7 @@ import math
 from ..block import Block, Parameter, State
 from ..kernel.integrators import runge_kutta_4
 from ..kernel.matrices import inverse
-from ..mathlib.orbital import AttitudeState, angle_rates, angular_acceleration
+from ..mathlib.orbits.attitude import AttitudeState, angle_rates, angular_acceleration
 from ..mathlib.vectors import Vector3, vector
 from .ports import body
 
@@ -16,8 +16,8 @@ class OrbitalBody(Block, interface=True):
     """A rigid body on a circular orbit, turned by jets about its axes that fire both ways at one level each.
 
     A pulse is a signed length (s) about one axis: the jet of that sign gives jet_torque from the start of the tick
-    for so long. Motion: `mathlib.orbital`; a block may add to `derivatives` what drives its model. Inertia is the
-    matrix that multiplies angular velocity: elements off the diagonal are minus the products of inertia.
+    for so long. Motion: `mathlib.orbits.attitude`; a block may add to `derivatives` what drives its model. Inertia is
+    the matrix that multiplies angular velocity: elements off the diagonal are minus the products of inertia.
     Frames: orbital and body. Equations: docs/systems/orbital_attitude.md.
     Assumes an orbit that stays circular, constant inertia, and no torque but the gravity gradient's and the jets'.
     """

@@ -1,7 +1,7 @@
 """The slot of terminal guidance: bring the vehicle to a position and velocity at time_to_go."""
 
 from ..block import Block, Parameter, State
-from ..mathlib.gravity import central_gravity
+from ..mathlib.lunar.gravity import central_gravity
 from ..mathlib.vectors import Vector3, vector
 from ..ports import Status, outcome
 from .ports import landing, sampling

@@ -5,7 +5,7 @@ import math
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, robot, sampling
 from ..interfaces.ports.robot import SampleStatus
-from ..mathlib.quaternion import (
+from ..mathlib.attitude.quaternion import (
     angle_error,
     difference,
     from_rotation_vector,
@@ -14,7 +14,7 @@ from ..mathlib.quaternion import (
     to_body,
     to_rotation_vector,
 )
-from ..mathlib.tracking import measure_chain, predict_chain
+from ..mathlib.estimation.tracking import measure_chain, predict_chain
 from ..mathlib.vectors import cross, dot, is_finite, vector
 
 MEAN = 0

@@ -4,7 +4,7 @@ import math
 
 from ..block import Block, Output
 from ..interfaces.ports import landing
-from ..mathlib.kalman import normalised_square
+from ..mathlib.estimation.kalman import normalised_square
 from ..mathlib.vectors import vector
 
 

@@ -1,8 +1,8 @@
 """Navigation through a Kalman filter."""
 
 from ..interfaces.filtered_navigation import FilteredNavigation
-from ..mathlib.inertial import predict_errors
-from ..mathlib.kalman import correct, innovation_variance
+from ..mathlib.estimation.inertial import predict_errors
+from ..mathlib.estimation.kalman import correct, innovation_variance
 
 
 class KalmanNavigation(FilteredNavigation):

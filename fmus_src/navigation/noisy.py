@@ -5,7 +5,7 @@ import math
 from ..block import Parameter, State
 from ..interfaces.navigation import Navigation
 from ..interfaces.ports import landing, sampling
-from ..mathlib.kalman import predict, update
+from ..mathlib.estimation.kalman import predict, update
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import Vector3, vector
 

@@ -6,8 +6,8 @@ from ..block import Parameter, State
 from ..interfaces.attitude_observer import AttitudeObserver, ObserverStatus
 from ..interfaces.ports import body
 from ..kernel.records import replace
-from ..mathlib.kalman import predict, update
-from ..mathlib.orbital import angle_rate_derivatives, angle_rates, apply_matrix
+from ..mathlib.estimation.kalman import predict, update
+from ..mathlib.orbits.attitude import angle_rate_derivatives, angle_rates, apply_matrix
 from ..mathlib.vectors import Vector3, vector
 from ..units import deg
 

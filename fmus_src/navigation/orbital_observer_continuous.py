@@ -2,7 +2,7 @@
 
 from ..block import Parameter
 from ..interfaces.full_attitude_observer import FullAttitudeObserver
-from ..mathlib.orbital import AttitudeState, linear_model
+from ..mathlib.orbits.attitude import AttitudeState, linear_model
 from ..mathlib.vectors import Vector3
 
 

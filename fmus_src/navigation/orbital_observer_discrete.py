@@ -4,7 +4,7 @@ from ..block import Parameter
 from ..interfaces.full_attitude_observer import FullAttitudeObserver
 from ..kernel.functions import exp
 from ..kernel.matrices import exponential
-from ..mathlib.orbital import index_of_measured, linear_model
+from ..mathlib.orbits.attitude import index_of_measured, linear_model
 
 
 class OrbitalObserverDiscrete(FullAttitudeObserver):

@@ -1,7 +1,7 @@
 """Orbital attitude as it is."""
 
 from ..interfaces.attitude_observer import AttitudeObserver
-from ..mathlib.orbital import AttitudeState
+from ..mathlib.orbits.attitude import AttitudeState
 
 
 class OrbitalTrueState(AttitudeObserver):

@@ -1,7 +1,7 @@
 """Navigation without a filter."""
 
 from ..interfaces.inertial_navigation import InertialNavigation
-from ..mathlib.gravity import from_centre
+from ..mathlib.lunar.gravity import from_centre
 from ..mathlib.vectors import norm
 
 

@@ -2,7 +2,7 @@
 
 from ..block import Block, Output
 from ..interfaces.ports import body, inertial, robot
-from ..mathlib.quaternion import difference, to_rodrigues, to_rotation_vector
+from ..mathlib.attitude.quaternion import difference, to_rodrigues, to_rotation_vector
 from ..mathlib.vectors import norm
 
 

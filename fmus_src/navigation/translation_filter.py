@@ -5,8 +5,8 @@ import math
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, landing, robot, sampling
 from ..interfaces.ports.robot import SampleStatus
-from ..mathlib.quaternion import normalise, to_reference
-from ..mathlib.tracking import measure_chain, predict_chain
+from ..mathlib.attitude.quaternion import normalise, to_reference
+from ..mathlib.estimation.tracking import measure_chain, predict_chain
 from ..mathlib.vectors import Vector3, is_finite, norm, vector
 
 MEAN = 0

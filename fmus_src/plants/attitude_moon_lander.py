@@ -4,9 +4,9 @@ from ..block import Parameter
 from ..interfaces.moon_lander import MoonLander
 from ..interfaces.ports import landing
 from ..kernel.functions import atan2
-from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity, vertical_at
-from ..mathlib.lagged_thrust import lagged_thrust
-from ..mathlib.thrust_axis import AxisState, turn_axis
+from ..mathlib.actuators.lagged_thrust import lagged_thrust
+from ..mathlib.attitude.thrust_axis import AxisState, turn_axis
+from ..mathlib.lunar.gravity import STANDARD_GRAVITY, altitude_of, central_gravity, vertical_at
 from ..mathlib.vectors import Vector3, across, clip, cross, dot, norm, vector
 from ..units import deg
 

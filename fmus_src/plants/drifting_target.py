@@ -5,7 +5,7 @@ import math
 from ..block import Block, Parameter, State
 from ..interfaces.ports import inertial, robot
 from ..kernel.functions import cos, fmod, sin
-from ..mathlib.quaternion import from_rotation_vector
+from ..mathlib.attitude.quaternion import from_rotation_vector
 from ..mathlib.vectors import norm, vector
 from ..units import deg
 

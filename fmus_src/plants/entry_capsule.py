@@ -8,8 +8,9 @@ from ..kernel.functions import atan2
 from ..kernel.integrators import runge_kutta_4
 from ..kernel.matrices import inverse
 from ..kernel.records import replace
+from ..mathlib.actuators.pulses import left_after, lengths_of, next_switch_off
 from ..mathlib.cubic_spline import cubic_value, curvatures
-from ..mathlib.entry_motion import (
+from ..mathlib.entry.motion import (
     EntryState,
     attitude_rates,
     body_axes,
@@ -18,10 +19,9 @@ from ..mathlib.entry_motion import (
     path_rate,
     velocity_axes_rate,
 )
-from ..mathlib.newtonian_cap import cap_tables
-from ..mathlib.orbital import apply_matrix
-from ..mathlib.pulses import left_after, lengths_of, next_switch_off
-from ..mathlib.standard_atmosphere import Air, air
+from ..mathlib.entry.newtonian_cap import cap_tables
+from ..mathlib.entry.standard_atmosphere import Air, air
+from ..mathlib.orbits.attitude import apply_matrix
 from ..mathlib.vectors import Vector3, cross, norm, vector
 from ..units import deg
 

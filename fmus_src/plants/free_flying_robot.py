@@ -5,9 +5,9 @@ import math
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, landing, robot, sampling
 from ..kernel.records import Field, Record
-from ..mathlib.gyros import ISOTROPIC_ANGLES, cluster_momentum
-from ..mathlib.jets import JETS, jet_strengths, jet_wrench
-from ..mathlib.quaternion import multiply, normalise, quaternion, to_body, to_reference
+from ..mathlib.actuators.gyros import ISOTROPIC_ANGLES, cluster_momentum
+from ..mathlib.actuators.jets import JETS, jet_strengths, jet_wrench
+from ..mathlib.attitude.quaternion import multiply, normalise, quaternion, to_body, to_reference
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import Vector3, Vector4, clip, vector
 

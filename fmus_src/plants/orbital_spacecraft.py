@@ -3,7 +3,7 @@
 from ..block import Output, Parameter, State
 from ..interfaces.orbital_body import OrbitalBody
 from ..interfaces.ports import body, sampling
-from ..mathlib.orbital import AttitudeState
+from ..mathlib.orbits.attitude import AttitudeState
 from ..mathlib.vectors import Vector3, vector
 
 GOOD = 0

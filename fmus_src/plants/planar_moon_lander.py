@@ -7,7 +7,7 @@ from ..interfaces.ports import landing, sampling
 from ..kernel.functions import atan2, cos, sin
 from ..kernel.integrators import runge_kutta_4
 from ..kernel.records import Field, Record
-from ..mathlib.gravity import STANDARD_GRAVITY
+from ..mathlib.lunar.gravity import STANDARD_GRAVITY
 
 
 class PlanarMotion(Record):

@@ -3,7 +3,7 @@
 from ..block import Parameter, State
 from ..interfaces.moon_lander import MoonLander
 from ..interfaces.ports import landing
-from ..mathlib.pursuit import follow, goal_at
+from ..mathlib.attitude.pursuit import follow, goal_at
 from ..mathlib.vectors import Vector3
 from ..units import deg
 

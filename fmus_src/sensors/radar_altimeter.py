@@ -2,7 +2,7 @@
 
 from ..block import Parameter
 from ..interfaces.ports import landing, sampling
-from ..mathlib.gravity import altitude_of
+from ..mathlib.lunar.gravity import altitude_of
 from ..mathlib.rng import normal
 from .random_sensor import RandomSensor
 

@@ -2,7 +2,7 @@
 
 from ..block import Parameter
 from ..interfaces.ports import robot, sampling
-from ..mathlib.quaternion import from_rotation_vector, multiply, normalise
+from ..mathlib.attitude.quaternion import from_rotation_vector, multiply, normalise
 from ..mathlib.rng import normals
 from .random_sensor import RandomSensor
 

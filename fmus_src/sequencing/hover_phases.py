@@ -1,8 +1,8 @@
 """From the first hover to the ground: phases 4 to 9 of a landing."""
 
 from ..block import Parameter, State
-from ..mathlib.gravity import altitude_of, from_centre, vertical_at
-from ..mathlib.landing_site import above_site, redesignate, site_below, within_reach
+from ..mathlib.lunar.gravity import altitude_of, from_centre, vertical_at
+from ..mathlib.lunar.landing_site import above_site, redesignate, site_below, within_reach
 from ..mathlib.vectors import Vector2, across, clip, norm
 from .landing_sequence import (
     CAPTURE,

@@ -4,8 +4,8 @@ import math
 
 from ..block import Parameter, State
 from ..kernel.functions import cos
-from ..mathlib.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range, lowest_altitude
-from ..mathlib.gravity import altitude_of, from_centre
+from ..mathlib.lunar.gravity import altitude_of, from_centre
+from ..mathlib.orbits.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range, lowest_altitude
 from ..mathlib.vectors import dot, norm
 from ..units import deg
 from .landing_sequence import BRAKING, BRAKING_FAILED, BRAKING_GUIDANCE, NEVER, OWN, ROUNDING, TIMEOUT, LandingSequence

@@ -62,8 +62,8 @@ IMPORTS = {
         2.0,
     ),
     "several modules": (
-        "from perilune.fmus_src.mathlib import rotation, vectors\n",
-        "vectors.norm(vectors.vector(0.0, 2.0, 0.0)) + 0.0 * len(rotation.__name__)",
+        "from perilune.fmus_src.mathlib import polynomial, vectors\n",
+        "vectors.norm(vectors.vector(0.0, 2.0, 0.0)) + 0.0 * len(polynomial.__name__)",
         2.0,
     ),
     "a standard module": ("import math\nfrom fractions import Fraction\n", "math.sqrt(Fraction(9, 1))", 3.0),

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 from scipy.spatial.transform import Rotation
 
-from perilune.fmus_src.mathlib.rotation import rotation_between
+from perilune.fmus_src.mathlib.attitude.rotation import rotation_between
 from perilune.fmus_src.mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
 from perilune.fmus_src.mathlib.vectors import vector
 

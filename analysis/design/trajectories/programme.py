@@ -7,9 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ....fmus_src.mathlib import hover_motion, hover_programme, hover_shape, hover_solution
-from ....fmus_src.mathlib.hover_motion import HoverVehicle
-from ....fmus_src.mathlib.hover_shape import HoverProgramme, HoverShape
+from ....fmus_src.mathlib.hover import motion as hover_motion
+from ....fmus_src.mathlib.hover import programme as hover_programme
+from ....fmus_src.mathlib.hover import shape as hover_shape
+from ....fmus_src.mathlib.hover import solution as hover_solution
+from ....fmus_src.mathlib.hover.motion import HoverVehicle
+from ....fmus_src.mathlib.hover.shape import HoverProgramme, HoverShape
 from .path import PlannedPath
 from .vehicle import Transfer, Vehicle
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from ....fmus_src.mathlib.gravity import STANDARD_GRAVITY
+from ....fmus_src.mathlib.lunar.gravity import STANDARD_GRAVITY
 from ...common.errors import InputError
 
 

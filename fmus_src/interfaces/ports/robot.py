@@ -2,7 +2,7 @@
 
 import math
 
-from ...mathlib.gyros import ISOTROPIC_ANGLES
+from ...mathlib.actuators.gyros import ISOTROPIC_ANGLES
 from ...ports import Port, Status, outcome
 from ...units import deg
 

@@ -15,7 +15,7 @@ from numpy.polynomial import Polynomial
 
 from perilune.fmus_src.actuators.gyro_steering_explicit import GyroSteeringExplicit
 from perilune.fmus_src.actuators.gyro_steering_robust import GyroSteeringRobust
-from perilune.fmus_src.mathlib.gyros import ISOTROPIC_ANGLES, ISOTROPIC_RHO, distribute_angles
+from perilune.fmus_src.mathlib.actuators.gyros import ISOTROPIC_ANGLES, ISOTROPIC_RHO, distribute_angles
 from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.runtime import Component
 from tests.support.lengths import either

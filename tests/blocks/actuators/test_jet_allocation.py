@@ -2,7 +2,7 @@
 
 Truth: the jets' matrix from the published axes and arms, scipy rotations, sums of commanded impulses, and the
 schedule of delayed commands counted by hand. The rules themselves are tested against linear programming in
-tests/mathlib/test_jets.py. Tolerance 1e-12 N and N.m.
+tests/mathlib/actuators/test_jets.py. Tolerance 1e-12 N and N.m.
 """
 
 import itertools

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from perilune.fmus_src.control.orbital_arrival_control import OrbitalArrivalControl
 from perilune.fmus_src.control.orbital_modal_control import OrbitalModalControl
-from perilune.fmus_src.mathlib.orbital import AttitudeState, linear_model
+from perilune.fmus_src.mathlib.orbits.attitude import AttitudeState, linear_model
 from perilune.fmus_src.plants.orbital_spacecraft import OrbitalSpacecraft
 from tests.support.flights.orbital_motion import DEGREE, INERTIA, JET_TORQUE, ORBITAL_RATE
 

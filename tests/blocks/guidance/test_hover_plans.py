@@ -12,7 +12,7 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 
 from perilune.fmus_src.guidance.hover_guidance import CAPTURE, DESCEND, PROGRAMME, SLOW
-from perilune.fmus_src.mathlib.hover_motion import HoverVehicle
+from perilune.fmus_src.mathlib.hover.motion import HoverVehicle
 from tests.support.flights.hover_equations import flown
 from tests.support.flights.hover_flight import EXHAUST, GRAVITY, MASS, START, TARGET, H, begun, fly, last
 

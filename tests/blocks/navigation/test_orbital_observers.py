@@ -11,7 +11,7 @@ import pytest
 from scipy.linalg import expm
 
 from perilune.fmus_src.kernel.records import replace
-from perilune.fmus_src.mathlib.orbital import linear_model
+from perilune.fmus_src.mathlib.orbits.attitude import linear_model
 from perilune.fmus_src.plants.orbital_spacecraft import OrbitalSpacecraft
 from tests.support.flights.orbital_motion import DEGREE, INERTIA, ORBITAL_RATE
 from tests.support.flights.orbital_runs import OBSERVERS, TICK, Run

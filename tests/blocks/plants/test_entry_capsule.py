@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from perilune.fmus_src.mathlib.entry_motion import body_axes, in_body
-from perilune.fmus_src.mathlib.standard_atmosphere import Air, air
+from perilune.fmus_src.mathlib.entry.motion import body_axes, in_body
+from perilune.fmus_src.mathlib.entry.standard_atmosphere import Air, air
 from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.plants.entry_capsule import AXIAL, MACH_NUMBERS, NORMAL, EntryCapsule
 from tests.support.flights.entry_motion import DEGREE, EARTH_RATE, INERTIA, MU, RADIUS, Coefficients, Entry

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from perilune.fmus_src.mathlib.orbital import AttitudeState
+from perilune.fmus_src.mathlib.orbits.attitude import AttitudeState
 from perilune.fmus_src.plants.orbital_spacecraft import OrbitalSpacecraft
 from tests.support.flights.orbital_motion import (
     DEGREE,

@@ -17,7 +17,7 @@ from perilune.analysis.design.trajectories.path import PlanError
 from perilune.analysis.design.trajectories.programme import Programme, find_programme, over_distance, over_duration
 from perilune.analysis.design.trajectories.true_optimum import find_true_optimum
 from perilune.analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
-from perilune.fmus_src.mathlib.hover_shape import HoverProgramme
+from perilune.fmus_src.mathlib.hover.shape import HoverProgramme
 from tests.support.bars import watched
 from tests.support.lengths import either
 

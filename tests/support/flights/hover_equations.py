@@ -16,7 +16,7 @@ def flown(p, vehicle, until=None):
     """State x, x', y, y', propellant fraction, pitch and its rate under the programme p at a time, by default its end.
 
     Pitch is a state, driven by the switched angular acceleration; the first burn is where pitch is below its share of
-    the largest deviation. ``vehicle`` is a `mathlib.hover_motion.HoverVehicle`.
+    the largest deviation. ``vehicle`` is a `mathlib.hover.motion.HoverVehicle`.
     """
     full, minimum, exhaust, gravity, acceleration = vehicle.elements()
     t2, t5, _, tp, t7 = p

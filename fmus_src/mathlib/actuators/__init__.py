@@ -1,0 +1,1 @@
+"""Jets, gyros, pulses and thrust. Kernel functions."""

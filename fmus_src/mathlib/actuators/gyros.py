@@ -1,0 +1,212 @@
+"""Four single-gimbal gyros in two pairs of parallel gimbal axes (2-SPE), and how to steer them. Kernel functions.
+
+Momenta are those of the cluster over that of one rotor, in body axes: pair 1 turns about z in the xy
+plane, pair 2 about -y in the xz plane, all gimbal angles (rad) counted from x. The three components leave one
+of the four angles free. With x1 and x2 what each pair has along x, a and b the most that it could
+have beside y and z, u = x1/a and v = x2/b, the distribution law u - v + rho (u v - 1) = 0 takes that
+freedom: the pairs bias each other and stay away from their singular states, which are |pair| = 0 and 2.
+Derivations: docs/systems/robot_rendezvous.md. Source: Somov 2013; Somov, Platonov and Sorokin 2005.
+"""
+
+import math
+
+from ...kernel.functions import acos, atan2, cos, sin
+from ..vectors import Vector2, Vector3, Vector4, vector
+
+ISOTROPIC_RHO = 0.9797958971132712  # 2 sqrt(6)/5: the three axes are alike where the momentum is 0
+# acos(1/sqrt(3)) off -x and x: the angles of zero momentum under the law with ISOTROPIC_RHO
+ISOTROPIC_ANGLES = (0.6154797086703873, -0.6154797086703873, 3.7570723622601803, 2.5261129449194057)
+LEAST_SQUARE = 1e-12  # of a and b: nearer to a pair's surface y = 2 or z = 2 counts as on it
+
+
+def cluster_momentum(angles: Vector4) -> Vector3:
+    """Momentum of the cluster over that of one rotor."""
+    first, second, third, fourth = angles
+    return vector(
+        cos(first) + cos(second) + cos(third) + cos(fourth),
+        sin(first) + sin(second),
+        sin(third) + sin(fourth),
+    )
+
+
+def cluster_jacobian(angles: Vector4, jacobian: list) -> None:
+    """jacobian[3 x 4] = derivative of the momentum by the gimbal angles, row order."""
+    for i in range(4):
+        jacobian[i] = -sin(angles[i])
+    for i in range(2):
+        jacobian[4 + i] = cos(angles[i])
+        jacobian[6 + i] = 0.0
+        jacobian[8 + i] = 0.0
+        jacobian[10 + i] = cos(angles[2 + i])
+
+
+def nearest_turn(angle: float, reference: float) -> float:
+    """The angle plus whole turns that is nearest to ``reference``."""
+    turns = (reference - angle) / math.tau
+    return angle + math.tau * float(math.floor(turns + 0.5))
+
+
+def distribute_angles(momentum: Vector3, rho: float, near: Vector4) -> tuple[bool, Vector4]:
+    """Whether there are angles that give a momentum under the distribution law, and they or those of ``near``.
+
+    They are by whole turns nearest to ``near``.
+    """
+    a_square = 4.0 - momentum.y * momentum.y
+    b_square = 4.0 - momentum.z * momentum.z
+    if not (a_square > LEAST_SQUARE and b_square > LEAST_SQUARE):
+        return False, near
+    a = math.sqrt(a_square)
+    b = math.sqrt(b_square)
+    weight = momentum.x + b * rho
+    linear = a + b + rho * momentum.x
+    root = linear * linear - 4.0 * a * rho * weight
+    if not (root >= 0.0 and linear > 0.0):
+        return False, near
+    u = 2.0 * weight / (linear + math.sqrt(root))
+    if not (abs(u) <= 1.0 and 1.0 - rho * u > 0.0):
+        return False, near
+    v = (u - rho) / (1.0 - rho * u)
+    first, second = pair_angles(u * a, momentum.y, near[0:2])
+    third, fourth = pair_angles(v * b, momentum.z, near[2:4])
+    return True, vector(first, second, third, fourth)
+
+
+def pair_angles(along: float, across: float, near: Vector2) -> Vector2:
+    """Angles of a pair from its momentum along x and across, nearest to those of ``near``."""
+    half = 0.5 * math.sqrt(along * along + across * across)
+    if half > 1.0:
+        half = 1.0  # by a rounding error
+    direction = atan2(across, along)
+    opening = acos(half)
+    return vector(nearest_turn(direction + opening, near.x), nearest_turn(direction - opening, near.y))
+
+
+def distribute_rates(
+    angles: Vector4, momentum_rate: Vector3, rho: float, gain: float, least: float
+) -> tuple[bool, Vector4]:
+    """Whether the law has rates (rad/s) that change the momentum at momentum_rate (1/s) and keep it, and they.
+
+    The law's residual f is led to 0 by f' = -gain f. False, with rates of 0, where a
+    divisor is less than ``least``: the sines of the angle between the rotors of each pair (1 where they are
+    best to steer), and those of the law, 2 at the isotropic angles.
+    """
+    first, second, third, fourth = angles
+    none = vector(0.0, 0.0, 0.0, 0.0)
+    x1 = cos(first) + cos(second)
+    x2 = cos(third) + cos(fourth)
+    y = sin(first) + sin(second)
+    z = sin(third) + sin(fourth)
+    a_square = 4.0 - y * y
+    b_square = 4.0 - z * z
+    if not (a_square > LEAST_SQUARE and b_square > LEAST_SQUARE):
+        return False, none
+    a = math.sqrt(a_square)
+    b = math.sqrt(b_square)
+    u = x1 / a
+    v = x2 / b
+    residual = u - v + rho * (u * v - 1.0)
+    p = 1.0 + rho * v
+    q = 1.0 - rho * u
+    common = a * q + b * p
+    sine_1 = sin(second - first)
+    sine_2 = sin(fourth - third)
+    if not (abs(sine_1) >= least and abs(sine_2) >= least and abs(common) >= least and least > 0.0):
+        return False, none
+    # what is left to x1 and x2 where y and z change at constant u and v
+    fall_1 = u * y * momentum_rate.y / a
+    fall_2 = v * z * momentum_rate.z / b
+    u_rate = (q * (momentum_rate.x + fall_1 + fall_2) - b * gain * residual) / common
+    x1_rate = a * u_rate - fall_1
+    x2_rate = momentum_rate.x - x1_rate
+    return True, vector(
+        (cos(second) * x1_rate + sin(second) * momentum_rate.y) / sine_1,
+        -(cos(first) * x1_rate + sin(first) * momentum_rate.y) / sine_1,
+        (cos(fourth) * x2_rate + sin(fourth) * momentum_rate.z) / sine_2,
+        -(cos(third) * x2_rate + sin(third) * momentum_rate.z) / sine_2,
+    )
+
+
+def singularity_measure(angles: Vector4) -> float:
+    """Square root of det(A A') of the jacobian A: 0 in a singular state, 8/sqrt(27) = 1.54 at the isotropic angles."""
+    jacobian = [0.0] * 12
+    gram = [0.0] * 6
+    cluster_jacobian(angles, jacobian)
+    gram_of(jacobian, 0.0, gram)
+    determinant = determinant_of(gram)
+    if not determinant > 0.0:
+        return 0.0
+    return math.sqrt(determinant)
+
+
+def weight_of(rotor: int, bias: float) -> float:
+    """1 + bias for the first rotor of a pair, 1 - bias for the second."""
+    if rotor % 2 == 0:
+        return 1.0 + bias
+    return 1.0 - bias
+
+
+def gram_of(jacobian: list, bias: float, gram: list) -> None:
+    """gram[6] = A W A' of a 3 x 4 matrix: 11, 22, 33, 23, 13, 12; W is diagonal, of weight_of."""
+    for i in range(6):
+        gram[i] = 0.0
+    for j in range(4):
+        x = jacobian[j]
+        y = jacobian[4 + j]
+        z = jacobian[8 + j]
+        weight = weight_of(j, bias)
+        gram[0] = gram[0] + weight * x * x
+        gram[1] = gram[1] + weight * y * y
+        gram[2] = gram[2] + weight * z * z
+        gram[3] = gram[3] + weight * y * z
+        gram[4] = gram[4] + weight * x * z
+        gram[5] = gram[5] + weight * x * y
+
+
+def determinant_of(m: list) -> float:
+    """Determinant of a symmetric matrix, stored as 11, 22, 33, 23, 13, 12."""
+    return m[0] * (m[1] * m[2] - m[3] * m[3]) - m[5] * (m[5] * m[2] - m[3] * m[4]) + m[4] * (m[5] * m[3] - m[1] * m[4])
+
+
+def robust_rates(
+    angles: Vector4, momentum_rate: Vector3, damping: float, threshold: float, swing: float, time: float
+) -> tuple[Vector4, float]:
+    """Rates (rad/s) W A' (A W A' + k E)^-1 momentum_rate, bounded everywhere, exact where k = 0; and m.
+
+    k = damping lack^2 with lack = 1 - m/threshold where the singularity measure m is below the
+    threshold, else 0 (Nakamura and Hanafusa 1986). E and W are unit matrices but for elements that lead out of
+    states in which the wanted torque is the one that cannot be given (Wie 2005): E has off-diagonal
+    elements swing sin(pi/2 time + phase), which move the gimbals to and fro, and W = 1 + swing lack for
+    the first rotor of each pair and 1 - swing lack for the second, without which rotors side by side
+    would stay so. A swing below 0.5 keeps both positive definite.
+    """
+    jacobian = [0.0] * 12
+    gram = [0.0] * 6
+    cluster_jacobian(angles, jacobian)
+    measure = singularity_measure(angles)
+    bias = 0.0
+    k = 0.0
+    if measure < threshold:
+        lack = 1.0 - measure / threshold
+        bias = swing * lack
+        k = damping * lack * lack
+    gram_of(jacobian, bias, gram)
+    if k > 0.0:
+        for i in range(3):
+            gram[i] = gram[i] + k
+            gram[3 + i] = gram[3 + i] + k * swing * sin(0.5 * math.pi * (time + float(i)))
+    determinant = determinant_of(gram)
+    if not determinant > 0.0:
+        return vector(0.0, 0.0, 0.0, 0.0), measure
+    first = gram[1] * gram[2] - gram[3] * gram[3]
+    second = gram[0] * gram[2] - gram[4] * gram[4]
+    third = gram[0] * gram[1] - gram[5] * gram[5]
+    c23 = gram[4] * gram[5] - gram[0] * gram[3]
+    c13 = gram[5] * gram[3] - gram[1] * gram[4]
+    c12 = gram[3] * gram[4] - gram[2] * gram[5]
+    x = (first * momentum_rate.x + c12 * momentum_rate.y + c13 * momentum_rate.z) / determinant
+    y = (c12 * momentum_rate.x + second * momentum_rate.y + c23 * momentum_rate.z) / determinant
+    z = (c13 * momentum_rate.x + c23 * momentum_rate.y + third * momentum_rate.z) / determinant
+    rates = [0.0] * 4
+    for j in range(4):
+        rates[j] = weight_of(j, bias) * (jacobian[j] * x + jacobian[4 + j] * y + jacobian[8 + j] * z)
+    return vector(*rates), measure

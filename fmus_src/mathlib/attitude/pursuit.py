@@ -1,0 +1,103 @@
+"""A direction that follows a moving goal, as a vehicle's attitude follows its command. Kernel functions.
+
+The goal at time s is the unit vector along base + rate s. The direction turns along the great
+circle towards it, at the speed angle/response but no more than ``limit`` (rad/s). A response or a
+limit of 0 does not count; without response the direction turns at the limit until it has caught
+the goal. No frame implied.
+"""
+
+from ...kernel.functions import atan2
+from ...kernel.integrators import runge_kutta_4_from
+from ...kernel.records import Field, Record
+from ..vectors import Vector3, add_along, dot, norm, smallest_component
+from .rotation import turn_towards
+
+
+def goal_at(base: Vector3, rate: Vector3, s: float, otherwise: Vector3) -> Vector3:
+    """The unit vector along base + rate s; ``otherwise`` where that has no direction."""
+    along = base + s * rate
+    length = norm(along)
+    if length > 0.0:
+        return along / length
+    return otherwise
+
+
+def turning(direction: Vector3, goal: Vector3, response: float, limit: float) -> tuple[float, Vector3]:
+    """The angle to the goal (rad), and the derivative of the direction.
+
+    Of opposite vectors one side is as good as the other: the direction then turns about the axis
+    farthest from it.
+    """
+    length = norm(direction)
+    cosine = dot(direction, goal) / length
+    slope = goal - cosine * direction / length
+    sine = norm(slope)
+    angle = atan2(sine, cosine)
+    if cosine < 0.0 and sine < 1e-6:
+        k, smallest = smallest_component(direction)
+        slope = add_along(-smallest * direction, k, length * length)
+        sine = norm(slope)
+    speed = limit
+    if response > 0.0 and (limit <= 0.0 or angle < limit * response):
+        speed = angle / response
+    if sine > 0.0:
+        slope = speed * length / sine * slope
+    return angle, slope
+
+
+class Pursuit(Record):
+    """A step of a pursuit."""
+
+    direction = Field(Vector3, description="unit vector at its end")
+    goal = Field(Vector3, description="unit vector at its end")
+    angle = Field(unit="rad", description="from the direction to the goal at its start")
+
+
+def pursuit_rate(
+    t: float, direction: Vector3, base: Vector3, rate: Vector3, last_goal: Vector3, response: float, limit: float
+) -> Vector3:
+    """The derivative of the direction at the time t (s) of the goal."""
+    _, slope = turning(direction, goal_at(base, rate, t, last_goal), response, limit)
+    return slope
+
+
+def pursue(
+    direction: Vector3, base: Vector3, rate: Vector3, s: float, h: float, response: float, limit: float
+) -> Pursuit:
+    """One step of Runge-Kutta's fourth order from time s to s + h."""
+    goal = goal_at(base, rate, s, direction)
+    angle, k1 = turning(direction, goal, response, limit)
+    turned = runge_kutta_4_from(k1, pursuit_rate, s, direction, h, base, rate, goal, response, limit)
+    return Pursuit(direction=turned / norm(turned), goal=goal_at(base, rate, s + h, goal), angle=angle)
+
+
+def follow(
+    direction: Vector3, base: Vector3, rate: Vector3, s: float, h: float, response: float, limit: float
+) -> Vector3:
+    """A unit vector turned from time s to s + h; assumes h no longer than a response that counts.
+
+    The law has a knee where angle/response is the limit. A step across it is cut there, by linear
+    interpolation of the angle: the slope is continuous, so that the fourth order is kept. Without
+    response, the last two steps before the goal is caught go straight to where it will be.
+    """
+    if response <= 0.0 and limit <= 0.0:
+        return goal_at(base, rate, s + h, direction)
+    if response <= 0.0:
+        goal = goal_at(base, rate, s, direction)
+        left, _ = turning(direction, goal, response, limit)
+        if not left > 2.0 * limit * h:
+            turned, _ = turn_towards(direction, goal_at(base, rate, s + h, goal), limit * h)
+            return turned
+    whole = pursue(direction, base, rate, s, h, response, limit)
+    if response > 0.0 and limit > 0.0:
+        knee = response * limit
+        after, _ = turning(whole.direction, whole.goal, response, limit)
+        if (whole.angle > knee) != (after > knee):
+            part = h * (whole.angle - knee) / (whole.angle - after)
+            if whole.angle > knee:
+                first = pursue(direction, base, rate, s, part, 0.0, limit)
+                whole = pursue(first.direction, base, rate, s + part, h - part, response, 0.0)
+            else:
+                first = pursue(direction, base, rate, s, part, response, 0.0)
+                whole = pursue(first.direction, base, rate, s + part, h - part, 0.0, limit)
+    return whole.direction

@@ -1,0 +1,103 @@
+"""Unit quaternions, scalar first, that turn body components into reference components. Kernel functions.
+
+A quaternion q is the attitude of a body: v_reference = q v q*, and its rate is q' = q w/2 with the
+angular velocity w in body axes (rad/s). q and -q are one attitude. Source: Wertz 1978, appendix D; the
+order of factors is that of Hamilton.
+"""
+
+import math
+
+from ...kernel.functions import atan2, cos, sin
+from ..vectors import Vector3, Vector4, cross, norm, vector
+
+
+def quaternion(scalar: float, e: Vector3) -> Vector4:
+    """The quaternion of its two parts."""
+    return vector(scalar, e.x, e.y, e.z)
+
+
+def multiply(a: Vector4, b: Vector4) -> Vector4:
+    """a b: first the rotation b, then a (Hamilton's product)."""
+    return vector(
+        a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
+        a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+        a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+        a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
+    )
+
+
+def conjugate(q: Vector4) -> Vector4:
+    """q*, the inverse rotation of a unit quaternion."""
+    return vector(q.w, -q.x, -q.y, -q.z)
+
+
+def normalise(q: Vector4) -> Vector4:
+    """q brought to length one; no rotation where its length is 0 or no number."""
+    largest = 0.0
+    for i in range(4):
+        size = abs(q[i])
+        if size > largest:
+            largest = size
+    if largest > 0.0 and math.isfinite(largest):
+        r = q / largest  # so that no square overflows
+        return r / math.sqrt(r.w * r.w + r.x * r.x + r.y * r.y + r.z * r.z)
+    return vector(1.0, 0.0, 0.0, 0.0)
+
+
+def turn(scalar: float, e: Vector3, v: Vector3) -> Vector3:
+    """v turned by the unit quaternion (scalar, e): v + 2 e0 (e x v) + 2 e x (e x v)."""
+    twice = 2.0 * cross(e, v)
+    return v + scalar * twice + cross(e, twice)
+
+
+def to_reference(q: Vector4, v: Vector3) -> Vector3:
+    """q v q*: a vector in body components, expressed in the reference frame."""
+    return turn(q.w, vector(q.x, q.y, q.z), v)
+
+
+def to_body(q: Vector4, v: Vector3) -> Vector3:
+    """q* v q: a vector in reference components, expressed in the body frame."""
+    return turn(q.w, vector(-q.x, -q.y, -q.z), v)
+
+
+def from_rotation_vector(rotation: Vector3) -> Vector4:
+    """The rotation about ``rotation`` by its length (rad)."""
+    angle = norm(rotation)
+    scale = 0.5
+    if angle > 0.0:
+        scale = sin(0.5 * angle) / angle
+    return quaternion(cos(0.5 * angle), scale * rotation)
+
+
+def to_rotation_vector(q: Vector4) -> Vector3:
+    """Axis times angle (rad) of q, the shorter way round: no longer than pi."""
+    sine = norm(q[1:4])
+    sign = 1.0
+    if q.w < 0.0:
+        sign = -1.0
+    scale = 2.0 * sign
+    if sine > 0.0:
+        scale = 2.0 * sign * atan2(sine, sign * q.w) / sine
+    return scale * q[1:4]
+
+
+def difference(reference: Vector4, q: Vector4) -> Vector4:
+    """reference* q: the rotation from the attitude ``reference`` to q, scalar not negative."""
+    error = multiply(conjugate(reference), q)
+    if error.w < 0.0:
+        return -error
+    return error
+
+
+def angle_error(reference: Vector4, q: Vector4) -> Vector3:
+    """2 e0 e of (e0, e) = reference* q (rad, body): the axis times the sine of the angle."""
+    rotation = difference(reference, q)
+    return 2.0 * rotation.w * rotation[1:4]
+
+
+def to_rodrigues(q: Vector4) -> Vector3:
+    """e tan(angle/4): modified Rodrigues parameters, the shorter way round."""
+    sign = 1.0
+    if q.w < 0.0:
+        sign = -1.0
+    return sign * q[1:4] / (1.0 + sign * q.w)

@@ -1,0 +1,1 @@
+"""Entry into the atmosphere. Kernel functions."""

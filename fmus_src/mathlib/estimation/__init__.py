@@ -1,0 +1,1 @@
+"""Filters and inertial navigation. Kernel functions."""

@@ -1,0 +1,1 @@
+"""Transfers between points of hover. Kernel functions."""

@@ -1,0 +1,138 @@
+"""Motion under the simplified hover-to-hover programme, by quadrature. Kernel functions.
+
+Controls depend on time alone, so velocity and position are integrals: x' = A cos th, y' = A sin th - g,
+A = full or least over the mass that is left. In the plane of the transfer: x towards the target, y up; from rest.
+
+Source: Huang 2017; Gauss-Legendre quadrature: Abramowitz and Stegun 1964, table 25.4.
+"""
+
+from ...kernel.functions import cos, log, sin
+from ...kernel.records import Field, Record
+from .shape import HoverProgramme, HoverShape, burnt, full_thrust, pitch_segment, shape_of
+
+LONGEST = 30.0  # s; longest interval of eight nodes, which leave below 1e-9 of the motion
+
+
+class HoverVehicle(Record):
+    """A lander as its plan takes it."""
+
+    full = Field(unit="m/s2", frozen=True, description="largest thrust over the mass at the start")
+    least = Field(unit="m/s2", frozen=True, description="least thrust over the mass at the start")
+    exhaust = Field(unit="m/s", frozen=True, description="exhaust speed")
+    gravity = Field(unit="m/s2", frozen=True, description="gravity, uniform")
+    swing = Field(unit="rad/s2", frozen=True, description="angular acceleration")
+
+
+class PlaneMotion(Record):
+    """Motion in the plane of a transfer."""
+
+    x = Field(unit="m", description="towards the target")
+    x_rate = Field(unit="m/s", description="its rate")
+    y = Field(unit="m", description="upwards")
+    y_rate = Field(unit="m/s", description="its rate")
+
+
+def without_motion() -> PlaneMotion:
+    """No motion: at the start, at rest."""
+    return PlaneMotion(x=0.0, x_rate=0.0, y=0.0, y_rate=0.0)
+
+
+def propellant(s: HoverShape, vehicle: HoverVehicle, t: float) -> float:
+    """Propellant spent until t (s, up to the end of the shape s) over the mass at the start."""
+    return (vehicle.least * t + (vehicle.full - vehicle.least) * burnt(s, t)) / vehicle.exhaust
+
+
+def thrust_impulse(s: HoverShape, vehicle: HoverVehicle, begin: float, end: float) -> float:
+    """Integral (m/s) of thrust over mass from one time to another (s), by the rocket equation; 0 where it has none."""
+    before = 1.0 - propellant(s, vehicle, begin)
+    after = 1.0 - propellant(s, vehicle, end)
+    if not (before > 0.0 and after > 0.0):
+        return 0.0
+    return vehicle.exhaust * log(before / after)
+
+
+def motion(s: HoverShape, vehicle: HoverVehicle, until: float) -> tuple[PlaneMotion, bool]:
+    """The motion at the time ``until`` (s), and whether any mass is left then."""
+    x = 0.0
+    vx = 0.0
+    y = 0.0
+    vy = 0.0
+    node = [0.0] * 8
+    weight = [0.0] * 8
+    nodes(node, weight)
+    begin = 0.0
+    mass = 1.0
+    for _ in range(9):
+        if begin < until:
+            end, thrust = interval(s, vehicle, begin, until)
+            segment = pitch_segment(s, vehicle.swing, 0.5 * (begin + end))
+            span = end - begin
+            flow = thrust / vehicle.exhaust
+            if not (mass - flow * span > 0.0 and span < 1e4):
+                return without_motion(), False
+            parts = int(span / LONGEST) + 1
+            span = span / float(parts)
+            scale = span * thrust
+            for _ in range(parts):
+                since_begin = begin - segment.begin
+                left = until - begin
+                for k in range(8):
+                    part = span * node[k]
+                    since = since_begin + part
+                    deviation = segment.value + since * (segment.rate + since * segment.half_acceleration)
+                    push = scale * weight[k] / (mass - flow * part)
+                    side = push * sin(deviation)
+                    lift = push * cos(deviation)
+                    vx = vx - side
+                    x = x - (left - part) * side
+                    vy = vy + lift
+                    y = y + (left - part) * lift
+                begin = begin + span
+                mass = mass - flow * span
+            begin = end
+    drop = 0.5 * vehicle.gravity * until * until
+    return PlaneMotion(x=x, x_rate=vx, y=y - drop, y_rate=vy - vehicle.gravity * until), True
+
+
+def end_motion(p: HoverProgramme, vehicle: HoverVehicle) -> tuple[PlaneMotion, bool]:
+    """The motion at the end of a programme, and whether there is one."""
+    s, room = shape_of(p, vehicle.swing)
+    if not room:
+        return without_motion(), False
+    end, exists = motion(s, vehicle, p.t7)
+    return end, exists
+
+
+def interval(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float) -> tuple[float, float]:
+    """From ``begin`` (s) on: until when (s) pitch is one parabola and thrust one value, and the thrust (m/s2)."""
+    end = until
+    thrust = vehicle.least
+    if full_thrust(s, begin):
+        thrust = vehicle.full
+    end = earlier(s.t1, begin, end)
+    end = earlier(s.t3, begin, end)
+    end = earlier(s.t4, begin, end)
+    end = earlier(s.t6, begin, end)
+    end = earlier(s.t7, begin, end)
+    end = earlier(s.first_burn_begin, begin, end)
+    end = earlier(s.first_burn_end, begin, end)
+    end = earlier(s.last_burn_begin, begin, end)
+    return end, thrust
+
+
+def earlier(time: float, begin: float, end: float) -> float:
+    """The time (s) where it lies between begin and end, otherwise the end."""
+    if time > begin and time < end:
+        return time
+    return end
+
+
+def nodes(node: list, weight: list) -> None:
+    """Places and weights of Gauss-Legendre quadrature of eight nodes over [0, 1]."""
+    place = [0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363]
+    fraction = [0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763]
+    for k in range(4):
+        node[k] = 0.5 - 0.5 * place[k]
+        node[7 - k] = 0.5 + 0.5 * place[k]
+        weight[k] = 0.5 * fraction[k]
+        weight[7 - k] = 0.5 * fraction[k]

@@ -1,0 +1,172 @@
+"""Pitch and throttle of the simplified hover-to-hover programme over time. Kernel functions.
+
+A lander turns from the vertical towards its target, over to the other side to brake, and back, with no angular
+acceleration but +a, -a and 0; the engine gives full thrust once about the first turning point and once at the end,
+its least in between. The deviation is the angle of thrust from the vertical, positive against the way to go.
+
+`HoverProgramme` has the five times that determine all of it, `shape_of` computes its `HoverShape`.
+Source: Huang 2017, with the pieces of its equations where they join.
+"""
+
+import math
+
+from ...kernel.records import Field, Record
+
+STEEPEST = 0.5 * math.pi  # rad; largest deviation, beyond which thrust would push down
+
+
+class HoverProgramme(Record):
+    """The times (s) that determine a programme, named as in the paper. A change of a programme is one as well."""
+
+    t2 = Field(unit="s", description="where the deviation is least")
+    t5 = Field(unit="s", description="where the deviation is largest")
+    width = Field(unit="s", description="w = t1 sqrt(2 (1 - k)), half a first burn symmetric about t2; 0: none")
+    last_burn = Field(unit="s", description="tp, duration of the last burn")
+    t7 = Field(unit="s", description="the end")
+
+
+class HoverShape(Record):
+    """The times (s) at which pitch acceleration and thrust switch, named t1 to t7 as in the paper."""
+
+    t1 = Field(unit="s", frozen=True, description="first change of angular acceleration")
+    t2 = Field(unit="s", frozen=True, description="where the deviation is least")
+    t3 = Field(unit="s", frozen=True, description="begin of the constant rate")
+    t4 = Field(unit="s", frozen=True, description="its end")
+    t5 = Field(unit="s", frozen=True, description="where the deviation is largest")
+    t6 = Field(unit="s", frozen=True, description="last change of angular acceleration")
+    t7 = Field(unit="s", frozen=True, description="the end")
+    first_burn_begin = Field(unit="s", frozen=True, description="begin of the first burn")
+    first_burn_end = Field(unit="s", frozen=True, description="its end")
+    last_burn_begin = Field(unit="s", frozen=True, description="begin of the last burn, which ends at t7")
+    d = Field(unit="s", frozen=True, description="t3 - t2")
+    last = Field(unit="s", frozen=True, description="t7 - t6")
+
+
+class PitchSegment(Record):
+    """A parabola that the deviation follows."""
+
+    begin = Field(unit="s", description="time that it counts from")
+    value = Field(unit="rad", description="deviation then")
+    rate = Field(unit="rad/s", description="its rate then")
+    half_acceleration = Field(unit="rad/s2", description="half its acceleration")
+
+
+class Pitch(Record):
+    """Deviation of the thrust from the vertical."""
+
+    deviation = Field(unit="rad", description="angle, positive against the way to go")
+    rate = Field(unit="rad/s", description="its rate")
+
+
+def without_programme() -> HoverProgramme:
+    """No programme: all its times are 0."""
+    return HoverProgramme(t2=0.0, t5=0.0, width=0.0, last_burn=0.0, t7=0.0)
+
+
+def without_shape() -> HoverShape:
+    """No shape: all its times are 0."""
+    return HoverShape(
+        t1=0.0,
+        t2=0.0,
+        t3=0.0,
+        t4=0.0,
+        t5=0.0,
+        t6=0.0,
+        t7=0.0,
+        first_burn_begin=0.0,
+        first_burn_end=0.0,
+        last_burn_begin=0.0,
+        d=0.0,
+        last=0.0,
+    )
+
+
+def shape_of(p: HoverProgramme, acceleration: float) -> tuple[HoverShape, bool]:
+    """The shape of the programme p at an angular acceleration (rad/s2, > 0), and whether there is one.
+
+    t3 and t4 bound the stretch of constant rate, d after t2 and before t5, that joins both turns:
+    d^2 - (t5 - t2) d + t1^2 + (t7 - t6)^2 = 0. There is none without room for that, where thrust would point down,
+    and where the burns overlap.
+    """
+    first = 0.5 * p.t2
+    last = 0.5 * (p.t7 - p.t5)
+    between = p.t5 - p.t2
+    width = p.width
+    room = between * between - 4.0 * (first * first + last * last)
+    turns = first >= 0.0 and last >= 0.0 and between > 0.0 and room >= 0.0 and acceleration > 0.0
+    if not (turns and width >= 0.0 and p.last_burn >= 0.0 and math.isfinite(p.t7) and room < math.inf):
+        return without_shape(), False
+    if acceleration * first * first > STEEPEST or acceleration * last * last > STEEPEST:
+        return without_shape(), False
+    d = 2.0 * (first * first + last * last) / (between + math.sqrt(room))
+    fraction = 2.0 * first * first - width * width  # 2 k t1^2
+    if not fraction >= 0.0:
+        return without_shape(), False
+    begin = p.t2 - width
+    if width > first:
+        begin = math.sqrt(fraction)
+    end = p.t2 + width
+    if width > d:
+        if not d > 0.0:
+            return without_shape(), False
+        end = p.t2 + (width * width + d * d) / (2.0 * d)
+    s = HoverShape(
+        t1=first,
+        t2=p.t2,
+        t3=p.t2 + d,
+        t4=p.t5 - d,
+        t5=p.t5,
+        t6=p.t5 + last,
+        t7=p.t7,
+        first_burn_begin=begin,
+        first_burn_end=end,
+        last_burn_begin=p.t7 - p.last_burn,
+        d=d,
+        last=last,
+    )
+    return s, s.first_burn_end <= s.last_burn_begin
+
+
+def pitch(s: HoverShape, acceleration: float, t: float) -> Pitch:
+    """The deviation at the time t (s); 0 before the start and from the end on."""
+    segment = pitch_segment(s, acceleration, t)
+    since = t - segment.begin
+    deviation = segment.value + since * (segment.rate + since * segment.half_acceleration)
+    return Pitch(deviation=deviation, rate=segment.rate + 2.0 * since * segment.half_acceleration)
+
+
+def pitch_segment(s: HoverShape, acceleration: float, t: float) -> PitchSegment:
+    """The parabola that the deviation follows at t (s)."""
+    if not (t > 0.0 and t < s.t7):
+        return parabola(t, 0.0, 0.0, 0.0)
+    if t < s.t1:
+        return parabola(0.0, 0.0, 0.0, -0.5 * acceleration)
+    if t < s.t3:
+        return parabola(s.t2, -acceleration * s.t1 * s.t1, 0.0, 0.5 * acceleration)
+    if t < s.t4:
+        return parabola(s.t3, acceleration * (0.5 * s.d * s.d - s.t1 * s.t1), acceleration * s.d, 0.0)
+    if t < s.t6:
+        return parabola(s.t5, acceleration * s.last * s.last, 0.0, -0.5 * acceleration)
+    return parabola(s.t7, 0.0, 0.0, 0.5 * acceleration)
+
+
+def parabola(begin: float, value: float, rate: float, half_acceleration: float) -> PitchSegment:
+    """A segment in the order of its fields."""
+    return PitchSegment(begin=begin, value=value, rate=rate, half_acceleration=half_acceleration)
+
+
+def full_thrust(s: HoverShape, t: float) -> bool:
+    """Whether the engine gives full thrust at the time t (s), in place of its least."""
+    return (t >= s.first_burn_begin and t < s.first_burn_end) or (t >= s.last_burn_begin and t < s.t7)
+
+
+def burnt(s: HoverShape, t: float) -> float:
+    """Time at full thrust (s) from the start to t (s)."""
+    time = 0.0
+    if t > s.first_burn_begin:
+        time = s.first_burn_end - s.first_burn_begin
+        if t < s.first_burn_end:
+            time = t - s.first_burn_begin
+    if t > s.last_burn_begin:
+        time = time + t - s.last_burn_begin
+    return time

@@ -1,0 +1,131 @@
+"""Programmes of the simplified form that end where they should: Newton's method. Kernel functions.
+
+Programmes, shapes and vehicles as in `shape` and `motion`.
+"""
+
+import math
+
+from ...kernel.matrices import inverse
+from ..vectors import Vector4, vector
+from .motion import HoverVehicle, end_motion, propellant
+from .shape import HoverProgramme, shape_of
+
+NONE = 0
+VERTICAL = 1
+WITHOUT_FIRST_BURN = 2
+WITH_FIRST_BURN = 3
+
+SETTLED = 1e-9  # of a residual, metres counted in tens
+ITERATIONS = 12
+LEAST_PART = 0.1  # of a step of Newton's
+DIFFERENCE = 1e-6  # s
+
+
+def propellant_fraction(p: HoverProgramme, vehicle: HoverVehicle) -> float:
+    """Propellant of the programme p over the mass at its start; infinite without room for its shape."""
+    s, room = shape_of(p, vehicle.swing)
+    if not room:
+        return math.inf
+    return propellant(s, vehicle, p.t7)
+
+
+def residual(p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> tuple[Vector4, float]:
+    """Errors at the end, (y/10, y', x/10, x'), and their length, which is infinite without a motion."""
+    end, moved = end_motion(p, vehicle)
+    if not moved:
+        return vector(0.0, 0.0, 0.0, 0.0), math.inf
+    r = vector(0.1 * (end.y - y), end.y_rate, 0.1 * (end.x - x), end.x_rate)
+    size = r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]
+    if not math.isfinite(size):
+        return r, math.inf
+    return r, math.sqrt(size)
+
+
+def count_free_times(kind: int) -> int:
+    """How many times of a programme Newton's method changes: as many as there are conditions."""
+    if kind == VERTICAL:
+        return 2
+    return 4
+
+
+def change_of(kind: int, free: Vector4) -> HoverProgramme:
+    """The change of a programme whose free times (s) change by ``free``.
+
+    Free are tp, then w (WITH_FIRST_BURN) or t7, then t2 and t5. The vertical programme never turns: its t5 is t7.
+    """
+    if kind == VERTICAL:
+        return HoverProgramme(t2=0.0, t5=free[1], width=0.0, last_burn=free[0], t7=free[1])
+    if kind == WITH_FIRST_BURN:
+        return HoverProgramme(t2=free[2], t5=free[3], width=free[1], last_burn=free[0], t7=0.0)
+    return HoverProgramme(t2=free[2], t5=free[3], width=0.0, last_burn=free[0], t7=free[1])
+
+
+def invert_sensitivities(
+    kind: int, p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float, r: Vector4, inverted: list
+) -> bool:
+    """inverted[16] = derivatives of the free times by the residual, from differences to r at p; whether there are."""
+    n = count_free_times(kind)
+    derivatives = [0.0] * 16
+    for j in range(n):
+        free = [0.0] * 4
+        change = DIFFERENCE
+        free[j] = change
+        ahead, size = residual(p + change_of(kind, vector(*free)), vehicle, x, y)
+        if not size < math.inf:
+            change = -DIFFERENCE
+            free[j] = change
+            ahead, size = residual(p + change_of(kind, vector(*free)), vehicle, x, y)
+        if not size < math.inf:
+            return False
+        for i in range(n):
+            derivatives[n * i + j] = (ahead[i] - r[i]) / change
+    is_regular = inverse(derivatives, inverted, n)
+    return is_regular
+
+
+def newton_step(kind: int, inverted: list, r: Vector4) -> HoverProgramme:
+    """The change of a programme that Newton's method makes where its residual is r."""
+    n = count_free_times(kind)
+    free = [0.0] * 4
+    for i in range(n):
+        for j in range(n):
+            free[i] = free[i] - inverted[n * i + j] * r[j]
+    return change_of(kind, vector(*free))
+
+
+def solve(kind: int, start: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> tuple[HoverProgramme, bool]:
+    """The programme near ``start`` that ends at (x, y) (m) and at rest, and whether there is one; else the start.
+
+    Steps are halved until the residual falls; while it falls to a tenth, the sensitivities are kept. Free are t2, t5
+    (not VERTICAL), w (WITH_FIRST_BURN), tp, t7 (not WITH_FIRST_BURN).
+    """
+    p = start
+    inverted = [0.0] * 16
+    known = False
+    r, size = residual(p, vehicle, x, y)
+    if not size < math.inf:
+        return start, False
+    for _ in range(ITERATIONS):
+        if size <= SETTLED:
+            return p, True
+        fresh = not known
+        if fresh:
+            known = invert_sensitivities(kind, p, vehicle, x, y, r, inverted)
+            if not known:
+                return start, False
+        step = newton_step(kind, inverted, r)
+        ahead = p + step
+        r_ahead, size_ahead = residual(ahead, vehicle, x, y)
+        part = 1.0
+        while not size_ahead < size and fresh and part > LEAST_PART:
+            part = 0.5 * part
+            ahead = p + part * step
+            r_ahead, size_ahead = residual(ahead, vehicle, x, y)
+        known = size_ahead < 0.1 * size
+        if size_ahead < size:
+            p = ahead
+            r = r_ahead
+            size = size_ahead
+        elif fresh:
+            return start, False
+    return start, False

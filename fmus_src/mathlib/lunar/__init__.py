@@ -1,0 +1,1 @@
+"""The Moon, its landing sites, and terminal guidance. Kernel functions."""

@@ -1,0 +1,46 @@
+"""The Moon as a sphere, seen from the landing site. Kernel functions.
+
+Frame: landing site, origin on the sphere of ``radius`` (m), z up, not rotating: the Moon's centre
+is at (0, 0, -radius).
+"""
+
+import math
+
+from ..vectors import Vector3, dot, norm, vector
+
+STANDARD_GRAVITY = 9.80665  # m/s2, which specific impulse refers to
+
+
+def from_centre(position: Vector3, radius: float) -> Vector3:
+    """The position (m) from the Moon's centre."""
+    return vector(position.x, position.y, position.z + radius)
+
+
+def altitude_of(position: Vector3, radius: float) -> float:
+    """Altitude (m) above the sphere of ``radius`` (m)."""
+    return norm(from_centre(position, radius)) - radius
+
+
+def vertical_at(position: Vector3, radius: float) -> Vector3:
+    """The unit vector upwards at ``position`` (m); z at the Moon's centre itself."""
+    centred = from_centre(position, radius)
+    distance = norm(centred)
+    if distance > 0.0:
+        return centred / distance
+    return vector(0.0, 0.0, 1.0)
+
+
+def central_gravity(position: Vector3, radius: float, gravitational_parameter: float) -> Vector3:
+    """Gravity (m/s2) of a central field at ``position`` (m); not at the centre itself."""
+    centred = from_centre(position, radius)
+    square = dot(centred, centred)
+    return -(gravitational_parameter / (square * math.sqrt(square))) * centred
+
+
+def gravity_difference(displacement: Vector3, up: Vector3, gradient: float) -> Vector3:
+    """What gravity differs by (m/s2) at a small displacement (m): gradient (3 up up' - 1) displacement.
+
+    ``up`` is the unit vector away from the centre, ``gradient`` the gravitational parameter over the cube of the
+    distance from it (1/s2). Source: Battin 1999, section 8.1.
+    """
+    return gradient * (3.0 * dot(up, displacement) * up - displacement)

@@ -1,0 +1,151 @@
+"""Terminal guidance with a thrust acceleration linear in time, a(t) = a0 + a1 t. Kernel functions.
+
+Gravity g acts along -k (k up, third axis). With dr = r_T - r, dV = V_T - V and time-to-go T:
+A = dV + g T k, B = dr - V T + g T^2/2 k, a0 = -(2/T^2)(A T - 3 B), a1 = (6/T^3)(A T - 2 B).
+Source: Fomichev and Li 2017, with the corrections of docs/systems/lunar_terminal_guidance.md.
+"""
+
+import math
+
+from ...kernel.records import Field, Record
+from ..polynomial import LARGEST, evaluate, first_crossing, positive_roots, quadratic_roots
+from ..vectors import Vector3, dot, norm, vector
+
+
+class LinearThrust(Record):
+    """A thrust over mass that is linear in time."""
+
+    size = Field(unit="m/s2", description="its mean over a span")
+    direction = Field(Vector3, unit="1", description="unit vector at the start of the span")
+    rate = Field(Vector3, unit="1/s", description="derivative of the direction then")
+
+
+def impulse_and_miss(dr: Vector3, v: Vector3, dv: Vector3, g: float, time_to_go: float) -> tuple[Vector3, Vector3]:
+    """A (m/s), velocity still to gain, and B (m), the miss without thrust, both after time_to_go."""
+    drift = dr - time_to_go * v
+    fall = 0.5 * g * time_to_go * time_to_go
+    return vector(dv.x, dv.y, dv.z + g * time_to_go), vector(drift.x, drift.y, drift.z + fall)
+
+
+def quadratic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
+    """Time-to-go (s) from |A| T = 2 |B| without its cubic term, on the published branch.
+
+    0 where there is none. The branch is that of fast approaches, a2 < 0; for slow or hovering
+    starts above the target (a2 > 0) it gives a negative time. A negative discriminant counts as
+    0, which happens in the last steps.
+    """
+    speed = norm(v)
+    gain = norm(dv)
+    distance = norm(dr)
+    a2 = gain * gain - 4.0 * (speed * speed + g * dr.z)
+    a3 = 8.0 * dot(dr, v)
+    a4 = -4.0 * distance * distance
+    discriminant = a3 * a3 - 4.0 * a2 * a4
+    if discriminant < 0.0:
+        discriminant = 0.0
+    if a2 == 0.0:
+        return 0.0
+    return (-a3 - math.sqrt(discriminant)) / (2.0 * a2)
+
+
+def cubic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
+    """Time-to-go (s) from |A| T = 2 |B| in full, on the published branch; 0 where that has none.
+
+    |A| T - 2 |B| begins below 0. The first root, where it rises through 0, is a thrust that turns
+    round on the way: A T = -2 B on a line, 5 W one way to 7 W the other. The branch is the second,
+    where it falls through 0, with A T = 2 B on a line. There is none at rest, receding or slow
+    above the target, nor always where errors of knowledge have grown as large as the way left.
+    """
+    c = [0.0] * 5
+    c[0] = -4.0 * dot(dr, dr)
+    c[1] = 8.0 * dot(dr, v)
+    c[2] = dot(dv, dv) - 4.0 * (dot(v, v) + g * dr.z)
+    c[3] = 2.0 * g * (dv.z + 2.0 * v.z)
+    turning = [0.0] * 2
+    turnings = quadratic_roots(c[1], 2.0 * c[2], 3.0 * c[3], turning)
+    peak = 0.0
+    high = LARGEST
+    for k in range(turnings):
+        if 3.0 * c[3] * turning[k] + c[2] < 0.0:
+            peak = turning[k]
+        elif peak > 0.0:
+            high = turning[k]
+    if not (peak > 0.0 and peak < LARGEST):
+        return 0.0
+    height = evaluate(c, peak)
+    if not height > 0.0:
+        return 0.0
+    # from where the parabola at the peak falls through 0
+    guess = peak + math.sqrt(-height / (3.0 * c[3] * peak + c[2]))
+    return first_crossing(c, peak, high, guess)
+
+
+def steady(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
+    """Whether a thrust that meets |A| T = 2 |B| with ``time`` (s) does not turn round: A.B > 0."""
+    a, b = impulse_and_miss(dr, v, dv, g, time)
+    return dot(a, b) > 0.0
+
+
+def effort_slope(dr: Vector3, v: Vector3, dv: Vector3, g: float, c: list) -> None:
+    """T^4 dJ/dT as a polynomial c of T, where J is the time integral of |a0 + a1 t|^2.
+
+    J = (|A T|^2 + 3 |A T - 2 B|^2)/T^3, and A T - 2 B = (dV + 2 V) T - 2 dr.
+    """
+    s = dv + 2.0 * v
+    c[0] = -36.0 * dot(dr, dr)
+    c[1] = 24.0 * dot(dr, s)
+    c[2] = -(dot(dv, dv) + 3.0 * dot(s, s))
+    c[3] = 0.0
+    c[4] = g * g
+
+
+def effort_rises(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
+    """Whether the integral of |a0 + a1 t|^2 would be larger for a flight longer than ``time`` (s)."""
+    c = [0.0] * 5
+    effort_slope(dr, v, dv, g, c)
+    return evaluate(c, time) > 0.0
+
+
+def least_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
+    """Time-to-go (s) that makes the integral of |a0 + a1 t|^2 least (the first minimum), 0 where there is none.
+
+    With g > 0 and dr other than 0 it exists: hovering a height h above or below the target, or
+    beside it at that distance, it is sqrt(6 h/g).
+    Source: D'Souza 1997, with a velocity at the target.
+    """
+    c = [0.0] * 5
+    effort_slope(dr, v, dv, g, c)
+    slope = [0.0] * 5
+    bend = [0.0] * 4
+    turning = [0.0] * 4
+    roots = [0.0] * 4
+    for i in range(4):
+        slope[i] = (i + 1.0) * c[i + 1]
+    bends = quadratic_roots(slope[1], 2.0 * slope[2], 3.0 * slope[3], bend)
+    turnings = positive_roots(slope, bend, bends, turning)
+    count = positive_roots(c, turning, turnings, roots)
+    if count == 0:
+        return 0.0
+    return roots[0]
+
+
+def linear_thrust(a: Vector3, b: Vector3, time: float, span: float, direction: Vector3, rate: Vector3) -> LinearThrust:
+    """The thrust a0 + a1 t over ``span`` (s).
+
+    The size is that of the mean vector. Where a0 = 0, the direction is that of the mean and its rate 0; where
+    there is no thrust at all, direction and rate are as given.
+    """
+    p = 3.0 * b - time * a
+    q = time * a - 2.0 * b
+    fraction = 1.5 * span / time
+    mean = p + fraction * q
+    length = norm(p)
+    size = norm(mean)
+    if length > 0.0:
+        along = dot(q, p) / (length * length)
+        direction = p / length
+        rate = 3.0 / time * (q - along * p) / length
+    elif size > 0.0:
+        direction = mean / size
+        rate = vector(0.0, 0.0, 0.0)
+    return LinearThrust(size=2.0 * size / (time * time), direction=direction, rate=rate)

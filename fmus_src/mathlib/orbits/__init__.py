@@ -1,0 +1,1 @@
+"""Flight and attitude on an orbit. Kernel functions."""

@@ -1,0 +1,91 @@
+"""From a circular orbit towards a landing site: where one is on it, and how long to brake. Kernel functions.
+
+Frame: landing site, z up, not rotating; the Moon's centre is ``radius`` (m) below the origin.
+"""
+
+import math
+
+from ...kernel.functions import atan2, cos, sin
+from ..attitude.rotation import TurningDirection
+from ..lunar.gravity import from_centre, vertical_at
+from ..vectors import Vector3, across, dot, norm, vector
+
+
+def central_angle(position: Vector3, radius: float) -> float:
+    """Angle (rad, 0 to 2 pi) at the Moon's centre from the site's vertical towards +x, in the plane of x and z."""
+    angle = atan2(position.x, position.z + radius)
+    if angle < 0.0:
+        angle = angle + 2.0 * math.pi
+    return angle
+
+
+def ground_range(position: Vector3, radius: float) -> float:
+    """Arc (m) on the sphere of ``radius`` from below ``position`` to the origin."""
+    centred = from_centre(position, radius)
+    return radius * atan2(math.sqrt(centred.x * centred.x + centred.y * centred.y), centred.z)
+
+
+def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> TurningDirection:
+    """The direction against the horizontal velocity, which turns with the vertical.
+
+    Both are 0 where there is no horizontal velocity.
+    """
+    up = vertical_at(position, radius)
+    horizontal = across(velocity, up)
+    speed = norm(horizontal)
+    distance = norm(from_centre(position, radius))
+    if not speed > 0.0 or not distance > 0.0:
+        return TurningDirection(direction=vector(0.0, 0.0, 0.0), rate=vector(0.0, 0.0, 0.0))
+    return TurningDirection(direction=-horizontal / speed, rate=speed / distance * up)
+
+
+def apocentre_speed(apocentre: float, pericentre: float, mu: float) -> float:
+    """Speed (m/s) at the apocentre of an ellipse, both given as distances (m) from the centre.
+
+    Source: vis-viva, such as Battin 1999, section 3.4.
+    """
+    return math.sqrt(2.0 * mu * pericentre / (apocentre * (apocentre + pericentre)))
+
+
+def deorbit_burn(
+    position: Vector3, velocity: Vector3, pericentre: float, radius: float, mu: float, acceleration: float
+) -> float:
+    """How long (s) to brake with ``acceleration`` (m/s2) until here is the apocentre of an ellipse down to pericentre.
+
+    ``pericentre`` is a distance (m) from the centre. Below 0 where the horizontal speed is already too small; the
+    vertical speed is not looked at. ``position`` must not be the centre.
+    """
+    up = vertical_at(position, radius)
+    sinking = dot(velocity, up)
+    speed = norm(velocity - sinking * up)
+    distance = norm(from_centre(position, radius))
+    return (speed - apocentre_speed(distance, pericentre, mu)) / acceleration
+
+
+def lowest_altitude(position: Vector3, velocity: Vector3, angle: float, radius: float, mu: float) -> float:
+    """Least altitude (m) of free flight from here over the next ``angle`` (rad) about the Moon's centre.
+
+    With the radial speed w and the angular momentum h, the distance r obeys 1/r(a) = A + B cos a - C sin a, where
+    A = mu/h^2, B = 1/r(0) - A, C = w/h; it is least at the pericentre where that lies ahead, else at one of both ends.
+    Without horizontal velocity the centre is where the fall leads. ``position`` must not be the centre.
+    Source: the conic in polar coordinates, such as Battin 1999, section 3.3.
+    """
+    centred = from_centre(position, radius)
+    distance = norm(centred)
+    up = centred / distance
+    momentum = norm(across(velocity, up)) * distance
+    if not momentum > 0.0:
+        return -radius
+    a = mu / (momentum * momentum)
+    b = 1.0 / distance - a
+    c = dot(velocity, up) / momentum
+    inverse = 1.0 / distance
+    end = a + b * cos(angle) - c * sin(angle)
+    if end > inverse:
+        inverse = end
+    pericentre = atan2(-c, b)
+    if pericentre < 0.0:
+        pericentre = pericentre + 2.0 * math.pi
+    if pericentre < angle:
+        inverse = a + math.sqrt(b * b + c * c)
+    return 1.0 / inverse - radius
