@@ -54,7 +54,9 @@ def test_an_fmu_passes_the_check_that_it_carries(name, flavour, tmp_path):
         permitted = tolerance["absolute"] + tolerance["relative"] * np.abs(reference[column])
         error = np.abs(actual[column].astype(float) - reference[column])
         row = int(np.argmax(error - permitted))
-        assert (error <= permitted).all(), f"{column} at {reference['time'][row]} s: {error[row]} > {permitted[row]}"
+        assert bool((error <= permitted).all()), (
+            f"{column} at {reference['time'][row]} s: {error[row]} > {permitted[row]}"
+        )
 
 
 @pytest.mark.parametrize("name", TRUTHS)

@@ -14,14 +14,17 @@ Columns = dict[str, np.ndarray]
 
 
 def expand(values: Mapping[str, object], dimensions: int = 0) -> dict[str, np.ndarray]:
-    """FMI names: a value of one dimension more becomes name[1], name[2], ..."""
+    """FMI names: a vector becomes name[1], name[2], ..., a matrix name[1,1], name[1,2], ..."""
     columns = {}
-    for name, value in values.items():
-        value = np.asarray(value)
-        if value.ndim == dimensions:
-            columns[name] = value
+    for name, array in values.items():
+        array = np.asarray(array)
+        if array.ndim == dimensions:
+            columns[name] = array
+        elif array.ndim == dimensions + 2:
+            rows, width = array.shape[-2:]
+            columns |= {f"{name}[{i + 1},{k + 1}]": array[..., i, k] for i in range(rows) for k in range(width)}
         else:
-            columns |= {f"{name}[{i + 1}]": value[..., i] for i in range(value.shape[-1])}
+            columns |= {f"{name}[{i + 1}]": array[..., i] for i in range(array.shape[-1])}
     return columns
 
 
@@ -45,7 +48,7 @@ class Check:
         columns = {"time": self.step * np.arange(rows)} | columns
         assert {len(column) for column in columns.values()} == {rows}
         table = zip(*(column.tolist() for column in columns.values()), strict=True)
-        return "\n".join([",".join(columns), *(",".join(repr(float(value)) for value in row) for row in table), ""])
+        return "\n".join([",".join(columns), *(",".join(repr(float(number)) for number in row) for row in table), ""])
 
     def toml(self) -> str:
         rows = len(next(iter(expand(self.outputs, 1).values())))
@@ -55,14 +58,14 @@ class Check:
             f"stop_time = {self.step * (rows - 1)!r}",
             "",
             "[parameters]",
-            *(f"{json.dumps(name)} = {json.dumps(value.item())}" for name, value in expand(self.parameters).items()),
+            *(f"{json.dumps(name)} = {json.dumps(array.item())}" for name, array in expand(self.parameters).items()),
             "",
             "# |output - reference| <= absolute + relative |reference|",
             "[tolerances]",
         ]
-        for name, value in self.outputs.items():
+        for name, array in self.outputs.items():
             absolute, relative = self.tolerances[name]
-            for column in expand({name: value}, 1):
+            for column in expand({name: array}, 1):
                 lines.append(f"{json.dumps(column)} = {{ absolute = {absolute!r}, relative = {relative!r} }}")
         return "\n".join([*lines, ""])
 

@@ -2,12 +2,6 @@
 
 LACKING = (
     "attitude_moon_lander",
-    "drifting_target",
-    "entry_capsule",
-    "free_flying_robot",
-    "orbital_spacecraft",
-    "planar_moon_lander",
-    "spherical_moon_lander",
     "attitude_sensor",
     "bank_sensor",
     "doppler_velocimeter",
