@@ -12,6 +12,13 @@ import numpy as np
 
 Columns = dict[str, np.ndarray]
 
+STEP = 0.125  # s; its multiples are exact
+
+
+def follow(rows: np.ndarray) -> np.ndarray:
+    """A direct output as FMPy sees it: at the start of the first row's inputs, then of those of the row before."""
+    return np.concatenate([rows[:1], rows[:-1]])
+
 
 def expand(values: Mapping[str, object], dimensions: int = 0) -> dict[str, np.ndarray]:
     """FMI names: a vector becomes name[1], name[2], ..., a matrix name[1,1], name[1,2], ..."""

@@ -7,11 +7,10 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from tests.support.checks.check import Check
+from tests.support.checks.check import STEP, Check
 from tests.support.flights.entry_motion import Coefficients, Entry
 from tests.support.flights.orbital_motion import DEGREE, JET_TORQUE, flown
 
-STEP = 0.125  # s; its multiples are exact
 STANDARD_GRAVITY = 9.80665
 UP = np.array([0.0, 0.0, 1.0])
 

@@ -2,10 +2,16 @@
 
 from collections.abc import Callable
 
-from tests.support.checks import plants
+from tests.support.checks import control, disturbances, guidance, navigation, plants
 from tests.support.checks.check import Check
 
-MODULES = {"plants": plants}
+MODULES = {
+    "plants": plants,
+    "navigation": navigation,
+    "guidance": guidance,
+    "control": control,
+    "disturbances": disturbances,
+}
 TRUTHS: dict[str, tuple[str, Callable[[], Check]]] = {
     name: (kind, truth) for kind, module in MODULES.items() for name, truth in module.TRUTHS.items()
 }
