@@ -3,7 +3,8 @@
 import math
 
 from ..block import Output, Parameter, State
-from ..mathlib.estimation.inertial import sensor_addition
+from ..kernel.matrices import element
+from ..mathlib.estimation.inertial import STATES, sensor_addition, start_errors
 from ..mathlib.lunar.gravity import from_centre
 from ..mathlib.vectors import Vector3, norm, vector
 from ..ports import Status, outcome
@@ -106,19 +107,24 @@ class FilteredNavigation(InertialNavigation, interface=True):
 
     def initialize(self) -> None:
         self.know()
-        for i in range(3):
-            self.covariance[16 * i] = self.first_position_sigma * self.first_position_sigma
-            self.covariance[16 * (i + 3)] = self.first_velocity_sigma * self.first_velocity_sigma
-            self.covariance[16 * (i + 6)] = self.bias_sigma * self.bias_sigma
-            self.covariance[16 * (i + 9)] = self.scale_factor_sigma * self.scale_factor_sigma
-            self.covariance[16 * (i + 12)] = self.attitude_sigma * self.attitude_sigma
+        start_errors(
+            self.covariance,
+            self.first_position_sigma,
+            self.first_velocity_sigma,
+            self.bias_sigma,
+            self.scale_factor_sigma,
+            self.attitude_sigma,
+        )
         self.measure()
         self.publish()
 
     def compensate(self) -> None:
         """Take the estimated errors of the inertial sensor off the specific force."""
         if not self.free_flight:
-            self.force = self.force - sensor_addition(self.sensor_errors, self.force)
+            bias = vector(*self.sensor_errors[0:3])
+            scale_factor = vector(*self.sensor_errors[3:6])
+            rotation = vector(*self.sensor_errors[6:9])
+            self.force = self.force - sensor_addition(bias, scale_factor, rotation, self.force)
 
     def local_gradient(self) -> tuple[Vector3, float]:
         """Unit vector away from the Moon's centre; size of the gradient of gravity (1/s2), 0 where it is left out."""
@@ -221,15 +227,16 @@ class FilteredNavigation(InertialNavigation, interface=True):
         k = 0
         for i in range(6):
             for j in range(i, 6):
-                self.estimate_covariance[k] = self.covariance[15 * i + j]
+                self.estimate_covariance[k] = element(self.covariance, STATES, i, j)
                 k = k + 1
-        for i in range(15):
-            if not self.covariance[16 * i] >= 0.0:
+        for i in range(STATES):
+            if not element(self.covariance, STATES, i, i) >= 0.0:
                 self.status = FilterStatus.NOT_POSITIVE
         sigmas = [0.0] * 6
         for i in range(6):
-            if self.covariance[16 * i] > 0.0:
-                sigmas[i] = math.sqrt(self.covariance[16 * i])
+            variance = element(self.covariance, STATES, i, i)
+            if variance > 0.0:
+                sigmas[i] = math.sqrt(variance)
         self.position_estimate_sigma = vector(*sigmas[0:3])
         self.velocity_estimate_sigma = vector(*sigmas[3:6])
 

@@ -1,11 +1,73 @@
-"""Square matrices of up to six rows, as lists in row order. Kernel functions.
+"""Matrices as lists in row order: elements, blocks of three, and the algebra of square ones. Kernel functions.
 
-A result may not be one of the arguments. Sums run from 0.0 in order of the index that is summed over.
+Only this file knows where an element is stored. ``n`` is the number of columns, and of rows where a matrix is square.
+Indices i and j count from 0; a block or a part of a row or column is named by its first row and column.
+`inverse` and `exponential` take up to six rows, `inverse_quadratic_form` up to fifteen. A result may not be
+one of the arguments. Sums run from 0.0, or from what is added to, in order of the index that is summed over.
 """
 
 import math
 
+from .vector_types import Vector3, vector
+
 TERMS = 16  # of the exponential's series: at a norm of 1/2 what is left out is below 1e-19
+
+
+def element(a: list, n: int, i: int, j: int) -> float:
+    """a_ij."""
+    return a[n * i + j]
+
+
+def set_element(a: list, n: int, i: int, j: int, value: float) -> None:
+    """a_ij = value."""
+    a[n * i + j] = value
+
+
+def row(a: list, n: int, i: int, j: int) -> Vector3:
+    """Three elements of row i, from column j on."""
+    k = n * i + j
+    return vector(a[k], a[k + 1], a[k + 2])
+
+
+def set_row(a: list, n: int, i: int, j: int, v: Vector3) -> None:
+    """Three elements of row i, from column j on, = v."""
+    k = n * i + j
+    a[k] = v.x
+    a[k + 1] = v.y
+    a[k + 2] = v.z
+
+
+def column(a: list, n: int, i: int, j: int) -> Vector3:
+    """Three elements of column j, from row i on."""
+    k = n * i + j
+    return vector(a[k], a[k + n], a[k + 2 * n])
+
+
+def set_column(a: list, n: int, i: int, j: int, v: Vector3) -> None:
+    """Three elements of column j, from row i on, = v."""
+    k = n * i + j
+    a[k] = v.x
+    a[k + n] = v.y
+    a[k + 2 * n] = v.z
+
+
+def set_isotropic(a: list, n: int, i: int, j: int, value: float) -> None:
+    """Diagonal of the 3 x 3 block at (i, j) = value: of a block of zeros, value times the identity."""
+    for k in range(3):
+        a[n * (i + k) + j + k] = value
+
+
+def add_isotropic(a: list, n: int, i: int, j: int, value: float) -> None:
+    """The 3 x 3 block at (i, j) + value times the identity."""
+    for k in range(3):
+        a[n * (i + k) + j + k] = a[n * (i + k) + j + k] + value
+
+
+def mirror(a: list, n: int, rows: int) -> None:
+    """Below the diagonal, the first columns = the first rows above it."""
+    for i in range(rows):
+        for j in range(i + 1, n):
+            a[n * j + i] = a[n * i + j]
 
 
 def identity(a: list, n: int) -> None:
@@ -24,6 +86,59 @@ def multiply(a: list, b: list, c: list, n: int) -> None:
             for k in range(n):
                 total = total + a[n * i + k] * b[n * k + j]
             c[n * i + j] = total
+
+
+def add_product(a: list, b: list, q: list, c: list, n: int) -> None:
+    """c = q + a b'."""
+    for i in range(n):
+        for j in range(n):
+            total = q[n * i + j]
+            for k in range(n):
+                total = total + a[n * i + k] * b[n * j + k]
+            c[n * i + j] = total
+
+
+def add_outer(a: list, factor: float, x: list, y: list, n: int) -> None:
+    """a = a + factor x y'."""
+    for i in range(n):
+        scaled = factor * x[i]
+        for j in range(n):
+            a[n * i + j] = a[n * i + j] + scaled * y[j]
+
+
+def multiply_vector(a: list, x: list, y: list, n: int) -> None:
+    """y = a x."""
+    for i in range(n):
+        total = 0.0
+        for k in range(n):
+            total = total + a[n * i + k] * x[k]
+        y[i] = total
+
+
+def inverse_quadratic_form(p: list, e: list, n: int) -> float:
+    """e' p^-1 e by a factorisation p = l d l'; -1 where p is not positive definite.
+
+    ``e`` holds n floats, ``p`` a symmetric matrix, of which the lower triangle is read.
+    Source: Golub and Van Loan 2013, section 4.1.2.
+    """
+    lower = [0.0] * 225  # below the diagonal; d on it
+    y = [0.0] * 15
+    total = 0.0
+    for i in range(n):
+        y[i] = e[i]
+        for j in range(i + 1):
+            rest = p[n * i + j]
+            for k in range(j):
+                rest = rest - lower[n * i + k] * lower[n * j + k] * lower[n * k + k]
+            if j < i:
+                lower[n * i + j] = rest / lower[n * j + j]
+                y[i] = y[i] - lower[n * i + j] * y[j]
+            else:
+                if not rest > 0.0:
+                    return -1.0
+                lower[n * i + i] = rest
+        total = total + y[i] * y[i] / lower[n * i + i]
+    return total
 
 
 def inverse(a: list, b: list, n: int) -> bool:

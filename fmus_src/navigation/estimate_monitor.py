@@ -4,7 +4,7 @@ import math
 
 from ..block import Block, Output
 from ..interfaces.ports import landing
-from ..mathlib.estimation.kalman import normalised_square
+from ..kernel.matrices import element, inverse_quadratic_form, set_element
 from ..mathlib.vectors import vector
 
 
@@ -48,17 +48,19 @@ class EstimateMonitor(Block):
             error[i] = position_error[i]
             error[3 + i] = velocity_error[i]
         covariance = [0.0] * 36
+        k = 0
         for i in range(6):
             for j in range(i, 6):
-                # row i of the upper triangle begins after 6 + 5 + ... elements
-                covariance[6 * j + i] = self.estimate_covariance[6 * i - i * (i - 1) // 2 + j - i]
+                set_element(covariance, 6, j, i, self.estimate_covariance[k])
+                k = k + 1
         ratio = [0.0] * 6
         for i in range(6):
-            if covariance[7 * i] > 0.0:
-                ratio[i] = error[i] / math.sqrt(covariance[7 * i])
+            variance = element(covariance, 6, i, i)
+            if variance > 0.0:
+                ratio[i] = error[i] / math.sqrt(variance)
         self.position_error_ratio = vector(*ratio[0:3])
         self.velocity_error_ratio = vector(*ratio[3:6])
-        self.normalised_error_square = normalised_square(covariance, error, 6)
+        self.normalised_error_square = inverse_quadratic_form(covariance, error, 6)
         if self.normalised_error_square < 0.0:
             self.normalised_error_square = 0.0
 

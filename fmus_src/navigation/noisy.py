@@ -5,9 +5,14 @@ import math
 from ..block import Parameter, State
 from ..interfaces.navigation import Navigation
 from ..interfaces.ports import landing, sampling
+from ..kernel.matrices import element, identity, set_isotropic
 from ..mathlib.estimation.kalman import predict, update
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import Vector3, vector
+
+# The states of the filter, by the first of each three.
+POSITION = 0
+VELOCITY = 3
 
 
 class NoisyNavigation(Navigation):
@@ -50,8 +55,8 @@ class NoisyNavigation(Navigation):
             self.estimate[i] = self.position[i] + self.first_position_sigma * error
             error = normal(self.generator)
             self.estimate[3 + i] = self.velocity[i] + self.first_velocity_sigma * error
-            self.covariance[7 * i] = self.first_position_sigma * self.first_position_sigma
-            self.covariance[7 * (i + 3)] = self.first_velocity_sigma * self.first_velocity_sigma
+        set_isotropic(self.covariance, 6, POSITION, POSITION, self.first_position_sigma * self.first_position_sigma)
+        set_isotropic(self.covariance, 6, VELOCITY, VELOCITY, self.first_velocity_sigma * self.first_velocity_sigma)
         if self.position_sigma > 0.0 or self.velocity_sigma > 0.0:
             self.publish()
         else:
@@ -61,14 +66,12 @@ class NoisyNavigation(Navigation):
         """Predict the estimate h (s) ahead."""
         f = [0.0] * 36
         q = [0.0] * 36
-        for i in range(3):
-            f[7 * i] = 1.0
-            f[7 * (i + 3)] = 1.0
-            f[6 * i + i + 3] = h
-            q[7 * i] = self.process_noise * h * h * h / 3.0
-            q[6 * i + i + 3] = self.process_noise * h * h / 2.0
-            q[6 * (i + 3) + i] = q[6 * i + i + 3]
-            q[7 * (i + 3)] = self.process_noise * h
+        identity(f, 6)
+        set_isotropic(f, 6, POSITION, VELOCITY, h)
+        set_isotropic(q, 6, POSITION, POSITION, self.process_noise * h * h * h / 3.0)
+        set_isotropic(q, 6, POSITION, VELOCITY, self.process_noise * h * h / 2.0)
+        set_isotropic(q, 6, VELOCITY, POSITION, self.process_noise * h * h / 2.0)
+        set_isotropic(q, 6, VELOCITY, VELOCITY, self.process_noise * h)
         predict(self.estimate, self.covariance, f, q, 6)
         force = self.specific_force
         if self.free_flight:
@@ -95,13 +98,13 @@ class NoisyNavigation(Navigation):
         self.estimated_velocity = vector(*self.estimate[3:6])
         sigmas = [0.0] * 6
         for i in range(6):
-            sigmas[i] = math.sqrt(self.covariance[7 * i])
+            sigmas[i] = math.sqrt(element(self.covariance, 6, i, i))
         self.position_estimate_sigma = vector(*sigmas[0:3])
         self.velocity_estimate_sigma = vector(*sigmas[3:6])
         k = 0
         for i in range(6):
             for j in range(i, 6):
-                self.estimate_covariance[k] = self.covariance[6 * i + j]
+                self.estimate_covariance[k] = element(self.covariance, 6, i, j)
                 k = k + 1
 
     def pass_truth(self) -> None:
@@ -116,10 +119,10 @@ class NoisyNavigation(Navigation):
             elapsed = t + h - self.start_time
             if self.position_sigma > 0.0 and elapsed > (self.position_fixes + 1) * self.position_period - 1e-9:
                 self.position_fixes = self.position_fixes + 1
-                self.fix(0, self.position, self.position_sigma)
+                self.fix(POSITION, self.position, self.position_sigma)
             if self.velocity_sigma > 0.0 and elapsed > (self.velocity_fixes + 1) * self.velocity_period - 1e-9:
                 self.velocity_fixes = self.velocity_fixes + 1
-                self.fix(3, self.velocity, self.velocity_sigma)
+                self.fix(VELOCITY, self.velocity, self.velocity_sigma)
             self.publish()
         else:
             self.pass_truth()

@@ -5,11 +5,17 @@ import math
 from ..block import Parameter, State
 from ..interfaces.attitude_observer import AttitudeObserver, ObserverStatus
 from ..interfaces.ports import body
+from ..kernel.matrices import element, identity, row, set_element, set_isotropic, set_row
 from ..kernel.records import replace
 from ..mathlib.estimation.kalman import predict, update
 from ..mathlib.orbits.attitude import angle_rate_derivatives, angle_rates, apply_matrix
 from ..mathlib.vectors import Vector3, vector
 from ..units import deg
+
+# The states of the covariance, by the first of each three; yaw is the second angle.
+ANGLES = 0
+BIASES = 3
+YAW = 1
 
 
 class OrbitalFilter(AttitudeObserver):
@@ -28,10 +34,9 @@ class OrbitalFilter(AttitudeObserver):
     covariance = State([0.0] * 36, columns=6, frozen=True, description="of angles and biases, SI")
 
     def begin(self) -> bool:
-        for i in range(3):
-            self.covariance[7 * i] = self.vertical_sigma * self.vertical_sigma
-            self.covariance[7 * (i + 3)] = self.gyro_bias_sigma * self.gyro_bias_sigma
-        self.covariance[7] = self.first_yaw_sigma * self.first_yaw_sigma
+        set_isotropic(self.covariance, 6, ANGLES, ANGLES, self.vertical_sigma * self.vertical_sigma)
+        set_isotropic(self.covariance, 6, BIASES, BIASES, self.gyro_bias_sigma * self.gyro_bias_sigma)
+        set_element(self.covariance, 6, YAW, YAW, self.first_yaw_sigma * self.first_yaw_sigma)
         return True
 
     def predict_covariance(self, angles: Vector3, w: Vector3) -> None:
@@ -44,13 +49,12 @@ class OrbitalFilter(AttitudeObserver):
         unmoved = [0.0] * 6
         angle_rate_derivatives(angles, w, self.orbital_rate, by_angles, by_rates)
         walk = self.gyro_sigma * period
-        for i in range(3):
-            transition[7 * i] = 1.0
-            transition[7 * (i + 3)] = 1.0
-            noise[7 * i] = walk * walk
-            for k in range(3):
-                transition[6 * i + k] = transition[6 * i + k] + period * by_angles[3 * i + k]
-                transition[6 * i + 3 + k] = -period * by_rates[3 * i + k]
+        identity(transition, 6)
+        for i in range(3):  # F = 1 + T df/dx, with the rates less the biases
+            angles_row = row(transition, 6, i, ANGLES) + period * row(by_angles, 3, i, 0)
+            set_row(transition, 6, i, ANGLES, angles_row)
+            set_row(transition, 6, i, BIASES, -period * row(by_rates, 3, i, 0))
+        set_isotropic(noise, 6, ANGLES, ANGLES, walk * walk)
         predict(unmoved, self.covariance, transition, noise, 6)
 
     def advance(self, w: Vector3) -> None:
@@ -100,8 +104,9 @@ class OrbitalFilter(AttitudeObserver):
     def bound(self) -> None:
         """The filter's yaw is free; put out what it knows of it."""
         self.estimated_gyro_bias = self.bias
-        if self.covariance[7] > 0.0:
-            self.yaw_sigma = math.sqrt(self.covariance[7])
+        variance = element(self.covariance, 6, YAW, YAW)
+        if variance > 0.0:
+            self.yaw_sigma = math.sqrt(variance)
         elif self.usable:
             self.yaw_sigma = 0.0
             self.status = ObserverStatus.NOT_POSITIVE

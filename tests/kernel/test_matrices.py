@@ -7,21 +7,40 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from perilune.fmus_src.kernel.matrices import exponential, identity, inverse, multiply
+from perilune.fmus_src.kernel.matrices import (
+    add_isotropic,
+    add_outer,
+    add_product,
+    column,
+    element,
+    exponential,
+    identity,
+    inverse,
+    inverse_quadratic_form,
+    mirror,
+    multiply,
+    multiply_vector,
+    row,
+    set_column,
+    set_element,
+    set_isotropic,
+    set_row,
+)
+from perilune.fmus_src.kernel.vector_types import vector
 
 seeds = st.integers(0, 2**32 - 1)
 sizes = st.integers(1, 6)
 EPSILON = 2.2e-16
 
 
-def drawn(seed, n, count=1):
+def random_matrices(seed, n, count=1):
     return np.random.default_rng(seed).normal(size=(count, n, n))
 
 
 @settings(max_examples=50)
 @given(seeds, sizes)
 def test_products(seed, n):
-    a, b = drawn(seed, n, 2)
+    a, b = random_matrices(seed, n, 2)
     product = [0.0] * 36
     multiply(a.ravel().tolist(), b.ravel().tolist(), product, n)
     assert product[: n * n] == pytest.approx((a @ b).ravel(), abs=1e-13)
@@ -31,9 +50,63 @@ def test_products(seed, n):
 
 
 @settings(max_examples=50)
+@given(seeds, st.integers(1, 15))
+def test_sums_of_products(seed, n):
+    a, b, q = random_matrices(seed, n, 3)
+    x, y = random_matrices(seed, n)[0][0], b[0]
+    total = [0.0] * n * n
+    add_product(a.ravel().tolist(), b.ravel().tolist(), q.ravel().tolist(), total, n)
+    assert total == pytest.approx((q + a @ b.T).ravel(), abs=1e-12)
+    add_outer(total, -0.5, x.tolist(), y.tolist(), n)
+    assert total == pytest.approx((q + a @ b.T - 0.5 * np.outer(x, y)).ravel(), abs=1e-12)
+    transformed = [0.0] * n
+    multiply_vector(a.ravel().tolist(), x.tolist(), transformed, n)
+    assert transformed == pytest.approx(a @ x, abs=1e-13)
+
+
+@given(seeds, st.integers(3, 15), st.data())
+def test_elements_and_blocks_are_those_of_numpy(seed, n, data):
+    (a,) = random_matrices(seed, n)
+    i, j = data.draw(st.integers(0, n - 3)), data.draw(st.integers(0, n - 3))
+    actual = a.ravel().tolist()
+    assert element(actual, n, i, j) == a[i, j]
+    assert tuple(row(actual, n, i, j)) == tuple(a[i, j : j + 3])
+    assert tuple(column(actual, n, i, j)) == tuple(a[i : i + 3, j])
+    set_element(actual, n, j, i, 7.0)
+    a[j, i] = 7.0
+    set_row(actual, n, i, j, vector(1.0, 2.0, 3.0))
+    a[i, j : j + 3] = 1.0, 2.0, 3.0
+    set_column(actual, n, j, i, vector(4.0, 5.0, 6.0))
+    a[j : j + 3, i] = 4.0, 5.0, 6.0
+    add_isotropic(actual, n, i, j, 0.5)
+    a[i : i + 3, j : j + 3] += 0.5 * np.eye(3)
+    set_isotropic(actual, n, j, j, 8.0)
+    np.fill_diagonal(a[j : j + 3, j : j + 3], 8.0)
+    mirror(actual, n, n - 1)
+    assert actual == (np.triu(a) + np.triu(a, 1).T).ravel().tolist()
+
+
+@given(st.integers(1, 15), seeds)
+@settings(max_examples=40, deadline=None)
+def test_an_inverse_quadratic_form_is_that_of_a_solved_system(n, seed):
+    (root,) = random_matrices(seed, n)
+    p = root @ root.T + np.eye(n)
+    e = np.random.default_rng(seed).normal(size=n)
+    retained = p.ravel().tolist()
+    assert inverse_quadratic_form(retained, e.tolist(), n) == pytest.approx(e @ np.linalg.solve(p, e), rel=1e-9)
+    assert retained == p.ravel().tolist()
+
+
+def test_an_inverse_quadratic_form_says_where_a_matrix_is_not_positive():
+    assert inverse_quadratic_form([1.0, 2.0, 2.0, 1.0], [1.0, 1.0], 2) == -1.0
+    assert inverse_quadratic_form([0.0], [0.0], 1) == -1.0
+    assert inverse_quadratic_form([float("nan")], [0.0], 1) == -1.0
+
+
+@settings(max_examples=50)
 @given(seeds, sizes)
 def test_inverses(seed, n):
-    (a,) = drawn(seed, n)
+    (a,) = random_matrices(seed, n)
     actual = [0.0] * 36
     assert inverse(a.ravel().tolist(), actual, n)
     bound = 50.0 * EPSILON * np.linalg.cond(a) * np.linalg.norm(np.linalg.inv(a))
@@ -68,7 +141,7 @@ def exact_exponential(a):
 @given(seeds, sizes, st.floats(-5.0, 5.0))
 @example(1845, 3, 1.0)  # expm of scipy is 2e-12 off
 def test_exponentials(seed, n, t):
-    (a,) = drawn(seed, n)
+    (a,) = random_matrices(seed, n)
     actual = [0.0] * 36
     exponential(a.ravel().tolist(), t, actual, n)
     expected = exact_exponential(a * t)

@@ -3,8 +3,17 @@
 Frame: landing site (z up); the Moon's centre is ``radius`` below the origin.
 """
 
+from ...kernel.matrices import add_isotropic, column, mirror, row, set_column, set_isotropic, set_row
 from ..lunar.gravity import central_gravity, gravity_difference
 from ..vectors import Vector3, vector
+
+# The states of a covariance: errors of position and velocity, and of the inertial sensor, by the first of each three.
+STATES = 15
+POSITION = 0
+VELOCITY = 3
+BIAS = 6
+SCALE_FACTOR = 9
+ROTATION = 12
 
 
 def dead_reckon(
@@ -22,19 +31,38 @@ def dead_reckon(
     return position + h * (velocity + 0.5 * gained - h * (force - before) / 12.0), velocity + gained
 
 
-def sensor_addition(errors: list, f: Vector3) -> Vector3:
-    """b + diag(k) f + w x f, with bias b (m/s2), scale factors k and rotation w (rad) in errors (9)."""
+def sensor_addition(bias: Vector3, scale_factor: Vector3, rotation: Vector3, f: Vector3) -> Vector3:
+    """b + diag(k) f + w x f, with bias b (m/s2), scale factors k and rotation w (rad)."""
     return vector(
-        errors[0] + errors[3] * f.x + errors[7] * f.z - errors[8] * f.y,
-        errors[1] + errors[4] * f.y + errors[8] * f.x - errors[6] * f.z,
-        errors[2] + errors[5] * f.z + errors[6] * f.y - errors[7] * f.x,
+        bias.x + scale_factor.x * f.x + rotation.y * f.z - rotation.z * f.y,
+        bias.y + scale_factor.y * f.y + rotation.z * f.x - rotation.x * f.z,
+        bias.z + scale_factor.z * f.z + rotation.x * f.y - rotation.y * f.x,
     )
+
+
+def propagate(
+    position: Vector3, velocity: Vector3, added: Vector3, up: Vector3, gradient: float, h: float
+) -> tuple[Vector3, Vector3]:
+    """Errors of position and velocity h (s) later, where the sensor's errors have ``added`` to the specific force."""
+    a = added
+    if gradient > 0.0:
+        a = a - gravity_difference(position + 0.5 * h * velocity, up, gradient)
+    return position + h * (velocity - 0.5 * h * a), velocity - h * a
+
+
+def start_errors(p: list, position: float, velocity: float, bias: float, scale_factor: float, rotation: float) -> None:
+    """Diagonal of the covariance P from standard deviations of the states, each the same for three."""
+    set_isotropic(p, STATES, POSITION, POSITION, position * position)
+    set_isotropic(p, STATES, VELOCITY, VELOCITY, velocity * velocity)
+    set_isotropic(p, STATES, BIAS, BIAS, bias * bias)
+    set_isotropic(p, STATES, SCALE_FACTOR, SCALE_FACTOR, scale_factor * scale_factor)
+    set_isotropic(p, STATES, ROTATION, ROTATION, rotation * rotation)
 
 
 def predict_errors(
     p: list, f: Vector3, sensing: bool, walk: float, drift: float, up: Vector3, gradient: float, h: float
 ) -> None:
-    """Covariance p (15 x 15, row order) of inertial navigation h (s) ahead under the specific force f (m/s2).
+    """Covariance P (15 x 15, row order) of inertial navigation h (s) ahead under the specific force f (m/s2).
 
     States: position, velocity, and what the inertial sensor adds to the specific force: bias b,
     scale factors k and a small rotation w, b + diag(k) f + w x f, constant but for a random walk of b of density
@@ -43,49 +71,35 @@ def predict_errors(
     vector ``up``) adds gradient (3 up up' - 1) times the position error half a step on to the acceleration, which is
     what it does to dead reckoning by the trapezoidal rule; 0 leaves it out.
 
-    p = m p m' + q, done on the blocks that change: with a the error of the acceleration with its sign turned,
-    b + diag(k) f + w x f less what gravity differs by, position moves by h velocity - h^2/2 a and velocity by -h a.
+    P = F P F' + Q, where F is `propagate`, applied to each column of P and then to the rows that are not yet F P F'.
     """
-    a = [0.0] * 45  # covariance of a with every state, 3 x 15
-    half = 0.5 * h
-    for j in range(15):
+    added = vector(0.0, 0.0, 0.0)
+    for j in range(STATES):  # F P
         if sensing:
-            a[j] = p[15 * 6 + j] + f.x * p[15 * 9 + j] + f.z * p[15 * 13 + j] - f.y * p[15 * 14 + j]
-            a[15 + j] = p[15 * 7 + j] + f.y * p[15 * 10 + j] + f.x * p[15 * 14 + j] - f.z * p[15 * 12 + j]
-            a[30 + j] = p[15 * 8 + j] + f.z * p[15 * 11 + j] + f.y * p[15 * 12 + j] - f.x * p[15 * 13 + j]
-        if gradient > 0.0:
-            ahead = vector(p[j] + half * p[45 + j], p[15 + j] + half * p[60 + j], p[30 + j] + half * p[75 + j])
-            pull = gravity_difference(ahead, up, gradient)
-            a[j] = a[j] - pull.x
-            a[15 + j] = a[15 + j] - pull.y
-            a[30 + j] = a[30 + j] - pull.z
-    for i in range(3):
-        for j in range(15):
-            p[15 * i + j] = p[15 * i + j] + h * (p[15 * (3 + i) + j] - half * a[15 * i + j])
-            p[15 * (3 + i) + j] = p[15 * (3 + i) + j] - h * a[15 * i + j]
-    for i in range(6):
-        r = 15 * i
-        error = vector(0.0, 0.0, 0.0)
+            bias = column(p, STATES, BIAS, j)
+            scale_factor = column(p, STATES, SCALE_FACTOR, j)
+            added = sensor_addition(bias, scale_factor, column(p, STATES, ROTATION, j), f)
+        position = column(p, STATES, POSITION, j)
+        velocity = column(p, STATES, VELOCITY, j)
+        position, velocity = propagate(position, velocity, added, up, gradient, h)
+        set_column(p, STATES, POSITION, j, position)
+        set_column(p, STATES, VELOCITY, j, velocity)
+    for i in range(BIAS):  # (F P) F'; the rest by symmetry
         if sensing:
-            error = vector(
-                p[r + 6] + f.x * p[r + 9] + f.z * p[r + 13] - f.y * p[r + 14],
-                p[r + 7] + f.y * p[r + 10] + f.x * p[r + 14] - f.z * p[r + 12],
-                p[r + 8] + f.z * p[r + 11] + f.y * p[r + 12] - f.x * p[r + 13],
-            )
-        if gradient > 0.0:
-            ahead = vector(p[r] + half * p[r + 3], p[r + 1] + half * p[r + 4], p[r + 2] + half * p[r + 5])
-            error = error - gravity_difference(ahead, up, gradient)
-        for j in range(3):
-            p[r + j] = p[r + j] + h * (p[r + 3 + j] - half * error[j])
-            p[r + 3 + j] = p[r + 3 + j] - h * error[j]
-    for i in range(3):
-        if sensing:
-            # an increment's error moves position by half a step times itself
-            p[16 * i] = p[16 * i] + walk * h * half * half
-            p[16 * i + 3] = p[16 * i + 3] + walk * h * half
-            p[15 * (3 + i) + i] = p[15 * (3 + i) + i] + walk * h * half
-            p[16 * (3 + i)] = p[16 * (3 + i)] + walk * h
-        p[16 * (6 + i)] = p[16 * (6 + i)] + drift * h
-    for i in range(6):
-        for j in range(i + 1, 15):
-            p[15 * j + i] = p[15 * i + j]
+            bias = row(p, STATES, i, BIAS)
+            scale_factor = row(p, STATES, i, SCALE_FACTOR)
+            added = sensor_addition(bias, scale_factor, row(p, STATES, i, ROTATION), f)
+        position = row(p, STATES, i, POSITION)
+        velocity = row(p, STATES, i, VELOCITY)
+        position, velocity = propagate(position, velocity, added, up, gradient, h)
+        set_row(p, STATES, i, POSITION, position)
+        set_row(p, STATES, i, VELOCITY, velocity)
+    if sensing:
+        # an increment's error moves position by half a step times itself
+        half = 0.5 * h
+        add_isotropic(p, STATES, POSITION, POSITION, walk * h * half * half)
+        add_isotropic(p, STATES, POSITION, VELOCITY, walk * h * half)
+        add_isotropic(p, STATES, VELOCITY, POSITION, walk * h * half)
+        add_isotropic(p, STATES, VELOCITY, VELOCITY, walk * h)
+    add_isotropic(p, STATES, BIAS, BIAS, drift * h)
+    mirror(p, STATES, BIAS)

@@ -61,7 +61,7 @@ def measured(errors, f):
 def test_sensor_addition_is_the_error_model(seed):
     generator = np.random.default_rng(seed)
     errors, f = generator.normal(size=9), generator.normal(size=3)
-    added = sensor_addition(errors.tolist(), vector(*f))
+    added = sensor_addition(vector(*errors[0:3]), vector(*errors[3:6]), vector(*errors[6:9]), vector(*f))
     assert added == pytest.approx(measured(errors, f) - f, abs=1e-13)
 
 

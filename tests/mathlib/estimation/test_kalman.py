@@ -2,8 +2,7 @@
 
 Truth: `filterpy.kalman.KalmanFilter` with its matrix inverse, and the information form of the update by
 numpy; tolerance 1e-10 of the largest element. The covariance stays symmetric to 1e-12 of its largest
-element and positive over thousands of steps, with nearly perfect measurements too. Normalised squares are
-those of `numpy.linalg.solve`.
+element and positive over thousands of steps, with nearly perfect measurements too.
 """
 
 import numpy as np
@@ -12,7 +11,7 @@ from filterpy.kalman import KalmanFilter
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from perilune.fmus_src.mathlib.estimation.kalman import correct, innovation_variance, normalised_square, predict, update
+from perilune.fmus_src.mathlib.estimation.kalman import correct, innovation_variance, predict, update
 
 
 def random_system(generator, n):
@@ -99,23 +98,6 @@ def test_an_update_in_two_parts_is_the_update(n):
     assert_close(x + correction, whole_x)
     assert_close(parted_p, whole_p)
     assert (2.0 - h @ x) ** 2 / s == pytest.approx(nis)
-
-
-@given(st.integers(1, 15), st.integers(0, 2**32 - 1))
-@settings(max_examples=40, deadline=None)
-def test_normalised_square_is_that_of_a_solved_system(n, seed):
-    generator = np.random.default_rng(seed)
-    _, p, _, _ = random_system(generator, n)
-    e = generator.normal(size=n)
-    retained = p.ravel().tolist()
-    assert normalised_square(retained, e.tolist(), n) == pytest.approx(e @ np.linalg.solve(p, e), rel=1e-9)
-    assert retained == p.ravel().tolist()
-
-
-def test_normalised_square_says_where_a_matrix_is_not_positive():
-    assert normalised_square([1.0, 2.0, 2.0, 1.0], [1.0, 1.0], 2) == -1.0
-    assert normalised_square([0.0], [0.0], 1) == -1.0
-    assert normalised_square([float("nan")], [0.0], 1) == -1.0
 
 
 def test_nothing_beyond_n_states_is_touched():
