@@ -25,6 +25,7 @@ WRAPPER_FILES = (
     "fmi2_values.h",
     "fmi2_wrapper.c",
     "kernel_math.h",
+    "kernel_self_test.h",
     "kernel_vectors.h",
 )
 STANDARD_HEADERS = ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h")  # BSD-2, licence inside

@@ -8,6 +8,7 @@
 #include "fmi2_component.h"
 #include "fmi2_fmu_state.h"
 #include "fmi2_values.h"
+#include "kernel_self_test.h"
 
 const char *fmi2GetTypesPlatform(void)
 {
@@ -55,6 +56,7 @@ fmi2Component fmi2Instantiate(fmi2String instance_name, fmi2Type fmu_type, fmi2S
     if (guid == NULL || strcmp(guid, MODEL_GUID) != 0) {
         refusal = "the GUID is not that of this binary, " MODEL_GUID "; unpack the FMU again";
     }
+    if (refusal == NULL) refusal = check_arithmetic();
     if (refusal != NULL) {
         fail(component, "fmi2Instantiate: %s", refusal);
         free(component);
