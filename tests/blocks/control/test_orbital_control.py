@@ -100,11 +100,11 @@ def test_arrival_lets_small_errors_be(error, asked):
 def test_the_turn_goes_to_its_angle_and_back(time, angle):
     block = regulator(OrbitalArrivalControl, turn_angle=angle)
     h = 1e-4
-    yaw, rate = block.turned(time)
+    yaw, rate = block.lead_yaw(time)
     assert 0.0 <= abs(yaw) <= abs(angle)
     assert yaw * angle >= 0.0
-    before, _ = block.turned(time - h)
-    after, _ = block.turned(time + h)
+    before, _ = block.lead_yaw(time - h)
+    after, _ = block.lead_yaw(time + h)
     assert abs(after - before) <= 2.0 * h * block.turn_rate * (1.0 + 1e-6)
     assert rate in (0.0, block.turn_rate, -block.turn_rate)
     ramp = abs(angle) / block.turn_rate
