@@ -10,8 +10,6 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-import argcomplete
-
 from .common.errors import EndedError, ExitStatus, InputError, UnwrittenError, call_by_flags, warn_in_one_line
 from .common.process import leave, steady_streams
 from .verbs.help import Parser, group_help, overview, verb_help
@@ -20,6 +18,7 @@ from .verbs.options.verb import Verb
 from .verbs.options.verbs import GROUPS, RENAMED, VERBS
 
 HELP_ALL = "--help-all"
+COMPLETES = "_ARGCOMPLETE"  # set where a shell asks for completions; argcomplete is slow to import
 COMPLETING = "COMP_LINE"  # a shell's variable: the line that is being written
 USAGE = "perilune [--help] [--version] VERB ..."
 
@@ -44,7 +43,8 @@ def _carry_out(given: Sequence[str]) -> int:
             print(f"perilune: {renamed}: renamed; write perilune {RENAMED[renamed]}", file=sys.stderr)
             return ExitStatus.REFUSED
     parser = parser_of(given)
-    argcomplete.autocomplete(parser)
+    if COMPLETES in os.environ:
+        importlib.import_module("argcomplete").autocomplete(parser)
     parsed = parser.parse_args(given)
     verb = VERBS[f"{parsed.verb} {parsed.second}" if parsed.verb in GROUPS else parsed.verb]
     flags = flags_of(verb)
