@@ -25,7 +25,7 @@ from tests.support.lengths import LONG, either
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = samples.size(200)
 # The flags of docs/use_elsewhere.md; bits do not depend on the optimisation level.
-FLAGS = ["-std=c99", "-ffp-contract=off", "-fPIC", "-shared"]
+FLAGS = ["-std=c99", "-ffp-contract=off", "-fno-tree-vectorize", "-fPIC", "-shared"]
 COMPILERS = {
     "cc -O0": ["cc", "-O0"],
     "cc -O3": ["cc", "-O3"],

@@ -4,8 +4,9 @@
  * bit, or records the fault and returns 0; the kernel then returns at the end of the statement.
  * The first fault is kept. What Python's unbounded ints could still do beyond 64 bits is a fault.
  *
- * Compile with -ffp-contract=off: a contracted a * b + c rounds once. Of the C library only what IEEE 754 defines to the
- * last bit is called.
+ * Compile with -ffp-contract=off -fno-tree-vectorize: a contracted a * b + c rounds once, and GCC's vectoriser contracts
+ * sums beside differences even under -ffp-contract=off. Of the C library only what IEEE 754 defines to the last bit is
+ * called.
  */
 #ifndef KERNEL_MATH_H
 #define KERNEL_MATH_H

@@ -31,8 +31,8 @@ HEADER = """\
  * Translated from {file}; change that, not this. Numbers at the right
  * are lines of the Python file named above the function.
  *
- * Compile with -std=c99 -O2 -ffp-contract=off and link with -lm: then every result has the bits
- * of the Python source. To link several FMUs into one program, define
+ * Compile with -std=c99 -O2 -ffp-contract=off -fno-tree-vectorize and link with -lm: then every
+ * result has the bits of the Python source. To link several FMUs into one program, define
  * FMI2_FUNCTION_PREFIX={name}_ for each.
  */
 #include "fmi2_block.h"
