@@ -165,6 +165,9 @@ from .fmus_src.kernel.integrators import (
 from .fmus_src.kernel.integrators import (
     runge_kutta_nystrom as runge_kutta_nystrom,
 )
+from .fmus_src.kernel.integrators import (
+    simpson as simpson,
+)
 from .fmus_src.kernel.records import (
     Field as Field,
 )
