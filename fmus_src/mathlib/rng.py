@@ -9,13 +9,13 @@ are those of the 2002 package: streams 2^127 apart, substreams 2^76.
 
 import math
 
+from ..kernel.elementary.two_doubles import ROUND
 from ..kernel.functions import cos, log
 from .vectors import Vector3, vector
 
 M1 = 4294967087.0
 M2 = 4294944443.0
 NORM = 2.328306549295727688e-10
-ROUND = 6755399441055744.0  # 1.5 2^52
 
 
 def nearest(x: float) -> float:

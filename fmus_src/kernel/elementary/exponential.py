@@ -6,9 +6,8 @@ Functions", 1980), and exp(r) = 1 + r + r^2/2 + r^3 q(r).
 
 import math
 
-from .two_doubles import product_error, sum_error
+from .two_doubles import ROUND, product_error, sum_error
 
-ROUND = 6755399441055744.0  # 1.5 2^52: added and taken away, it leaves the nearest whole number
 LOG2_E = 1.4426950408889634
 LN2 = 0.6931471805599453
 LN2_TAIL = 2.3190468138462996e-17

@@ -7,13 +7,12 @@ series in two doubles.
 
 import math
 
-from .exponential import LN2_HIGH, LN2_LOW
+from .exponential import LN2_HIGH, LN2_LOW, LOG2_E
 from .two_doubles import product_error, sum_error
 
 SQRT_HALF = 0.7071067811865476
 THIRD = 0.3333333333333333
 THIRD_TAIL = 1.850371707708594e-17
-LOG2_E = 1.4426950408889634
 LOG2_E_TAIL = 2.0355273740931033e-17
 LOG10_E = 0.4342944819032518
 LOG10_E_TAIL = 1.098319650216765e-17

@@ -6,13 +6,13 @@ angle's exponent demands (Payne and Hanek, "Radian reduction for trigonometric f
 
 import math
 
-from .two_doubles import product_error, sum_error
+from .two_doubles import ROUND, product_error, sum_error
 
-ROUND = 6755399441055744.0  # 1.5 2^52
 LIMIT = 65536.0
 TWO_OVER_PI = 0.6366197723675814
 HALF_PI = 1.5707963267948966
 HALF_PI_TAIL = 6.123233995736766e-17
+QUARTER_PI = 0.7853981633974483
 PART_1 = 1.5707963267341256  # of pi/2: 33 bits, so that whole numbers to 2^20 times it are exact
 PART_2 = 6.077100506303966e-11
 PART_3 = 2.0222662487111665e-21

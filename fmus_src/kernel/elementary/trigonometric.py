@@ -6,10 +6,9 @@ library of Sun Microsystems, 1993).
 
 import math
 
-from .reduction import reduce_angle
+from .reduction import QUARTER_PI, reduce_angle
 from .two_doubles import product_error, sum_error
 
-QUARTER_PI = 0.7853981633974483
 SMALL = 1.4901161193847656e-08  # 2^-26, below which sin x = tan x = x
 
 SIN_0 = -0.16666666666666632
