@@ -11,7 +11,7 @@ from random import Random
 
 import numpy as np
 
-from perilune.analysis.common.elementary import elementary
+from perilune.analysis.common.elementary import FUNCTIONS, elementary
 from perilune.fmus_src.export.compilers import PLATFORMS, build_library, local_platform
 from perilune.fmus_src.export.judge.subset_table import ELEMENTARY_FUNCTIONS
 from perilune.fmus_src.export.native_fmu import native_sources
@@ -32,7 +32,7 @@ def library() -> ctypes.CDLL:
     sources = native_sources(ElementaryFunctions, "{0}")
     text = sources[main].decode()
     for name, function in ELEMENTARY_FUNCTIONS.items():
-        home = functions.unchecked(getattr(functions, name)).__module__.rpartition(".")[2]
+        home = FUNCTIONS[name].__module__.rpartition(".")[2]
         arguments = "x[i], y[i]" if len(function.takes) == 2 else "x[i]"
         for prefix, called in (("ours", f"{home}_{name}"), ("theirs", name)):
             text += (
@@ -75,13 +75,8 @@ def row(dll: ctypes.CDLL, name: str, random: Random) -> str:
         shortest(partial(call_each, function, few)) / len(few) * 1e6
         for function in (getattr(functions, name), getattr(math, name))
     ]
-    try:
-        vectorised = elementary(name)
-        vectorised(*(x, y)[: 1 + two])
-        numba = f"{shortest(lambda: vectorised(*(x, y)[: 1 + two])) / COUNT * 1e9:.1f}"
-    except KeyError:  # no expression has it
-        numba = ""
-    return f"| {name} | {in_c[0]:.1f} | {in_c[1]:.1f} | {numba} | {in_python[0]:.2f} | {in_python[1]:.2f} |"
+    in_numba = shortest(partial(elementary(name), *(x, y)[: 1 + two])) / COUNT * 1e9
+    return f"| {name} | {in_c[0]:.1f} | {in_c[1]:.1f} | {in_numba:.1f} | {in_python[0]:.2f} | {in_python[1]:.2f} |"
 
 
 def main() -> None:

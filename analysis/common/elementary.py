@@ -18,9 +18,8 @@ from ...fmus_src.kernel.elementary import normal_distribution, roots
 
 FEW = 30_000  # values that Python computes in the time that numba takes to load a function
 
-OF_KERNELS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "log10", "pow")
 FUNCTIONS: dict[str, Callable] = {
-    **{name: functions.unchecked(getattr(functions, name)) for name in OF_KERNELS},
+    **{function.__name__: function for function in functions.FAULTS},
     "hypot": roots.hypot,
     "normal_distribution": normal_distribution.normal_distribution,
     "normal_quantile": normal_distribution.normal_quantile,

@@ -10,18 +10,20 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
-from types import FunctionType
-from typing import Any
+from typing import Any, TypeVar
 
 from .elementary import exponential, hyperbolic, inverse, logarithm, power, roots, trigonometric
+
+F = TypeVar("F", bound=Callable)
 
 DOMAIN_ERROR, RANGE_ERROR = "math domain error", "math range error"
 EITHER_ERROR = ""  # the argument decides
 
 VERSION = 1  # of the bits: counts up with every change of a result of a function
 
-# What an infinite result of finite arguments is, by the computing function.
-FAULTS: dict[Callable, str] = {}
+# Every function that computes one of those at the end: what an infinite result of finite arguments is, None if there is
+# none.
+FAULTS: dict[Any, str | None] = {}
 
 
 def _refuse(y: float, if_infinite: str) -> None:
@@ -59,10 +61,10 @@ def _check_power(function: Callable[[float, float], float]) -> Callable[[float, 
     return call
 
 
-def unchecked(function: Any) -> FunctionType:
-    """The kernel function that computes one of these functions, without errors: NaN and infinities instead."""
-    computing: FunctionType = getattr(function, "__wrapped__", function)
-    return computing
+def _without_faults(function: F) -> F:
+    """A function whose result is NaN of NaN alone, and never infinite of finite arguments."""
+    FAULTS[function] = None
+    return function
 
 
 sin = _check_result(trigonometric.sin, DOMAIN_ERROR)
@@ -70,8 +72,8 @@ cos = _check_result(trigonometric.cos, DOMAIN_ERROR)
 tan = _check_result(trigonometric.tan, DOMAIN_ERROR)
 asin = _check_result(inverse.asin, DOMAIN_ERROR)
 acos = _check_result(inverse.acos, DOMAIN_ERROR)
-atan = inverse.atan
-atan2 = inverse.atan2
+atan = _without_faults(inverse.atan)
+atan2 = _without_faults(inverse.atan2)
 exp = _check_result(exponential.exp, RANGE_ERROR)
 exp2 = _check_result(exponential.exp2, RANGE_ERROR)
 expm1 = _check_result(exponential.expm1, RANGE_ERROR)
@@ -82,6 +84,6 @@ log1p = _check_result(logarithm.log1p, DOMAIN_ERROR)
 pow = _check_power(power.pow)
 sinh = _check_result(hyperbolic.sinh, RANGE_ERROR)
 cosh = _check_result(hyperbolic.cosh, RANGE_ERROR)
-tanh = hyperbolic.tanh
-cbrt = roots.cbrt
+tanh = _without_faults(hyperbolic.tanh)
+cbrt = _without_faults(roots.cbrt)
 fmod = math.fmod  # exact by definition

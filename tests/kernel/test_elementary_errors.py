@@ -13,6 +13,7 @@ import struct
 import pytest
 from mpmath import mp
 
+from perilune.fmus_src.face import HOMES
 from perilune.fmus_src.kernel import functions
 from tests.kernel.arguments import DRAWS, edges, samples
 from tests.support.kernels.samples import generator
@@ -27,6 +28,11 @@ def error(value: float, exact: mp.mpf) -> float:
     """Error in units of the last place of the exact result, of the smallest normal's below that."""
     exponent = max(mp.frexp(exact)[1] - 53, -1074)
     return float(abs(mp.ldexp(mp.mpf(value) - exact, -exponent)))
+
+
+def test_what_is_declared_is_public_and_tested_here() -> None:
+    declared = {function.__name__ for function in functions.FAULTS}
+    assert declared == set(DRAWS) == set(HOMES["kernel.functions"]) - {"fmod"}
 
 
 @pytest.mark.parametrize("name", DRAWS)

@@ -11,7 +11,6 @@ import ast
 import math
 from dataclasses import dataclass
 
-from ...face import HOMES
 from ...kernel import functions
 
 
@@ -67,17 +66,18 @@ def _read_rules(text: str) -> dict[str, Rule]:
     return rules
 
 
-def _elementary_function(name: str) -> MathFunction:
-    """Arguments and faults of a function of `kernel.functions`."""
-    function = functions.unchecked(getattr(functions, name))
-    faults = {functions.DOMAIN_ERROR: DOMAIN, functions.RANGE_ERROR: RANGE, functions.EITHER_ERROR: DOMAIN + RANGE}
-    error = functions.FAULTS.get(function)
-    return MathFunction(("float",) * function.__code__.co_argcount, faults[error] if error is not None else ())
+FAULTS_OF: dict[str | None, tuple[str, ...]] = {
+    None: (),
+    functions.DOMAIN_ERROR: DOMAIN,
+    functions.RANGE_ERROR: RANGE,
+    functions.EITHER_ERROR: DOMAIN + RANGE,
+}
 
 
 # Functions of `perilune` in place of those of `math`, with the same errors.
 ELEMENTARY_FUNCTIONS: dict[str, MathFunction] = {
-    name: _elementary_function(name) for name in HOMES["kernel.functions"] if name not in MATH_FUNCTIONS
+    function.__name__: MathFunction(("float",) * function.__code__.co_argcount, FAULTS_OF[error])
+    for function, error in functions.FAULTS.items()
 }
 
 MATH_CONSTANTS: dict[str, float] = {"pi": math.pi, "tau": math.tau, "e": math.e, "inf": math.inf, "nan": math.nan}

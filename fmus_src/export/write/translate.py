@@ -132,14 +132,14 @@ def _functions(kernel: Kernel, names: Names, type_name: str) -> list[str]:
             definitions.append(f'/* ---- {here} ---- */\n\n{undefine}#define AT(line) fault, "{here}", line\n')
             file = here
         definitions.append("\n".join([*write_function(function, names, type_name), ""]))
-        if function.source.function in FAULTS:
-            definitions.append(_define_checked(function, names.functions[function]))
+        error = FAULTS.get(function.source.function)
+        if error is not None:
+            definitions.append(_define_checked(function, names.functions[function], error))
     return definitions
 
 
-def _define_checked(function: Function, c_name: str) -> str:
+def _define_checked(function: Function, c_name: str, error: str) -> str:
     """The form of an elementary function that records a fault, ``py_sin``, at its caller's line."""
-    error = FAULTS[function.source.function]
     if error == EITHER_ERROR:
         return f"CHECKED_POWER({function.source.name}, {c_name})\n"
     return f"CHECKED_FUNCTION({function.source.name}, {c_name}, {C_ERRORS[error]})\n"
