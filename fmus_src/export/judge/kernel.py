@@ -249,10 +249,10 @@ class Kernel:
         """Add a violation of a rule of the table at a place in the source, once."""
         self.report_at(source.path, getattr(node, "lineno", source.node.lineno), rule, **details)
 
-    def report_block(self, rule: str) -> None:
+    def report_block(self, rule: str, **details: object) -> None:
         """Add a violation at the block's class statement."""
         line = inspect.getsourcelines(self.block_class)[1]
-        self.report_at(Path(inspect.getfile(self.block_class)), line, rule, name=self.block_class.__name__)
+        self.report_at(Path(inspect.getfile(self.block_class)), line, rule, name=self.block_class.__name__, **details)
 
     def report_at(self, path: Path, line: int, rule: str | Rule, **details: object) -> None:
         """Add a violation at a line of a file, once."""

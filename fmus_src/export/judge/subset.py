@@ -10,6 +10,7 @@ from .effects import find_effects
 from .flow import FlowCheck
 from .kernel import Kernel, Violation
 from .ranges import find_ranges
+from .record_types import check_record_names
 from .typed import typecheck
 
 __all__ = ["SubsetError", "Violation", "analyse_kernel", "check"]
@@ -48,6 +49,7 @@ def _analyse(block_class: type[Block]) -> Kernel:
     kernel = typecheck(block_class)
     for function in kernel.functions:
         FlowCheck(kernel, function).check()
+    check_record_names(kernel)
     if not kernel.violations:  # later analyses build on types
         find_ranges(kernel)
         find_effects(kernel)

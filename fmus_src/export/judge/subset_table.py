@@ -327,6 +327,8 @@ record operator: operator {name} of {left} and {right}
     records of floats and vectors take + - with their like, and * / with numbers
 record: {name} without each of its fields in their order
     write {name}({names})
+record names: {name} uses two records of one name, {first} and {second}
+    give one of them another name: C has a struct for each
 replace: replace of something else than a named record
     write replace(record, field=value)
 field: {kind} has no field {name}

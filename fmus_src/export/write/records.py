@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..judge.expressions import type_of_variable
-from ..judge.kernel import FLOAT, Kernel, RecordType, Several, Vector
+from ..judge.kernel import FLOAT, Kernel, RecordType, Vector
+from ..judge.record_types import records_of
 from .layout import Lines
 from .names import c_type, declaration, identifier
 
@@ -21,26 +21,7 @@ OPERATIONS: dict[str, tuple[str, str, str]] = {
 
 def write_records(kernel: Kernel) -> list[str]:
     """Definitions of the records that a kernel has, each after those of its fields."""
-    return [_definition(kind) for kind in _records_of(kernel)]
-
-
-def _records_of(kernel: Kernel) -> list[RecordType]:
-    ordered: dict[RecordType, None] = {}
-
-    def add(kind: object) -> None:
-        for part in kind.parts if isinstance(kind, Several) else [kind]:
-            if isinstance(part, RecordType) and part not in ordered:
-                for name in part.record.fields:
-                    add(part.field(name))
-                ordered[part] = None
-
-    for variable in kernel.block_class.variables.values():  # a state may be one that no function reads
-        add(type_of_variable(variable))
-    for function in kernel.functions:
-        for kind in (*function.parameters.values(), *function.locals.values(), *function.types.values()):
-            add(kind)
-        add(function.returns)
-    return list(ordered)
+    return [_definition(kind) for kind in records_of(kernel)]
 
 
 def _definition(kind: RecordType) -> str:

@@ -10,11 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from perilune.fmus_src.block import Block, Output
+from perilune.fmus_src.block import Block, Output, State
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.judge.subset import SubsetError, analyse_kernel, check
 from perilune.fmus_src.export.judge.subset_table import REFUSED_FUNCTIONS, REFUSED_SYNTAX, RULES, Rule
-from tests.support.kernels import bad_kernels
+from perilune.fmus_src.kernel.records import Field, Record
+from tests.support.kernels import bad_kernels, record_blocks
 
 TEMPLATE = '''import math
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
@@ -142,7 +143,7 @@ def test_function_is_refused_with_its_remedy(name: str, tmp_path: Path) -> None:
 
 
 def test_every_rule_has_a_bad_kernel() -> None:
-    elsewhere = {"no initialize", "no variables", "python only"}  # the tests below
+    elsewhere = {"no initialize", "no variables", "python only", "record names"}  # the tests below
     assert set(bad_kernels.STEPS) | set(bad_kernels.FUNCTIONS) | elsewhere == set(RULES)
     unreachable = {"Await", "Nonlocal"}  # only inside an async function, or a nested one, which is refused itself
     assert set(bad_kernels.SYNTAX) | unreachable == {node.__name__ for node in REFUSED_SYNTAX}
@@ -191,6 +192,30 @@ def test_python_only_block_is_refused() -> None:
     assert violation.remedy == RULES["python only"].remedy
     with pytest.raises(SubsetError, match=r"test_subset\.py:\d+: PythonOnly says python_only"):
         analyse_kernel(PythonOnly)
+
+
+class Motion(Record):
+    """A record with the name of another."""
+
+    speed = Field()
+
+
+class OneName(Block):
+    """A block with two records of one name, each from its own file."""
+
+    first = State(Motion)
+    second = State(record_blocks.Motion)
+
+    def step(self, t: float, h: float) -> None:
+        self.first = 2.0 * self.first
+
+
+def test_two_records_of_one_name_are_refused() -> None:
+    (violation,) = check(OneName)
+    assert violation.file == Path(__file__)
+    first, second = (f"{record.__module__}.Motion" for record in (Motion, record_blocks.Motion))
+    assert violation.what == f"OneName uses two records of one name, {first} and {second}"
+    assert violation.remedy.startswith("give one of them another name")
 
 
 def test_changes_through_calls_are_seen(tmp_path: Path) -> None:
