@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import tempfile
+import threading
 import warnings
 from functools import cache
 from pathlib import Path
@@ -13,6 +14,8 @@ from numba import config, njit
 
 from ...fmus_src.paths import CACHE
 
+ONE_AT_A_TIME = threading.Lock()  # the folder is a setting of the whole process
+
 
 def compile_cached(function: Any, compiler: Any = njit, **options: Any) -> Any:
     """``function`` compiled by one of numba's decorators, and kept for the next process.
@@ -21,17 +24,18 @@ def compile_cached(function: Any, compiler: Any = njit, **options: Any) -> Any:
     itself, which a warning says.
     """
     settings: Any = config  # numba makes its attributes from the environment
-    if settings.CACHE_DIR:
-        return compiler(cache=True, **options)(function)
-    folder = CACHE / "numba" / _sources(Path(function.__code__.co_filename).parent)
-    if not _is_writable(folder):
-        warnings.warn(f"{folder} cannot be written: compiled anew; set NUMBA_CACHE_DIR to a folder", stacklevel=2)
-        return compiler(**options)(function)
-    settings.CACHE_DIR = str(folder)  # numba looks at it while it decorates
-    try:
-        return compiler(cache=True, **options)(function)
-    finally:
-        settings.CACHE_DIR = ""
+    with ONE_AT_A_TIME:
+        if settings.CACHE_DIR:
+            return compiler(cache=True, **options)(function)
+        folder = CACHE / "numba" / _sources(Path(function.__code__.co_filename).parent)
+        if not _is_writable(folder):
+            warnings.warn(f"{folder} cannot be written: compiled anew; set NUMBA_CACHE_DIR to a folder", stacklevel=2)
+            return compiler(**options)(function)
+        settings.CACHE_DIR = str(folder)  # numba looks at it while it decorates
+        try:
+            return compiler(cache=True, **options)(function)
+        finally:
+            settings.CACHE_DIR = ""
 
 
 @cache

@@ -5,6 +5,8 @@ Truth: the folders before and after; a folder that cannot be.
 
 from __future__ import annotations
 
+import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -40,6 +42,28 @@ def test_the_folder_that_numba_is_told_of_wins(tmp_path, monkeypatch):
     monkeypatch.setattr(config, "CACHE_DIR", str(tmp_path / "theirs"))
     assert compiler.compile_cached(doubled)(21) == 42
     assert [path.name for path in tmp_path.iterdir()] == ["theirs"]
+
+
+def test_threads_keep_functions_in_the_folders_of_their_rooms(tmp_path, monkeypatch):
+    monkeypatch.setattr(compiler, "CACHE", tmp_path)
+    monkeypatch.setattr(config, "CACHE_DIR", "")
+
+    def compile_slowly(**options):
+        def folders_of(function):
+            before = config.CACHE_DIR
+            time.sleep(0.005)  # another thread's turn
+            return before, config.CACHE_DIR
+
+        return folders_of
+
+    functions = [doubled, fly_locked.py_func] * 20
+    with ThreadPoolExecutor(8) as threads:
+        folders = list(threads.map(lambda function: compiler.compile_cached(function, compile_slowly), functions))
+    assert all(before == after for before, after in folders)
+    here, loop = set(folders[::2]), set(folders[1::2])
+    assert len(here) == len(loop) == 1
+    assert here != loop
+    assert config.CACHE_DIR == ""
 
 
 def test_a_folder_that_cannot_be_written_is_said(tmp_path, monkeypatch):
