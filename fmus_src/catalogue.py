@@ -10,8 +10,9 @@ from functools import cache
 from pathlib import Path
 from types import ModuleType
 
-from .block import Block, DeclarationError
+from .block import Block
 from .user_modules import import_file
+from .variables import DeclarationError
 
 HERE = Path(__file__).parent
 KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 HOMES = {
-    "block": ("Block", "DeclarationError", "Input", "Output", "Parameter", "State"),
+    "block": ("Block",),
     "interfaces.allocation": ("Allocation",),
     "interfaces.attitude_observer": ("AttitudeObserver",),
     "interfaces.entry_control": ("EntryControl",),
@@ -26,5 +26,6 @@ HOMES = {
     "mathlib.vectors": ("Vector", "Vector2", "Vector3", "Vector4", "cross", "dot", "norm", "vector"),
     "ports": ("Port", "Status", "outcome"),
     "units": ("deg",),
+    "variables": ("DeclarationError", "Input", "Output", "Parameter", "State"),
 }
 HOME_OF = {name: home for home, names in HOMES.items() for name in names}

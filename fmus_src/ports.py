@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from .block import Input, Output, Parameter, State
+from .variables import Input, Output, Parameter, State
 
 
 class Port:

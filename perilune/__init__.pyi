@@ -54,21 +54,6 @@ from .analysis.verbs.worst import worst as worst
 from .fmus_src.block import (
     Block as Block,
 )
-from .fmus_src.block import (
-    DeclarationError as DeclarationError,
-)
-from .fmus_src.block import (
-    Input as Input,
-)
-from .fmus_src.block import (
-    Output as Output,
-)
-from .fmus_src.block import (
-    Parameter as Parameter,
-)
-from .fmus_src.block import (
-    State as State,
-)
 from .fmus_src.interfaces.allocation import Allocation as Allocation
 from .fmus_src.interfaces.attitude_observer import AttitudeObserver as AttitudeObserver
 from .fmus_src.interfaces.entry_control import EntryControl as EntryControl
@@ -200,4 +185,19 @@ from .fmus_src.mathlib.vectors import (
 )
 from .fmus_src.mathlib.vectors import (
     vector as vector,
+)
+from .fmus_src.variables import (
+    DeclarationError as DeclarationError,
+)
+from .fmus_src.variables import (
+    Input as Input,
+)
+from .fmus_src.variables import (
+    Output as Output,
+)
+from .fmus_src.variables import (
+    Parameter as Parameter,
+)
+from .fmus_src.variables import (
+    State as State,
 )

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from perilune.fmus_src.block import Block, Input, Output, Parameter, State, Variable
+from perilune.fmus_src.block import Block
 from perilune.fmus_src.kernel.records import count_numbers
+from perilune.fmus_src.variables import Input, Output, Parameter, State, Variable
 
 from .markdown import escaped, number, table
 

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 from lxml import etree
 
-from ..block import Block, Output, Parameter, State, Variable
+from ..block import Block
 from ..units import unit_definition
+from ..variables import Output, Parameter, State, Variable
 
 STATE_ANNOTATION = "org.perilune.state"
 LOG_CATEGORIES = {

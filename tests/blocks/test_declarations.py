@@ -5,7 +5,8 @@ Truth: FMI 2.0, section 2.2.9 (structured naming convention: a[1], a[2,3]), and 
 
 import pytest
 
-from perilune.fmus_src.block import Block, DeclarationError, Input, Parameter
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.variables import DeclarationError, Input, Parameter
 
 
 def refusal(**variables):

@@ -11,13 +11,14 @@ from pathlib import Path
 
 import pytest
 
-from perilune.fmus_src.block import Block, DeclarationError, Input, Output, Parameter, State
+from perilune.fmus_src.block import Block
 from perilune.fmus_src.export.judge.subset import check
 from perilune.fmus_src.export.native_fmu import native_sources
 from perilune.fmus_src.interfaces import ports as package
 from perilune.fmus_src.interfaces.ports import body, entry, inertial, landing, robot, sampling
 from perilune.fmus_src.ports import Port, Status, outcome
 from perilune.fmus_src.units import deg
+from perilune.fmus_src.variables import DeclarationError, Input, Output, Parameter, State
 
 FORCE = Port([0.0, 0.0, 0.0], unit="N", frame="body", description="force")
 LEVEL = Port(1.0, unit="1", minimum=0.0, description="level")

@@ -8,10 +8,10 @@ import math
 from types import ModuleType
 from typing import Any
 
-from ...block import Input, Parameter, Variable
 from ...face import HOME_OF
 from ...kernel import vector_types
 from ...ports import Status
+from ...variables import Input, Parameter, Variable
 from .kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, RecordType, Type, Vector, is_self_attribute
 from .records import RecordTypes
 from .source import find_global, origin_of_constant

@@ -6,9 +6,10 @@ import math
 import re
 from dataclasses import dataclass
 
-from ...block import Variable, snake_case
+from ...block import snake_case
 from ...kernel.records import SCALARS, Record, count_numbers
 from ...kernel.vector_types import VECTORS
+from ...variables import Variable
 from ..judge.kernel import (
     BOOL,
     FLOAT,

@@ -6,11 +6,12 @@ import inspect
 from pathlib import Path
 from typing import Any
 
-from ...block import Block, Variable
+from ...block import Block
 from ...kernel import vector_types
 from ...kernel.functions import DOMAIN_ERROR, EITHER_ERROR, FAULTS, RANGE_ERROR
 from ...kernel.records import Record
 from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
+from ...variables import Variable
 from ..judge.expressions import SCALARS, type_of_variable
 from ..judge.kernel import FLOAT, INT, Function, Kernel, List, Several, Vector
 from ..judge.source import label

@@ -8,11 +8,12 @@ import traceback
 from pathlib import Path
 from random import Random
 
-from perilune.fmus_src.block import Block, Input, Parameter, Variable
+from perilune.fmus_src.block import Block
 from perilune.fmus_src.export.judge.source import label
 from perilune.fmus_src.kernel import functions, records, vector_types
 from perilune.fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
 from perilune.fmus_src.runtime import Component, StepError
+from perilune.fmus_src.variables import Input, Parameter, Variable
 from tests.support.kernels.native_instance import ERROR, OK, NativeInstance
 
 LONGEST_FLIGHT = 120  # steps between resets

@@ -1,0 +1,270 @@
+"""What a block declares: inputs, parameters, states and outputs, each with start, unit, description and bounds.
+
+Values live on the block under the same names: floats, ints and bools; vectors (`kernel.vector_types`) for two to four
+Reals; records; lists for everything else.
+"""
+
+from __future__ import annotations
+
+import copy
+import operator
+from collections.abc import Callable
+from functools import cache
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from .kernel.records import Field, Record, count_numbers, flat_fields, replace
+from .kernel.vector_types import VECTORS, vector
+from .units import unit_definition
+
+Value = float | int | bool | list
+TYPE_NAMES = {float: "Real", int: "Integer", bool: "Boolean"}
+CONVERSIONS: dict[type, Callable[[Any], Any]] = {
+    float: float,
+    int: operator.index,
+    bool: bool,
+}  # of elements that are stored
+
+
+class DeclarationError(TypeError):
+    """A block's declaration is inconsistent; the message names block, variable and remedy."""
+
+
+class Variable:
+    """One declared variable: start value, unit, description, bounds.
+
+    ``start`` fixes type and size: a float, int or bool, or a list of equal ones. ``unit`` is a
+    name that `fmus_src.units` understands; ``minimum``, ``maximum`` and ``nominal`` hold per element;
+    ``frame`` names the frame that a vector's components refer to. ``columns`` makes the list a
+    matrix in row order, whose elements are named by row and column.
+
+    Two to four Reals are a vector: a value that is stored as a whole, ``self.velocity = self.velocity + gained``.
+    More of them, Integers, Booleans, what has ``columns`` and what says ``vector=False`` are a list, whose
+    elements are assigned. Either takes any sequence of its size, and copies it.
+    """
+
+    causality: ClassVar[str]
+
+    def __init__(
+        self,
+        start: Any,
+        *,
+        unit: str | None = None,
+        description: str = "",
+        frame: str | None = None,
+        minimum: float | None = None,
+        maximum: float | None = None,
+        nominal: float | None = None,
+        columns: int | None = None,
+        vector: bool = True,
+    ) -> None:
+        self.record: type[Record] | None = type(start) if isinstance(start, Record) else None
+        self.start: Value = list(start.elements() if self.record else start) if is_several(start) else start
+        self.unit = unit
+        self.description = description
+        self.frame = frame
+        self.minimum = minimum
+        self.maximum = maximum
+        self.nominal = nominal
+        self.columns = columns
+        self.is_vector = (
+            vector
+            and columns is None
+            and self.record is None
+            and isinstance(self.start, list)
+            and self.size in VECTORS
+            and self.all_reals
+        )
+        self.name = ""
+        if self.is_array:
+            storing = _StoresRecord if self.record else _StoresVector if self.is_vector else _StoresList
+            self.__class__ = _that_stores(type(self), storing)  # type: ignore[arg-type]
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+        where = f"{owner.__name__}.{name}"
+        kinds = {type(value) for value in self.elements}
+        if len(kinds) != 1 or not kinds <= set(TYPE_NAMES):
+            raise DeclarationError(f"{where}: start must be one float, int or bool, or a list of one of these")
+        if self.columns is not None and (not self.is_array or self.columns < 1 or self.size % self.columns):
+            raise DeclarationError(f"{where}: {self.size} elements do not make rows of {self.columns}")
+        for unit in filter(None, self.units()):
+            if unit_definition(unit) is not None:
+                continue
+            remedy = "write it of m, kg, s, rad, N, deg and the like, as N.m/rad or 1/s2"
+            raise DeclarationError(f"{where}: unit {unit!r} is not understood; {remedy}")
+        if not self.description:
+            raise DeclarationError(f"{where}: give a description")
+        for value in self.elements:
+            if self.minimum is not None and value < self.minimum:
+                problem = f"starts at {value}, below its minimum {self.minimum}"
+                raise DeclarationError(f"{where}: {problem}; give a larger start, or a smaller minimum")
+            if self.maximum is not None and value > self.maximum:
+                problem = f"starts at {value}, above its maximum {self.maximum}"
+                raise DeclarationError(f"{where}: {problem}; give a smaller start, or a larger maximum")
+
+    if TYPE_CHECKING:  # instances hold plain values under the same name
+
+        def __get__(self, instance: object, owner: type | None = None) -> Any: ...
+
+        def __set__(self, instance: object, value: Any) -> None: ...
+
+    @property
+    def is_array(self) -> bool:
+        """Whether there are several elements, as a vector or as a list."""
+        return isinstance(self.start, list)
+
+    @property
+    def all_reals(self) -> bool:
+        return all(type(value) is float for value in self.elements)
+
+    @property
+    def elements(self) -> list:
+        """Start values, one per element."""
+        return self.start if isinstance(self.start, list) else [self.start]
+
+    @property
+    def size(self) -> int:
+        return len(self.elements)
+
+    @property
+    def type_name(self) -> str:
+        """FMI type: Real, Integer or Boolean."""
+        return TYPE_NAMES[type(self.elements[0])]
+
+    def element_names(self) -> list[str]:
+        """FMI names of the elements: ``name``; ``name[1]``, ``name[2]``, ...; or ``name[1,1]``, ``name[1,2]``, ..."""
+        if not self.is_array:
+            return [self.name]
+        if self.record is not None:
+            return [f"{self.name}.{name}" for name, _ in flat_fields(self.record)]
+        if self.columns is not None:
+            places = [divmod(index, self.columns) for index in range(self.size)]
+            return [f"{self.name}[{row + 1},{column + 1}]" for row, column in places]
+        return [f"{self.name}[{index + 1}]" for index in range(self.size)]
+
+    def units(self) -> list[str | None]:
+        """The unit of each element."""
+        if self.record is not None:
+            return [field.unit for _, field in flat_fields(self.record)]
+        return [self.unit] * self.size
+
+    def descriptions(self) -> list[str]:
+        """What each element is, with the frame of a vector's components."""
+        if self.record is not None:
+            return [f"{self.description}: {_about(field)}" for _, field in flat_fields(self.record)]
+        return [_about(self)] * self.size
+
+    def with_start(self, start: Any) -> Any:
+        """The same variable with another start value, for thin variants of a block."""
+        other = copy.copy(self)
+        other.start = list(start) if isinstance(start, list | tuple) else start
+        return other
+
+    def check_start(self, block: Any, values: Any) -> list:
+        """The values of any sequence as elements; raises TypeError where their number or type does not fit."""
+        where = f"{block.fmu_name}.{self.name}"
+        try:
+            elements = list(values)
+        except TypeError:
+            elements = []
+        if len(elements) != self.size:
+            raise TypeError(f"{where}: give a list of {self.size}, or another sequence; got {values!r}")
+        try:
+            return [CONVERSIONS[type(self.elements[0])](value) for value in elements]
+        except (TypeError, ValueError) as error:
+            raise TypeError(f"{where}: its elements are of type {self.type_name}; got {values!r}") from error
+
+
+class _StoresVector(Variable):
+    """A variable whose assignment stores a vector. Without __get__, reads go to the instance as they do for scalars."""
+
+    def __set__(self, instance: Any, value: Any) -> None:
+        if value.__class__ is not VECTORS[self.size]:
+            value = vector(*self.check_start(instance, value))
+        instance.__dict__[self.name] = value
+
+
+class _StoresRecord(Variable):
+    """A variable whose assignment stores a record."""
+
+    def __set__(self, instance: Any, value: Any) -> None:
+        if value.__class__ is not self.record:
+            assert self.record is not None
+            value = self.record.of_elements(self.check_start(instance, value))
+        instance.__dict__[self.name] = value
+
+
+class _StoresList(Variable):
+    """A variable whose list is never another: assignment copies the elements."""
+
+    def __set__(self, instance: Any, value: Any) -> None:
+        instance.__dict__.setdefault(self.name, [])[:] = self.check_start(instance, value)
+
+
+@cache
+def _that_stores(kind: Any, how: Any) -> Any:
+    """The kind of variable (Input, Output, ...) with a way of storing."""
+    return type(kind.__name__, (how, kind), {})
+
+
+class Input(Variable):
+    """Set from outside at every communication point."""
+
+    causality = "input"
+
+
+class Parameter(Variable):
+    """Fixed after initialisation."""
+
+    causality = "parameter"
+
+
+class State(Variable):
+    """Internal, kept from step to step; readable from outside, never set.
+
+    ``start`` may be a record's class, with the starts of fields by name (others 0): ``State(Motion, speed=7620.0)`` has
+    the FMI variables ``NAME.speed``, ``NAME.attitude[1]`` and so on, NAME the variable's.
+
+    ``frozen``: left as it is along the flight where a system is linearised: the memory of random number generators,
+    and covariances, whose small changes act on estimates only through innovations.
+    """
+
+    causality = "local"
+
+    def __init__(self, start: Any, *, frozen: bool = False, **declaration: Any) -> None:
+        if isinstance(start, type) and issubclass(start, Record):
+            starts = {name: declaration.pop(name) for name in start.fields if name in declaration}
+            declaration.setdefault("description", (start.__doc__ or "").partition("\n")[0].rstrip("."))
+            start = replace(start.of_elements([0.0] * count_numbers(start)), **starts)
+        super().__init__(start, **declaration)
+        self.frozen = frozen
+
+    def frozen_elements(self) -> list[bool]:
+        """Which elements are frozen."""
+        if self.record is not None:
+            return [self.frozen or field.frozen for _, field in flat_fields(self.record)]
+        return [self.frozen] * self.size
+
+
+class Output(Variable):
+    """Read from outside at every communication point.
+
+    ``direct`` says which inputs of the same communication point the value depends on: True for
+    all, False for none (a plant's states), or their names.
+    """
+
+    causality = "output"
+
+    def __init__(self, start: Any, *, direct: bool | tuple[str, ...] = False, **declaration: Any) -> None:
+        super().__init__(start, **declaration)
+        self.direct = direct
+
+
+def is_several(start: Any) -> bool:
+    """Whether a start value has several elements."""
+    return isinstance(start, list | tuple | Record)
+
+
+def _about(declared: Variable | Field) -> str:
+    frame = f" ({declared.frame} frame)" if declared.frame else ""
+    return f"{declared.description}{frame}"
