@@ -6,23 +6,12 @@
  * (parameter, input, output, local). Inputs are random; a step that fails is followed by a reset. All variables of all
  * steps enter the checksum (Fowler, Noll and Vo's FNV-1a). Prints it, and how many steps failed.
  */
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "fmi2Functions.h"
+#include "drive_fmu.h"
 
-static uint64_t generator = UINT64_C(88172645463325252); /* Marsaglia's xorshift64*, 2003, with Vigna's factor */
 static uint64_t checksum = UINT64_C(14695981039346656037);
-
-static uint64_t draw(uint64_t below)
-{
-    generator ^= generator >> 12;
-    generator ^= generator << 25;
-    generator ^= generator >> 27;
-    return (generator * UINT64_C(2685821657736338717) >> 16) % below;
-}
 
 static double number(void)
 {
@@ -30,34 +19,12 @@ static double number(void)
     return ((double)draw(1 << 30) / (1 << 29) - 1.0) * sizes[draw(sizeof sizes / sizeof sizes[0])];
 }
 
-static void add(const void *value, size_t size)
-{
-    const unsigned char *bytes = value;
-    for (size_t i = 0; i < size; i++) checksum = (checksum ^ bytes[i]) * UINT64_C(1099511628211);
-}
-
 static void add_variable(fmi2Component fmu, fmi2ValueReference reference, char kind)
 {
-    fmi2Real real = 0.0;
-    fmi2Integer whole = 0;
-    if (kind == 'r') {
-        fmi2GetReal(fmu, &reference, 1, &real);
-        if (real != real) real = 0.0; /* the sign of a NaN is the processor's */
-        add(&real, sizeof real);
-    } else {
-        if (kind == 'i') fmi2GetInteger(fmu, &reference, 1, &whole);
-        if (kind == 'b') fmi2GetBoolean(fmu, &reference, 1, &whole);
-        add(&whole, sizeof whole);
-    }
-}
-
-static void set_input(fmi2Component fmu, fmi2ValueReference reference, char kind)
-{
-    const fmi2Real real = number();
-    const fmi2Integer whole = (fmi2Integer)draw(kind == 'b' ? 2 : 5);
-    if (kind == 'r') fmi2SetReal(fmu, &reference, 1, &real);
-    if (kind == 'i') fmi2SetInteger(fmu, &reference, 1, &whole);
-    if (kind == 'b') fmi2SetBoolean(fmu, &reference, 1, &whole);
+    Value value;
+    get(fmu, reference, kind, &value);
+    if (kind == 'r' && value.real != value.real) value.real = 0.0; /* the sign of a NaN is the processor's */
+    for (size_t i = 0; i < sizeof value; i++) checksum = (checksum ^ value.bytes[i]) * UINT64_C(1099511628211);
 }
 
 static fmi2Status initialise(fmi2Component fmu)
@@ -77,8 +44,11 @@ int main(int count, char **words)
     if (fmu == NULL || initialise(fmu) != fmi2OK) return 1;
     int failed = 0;
     for (int n = 0, since = 0; n < atoi(words[5]); n++, since++) {
-        for (size_t i = 0; kinds[i] != '\0'; i++)
-            if (causalities[i] == 'i' && draw(4) == 0) set_input(fmu, (fmi2ValueReference)i, kinds[i]);
+        for (size_t i = 0; kinds[i] != '\0'; i++) {
+            if (causalities[i] != 'i' || draw(4) != 0) continue;
+            const Value value = draw_value(kinds[i]);
+            set(fmu, (fmi2ValueReference)i, kinds[i], &value);
+        }
         const fmi2Status status = fmi2DoStep(fmu, since * step, step, fmi2True);
         for (size_t i = 0; kinds[i] != '\0'; i++) add_variable(fmu, (fmi2ValueReference)i, kinds[i]);
         if (status == fmi2OK) continue;

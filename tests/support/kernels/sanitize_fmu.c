@@ -6,14 +6,12 @@
  * p, i, o or l (parameter, input, output, local). Inputs are random, some of them infinite or NaN.
  * The sanitizers watch memory and arithmetic; this program watches the answers.
  */
-#include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "fmi2Functions.h"
+#include "drive_fmu.h"
 
 #define HEADER_SIZE 48 /* of a serialised state: six words before the variables */
 
@@ -62,17 +60,7 @@ static fmi2Component instance(const fmi2CallbackFunctions *functions)
     return fmu;
 }
 
-/* ---- random numbers: Marsaglia's xorshift64*, 2003, with Vigna's factor ---- */
-
-static uint64_t generator = UINT64_C(88172645463325252);
-
-static uint64_t draw(uint64_t below)
-{
-    generator ^= generator >> 12;
-    generator ^= generator << 25;
-    generator ^= generator >> 27;
-    return (generator * UINT64_C(2685821657736338717) >> 16) % below;
-}
+/* ---- random values ---- */
 
 static double uniform(double from, double to)
 {
@@ -86,44 +74,10 @@ static double number(void)
     return uniform(-1.0, 1.0) * pow(10.0, uniform(-2.0, 4.0));
 }
 
-/* ---- one variable at a time ---- */
-
-typedef union Value {
-    fmi2Real real;
-    fmi2Integer integer;
-    fmi2Boolean boolean;
-    unsigned char bytes[8];
-} Value;
-
-static fmi2Status get(fmi2Component fmu, fmi2ValueReference reference, char kind, Value *value)
-{
-    memset(value, 0, sizeof *value);
-    if (kind == 'r') return fmi2GetReal(fmu, &reference, 1, &value->real);
-    if (kind == 'i') return fmi2GetInteger(fmu, &reference, 1, &value->integer);
-    return fmi2GetBoolean(fmu, &reference, 1, &value->boolean);
-}
-
-static fmi2Status set(fmi2Component fmu, fmi2ValueReference reference, char kind, const Value *value)
-{
-    if (kind == 'r') return fmi2SetReal(fmu, &reference, 1, &value->real);
-    if (kind == 'i') return fmi2SetInteger(fmu, &reference, 1, &value->integer);
-    return fmi2SetBoolean(fmu, &reference, 1, &value->boolean);
-}
-
 /* All variables' bytes; those of an instance after an error are the bytes left by its last step. */
 static void read_all(fmi2Component fmu, Value *values)
 {
     for (size_t i = 0; i < size; i++) get(fmu, (fmi2ValueReference)i, kinds[i], &values[i]);
-}
-
-static Value drawn(char kind)
-{
-    Value value;
-    memset(&value, 0, sizeof value);
-    if (kind == 'r') value.real = number();
-    if (kind == 'i') value.integer = (fmi2Integer)draw(5);
-    if (kind == 'b') value.boolean = (fmi2Boolean)draw(2);
-    return value;
 }
 
 /* ---- life cycle ---- */
@@ -140,7 +94,7 @@ static fmi2Status step_both(fmi2Component one, fmi2Component other, int n, Value
 {
     for (size_t i = 0; i < size; i++) {
         if (causalities[i] != 'i') continue;
-        const Value value = drawn(kinds[i]);
+        const Value value = draw_value(kinds[i]);
         EXPECT(fmi2OK, set(one, (fmi2ValueReference)i, kinds[i], &value));
         EXPECT(fmi2OK, set(other, (fmi2ValueReference)i, kinds[i], &value));
     }
@@ -181,7 +135,7 @@ static void wrong_arguments(fmi2Component fmu)
     fmi2String text = NULL;
     fmi2FMUstate state = NULL;
     fmi2Byte byte = 0;
-    Value value = drawn('r');
+    Value value = draw_value('r');
     for (int k = 0; k < 3; k++) {
         EXPECT(fmi2Error, get(NULL, 0, all_kinds[k], &value));
         EXPECT(fmi2Error, set(NULL, 0, all_kinds[k], &value));
