@@ -20,7 +20,12 @@ from tests.support.lengths import LONG, either
 pytestmark = pytest.mark.usefixtures("fmus")
 
 EVERY_FUNCTION = str(Path(__file__).with_name("every_function.toml"))
-SMALL = [("lunar_landing", "terminal_box", 6), ("lunar_terminal_guidance", EVERY_FUNCTION, 24)]
+SMALL = [
+    ("lunar_landing", "terminal_box", 6),
+    ("robot_rendezvous", "seeds", 1),
+    ("orbital_attitude", "noisy", 40),  # one flight for each point of its grid
+    ("lunar_terminal_guidance", EVERY_FUNCTION, 24),
+]
 WHOLE = [
     ("lunar_landing", "terminal_box", 60),
     ("robot_rendezvous", "seeds", 8),
