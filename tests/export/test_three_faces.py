@@ -1,4 +1,4 @@
-"""Every block of the catalogue in its three faces: Python object, pythonfmu FMU, native FMU.
+"""Every block of the catalogue, and integrators, in three faces: Python object, pythonfmu FMU, native FMU.
 
 Given the same random admissible calls through FMI, all variables agree to the last bit after every
 step. The compiled library alone is compared more widely in test_native_equals_python.py.
@@ -6,6 +6,7 @@ step. The compiled library alone is compared more widely in test_native_equals_p
 
 from __future__ import annotations
 
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -15,10 +16,14 @@ from perilune.analysis.runtime.flight.instance import Instance, instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.fmus_src.block import Block, Input, Parameter
 from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.native_fmu import build_native_fmu
+from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.paths import shipped_fmu
 from perilune.fmus_src.runtime import Component
 from tests.support.kernels import samples
 from tests.support.kernels.comparison import LONGEST_FLIGHT, bits, draw, elements, only_switches
+from tests.support.kernels.integrator_block import Integrators
+from tests.support.kernels.native_instance import CACHE
 from tests.support.lengths import either
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
@@ -75,7 +80,17 @@ def drawn(block: type[Block], kind: type, random: Random, h: float, before: list
 @pytest.mark.usefixtures("fmus")
 def test_three_faces_agree(block: type[Block]) -> None:
     files = [shipped_fmu(block.fmu_name, flavour) for flavour in ("python", "native")]
-    wanted = STEPS if block.fmu_name not in LONG else STEPS // 4
+    fly_faces(block, files, STEPS if block.fmu_name not in LONG else STEPS // 4)
+
+
+def test_three_faces_of_a_block_with_every_integrator_agree(tmp_path: Path) -> None:
+    files = [build_python_fmu(Integrators, tmp_path / "python.fmu")]
+    files.append(build_native_fmu(Integrators, tmp_path / "native.fmu", platforms=["linux64"], cache=CACHE))
+    fly_faces(Integrators, files, STEPS)
+
+
+def fly_faces(block: type[Block], files: list[Path], wanted: int) -> None:
+    """Compare a block's Python object and FMUs after each of as many steps."""
     instances = [instantiate(load_fmu(file.read_bytes(), str(file)), block.fmu_name) for file in files]
     faces = [Face(block, instance) for instance in instances]
     random = samples.generator(f"{block.fmu_name} faces")
