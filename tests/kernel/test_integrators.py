@@ -38,7 +38,7 @@ def oscillator_error(steps: int) -> float:
     return math.hypot(s.place - math.cos(3.0), s.speed / 3.0 + math.sin(3.0))
 
 
-NONE = Forcing(start=vector(0.0, 0.0, 0.0), middle=vector(0.0, 0.0, 0.0), end=vector(0.0, 0.0, 0.0))
+UNFORCED = Forcing(start=vector(0.0, 0.0, 0.0), middle=vector(0.0, 0.0, 0.0), end=vector(0.0, 0.0, 0.0))
 
 
 def attract(position: Vector3) -> Vector3:
@@ -68,7 +68,7 @@ def circle_by_kutta(t: float, s: Translation, h: float) -> Translation:
 
 def circle_by_nystrom(t: float, s: Translation, h: float) -> Translation:
     """The same."""
-    return runge_kutta_nystrom(attract, s, NONE, h)
+    return runge_kutta_nystrom(attract, s, UNFORCED, h)
 
 
 def driven_by_kutta(t: float, s: Translation, h: float) -> Translation:
