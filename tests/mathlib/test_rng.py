@@ -18,43 +18,9 @@ from scipy import stats
 
 from perilune.fmus_src.mathlib.rng import M1, M2, multiply_modulo, normal, normals, seed_streams, uniform
 from tests.support.lengths import either
+from tests.support.mrg32k3a import P1, P2, advanced, exact_numerator
 
-P1 = 2**32 - 209
-P2 = 2**32 - 22853
-STEP1 = [[0, 1, 0], [0, 0, 1], [-810728, 1403580, 0]]
-STEP2 = [[0, 1, 0], [0, 0, 1], [-1370589, 0, 527612]]
 RISK = 1e-3
-
-
-def product(a, b, modulus):
-    return [[sum(a[i][k] * b[k][j] for k in range(3)) % modulus for j in range(3)] for i in range(3)]
-
-
-def power(matrix, exponent, modulus):
-    result = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-    while exponent:
-        if exponent & 1:
-            result = product(result, matrix, modulus)
-        matrix = product(matrix, matrix, modulus)
-        exponent >>= 1
-    return result
-
-
-def advanced(state, steps):
-    """The exact state ``steps`` numbers later."""
-    one = power(STEP1, steps, P1)
-    two = power(STEP2, steps, P2)
-    return [sum(one[i][k] * state[k] for k in range(3)) % P1 for i in range(3)] + [
-        sum(two[i][k] * state[3 + k] for k in range(3)) % P2 for i in range(3)
-    ]
-
-
-def exact_numerator(state):
-    """Advance an exact state in place; the number drawn is the result over 2^32 - 208."""
-    p1 = (1403580 * state[1] - 810728 * state[0]) % P1
-    p2 = (527612 * state[5] - 1370589 * state[3]) % P2
-    state[:] = [state[1], state[2], p1, state[4], state[5], p2]
-    return p1 - p2 if p1 > p2 else p1 - p2 + P1
 
 
 def seeded(seed, stream):

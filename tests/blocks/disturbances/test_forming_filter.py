@@ -15,10 +15,10 @@ from scipy import signal, stats
 from scipy.linalg import expm, solve_continuous_lyapunov
 
 from perilune.fmus_src.disturbances.forming_filter import FormingFilter
+from tests.support.mrg32k3a import P1, exact_numerator
 
 SHAPES = [(0.05, 3.0), (0.5, 1.0), (0.999999, 2.0), (1.0, 2.0), (1.000001, 2.0), (2.5, 0.4)]
 INTENSITY = 0.7
-P1, P2 = 2**32 - 209, 2**32 - 22853
 
 
 def system(damping, w):
@@ -46,13 +46,8 @@ def filter_of(damping, w, **settings):
 
 def two_normals(generator):
     """The next two normal numbers of a generator state (MRG32k3a, Box and Muller), in exact integers."""
-    s = [int(value) for value in generator]
-    uniforms = []
-    for _ in range(4):
-        p1 = (1403580 * s[1] - 810728 * s[0]) % P1
-        p2 = (527612 * s[5] - 1370589 * s[3]) % P2
-        s = [s[1], s[2], p1, s[4], s[5], p2]
-        uniforms.append((p1 - p2 if p1 > p2 else p1 - p2 + P1) / (P1 + 1))
+    state = [int(value) for value in generator]
+    uniforms = [exact_numerator(state) / (P1 + 1) for _ in range(4)]
     return [math.sqrt(-2.0 * math.log(u)) * math.cos(2.0 * math.pi * v) for u, v in (uniforms[:2], uniforms[2:])]
 
 

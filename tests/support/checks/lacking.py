@@ -2,17 +2,6 @@
 
 LACKING = (
     "attitude_moon_lander",
-    "attitude_sensor",
-    "bank_sensor",
-    "doppler_velocimeter",
-    "inertial_sensor",
-    "infrared_vertical",
-    "laser_ranger",
-    "planar_state_sensor",
-    "radar_altimeter",
-    "rate_gyros",
-    "star_inertial",
-    "terrain_camera",
     "attitude_filter",
     "coloured_navigation",
     "estimate_monitor",

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from tests.support.checks import control, disturbances, guidance, navigation, plants
+from tests.support.checks import control, disturbances, guidance, navigation, plants, sensors
 from tests.support.checks.check import Check
 
 MODULES = {
@@ -11,6 +11,7 @@ MODULES = {
     "guidance": guidance,
     "control": control,
     "disturbances": disturbances,
+    "sensors": sensors,
 }
 TRUTHS: dict[str, tuple[str, Callable[[], Check]]] = {
     name: (kind, truth) for kind, module in MODULES.items() for name, truth in module.TRUTHS.items()
