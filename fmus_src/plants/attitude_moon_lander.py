@@ -1,7 +1,6 @@
 """A lander over the Moon whose thrust axis is turned by commanded angular accelerations."""
 
 from ..block import Parameter
-from ..interfaces.moon_lander import MoonLander
 from ..interfaces.ports import landing
 from ..kernel.functions import atan2
 from ..mathlib.actuators.lagged_thrust import lagged_thrust
@@ -9,6 +8,7 @@ from ..mathlib.attitude.thrust_axis import AxisState, turn_axis
 from ..mathlib.lunar.gravity import STANDARD_GRAVITY, altitude_of, central_gravity, vertical_at
 from ..mathlib.vectors import Vector3, across, clip, cross, dot, norm, vector
 from ..units import deg
+from .moon_lander import MoonLander
 
 HALVINGS = 60  # of a step, until the moment at which the tank is empty is exact
 
@@ -18,7 +18,7 @@ class AttitudeMoonLander(MoonLander):
 
     The axis d turns with the rate w, which is perpendicular to it: d' = w x d, w' = the commanded angular acceleration
     without its part along d, shortened to maximum_angular_acceleration, held over the communication step. Thrust is
-    thrust_factor times the command, with the lag and the end of a burn of `interfaces.moon_lander`, and none from
+    thrust_factor times the command, with the lag and the end of a burn of `plants.moon_lander`, and none from
     where mass has come down to dry_mass. Gravity is central, or uniform along -z where uniform_gravity is not 0; then
     altitude is z and the vertical z too. Where altitude is 0 or less at the end of an internal step, position and
     velocity go back to altitude 0 with the mean acceleration of that step, and are kept. An initial attitude without

@@ -1,11 +1,11 @@
 """A point-mass lander over a spherical Moon, with an engine and an attitude that take time."""
 
 from ..block import Parameter, State
-from ..interfaces.moon_lander import MoonLander
 from ..interfaces.ports import landing
 from ..mathlib.attitude.pursuit import follow, goal_at
 from ..mathlib.vectors import Vector3
 from ..units import deg
+from .moon_lander import MoonLander
 
 
 class SphericalMoonLander(MoonLander):

@@ -3,13 +3,13 @@
 import math
 
 from ..block import Block, Output, State
+from ..interfaces.ports import landing, sampling
 from ..kernel.functions import log1p
 from ..kernel.integrators import Forcing, Translation, gain_of, runge_kutta_nystrom
 from ..kernel.records import Field, Record
 from ..mathlib.actuators.lagged_thrust import lagged_thrust
 from ..mathlib.lunar.gravity import STANDARD_GRAVITY, altitude_of, central_gravity
 from ..mathlib.vectors import Vector3, norm, vector
-from .ports import landing, sampling
 
 
 class Burn(Record):
