@@ -1,8 +1,8 @@
 """Descent in a plane by a network operator."""
 
 from ..block import Output, Parameter
-from ..interfaces.network_operator_law import NetworkOperatorLaw
 from ..interfaces.ports import landing, sampling
+from .network_operator_law import NetworkOperatorLaw
 
 BAD_LAW = 1
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from perilune.fmus_src.block import Block, Input, Output, State
-from perilune.fmus_src.interfaces.network_operator_law import NetworkOperatorLaw
+from perilune.fmus_src.guidance.network_operator_law import NetworkOperatorLaw
 from perilune.fmus_src.mathlib.vectors import Vector3, vector
 from perilune.fmus_src.plants.free_flying_robot import FreeFlyingRobot
 from perilune.fmus_src.runtime import Component
