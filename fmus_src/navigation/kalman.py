@@ -1,8 +1,8 @@
 """Navigation through a Kalman filter."""
 
-from ..interfaces.filtered_navigation import FilteredNavigation
 from ..mathlib.estimation.inertial import predict_errors
 from ..mathlib.estimation.kalman import correct, innovation_variance
+from .filtered_navigation import FilteredNavigation
 
 
 class KalmanNavigation(FilteredNavigation):

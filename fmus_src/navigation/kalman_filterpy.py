@@ -3,7 +3,7 @@
 import numpy as np
 from filterpy.kalman import KalmanFilter
 
-from ..interfaces.filtered_navigation import FilteredNavigation
+from .filtered_navigation import FilteredNavigation
 
 
 class KalmanNavigationFilterpy(FilteredNavigation):

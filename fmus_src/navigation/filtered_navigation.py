@@ -3,14 +3,14 @@
 import math
 
 from ..block import Output, Parameter, State
+from ..interfaces.inertial_navigation import InertialNavigation
+from ..interfaces.ports import landing, sampling
 from ..kernel.matrices import element
 from ..mathlib.estimation.inertial import STATES, sensor_addition, start_errors
 from ..mathlib.lunar.gravity import from_centre
 from ..mathlib.vectors import Vector3, norm, vector
 from ..ports import Status, outcome
 from ..units import deg
-from .inertial_navigation import InertialNavigation
-from .ports import landing, sampling
 
 ALTITUDE = 0
 VELOCITY = 1
