@@ -3,7 +3,6 @@
 import math
 
 from ..block import Output, Parameter, State
-from ..interfaces.inertial_navigation import InertialNavigation
 from ..interfaces.ports import landing, sampling
 from ..kernel.matrices import element
 from ..mathlib.estimation.inertial import STATES, sensor_addition, start_errors
@@ -11,6 +10,7 @@ from ..mathlib.lunar.gravity import from_centre
 from ..mathlib.vectors import Vector3, norm, vector
 from ..ports import Status, outcome
 from ..units import deg
+from .inertial_navigation import InertialNavigation
 
 ALTITUDE = 0
 VELOCITY = 1

@@ -1,8 +1,8 @@
 """Navigation without a filter."""
 
-from ..interfaces.inertial_navigation import InertialNavigation
 from ..mathlib.lunar.gravity import from_centre
 from ..mathlib.vectors import norm
+from .inertial_navigation import InertialNavigation
 
 
 class RawNavigation(InertialNavigation):

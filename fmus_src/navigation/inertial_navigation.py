@@ -1,11 +1,11 @@
 """What navigations that integrate an inertial sensor have in common."""
 
 from ..block import State
+from ..interfaces.navigation import Navigation
+from ..interfaces.ports import sampling
 from ..mathlib.estimation.inertial import dead_reckon
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import vector
-from .navigation import Navigation
-from .ports import sampling
 
 
 class InertialNavigation(Navigation, interface=True):
