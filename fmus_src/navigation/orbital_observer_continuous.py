@@ -1,9 +1,9 @@
 """Orbital attitude by a continuous observer of the whole state."""
 
 from ..block import Parameter
-from ..interfaces.full_attitude_observer import FullAttitudeObserver
 from ..mathlib.orbits.attitude import AttitudeState, linear_model
 from ..mathlib.vectors import Vector3
+from .full_attitude_observer import FullAttitudeObserver
 
 
 class OrbitalObserverContinuous(FullAttitudeObserver):

@@ -1,10 +1,10 @@
 """Orbital attitude by a discrete observer of the whole state."""
 
 from ..block import Parameter
-from ..interfaces.full_attitude_observer import FullAttitudeObserver
 from ..kernel.functions import exp
 from ..kernel.matrices import exponential
 from ..mathlib.orbits.attitude import index_of_measured, linear_model
+from .full_attitude_observer import FullAttitudeObserver
 
 
 class OrbitalObserverDiscrete(FullAttitudeObserver):
