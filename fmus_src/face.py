@@ -8,7 +8,6 @@ from __future__ import annotations
 HOMES = {
     "block": ("Block",),
     "interfaces.allocation": ("Allocation",),
-    "interfaces.attitude_observer": ("AttitudeObserver",),
     "interfaces.entry_control": ("EntryControl",),
     "interfaces.gyro_steering": ("GyroSteering",),
     "interfaces.jet_allocation": ("JetAllocation",),
@@ -22,6 +21,7 @@ HOMES = {
     "kernel.integrators": ("Forcing", "Translation", "runge_kutta_4", "runge_kutta_nystrom", "simpson"),
     "kernel.records": ("Field", "Record", "replace"),
     "mathlib.vectors": ("Vector", "Vector2", "Vector3", "Vector4", "cross", "dot", "norm", "vector"),
+    "navigation.attitude_observer": ("AttitudeObserver",),
     "navigation.filtered_navigation": ("FilteredNavigation",),
     "navigation.inertial_navigation": ("InertialNavigation",),
     "ports": ("Port", "Status", "outcome"),

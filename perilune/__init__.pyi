@@ -55,7 +55,6 @@ from .fmus_src.block import (
     Block as Block,
 )
 from .fmus_src.interfaces.allocation import Allocation as Allocation
-from .fmus_src.interfaces.attitude_observer import AttitudeObserver as AttitudeObserver
 from .fmus_src.interfaces.entry_control import EntryControl as EntryControl
 from .fmus_src.interfaces.gyro_steering import GyroSteering as GyroSteering
 from .fmus_src.interfaces.jet_allocation import JetAllocation as JetAllocation
@@ -184,6 +183,7 @@ from .fmus_src.mathlib.vectors import (
 from .fmus_src.mathlib.vectors import (
     vector as vector,
 )
+from .fmus_src.navigation.attitude_observer import AttitudeObserver as AttitudeObserver
 from .fmus_src.navigation.filtered_navigation import FilteredNavigation as FilteredNavigation
 from .fmus_src.navigation.inertial_navigation import InertialNavigation as InertialNavigation
 from .fmus_src.variables import (

@@ -1,9 +1,9 @@
 """What observers of the whole state have in common: one gain for angles and rates."""
 
 from ..block import State
-from ..interfaces.attitude_observer import AttitudeObserver
 from ..mathlib.orbits.attitude import AttitudeState, index_of_measured
 from ..mathlib.vectors import Vector3, vector
+from .attitude_observer import AttitudeObserver
 
 
 class FullAttitudeObserver(AttitudeObserver, interface=True):

@@ -1,8 +1,8 @@
 """Orbital attitude by a continuous observer of yaw alone."""
 
 from ..block import State
-from ..interfaces.attitude_observer import AttitudeObserver
 from ..kernel.functions import cos, exp, sin, tan
+from .attitude_observer import AttitudeObserver
 
 
 class OrbitalObserverContinuousReduced(AttitudeObserver):

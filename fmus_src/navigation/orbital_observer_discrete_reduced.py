@@ -1,8 +1,8 @@
 """Orbital attitude by a discrete observer of yaw alone."""
 
 from ..block import Parameter
-from ..interfaces.attitude_observer import AttitudeObserver
 from ..kernel.functions import exp
+from .attitude_observer import AttitudeObserver
 
 
 class OrbitalObserverDiscreteReduced(AttitudeObserver):

@@ -3,7 +3,7 @@
 import math
 
 from ..block import Parameter, State
-from ..interfaces.attitude_observer import AttitudeObserver
+from .attitude_observer import AttitudeObserver
 
 LEVELLING = 0
 AVERAGING = 1

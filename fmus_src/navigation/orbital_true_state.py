@@ -1,7 +1,7 @@
 """Orbital attitude as it is."""
 
-from ..interfaces.attitude_observer import AttitudeObserver
 from ..mathlib.orbits.attitude import AttitudeState
+from .attitude_observer import AttitudeObserver
 
 
 class OrbitalTrueState(AttitudeObserver):
