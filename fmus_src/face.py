@@ -7,8 +7,8 @@ from __future__ import annotations
 
 HOMES = {
     "block": ("Block",),
+    "control.entry_control": ("EntryControl",),
     "interfaces.allocation": ("Allocation",),
-    "interfaces.entry_control": ("EntryControl",),
     "interfaces.gyro_steering": ("GyroSteering",),
     "interfaces.jet_allocation": ("JetAllocation",),
     "interfaces.navigation": ("Navigation",),

@@ -54,8 +54,8 @@ from .analysis.verbs.worst import worst as worst
 from .fmus_src.block import (
     Block as Block,
 )
+from .fmus_src.control.entry_control import EntryControl as EntryControl
 from .fmus_src.interfaces.allocation import Allocation as Allocation
-from .fmus_src.interfaces.entry_control import EntryControl as EntryControl
 from .fmus_src.interfaces.gyro_steering import GyroSteering as GyroSteering
 from .fmus_src.interfaces.jet_allocation import JetAllocation as JetAllocation
 from .fmus_src.interfaces.navigation import Navigation as Navigation

@@ -1,7 +1,7 @@
 """No torque."""
 
-from ..interfaces.entry_control import EntryControl
 from ..mathlib.vectors import Vector3, vector
+from .entry_control import EntryControl
 
 
 class NoControl(EntryControl):

@@ -1,10 +1,10 @@
 """Bank, roll rate and yaw rate of the capsule fed back by a constant or scheduled gain that places the poles."""
 
 from ..block import Parameter
-from ..interfaces.entry_control import EntryControl
 from ..kernel.functions import cos, log, sin
 from ..mathlib.orbits.attitude import apply_matrix
 from ..mathlib.vectors import Vector3, vector
+from .entry_control import EntryControl
 
 
 class OutputFeedback(EntryControl):

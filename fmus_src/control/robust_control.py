@@ -1,10 +1,10 @@
 """Trim and bank held without knowing speed or pressure."""
 
 from ..block import Parameter
-from ..interfaces.entry_control import EntryControl
 from ..kernel.functions import cos, sin
 from ..mathlib.orbits.attitude import apply_matrix
 from ..mathlib.vectors import Vector3, clip, vector
+from .entry_control import EntryControl
 
 
 class RobustControl(EntryControl):

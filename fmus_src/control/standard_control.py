@@ -3,9 +3,9 @@
 import math
 
 from ..block import Parameter, State
-from ..interfaces.entry_control import EntryControl
 from ..mathlib.vectors import Vector3, clip, vector
 from ..units import deg
+from .entry_control import EntryControl
 
 
 class StandardControl(EntryControl):

@@ -3,10 +3,10 @@
 import math
 
 from ..block import Block, Parameter
+from ..interfaces.ports import body, entry, sampling
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
 from ..ports import Status, outcome
 from ..units import deg
-from .ports import body, entry, sampling
 
 
 class EntryControlStatus(Status):
