@@ -8,11 +8,11 @@ from __future__ import annotations
 HOMES = {
     "block": ("Block",),
     "control.entry_control": ("EntryControl",),
+    "control.orbital_control": ("OrbitalControl",),
     "interfaces.allocation": ("Allocation",),
     "interfaces.gyro_steering": ("GyroSteering",),
     "interfaces.jet_allocation": ("JetAllocation",),
     "interfaces.navigation": ("Navigation",),
-    "interfaces.orbital_control": ("OrbitalControl",),
     "interfaces.terminal_guidance": ("CLAMPED", "GOOD", "NOT_CONVERGED", "NO_SOLUTION", "TerminalGuidance"),
     "kernel.functions": (
         *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "exp2", "expm1"),

@@ -2,9 +2,9 @@
 
 import math
 
-from ..interfaces.orbital_control import OrbitalControl
 from ..mathlib.orbits.attitude import angle_rates
 from ..mathlib.vectors import vector
+from .orbital_control import OrbitalControl
 
 WORTHWHILE = 0.3  # of the wanted rate: a smaller change is not worth a pulse
 

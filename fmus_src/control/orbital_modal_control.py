@@ -1,10 +1,10 @@
 """Orbital attitude by placed poles."""
 
 from ..block import State
-from ..interfaces.orbital_control import OrbitalControl
 from ..kernel.matrices import multiply
 from ..mathlib.orbits.attitude import apply_matrix, linear_model
 from ..mathlib.vectors import vector
+from .orbital_control import OrbitalControl
 
 
 class OrbitalModalControl(OrbitalControl):
