@@ -1,9 +1,9 @@
 """Gyro steering by an explicit distribution law."""
 
 from ..block import Parameter
-from ..interfaces.gyro_steering import GyroSteering, GyroSteeringStatus
 from ..mathlib.actuators.gyros import ISOTROPIC_RHO, distribute_rates, robust_rates
 from ..mathlib.vectors import Vector3, Vector4
+from .gyro_steering import GyroSteering, GyroSteeringStatus
 
 
 class GyroSteeringExplicit(GyroSteering):

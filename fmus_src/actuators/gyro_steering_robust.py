@@ -1,8 +1,8 @@
 """Gyro steering by the singularity-robust pseudo-inverse."""
 
-from ..interfaces.gyro_steering import GyroSteering, GyroSteeringStatus
 from ..mathlib.actuators.gyros import robust_rates
 from ..mathlib.vectors import Vector3, Vector4
+from .gyro_steering import GyroSteering, GyroSteeringStatus
 
 
 class GyroSteeringRobust(GyroSteering):

@@ -1,11 +1,11 @@
 """The slot of gyro steering: from the torque wanted of the gyro cluster to its gimbal rates."""
 
 from ..block import Block, Output, Parameter
+from ..interfaces.ports import body, robot, sampling
+from ..interfaces.ports.robot import LARGEST
 from ..mathlib.actuators.gyros import singularity_measure
 from ..mathlib.vectors import Vector3, Vector4, all_below, vector
 from ..ports import Status, outcome
-from .ports import body, robot, sampling
-from .ports.robot import LARGEST
 
 
 class GyroSteeringStatus(Status):
