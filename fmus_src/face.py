@@ -7,11 +7,11 @@ from __future__ import annotations
 
 HOMES = {
     "actuators.gyro_steering": ("GyroSteering",),
+    "actuators.jet_allocation": ("JetAllocation",),
     "block": ("Block",),
     "control.entry_control": ("EntryControl",),
     "control.orbital_control": ("OrbitalControl",),
     "interfaces.allocation": ("Allocation",),
-    "interfaces.jet_allocation": ("JetAllocation",),
     "interfaces.navigation": ("Navigation",),
     "interfaces.terminal_guidance": ("CLAMPED", "GOOD", "NOT_CONVERGED", "NO_SOLUTION", "TerminalGuidance"),
     "kernel.functions": (

@@ -52,13 +52,13 @@ from .analysis.verbs.validate import validate as validate
 from .analysis.verbs.worst import WorstResult as WorstResult
 from .analysis.verbs.worst import worst as worst
 from .fmus_src.actuators.gyro_steering import GyroSteering as GyroSteering
+from .fmus_src.actuators.jet_allocation import JetAllocation as JetAllocation
 from .fmus_src.block import (
     Block as Block,
 )
 from .fmus_src.control.entry_control import EntryControl as EntryControl
 from .fmus_src.control.orbital_control import OrbitalControl as OrbitalControl
 from .fmus_src.interfaces.allocation import Allocation as Allocation
-from .fmus_src.interfaces.jet_allocation import JetAllocation as JetAllocation
 from .fmus_src.interfaces.navigation import Navigation as Navigation
 from .fmus_src.interfaces.terminal_guidance import (
     CLAMPED as CLAMPED,

@@ -1,7 +1,7 @@
 """Jet allocation with the least propellant, in closed form."""
 
-from ..interfaces.jet_allocation import JetAllocation, JetAllocationStatus
 from ..mathlib.actuators.jets import least_propellant, pseudo_inverse
+from .jet_allocation import JetAllocation, JetAllocationStatus
 
 
 class JetAllocationLeastPropellant(JetAllocation):

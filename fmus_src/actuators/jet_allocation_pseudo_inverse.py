@@ -1,7 +1,7 @@
 """Jet allocation by the pseudo-inverse, lifted and scaled."""
 
-from ..interfaces.jet_allocation import JetAllocation, JetAllocationStatus
 from ..mathlib.actuators.jets import pseudo_inverse, shift_and_scale
+from .jet_allocation import JetAllocation, JetAllocationStatus
 
 
 class JetAllocationPseudoInverse(JetAllocation):

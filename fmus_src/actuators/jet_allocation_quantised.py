@@ -3,10 +3,10 @@
 import math
 
 from ..block import Parameter, State
-from ..interfaces.jet_allocation import JetAllocation, JetAllocationStatus
 from ..mathlib.actuators.jets import nearest_levels, thrust_of_levels
 from ..mathlib.attitude.quaternion import to_body, to_reference
 from ..mathlib.vectors import vector
+from .jet_allocation import JetAllocation, JetAllocationStatus
 
 
 class JetAllocationQuantised(JetAllocation):

@@ -1,12 +1,12 @@
 """The slot of jet allocation: from the force and torque wanted to the thrusts of eight jets."""
 
 from ..block import Block, State
+from ..interfaces.ports import body, inertial, robot, sampling
+from ..interfaces.ports.robot import LARGEST
 from ..mathlib.actuators.jets import JETS, jet_strengths, jet_wrench
 from ..mathlib.attitude.quaternion import normalise, to_body
 from ..mathlib.vectors import vector
 from ..ports import Status, outcome
-from .ports import body, inertial, robot, sampling
-from .ports.robot import LARGEST
 
 ROUNDING = 1e-9  # s, allowed for in times of communication points
 
