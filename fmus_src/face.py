@@ -11,9 +11,9 @@ HOMES = {
     "block": ("Block",),
     "control.entry_control": ("EntryControl",),
     "control.orbital_control": ("OrbitalControl",),
+    "guidance.terminal_guidance": ("CLAMPED", "GOOD", "NOT_CONVERGED", "NO_SOLUTION", "TerminalGuidance"),
     "interfaces.allocation": ("Allocation",),
     "interfaces.navigation": ("Navigation",),
-    "interfaces.terminal_guidance": ("CLAMPED", "GOOD", "NOT_CONVERGED", "NO_SOLUTION", "TerminalGuidance"),
     "kernel.functions": (
         *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "exp2", "expm1"),
         *("log", "log2", "log10", "log1p", "pow", "sinh", "cosh", "tanh", "cbrt", "fmod"),

@@ -58,23 +58,23 @@ from .fmus_src.block import (
 )
 from .fmus_src.control.entry_control import EntryControl as EntryControl
 from .fmus_src.control.orbital_control import OrbitalControl as OrbitalControl
-from .fmus_src.interfaces.allocation import Allocation as Allocation
-from .fmus_src.interfaces.navigation import Navigation as Navigation
-from .fmus_src.interfaces.terminal_guidance import (
+from .fmus_src.guidance.terminal_guidance import (
     CLAMPED as CLAMPED,
 )
-from .fmus_src.interfaces.terminal_guidance import (
+from .fmus_src.guidance.terminal_guidance import (
     GOOD as GOOD,
 )
-from .fmus_src.interfaces.terminal_guidance import (
+from .fmus_src.guidance.terminal_guidance import (
     NO_SOLUTION as NO_SOLUTION,
 )
-from .fmus_src.interfaces.terminal_guidance import (
+from .fmus_src.guidance.terminal_guidance import (
     NOT_CONVERGED as NOT_CONVERGED,
 )
-from .fmus_src.interfaces.terminal_guidance import (
+from .fmus_src.guidance.terminal_guidance import (
     TerminalGuidance as TerminalGuidance,
 )
+from .fmus_src.interfaces.allocation import Allocation as Allocation
+from .fmus_src.interfaces.navigation import Navigation as Navigation
 from .fmus_src.kernel.functions import (
     acos as acos,
 )

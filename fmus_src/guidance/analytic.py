@@ -2,10 +2,10 @@
 
 import math
 
-from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION, TerminalGuidance
 from ..kernel.functions import atan, atan2, cos, sin
 from ..mathlib.lunar.terminal import impulse_and_miss, quadratic_time
 from ..mathlib.vectors import norm, vector
+from .terminal_guidance import GOOD, NO_SOLUTION, TerminalGuidance
 
 
 class AnalyticGuidance(TerminalGuidance):

@@ -1,9 +1,9 @@
 """Analytic terminal guidance with nothing dropped: cubic time-to-go, exact rates, exact last burn."""
 
-from ..interfaces.terminal_guidance import GOOD
 from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import norm
 from .certain_time import CertainTime
+from .terminal_guidance import GOOD
 
 
 class AnalyticExactGuidance(CertainTime):

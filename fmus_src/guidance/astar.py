@@ -1,10 +1,10 @@
 """Method A* as published: time-to-go by Newton's method, which fails where there is no root."""
 
 from ..block import State
-from ..interfaces.terminal_guidance import NO_SOLUTION, NOT_CONVERGED
 from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import Vector3, dot, norm, vector
 from .astar_programme import AstarProgramme
+from .terminal_guidance import NO_SOLUTION, NOT_CONVERGED
 
 
 class AstarGuidance(AstarProgramme):

@@ -3,10 +3,10 @@
 import math
 
 from ..block import Parameter
-from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION
 from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import Vector3, norm
 from .astar_programme import AstarProgramme
+from .terminal_guidance import GOOD, NO_SOLUTION
 
 
 class AstarModifiedGuidance(AstarProgramme):

@@ -1,9 +1,9 @@
 """The angle programme that the three guidances of method A* share."""
 
 from ..block import Output
-from ..interfaces.terminal_guidance import CLAMPED, GOOD, TerminalGuidance
 from ..kernel.functions import asin, cos, sin
 from ..mathlib.vectors import Vector3, clip, norm, vector
+from .terminal_guidance import CLAMPED, GOOD, TerminalGuidance
 
 
 class AstarProgramme(TerminalGuidance, interface=True):

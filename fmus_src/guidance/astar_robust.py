@@ -1,10 +1,10 @@
 """Method A* made to work for every start: time-to-go from the cubic or the least effort, thrust from |a0|."""
 
-from ..interfaces.terminal_guidance import GOOD
 from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import norm
 from .astar_programme import AstarProgramme
 from .certain_time import CertainTime
+from .terminal_guidance import GOOD
 
 FORWARD = 0.05  # least part of the thrust along x that the arcsines are trusted with; 0.07 in the published box
 

@@ -1,9 +1,9 @@
 """A time-to-go for every start, shared by the two guidances that have one."""
 
 from ..block import State
-from ..interfaces.terminal_guidance import TerminalGuidance
 from ..mathlib.lunar.terminal import cubic_time, effort_rises, least_effort_time, linear_thrust, steady
 from ..mathlib.vectors import Vector3
+from .terminal_guidance import TerminalGuidance
 
 AGREEMENT = 0.05  # of the time; where the two times are this close, a flight of least effort goes over to braking
 # With less than ENDING (s) to go and no root, a least effort of more than CHASE times that would only chase errors

@@ -3,11 +3,11 @@
 from ..block import State
 from ..interfaces.ports import landing
 from ..interfaces.ports.landing import UNLIMITED
-from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION, TerminalGuidance
 from ..kernel.functions import atan2, cos, expm1, sin
 from ..mathlib.lunar.gravity import STANDARD_GRAVITY, altitude_of, from_centre
 from ..mathlib.vectors import Vector3, dot, norm, vector
 from .network_operator_law import NetworkOperatorLaw
+from .terminal_guidance import GOOD, NO_SOLUTION, TerminalGuidance
 
 LEAST_HORIZONTAL_SPEED = 0.5  # m/s; below it the horizontal direction is held
 

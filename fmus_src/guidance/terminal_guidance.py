@@ -1,11 +1,11 @@
 """The slot of terminal guidance: bring the vehicle to a position and velocity at time_to_go."""
 
 from ..block import Block, Parameter, State
+from ..interfaces.ports import landing, sampling
+from ..interfaces.ports.landing import UNLIMITED
 from ..mathlib.lunar.gravity import central_gravity
 from ..mathlib.vectors import Vector3, vector
 from ..ports import Status, outcome
-from .ports import landing, sampling
-from .ports.landing import UNLIMITED
 
 ROUNDING = 1e-9  # of a cycle, allowed for in times of communication points
 # Cycles; a last burn is never a sliver of one, in which small misses would ask for a large thrust.
