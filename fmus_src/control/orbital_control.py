@@ -1,9 +1,9 @@
 """The slot of regulators of the orbital attitude: from the estimate to the torque wanted over a tick."""
 
 from ..block import Parameter, State
-from ..interfaces.orbital_body import OrbitalBody
 from ..interfaces.ports import body, sampling
 from ..mathlib.vectors import is_finite, vector
+from ..models.orbital_body import OrbitalBody
 from ..ports import Status, outcome
 from ..units import deg
 

@@ -3,12 +3,12 @@
 import math
 
 from ..block import Input, Output, Parameter, State
-from ..interfaces.orbital_body import OrbitalBody
 from ..interfaces.ports import body, sampling
 from ..kernel.integrators import runge_kutta_4
 from ..kernel.records import replace
 from ..mathlib.orbits.attitude import AttitudeState
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
+from ..models.orbital_body import OrbitalBody
 from ..ports import Status, outcome
 from ..units import deg
 

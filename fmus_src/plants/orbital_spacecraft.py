@@ -1,10 +1,10 @@
 """A spacecraft on a circular orbit, turned by jets in pulses."""
 
 from ..block import Output, Parameter, State
-from ..interfaces.orbital_body import OrbitalBody
 from ..interfaces.ports import body, sampling
 from ..mathlib.orbits.attitude import AttitudeState
 from ..mathlib.vectors import Vector3, vector
+from ..models.orbital_body import OrbitalBody
 
 GOOD = 0
 NO_INERTIA = 1

@@ -3,11 +3,11 @@
 import math
 
 from ..block import Block, Parameter, State
+from ..interfaces.ports import body
 from ..kernel.integrators import runge_kutta_4
 from ..kernel.matrices import inverse
 from ..mathlib.orbits.attitude import AttitudeState, angle_rates, angular_acceleration
 from ..mathlib.vectors import Vector3, vector
-from .ports import body
 
 STEP_ROUNDING = 1e-9  # of a longest step, by which a step may exceed it
 
