@@ -1,1 +1,1 @@
-"""What makes blocks swappable: the connectors that all blocks of a slot share."""
+"""Ports, and slots that only declare them; a base that computes stands with its blocks."""
