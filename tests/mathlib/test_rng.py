@@ -17,8 +17,8 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from perilune.fmus_src.mathlib.rng import M1, M2, multiply_modulo, normal, normals, seed_streams, uniform
+from tests.support.checks.mrg32k3a import P1, P2, advanced, exact_numerator
 from tests.support.lengths import either
-from tests.support.mrg32k3a import P1, P2, advanced, exact_numerator
 
 RISK = 1e-3
 

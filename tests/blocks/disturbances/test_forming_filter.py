@@ -15,7 +15,7 @@ from scipy import signal, stats
 from scipy.linalg import expm, solve_continuous_lyapunov
 
 from perilune.fmus_src.disturbances.forming_filter import FormingFilter
-from tests.support.mrg32k3a import P1, exact_numerator
+from tests.support.checks.mrg32k3a import P1, exact_numerator
 
 SHAPES = [(0.05, 3.0), (0.5, 1.0), (0.999999, 2.0), (1.0, 2.0), (1.000001, 2.0), (2.5, 0.4)]
 INTENSITY = 0.7

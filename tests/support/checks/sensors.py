@@ -1,13 +1,13 @@
 """Truths of sensors: their errors as declared, from MRG32k3a in exact integers.
 
-A sample is taken at the start and at every second row, so that outputs are held in between.
+A sample is taken at the start and at every second row, so that outputs stay in between.
 """
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from tests.support.checks.check import STEP, Check, follow
-from tests.support.mrg32k3a import Numbers
+from tests.support.checks.mrg32k3a import Numbers
 
 ROWS, EVERY = 25, 2
 SAMPLES = (ROWS + 1) // EVERY
@@ -21,14 +21,14 @@ def sampled(rows):
     return follow(rows)[::EVERY]
 
 
-def held(samples):
+def repeat(samples):
     return np.repeat(samples, EVERY, axis=0)[:ROWS]
 
 
 def check_sensor(truth, inputs, samples, parameters, tolerance, count=None):
     """The check of a sensor with these ``samples`` of its outputs; ``count`` if not all samples count."""
-    outputs = {name: held(rows) for name, rows in samples.items()}
-    outputs["sample_count"] = held(1 + np.arange(SAMPLES) if count is None else count)
+    outputs = {name: repeat(rows) for name, rows in samples.items()}
+    outputs["sample_count"] = repeat(1 + np.arange(SAMPLES) if count is None else count)
     return Check(
         truth=truth,
         step=STEP,
@@ -45,7 +45,7 @@ def wave(size, *phases):
 
 
 def attitude_sensor():
-    """The axis turned by a constant and a new small rotation, to first order."""
+    """The axis measured by a constant and a new small rotation, to first order."""
     constant_sigma, attitude_sigma, rate_sigma = 0.02, 0.01, 0.003
     axis = wave(1.0, 0.3, 2.0, 4.0) + np.array([0.0, 0.0, 3.0])
     axis /= np.linalg.norm(axis, axis=1)[:, None]
@@ -53,12 +53,12 @@ def attitude_sensor():
     numbers = Numbers(SEED, STREAM)
     constant = constant_sigma * numbers.normal(3)
     fresh = numbers.normal(SAMPLES, 2, 3)
-    turned = sampled(axis) + np.cross(constant + attitude_sigma * fresh[:, 0], sampled(axis))
+    measured = sampled(axis) + np.cross(constant + attitude_sigma * fresh[:, 0], sampled(axis))
     return check_sensor(
         "cross product of the rotation by numpy; exact random numbers",
         {"attitude": axis, "angular_rate": rate},
         {
-            "measured_attitude": turned / np.linalg.norm(turned, axis=1)[:, None],
+            "measured_attitude": measured / np.linalg.norm(measured, axis=1)[:, None],
             "measured_angular_rate": sampled(rate) + rate_sigma * fresh[:, 1],
         },
         {"constant_sigma": constant_sigma, "attitude_sigma": attitude_sigma, "rate_sigma": rate_sigma},
