@@ -1,8 +1,8 @@
 """Orbital attitude by placed poles."""
 
 from ..block import State
-from ..kernel.matrices import multiply
-from ..mathlib.orbits.attitude import apply_matrix, linear_model
+from ..kernel.matrices import add_diagonal, multiply, row, set_row
+from ..mathlib.orbits.attitude import ANGLES, RATES, apply_matrix, linear_model
 from ..mathlib.vectors import vector
 from .orbital_control import OrbitalControl
 
@@ -20,24 +20,22 @@ class OrbitalModalControl(OrbitalControl):
 
     def begin(self) -> None:
         a = [0.0] * 36
-        wanted = [0.0] * 9
-        coupling = [0.0] * 9
-        by_angles = [0.0] * 9
-        by_rates = [0.0] * 9
+        a11 = [0.0] * 9
+        n = [0.0] * 9
+        by_angles = [0.0] * 9  # N A11 - S0 N - A21
+        by_rates = [0.0] * 9  # N + S0 - A22
         linear_model(self.inertia, self.inverse_inertia, self.orbital_rate, a)
         for i in range(3):
-            for k in range(3):
-                coupling[3 * i + k] = a[6 * i + k]
-                wanted[3 * i + k] = -a[6 * i + k]
-            wanted[4 * i] = wanted[4 * i] - self.angle_poles[i]
-        multiply(wanted, coupling, by_angles, 3)
+            set_row(a11, 3, i, 0, row(a, 6, ANGLES + i, ANGLES))
+            set_row(n, 3, i, 0, -row(a11, 3, i, 0))
+        add_diagonal(n, 3, 0, 0, -self.angle_poles)
+        multiply(n, a11, by_angles, 3)
         for i in range(3):
-            for k in range(3):
-                by_angles[3 * i + k] = (
-                    by_angles[3 * i + k] + self.rate_poles[i] * wanted[3 * i + k] - a[6 * (3 + i) + k]
-                )
-                by_rates[3 * i + k] = wanted[3 * i + k] - a[6 * (3 + i) + 3 + k]
-            by_rates[4 * i] = by_rates[4 * i] - self.rate_poles[i]
+            a21 = row(a, 6, RATES + i, ANGLES)
+            a22 = row(a, 6, RATES + i, RATES)
+            set_row(by_angles, 3, i, 0, row(by_angles, 3, i, 0) + self.rate_poles[i] * row(n, 3, i, 0) - a21)
+            set_row(by_rates, 3, i, 0, row(n, 3, i, 0) - a22)
+        add_diagonal(by_rates, 3, 0, 0, -self.rate_poles)
         multiply(self.inertia, by_angles, self.angle_gain, 3)
         multiply(self.inertia, by_rates, self.rate_gain, 3)
 

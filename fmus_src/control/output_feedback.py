@@ -2,8 +2,9 @@
 
 from ..block import Parameter
 from ..kernel.functions import cos, log, sin
+from ..kernel.matrices import row
 from ..mathlib.orbits.attitude import apply_matrix
-from ..mathlib.vectors import Vector3, vector
+from ..mathlib.vectors import Vector3, dot, vector
 from .entry_control import EntryControl
 
 
@@ -30,12 +31,17 @@ class OutputFeedback(EntryControl):
         description="torques x, y over bank, wx, wy (SI): two rows for each pressure",
     )
 
+    def gain_row(self, i: int, fraction: float) -> Vector3:
+        """Row i of gains, a fraction of the way to that of the next pressure."""
+        low = row(self.gains, 3, i, 0)
+        return low + fraction * (row(self.gains, 3, i + 2, 0) - low)
+
     def regulate(self) -> Vector3:
         c0 = cos(self.trim_attack)
         s0 = sin(self.trim_attack)
-        e = self.bank_error()
         wx = self.measured_angular_velocity.x - self.reference_bank_rate * c0
         wy = self.measured_angular_velocity.y + self.reference_bank_rate * s0
+        errors = vector(self.bank_error(), wx, wy)
         k = 0
         fraction = 0.0
         p = self.dynamic_pressure
@@ -45,11 +51,7 @@ class OutputFeedback(EntryControl):
             fraction = log(p / self.pressures[k]) / log(self.pressures[k + 1] / self.pressures[k])
         if fraction > 1.0:
             fraction = 1.0
-        gain = [0.0] * 6
-        for i in range(6):
-            low = self.gains[6 * k + i]
-            gain[i] = low + fraction * (self.gains[6 * k + 6 + i] - low)
         feed = apply_matrix(self.inertia, self.reference_bank_acceleration * vector(c0, -s0, 0.0))
-        x = gain[0] * e + gain[1] * wx + gain[2] * wy + feed.x
-        y = gain[3] * e + gain[4] * wx + gain[5] * wy + feed.y
+        x = dot(self.gain_row(2 * k, fraction), errors) + feed.x
+        y = dot(self.gain_row(2 * k + 1, fraction), errors) + feed.y
         return vector(x, y, -self.pitch_damping * self.measured_angular_velocity.z)

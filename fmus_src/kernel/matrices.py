@@ -63,6 +63,12 @@ def add_isotropic(a: list, n: int, i: int, j: int, value: float) -> None:
         a[n * (i + k) + j + k] = a[n * (i + k) + j + k] + value
 
 
+def add_diagonal(a: list, n: int, i: int, j: int, v: Vector3) -> None:
+    """Diagonal of the 3 x 3 block at (i, j) + v."""
+    for k in range(3):
+        a[n * (i + k) + j + k] = a[n * (i + k) + j + k] + v[k]
+
+
 def mirror(a: list, n: int, rows: int) -> None:
     """Below the diagonal, the first columns = the first rows above it."""
     for i in range(rows):

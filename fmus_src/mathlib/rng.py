@@ -11,6 +11,7 @@ import math
 
 from ..kernel.elementary.two_doubles import ROUND
 from ..kernel.functions import cos, log
+from ..kernel.matrices import element
 from .vectors import Vector3, vector
 
 M1 = 4294967087.0
@@ -61,7 +62,7 @@ def transform(state: list, offset: int, matrix: list, image: list, m: float) -> 
     for i in range(3):
         v = 0.0
         for k in range(3):
-            v = multiply_modulo(matrix[3 * i + k], state[offset + k], v, m)
+            v = multiply_modulo(element(matrix, 3, i, k), state[offset + k], v, m)
         image[i] = v
 
 

@@ -5,6 +5,7 @@ import math
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, robot, sampling
 from ..interfaces.ports.robot import SampleStatus
+from ..kernel.matrices import element, set_element
 from ..mathlib.attitude.quaternion import (
     angle_error,
     difference,
@@ -14,7 +15,7 @@ from ..mathlib.attitude.quaternion import (
     to_body,
     to_rotation_vector,
 )
-from ..mathlib.estimation.tracking import measure_chain, predict_chain
+from ..mathlib.estimation.tracking import DISTURBANCE, RATE, TRACKED, measure_chain, predict_chain
 from ..mathlib.vectors import cross, dot, is_finite, vector
 
 MEAN = 0
@@ -104,8 +105,9 @@ class AttitudeFilter(Block):
         self.last_momentum = self.gyro_momentum
         self.angular_velocity = self.planned_angular_velocity
         self.quaternion = self.planned_quaternion
-        self.covariance[4] = self.first_rate_sigma * self.first_rate_sigma
-        self.covariance[8] = self.first_disturbance_sigma * self.first_disturbance_sigma
+        set_element(self.covariance, 3, RATE, RATE, self.first_rate_sigma * self.first_rate_sigma)
+        disturbance = self.first_disturbance_sigma * self.first_disturbance_sigma
+        set_element(self.covariance, 3, DISTURBANCE, DISTURBANCE, disturbance)
         self.take_sample()
         if self.summed > 0:
             self.put_out_mean(self.start_time)
@@ -116,7 +118,8 @@ class AttitudeFilter(Block):
         jump = self.jet_force - self.last_force
         self.last_force = self.jet_force
         scale = 3.0 * self.jet_torque_error / (self.inertia.x + self.inertia.y + self.inertia.z)
-        self.covariance[8] = self.covariance[8] + scale * scale * dot(jump, jump)
+        widened = element(self.covariance, 3, DISTURBANCE, DISTURBANCE) + scale * scale * dot(jump, jump)
+        set_element(self.covariance, 3, DISTURBANCE, DISTURBANCE, widened)
 
     def predict(self, h: float) -> None:
         """Move estimate and covariance by h (s): the total momentum stays in inertial axes but for the jets."""
@@ -146,10 +149,10 @@ class AttitudeFilter(Block):
             self.summed = self.summed + 1
         elif self.samples_taken == 1:
             self.quaternion = normalise(self.measured_quaternion)
-            self.covariance[0] = self.attitude_sigma * self.attitude_sigma
-            for i in range(1, 3):
-                self.covariance[i] = 0.0
-                self.covariance[3 * i] = 0.0
+            set_element(self.covariance, 3, TRACKED, TRACKED, self.attitude_sigma * self.attitude_sigma)
+            for i in range(RATE, DISTURBANCE + 1):
+                set_element(self.covariance, 3, TRACKED, i, 0.0)
+                set_element(self.covariance, 3, i, TRACKED, 0.0)
         else:
             self.correct()
 
@@ -186,8 +189,8 @@ class AttitudeFilter(Block):
         self.attitude_error = angle_error(self.planned_quaternion, self.quaternion)
         turned = difference(self.planned_quaternion, self.quaternion)
         self.rate_error = self.angular_velocity - to_body(turned, self.planned_angular_velocity)
-        self.attitude_error_sigma = math.sqrt(self.covariance[0])
-        self.rate_error_sigma = math.sqrt(self.covariance[4])
+        self.attitude_error_sigma = math.sqrt(element(self.covariance, 3, TRACKED, TRACKED))
+        self.rate_error_sigma = math.sqrt(element(self.covariance, 3, RATE, RATE))
 
     def step(self, t: float, h: float) -> None:
         if self.method != MEAN:

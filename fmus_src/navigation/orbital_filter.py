@@ -7,15 +7,12 @@ from ..interfaces.ports import body
 from ..kernel.matrices import element, identity, row, set_element, set_isotropic, set_row
 from ..kernel.records import replace
 from ..mathlib.estimation.kalman import predict, update
-from ..mathlib.orbits.attitude import angle_rate_derivatives, angle_rates, apply_matrix
+from ..mathlib.orbits.attitude import ANGLES, YAW, angle_rate_derivatives, angle_rates, apply_matrix
 from ..mathlib.vectors import Vector3, vector
 from ..units import deg
 from .attitude_observer import AttitudeObserver, ObserverStatus
 
-# The states of the covariance, by the first of each three; yaw is the second angle.
-ANGLES = 0
-BIASES = 3
-YAW = 1
+BIASES = 3  # after the angles in the covariance
 
 
 class OrbitalFilter(AttitudeObserver):

@@ -1,7 +1,8 @@
 """Orbital attitude by a continuous observer of the whole state."""
 
 from ..block import Parameter
-from ..mathlib.orbits.attitude import AttitudeState, linear_model
+from ..kernel.matrices import add_isotropic
+from ..mathlib.orbits.attitude import ANGLES, RATES, AttitudeState, linear_model
 from ..mathlib.vectors import Vector3
 from .full_attitude_observer import FullAttitudeObserver
 
@@ -21,8 +22,8 @@ class OrbitalObserverContinuous(FullAttitudeObserver):
         a = [0.0] * 36
         row = [0.0] * 5
         linear_model(self.inertia, self.inverse_inertia, self.orbital_rate, a)
-        for i in range(6):
-            a[7 * i] = a[7 * i] + self.measured_pole
+        add_isotropic(a, 6, ANGLES, ANGLES, self.measured_pole)
+        add_isotropic(a, 6, RATES, RATES, self.measured_pole)
         row[0] = -self.yaw_pole / self.orbital_rate
         self.compose(a, row)
         return True

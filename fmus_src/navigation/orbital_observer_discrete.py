@@ -2,8 +2,8 @@
 
 from ..block import Parameter
 from ..kernel.functions import exp
-from ..kernel.matrices import exponential
-from ..mathlib.orbits.attitude import index_of_measured, linear_model
+from ..kernel.matrices import add_isotropic, element, exponential
+from ..mathlib.orbits.attitude import ANGLES, RATES, YAW, index_of_measured, linear_model
 from .full_attitude_observer import FullAttitudeObserver
 
 
@@ -29,17 +29,18 @@ class OrbitalObserverDiscrete(FullAttitudeObserver):
         exponential(a, -period, back, 6)
         square = 0.0
         for j in range(5):
-            row[j] = ahead[6 * index_of_measured(j) + 1]
+            row[j] = element(ahead, 6, index_of_measured(j), YAW)
             square = square + row[j] * row[j]
         if not square > 0.0:
             return False
+        change = element(ahead, 6, YAW, YAW) - exp(-self.yaw_pole * period)
         for j in range(5):
-            row[j] = (ahead[7] - exp(-self.yaw_pole * period)) * row[j] / square
+            row[j] = change * row[j] / square
         forgotten = exp(-self.measured_pole * period)
         for i in range(36):
             back[i] = -forgotten * back[i]
-        for i in range(6):
-            back[7 * i] = 1.0 + back[7 * i]
+        add_isotropic(back, 6, ANGLES, ANGLES, 1.0)
+        add_isotropic(back, 6, RATES, RATES, 1.0)
         self.compose(back, row)
         return True
 

@@ -194,12 +194,12 @@ class EntryCapsule(Block):
             angular_velocity=apply_matrix(self.inverse_inertia, cross(apply_matrix(self.inertia, w), w) + moment),
         )
 
-    def jet(self, k: int, length: float, time: float) -> float:
-        """Torque (N m) of the jets about axis k after ``time`` (s) of a pulse (s, with its sign)."""
+    def jet(self, positive: int, negative: int, length: float, time: float) -> float:
+        """Torque (N m) of an axis' two jets, by index, after ``time`` (s) of a pulse (s, with its sign)."""
         if length > time:
-            return self.jet_factor[2 * k] * self.jet_torque[2 * k]
+            return self.jet_factor[positive] * self.jet_torque[positive]
         if length < -time:
-            return -self.jet_factor[2 * k + 1] * self.jet_torque[2 * k + 1]
+            return -self.jet_factor[negative] * self.jet_torque[negative]
         return 0.0
 
     def fly(self, t: float, h: float) -> None:
@@ -207,9 +207,9 @@ class EntryCapsule(Block):
         time = 0.0
         while time < h:
             end = next_switch_off(self.left, time, h)
-            x = self.jet(0, self.left.x, time)
-            y = self.jet(1, self.left.y, time)
-            z = self.jet(2, self.left.z, time)
+            x = self.jet(0, 1, self.left.x, time)
+            y = self.jet(2, 3, self.left.y, time)
+            z = self.jet(4, 5, self.left.z, time)
             torque = vector(x, y, z) + self.mean_torque
             pieces = int((end - time) / self.internal_step - STEP_ROUNDING) + 1
             for _ in range(pieces):

@@ -4,7 +4,7 @@ import math
 
 from ..block import Block, Parameter, State
 from ..interfaces.ports import landing, sampling
-from ..mathlib.rng import normal, normals, seed_streams
+from ..mathlib.rng import normals, seed_streams
 from ..mathlib.vectors import vector
 
 
@@ -50,13 +50,12 @@ class InertialSensor(Block):
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)
-        errors = [0.0] * 9
-        for i in range(3):
-            for kind in range(3):
-                errors[3 * kind + i] = normal(self.generator)
-        self.bias = self.bias_sigma * vector(*errors[0:3])
-        self.scale_factor = self.scale_factor_sigma * vector(*errors[3:6])
-        self.misalignment = self.attitude_sigma * vector(*errors[6:9])
+        x = normals(self.generator)  # of one axis: bias, scale factor, misalignment
+        y = normals(self.generator)
+        z = normals(self.generator)
+        self.bias = self.bias_sigma * vector(x[0], y[0], z[0])
+        self.scale_factor = self.scale_factor_sigma * vector(x[1], y[1], z[1])
+        self.misalignment = self.attitude_sigma * vector(x[2], y[2], z[2])
         self.last_sensed = self.sensed_velocity
         self.last_time = self.start_time
 

@@ -8,6 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from perilune.fmus_src.kernel.matrices import (
+    add_diagonal,
     add_isotropic,
     add_outer,
     add_product,
@@ -80,6 +81,8 @@ def test_elements_and_blocks_are_those_of_numpy(seed, n, data):
     a[j : j + 3, i] = 4.0, 5.0, 6.0
     add_isotropic(actual, n, i, j, 0.5)
     a[i : i + 3, j : j + 3] += 0.5 * np.eye(3)
+    add_diagonal(actual, n, j, i, vector(1.0, -2.0, 3.0))
+    a[j : j + 3, i : i + 3] += np.diag([1.0, -2.0, 3.0])
     set_isotropic(actual, n, j, j, 8.0)
     np.fill_diagonal(a[j : j + 3, j : j + 3], 8.0)
     mirror(actual, n, n - 1)

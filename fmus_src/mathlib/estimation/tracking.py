@@ -6,7 +6,13 @@ the estimates by the caller, and so is the innovation times the gain.
 Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.2, 6.2.2 and 6.2.3 (discretised white noise).
 """
 
+from ...kernel.matrices import identity, mirror, set_element
 from .kalman import correct, innovation_variance, predict
+
+# Rows and columns: what is tracked, its rate, and what disturbs the rate.
+TRACKED = 0
+RATE = 1
+DISTURBANCE = 2
 
 
 def predict_chain(p: list, rate_noise: float, disturbance_noise: float, h: float, n: int) -> None:
@@ -14,29 +20,25 @@ def predict_chain(p: list, rate_noise: float, disturbance_noise: float, h: float
     x = [0.0] * 3
     f = [0.0] * 9
     q = [0.0] * 9
-    for i in range(n):
-        f[n * i + i] = 1.0
-    f[1] = h
-    q[0] = rate_noise * h * h * h / 3.0
-    q[1] = rate_noise * h * h / 2.0
-    q[n] = q[1]
-    q[n + 1] = rate_noise * h
+    identity(f, n)
+    set_element(f, n, TRACKED, RATE, h)
+    q11 = rate_noise * h * h * h / 3.0
+    q12 = rate_noise * h * h / 2.0
+    q22 = rate_noise * h
     if n == 3:
-        f[2] = 0.5 * h * h
-        f[5] = h
-        part = disturbance_noise * h
-        q[8] = part
-        part = part * h
-        q[5] = part / 2.0
-        part = part * h
-        q[2] = part / 6.0
-        q[4] = q[4] + part / 3.0
-        part = part * h
-        q[1] = q[1] + part / 8.0
-        q[0] = q[0] + part * h / 20.0
-        q[3] = q[1]
-        q[6] = q[2]
-        q[7] = q[5]
+        d = disturbance_noise
+        set_element(f, n, TRACKED, DISTURBANCE, 0.5 * h * h)
+        set_element(f, n, RATE, DISTURBANCE, h)
+        set_element(q, n, DISTURBANCE, DISTURBANCE, d * h)
+        set_element(q, n, RATE, DISTURBANCE, d * h * h / 2.0)
+        set_element(q, n, TRACKED, DISTURBANCE, d * h * h * h / 6.0)
+        q22 = q22 + d * h * h * h / 3.0
+        q12 = q12 + d * h * h * h * h / 8.0
+        q11 = q11 + d * h * h * h * h * h / 20.0
+    set_element(q, n, TRACKED, TRACKED, q11)
+    set_element(q, n, TRACKED, RATE, q12)
+    set_element(q, n, RATE, RATE, q22)
+    mirror(q, n, n)
     predict(x, p, f, q, n)
 
 

@@ -5,7 +5,7 @@ Programmes, shapes and vehicles as in `shape` and `motion`.
 
 import math
 
-from ...kernel.matrices import inverse
+from ...kernel.matrices import element, inverse, set_element
 from ..vectors import Vector4, vector
 from .motion import HoverVehicle, end_motion, propellant
 from .shape import HoverProgramme, shape_of
@@ -78,7 +78,7 @@ def invert_sensitivities(
         if not size < math.inf:
             return False
         for i in range(n):
-            derivatives[n * i + j] = (ahead[i] - r[i]) / change
+            set_element(derivatives, n, i, j, (ahead[i] - r[i]) / change)
     is_regular = inverse(derivatives, inverted, n)
     return is_regular
 
@@ -89,7 +89,7 @@ def newton_step(kind: int, inverted: list, r: Vector4) -> HoverProgramme:
     free = [0.0] * 4
     for i in range(n):
         for j in range(n):
-            free[i] = free[i] - inverted[n * i + j] * r[j]
+            free[i] = free[i] - element(inverted, n, i, j) * r[j]
     return change_of(kind, vector(*free))
 
 

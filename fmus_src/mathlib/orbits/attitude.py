@@ -7,9 +7,16 @@ Source: Lapin, thesis, chapter 1.1.
 """
 
 from ...kernel.functions import cos, sin, tan
-from ...kernel.matrices import multiply
+from ...kernel.matrices import column, multiply, row, set_column, set_element, set_isotropic, set_row
 from ...kernel.records import Field, Record
 from ..vectors import Vector3, cross, vector
+
+# Rows and columns of (angles, angular velocity) where it is one vector: the first of three, and single angles.
+ANGLES = 0
+RATES = 3
+ROLL = 0
+YAW = 1
+PITCH = 2
 
 
 class AttitudeState(Record):
@@ -135,12 +142,11 @@ def linear_model(inertia: list, inverse_inertia: list, w0: float, a: list) -> No
     gyric_matrix(inertia, inverse_inertia, vector(0.0, 1.0, 0.0), by_radial)
     for i in range(36):
         a[i] = 0.0
-    a[1] = -w0
-    a[6] = w0
+    set_element(a, 6, ROLL, YAW, -w0)
+    set_element(a, 6, YAW, ROLL, w0)
+    set_isotropic(a, 6, ANGLES, RATES, 1.0)
+    # j moves by (pitch, 0, -roll), and J^-1 (j x (J j)) is minus the above
+    set_column(a, 6, RATES, ROLL, 3.0 * w0 * w0 * column(by_radial, 3, 0, 2))
+    set_column(a, 6, RATES, PITCH, -3.0 * w0 * w0 * column(by_radial, 3, 0, 0))
     for i in range(3):
-        a[6 * i + 3 + i] = 1.0
-        # j moves by (pitch, 0, -roll), and J^-1 (j x (J j)) is minus the above
-        a[6 * (3 + i)] = 3.0 * w0 * w0 * by_radial[3 * i + 2]
-        a[6 * (3 + i) + 2] = -3.0 * w0 * w0 * by_radial[3 * i]
-        for k in range(3):
-            a[6 * (3 + i) + 3 + k] = by_rates[3 * i + k]
+        set_row(a, 6, RATES + i, RATES, row(by_rates, 3, i, 0))
