@@ -3,9 +3,8 @@
 from ..block import Block, State
 from ..interfaces.ports import body, inertial, robot, sampling
 from ..interfaces.ports.robot import LARGEST
-from ..mathlib.actuators.jets import JETS, jet_strengths, jet_wrench
+from ..mathlib.actuators.jets import JETS, JetStrength, Wrench, jet_strength, jet_wrench
 from ..mathlib.attitude.quaternion import normalise, to_body
-from ..mathlib.vectors import vector
 from ..ports import Status, outcome
 
 ROUNDING = 1e-9  # s, allowed for in times of communication points
@@ -29,7 +28,7 @@ class JetAllocation(Block, interface=True):
     command that comes while another waits takes its place. The status is that of the newest command,
     allocated_force and allocated_torque are what jets as declared give with the thrusts put out.
 
-    An allocation writes `allocate`, which sets new_thrust and status from wanted_wrench. jet_tilt is the angle
+    An allocation writes `allocate`, which sets new_thrust and status from wanted. jet_tilt is the angle
     of the nozzles from the body's xy plane, jet_azimuth their angle from x in it, jet_arm the place of the first jet.
     Equations: docs/systems/robot_rendezvous.md.
     Assumes jets that are where they are declared to be and give what is asked at once.
@@ -54,31 +53,28 @@ class JetAllocation(Block, interface=True):
     allocated_torque = body.TORQUE.output("torque of jet_thrust", direct=True)
     status = JetAllocationStatus.output(direct=True)
     start_time = sampling.START_TIME.state()
-    strength = State([0.0] * 6, description="force (N/N) and torque (N.m/N) of the jets, by rows of signs")
+    strength = State(JetStrength)
     attitude = State([1.0, 0.0, 0.0, 0.0], unit="1", description="quaternion, of length one")
-    wanted_wrench = State([0.0] * 6, description="wanted force (N) and torque (N.m), body")
+    wanted = State(Wrench)
     new_thrust = State([0.0] * 8, unit="N", description="thrusts of the newest command")
     waiting = State(False, description="new_thrust has not been put out yet")
     due_time = State(0.0, unit="s", description="when to put it out")
     counted = State(0, description="command_count of the newest command")
 
     def allocate(self) -> None:
-        """Set new_thrust (N) and status from wanted_wrench."""
+        """Set new_thrust (N) and status from wanted."""
 
     def want(self) -> bool:
-        """attitude and wanted_wrench (body) from the command; returns whether it is finite, with an attitude."""
+        """attitude and wanted (body) from the command; returns whether it is finite, with an attitude."""
         finite = self.translation_period > 0.0 and self.translation_period < LARGEST
         q = self.quaternion
         length = abs(q.w) + abs(q.x) + abs(q.y) + abs(q.z)
         if not (length > 0.0 and length < LARGEST):
             finite = False
         self.attitude = normalise(q)
-        force = to_body(self.attitude, self.force_command)
-        for i in range(3):
-            self.wanted_wrench[i] = force[i]
-            self.wanted_wrench[3 + i] = self.torque_command[i]
-        for k in range(6):
-            if not abs(self.wanted_wrench[k]) < LARGEST:
+        self.wanted = Wrench(force=to_body(self.attitude, self.force_command), torque=self.torque_command)
+        for k in range(3):
+            if not (abs(self.wanted.force[k]) < LARGEST and abs(self.wanted.torque[k]) < LARGEST):
                 finite = False
         return finite
 
@@ -101,15 +97,14 @@ class JetAllocation(Block, interface=True):
         """Put the waiting thrusts out if they are due at ``time`` (s)."""
         if self.waiting and time >= self.due_time - ROUNDING:
             self.waiting = False
-            wrench = [0.0] * 6
-            jet_wrench(self.strength, self.new_thrust, wrench)
+            wrench = jet_wrench(self.strength, self.new_thrust)
             for p in range(JETS):
                 self.jet_thrust[p] = self.new_thrust[p]
-            self.allocated_force = vector(*wrench[0:3])
-            self.allocated_torque = vector(*wrench[3:6])
+            self.allocated_force = wrench.force
+            self.allocated_torque = wrench.torque
 
     def initialize(self) -> None:
-        jet_strengths(self.jet_tilt, self.jet_azimuth, self.jet_arm, self.strength)
+        self.strength = jet_strength(self.jet_tilt, self.jet_azimuth, self.jet_arm)
         self.take(self.start_time)
         self.put_out(self.start_time)
 

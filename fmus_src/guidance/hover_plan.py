@@ -12,14 +12,15 @@ from ..mathlib.hover.programme import programme
 from ..mathlib.hover.shape import HoverProgramme, HoverShape, pitch, shape_of, without_programme
 from ..mathlib.hover.solution import NONE, VERTICAL
 from ..mathlib.hover.transfer_polynomial import (
-    TRANSFER,
+    Transfer,
     TransferLimits,
     capture,
-    derivative,
     expense,
     slow_duration,
     thrust_along,
     transfer,
+    transfer_position,
+    transfer_velocity,
 )
 from ..mathlib.lunar.gravity import STANDARD_GRAVITY, from_centre, vertical_at
 from ..mathlib.vectors import Vector3, add_along, clip, cross, dot, is_finite, norm, smallest_component, vector
@@ -99,7 +100,7 @@ class HoverPlan(Block, interface=True):
     duration = State(0.0, frozen=True, unit="s", description="of the plan")
     vehicle = State(HoverVehicle)
     shape = State(HoverShape)
-    coefficients = State([0.0] * TRANSFER, frozen=True, unit="m", description="of the polynomial, axis by axis")
+    transfer = State(Transfer)
 
     def gravity_at(self, position: Vector3) -> float:
         """Size of gravity (m/s2) at a position (m)."""
@@ -198,8 +199,8 @@ class HoverPlan(Block, interface=True):
             longer = abs(height)
         duration = slow_duration(longer, speed, acceleration)
         rest = vector(0.0, 0.0, 0.0)
-        transfer(self.origin, rest, rest, rest, self.goal, duration, self.coefficients)
-        spent = expense(self.coefficients, duration, self.lift(), self.mass, self.limits(), math.inf)
+        self.transfer = transfer(self.origin, rest, rest, rest, self.goal, duration)
+        spent = expense(self.transfer, duration, self.lift(), self.mass, self.limits(), math.inf)
         self.take_polynomial(duration, spent.impulse)
 
     def plan_capture(self, cycle: float) -> None:
@@ -215,9 +216,9 @@ class HoverPlan(Block, interface=True):
         pull = force * self.attitude - self.lift()
         jerk = force * cross(self.angular_rate, self.attitude) + force * force / exhaust * self.attitude
         limits = self.limits()
-        best = capture(
-            self.origin, self.velocity, pull, jerk, self.goal, self.lift(), self.mass, limits, self.coefficients
-        )
+        best = capture(self.origin, self.velocity, pull, jerk, self.goal, self.lift(), self.mass, limits)
+        if best.duration > 0.0:
+            self.transfer = best.transfer
         self.take_polynomial(best.duration, best.expense.impulse)
         if self.status == HoverStatus.GOOD and best.expense.excess > 0.0:
             self.status = HoverStatus.BEYOND_LIMITS
@@ -251,8 +252,8 @@ class HoverPlan(Block, interface=True):
         if t >= self.duration:
             return Translation(position=self.goal, velocity=rest)
         if self.plan_kind == POLYNOMIAL:
-            place = derivative(self.coefficients, 0, t, self.duration)
-            return Translation(position=place, velocity=derivative(self.coefficients, 1, t, self.duration))
+            place = transfer_position(self.transfer, t, self.duration)
+            return Translation(position=place, velocity=transfer_velocity(self.transfer, t, self.duration))
         s, moved = motion(self.shape, self.vehicle, t)
         if not moved:
             return Translation(position=self.goal, velocity=rest)
@@ -265,7 +266,7 @@ class HoverPlan(Block, interface=True):
         if t >= self.duration:
             return TurningDirection(direction=self.up, rate=rest)
         if self.plan_kind == POLYNOMIAL:
-            thrust = thrust_along(self.coefficients, t, self.duration, self.lift())
+            thrust = thrust_along(self.transfer, t, self.duration, self.lift())
             return TurningDirection(direction=thrust.direction, rate=thrust.rate)
         turn = pitch(self.shape, self.vehicle.swing, t)
         sine = sin(turn.deviation)
@@ -282,7 +283,7 @@ class HoverPlan(Block, interface=True):
         """Integral (m/s) of the plan's thrust over mass between two times (s) after its start, within its duration."""
         if self.plan_kind != POLYNOMIAL:
             return thrust_impulse(self.shape, self.vehicle, begin, end)
-        first = thrust_along(self.coefficients, begin, self.duration, self.lift())
-        middle = thrust_along(self.coefficients, 0.5 * (begin + end), self.duration, self.lift())
-        last = thrust_along(self.coefficients, end, self.duration, self.lift())
+        first = thrust_along(self.transfer, begin, self.duration, self.lift())
+        middle = thrust_along(self.transfer, 0.5 * (begin + end), self.duration, self.lift())
+        last = thrust_along(self.transfer, end, self.duration, self.lift())
         return (end - begin) * (first.size + 4.0 * middle.size + last.size) / 6.0

@@ -6,7 +6,7 @@ from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, landing, robot, sampling
 from ..kernel.records import Field, Record
 from ..mathlib.actuators.gyros import ISOTROPIC_ANGLES, cluster_momentum
-from ..mathlib.actuators.jets import JETS, jet_strengths, jet_wrench
+from ..mathlib.actuators.jets import JETS, JetStrength, jet_strength, jet_wrench
 from ..mathlib.attitude.quaternion import multiply, normalise, quaternion, to_body, to_reference
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import Vector3, Vector4, clip, vector
@@ -70,13 +70,13 @@ class FreeFlyingRobot(Block):
     impulse = Output(0.0, unit="N.s", description="thrusts of all jets, summed and integrated: the propellant")
     generator = State([0.0] * 6, frozen=True, description="random number generator")
     thrust_factor = State([1.0] * 8, unit="1", description="thrust of each jet over the commanded one")
-    strength = State([0.0] * 6, description="force (N/N) and torque (N.m/N) of the jets, by rows of signs")
+    strength = State(JetStrength)
     angular_momentum = State(
         [0.0, 0.0, 0.0], unit="N.m.s", frame="inertial", description="G of body and gyros about the centre of mass"
     )
 
     def initialize(self) -> None:
-        jet_strengths(self.jet_tilt, self.jet_azimuth, self.jet_arm, self.strength)
+        self.strength = jet_strength(self.jet_tilt, self.jet_azimuth, self.jet_arm)
         seed_streams(self.generator, self.seed, self.stream)
         for p in range(JETS):
             error = normal(self.generator)
@@ -146,14 +146,13 @@ class FreeFlyingRobot(Block):
 
     def step(self, t: float, h: float) -> None:
         thrust = [0.0] * 8
-        wrench = [0.0] * 6
         total = 0.0
         for p in range(JETS):
             thrust[p] = self.thrust_factor[p] * clip(self.jet_thrust[p], 0.0, self.maximum_thrust)
             total = total + thrust[p]
-        jet_wrench(self.strength, thrust, wrench)
-        self.jet_force = vector(*wrench[0:3])
-        self.jet_torque = vector(*wrench[3:6])
+        wrench = jet_wrench(self.strength, thrust)
+        self.jet_force = wrench.force
+        self.jet_torque = wrench.torque
         pieces = int(h / self.internal_step - 1e-9) + 1
         piece = h / pieces
         for _ in range(pieces):

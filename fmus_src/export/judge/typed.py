@@ -30,7 +30,7 @@ from .statements import ANY_VECTOR, StatementTypes
 
 LIST, FUNCTION, ANY = OTHERS = "list", "function", "any value"
 ANNOTATIONS: dict[str, Value | str] = {"float": FLOAT, "int": INT, "bool": BOOL, "Vector": ANY_VECTOR}
-ANNOTATIONS |= {"list": LIST, "Derivatives": FUNCTION, "Any": ANY}
+ANNOTATIONS |= {"list": LIST, "tuple": LIST, "Derivatives": FUNCTION, "Any": ANY}
 ANNOTATIONS |= {kind.__name__: Vector(size) for size, kind in VECTORS.items()}
 
 
@@ -120,9 +120,7 @@ class _Finder:
         for argument, given in zip(names, types, strict=True):
             declared = _annotation(source, argument.annotation)
             if declared is None:
-                detail = (
-                    f"argument {argument.arg} is declared as none of float, int, bool, Vector3 (or 2, 4), list, record"
-                )
+                detail = f"argument {argument.arg} is none of float, int, bool, Vector3 (or 2, 4), list, tuple, record"
                 self.kernel.report(source, argument, "signature", name=source.name, detail=detail)
                 return None
             if not _fits(given, declared):

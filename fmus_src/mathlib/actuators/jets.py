@@ -2,80 +2,104 @@
 
 Jet p stands at rho_p = S_p (bx, by, bz), its nozzle points along e_p = S_p (ca cb, ca sb, sa), with the
 signs S_p of its corner, a the tilt and b the azimuth; a thrust p_p >= 0 gives the force -p_p e_p and the
-torque -p_p rho_p x e_p. So [P; M] = B p, and row k of B is strength[k] times row k of WALSH: the rows are
-orthogonal, which makes the pseudo-inverse WALSH'/(8 strength) and the null space the two rows left over.
-Wrenches are [force (N), torque (N.m)] in body axes. Derivations: docs/systems/robot_rendezvous.md.
+torque -p_p rho_p x e_p. So [P; M] = B p, and each row of B is a strength times one of the rows of signs X, Y, Z, YZ,
+ZX and XY: they are orthogonal, which makes the pseudo-inverse signs'/(8 strength). The null space is what is
+orthogonal to them: ones, and XYZ. Derivations: docs/systems/robot_rendezvous.md.
 Source: Somov, Butyrin, Somov and Somova (docs/systems/robot_rendezvous.md), whose D p = t has the opposite sign.
 """
 
 import math
 
 from ...kernel.functions import cos, sin
-from ..vectors import Vector3, vector
+from ...kernel.records import Field, Record
+from ..vectors import Vector3, cross, vector
 
 JETS = 8
 NEGLIGIBLE = 1e-12  # of the strongest: a strength below it counts as none
 
-# Signs of corners 1 to 8: x, y, z; then yz, zx, xy of the torques; then 1 and xyz, which give no wrench.
-WALSH = (
-    *(1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0),
-    *(1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0, -1.0),
-    *(1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0),
-    *(1.0, -1.0, -1.0, 1.0, 1.0, -1.0, -1.0, 1.0),
-    *(1.0, -1.0, 1.0, -1.0, -1.0, 1.0, -1.0, 1.0),
-    *(1.0, 1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0),
-    *(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
-    *(1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0),
-)
+# Signs of corners 1 to 8: of forces, of torques, and of all three axes, which give no wrench.
+X = (1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0)
+Y = (1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0, -1.0)
+Z = (1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0)
+YZ = (1.0, -1.0, -1.0, 1.0, 1.0, -1.0, -1.0, 1.0)
+ZX = (1.0, -1.0, 1.0, -1.0, -1.0, 1.0, -1.0, 1.0)
+XY = (1.0, 1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0)
+XYZ = (1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0)
 
 
-def jet_strengths(tilt: float, azimuth: float, arm: Vector3, strength: list) -> None:
-    """strength[6] = what 1 N with the signs of a row of WALSH gives: force (-) and torque (m), per jet.
+class Wrench(Record):
+    """Force and torque."""
 
-    Angles in rad, arm = (bx, by, bz) in m. What a geometry cannot give is 0.
-    """
-    x = cos(tilt) * cos(azimuth)
-    y = cos(tilt) * sin(azimuth)
-    z = sin(tilt)
-    strength[0] = -x
-    strength[1] = -y
-    strength[2] = -z
-    strength[3] = -(arm.y * z - arm.z * y)
-    strength[4] = -(arm.z * x - arm.x * z)
-    strength[5] = -(arm.x * y - arm.y * x)
+    force = Field(Vector3, unit="N", frame="body", description="force")
+    torque = Field(Vector3, unit="N.m", frame="body", description="torque")
+
+
+class JetStrength(Record):
+    """What 1 N of every jet, with the signs of a row, gives along an axis, over the number of jets; 0: nothing."""
+
+    force = Field(Vector3, unit="1", frame="body", description="force over thrust, signs X, Y, Z")
+    torque = Field(Vector3, unit="m", frame="body", description="torque over thrust, signs YZ, ZX, XY")
+
+
+def jet_strength(tilt: float, azimuth: float, arm: Vector3) -> JetStrength:
+    """Strength of jets with these angles (rad) and arm = (bx, by, bz) (m)."""
+    axis = vector(cos(tilt) * cos(azimuth), cos(tilt) * sin(azimuth), sin(tilt))
     reach = abs(arm.x) + abs(arm.y) + abs(arm.z)
-    for k in range(3):
-        if abs(strength[k]) < NEGLIGIBLE:
-            strength[k] = 0.0
-        if abs(strength[k + 3]) < NEGLIGIBLE * reach:
-            strength[k + 3] = 0.0
+    return JetStrength(
+        force=without_negligible(-axis, NEGLIGIBLE),
+        torque=without_negligible(-cross(arm, axis), NEGLIGIBLE * reach),
+    )
 
 
-def jet_wrench(strength: list, thrust: list, wrench: list) -> None:
-    """wrench = B thrust."""
-    for k in range(6):
-        total = 0.0
-        for p in range(JETS):
-            total = total + WALSH[JETS * k + p] * thrust[p]
-        wrench[k] = strength[k] * total
+def without_negligible(v: Vector3, limit: float) -> Vector3:
+    """The vector with 0 for components below ``limit``."""
+    return vector(
+        0.0 if abs(v.x) < limit else v.x,
+        0.0 if abs(v.y) < limit else v.y,
+        0.0 if abs(v.z) < limit else v.z,
+    )
 
 
-def pseudo_inverse(strength: list, wrench: list, thrust: list) -> bool:
-    """thrust = the shortest solution of B thrust = wrench, negative thrusts included.
+def signed_sum(signs: tuple, thrust: list) -> float:
+    """Sum of thrusts with the signs of a row."""
+    total = 0.0
+    for p in range(JETS):
+        total = total + signs[p] * thrust[p]
+    return total
+
+
+def jet_wrench(strength: JetStrength, thrust: list) -> Wrench:
+    """B thrust."""
+    return Wrench(
+        force=strength.force * vector(signed_sum(X, thrust), signed_sum(Y, thrust), signed_sum(Z, thrust)),
+        torque=strength.torque * vector(signed_sum(YZ, thrust), signed_sum(ZX, thrust), signed_sum(XY, thrust)),
+    )
+
+
+def add_component(signs: tuple, strength: float, wanted: float, thrust: list) -> bool:
+    """thrust + what gives a wanted force or torque along an axis; whether the geometry can give it."""
+    if strength == 0.0:
+        return wanted == 0.0
+    fraction = wanted / (8.0 * strength)
+    for p in range(JETS):
+        thrust[p] = thrust[p] + signs[p] * fraction
+    return True
+
+
+def pseudo_inverse(strength: JetStrength, wanted: Wrench, thrust: list) -> bool:
+    """thrust = the shortest solution of B thrust = wanted, negative thrusts included.
 
     Returns whether the geometry can give the wrench; a component that it cannot give is left out.
     """
-    possible = True
     for p in range(JETS):
         thrust[p] = 0.0
-    for k in range(6):
-        if strength[k] != 0.0:
-            fraction = wrench[k] / (8.0 * strength[k])
-            for p in range(JETS):
-                thrust[p] = thrust[p] + WALSH[JETS * k + p] * fraction
-        elif wrench[k] != 0.0:
-            possible = False
-    return possible
+    fx = add_component(X, strength.force.x, wanted.force.x, thrust)
+    fy = add_component(Y, strength.force.y, wanted.force.y, thrust)
+    fz = add_component(Z, strength.force.z, wanted.force.z, thrust)
+    mx = add_component(YZ, strength.torque.x, wanted.torque.x, thrust)
+    my = add_component(ZX, strength.torque.y, wanted.torque.y, thrust)
+    mz = add_component(XY, strength.torque.z, wanted.torque.z, thrust)
+    return fx and fy and fz and mx and my and mz
 
 
 def shift_and_scale(thrust: list, maximum: float) -> float:
@@ -117,7 +141,7 @@ def least_propellant(thrust: list, maximum: float) -> float:
     d = -math.inf
     for i in range(4):
         s = thrust[i] + thrust[7 - i]
-        u = WALSH[7 * JETS + i] * (thrust[i] - thrust[7 - i])
+        u = XYZ[i] * (thrust[i] - thrust[7 - i])
         if u - s > a:
             a = u - s
         if -u - s > q:
@@ -136,7 +160,7 @@ def least_propellant(thrust: list, maximum: float) -> float:
     shift = 0.5 * (q - a)
     for i in range(4):
         s = thrust[i] + thrust[7 - i] + lift
-        difference = thrust[i] - thrust[7 - i] + WALSH[7 * JETS + i] * shift
+        difference = thrust[i] - thrust[7 - i] + XYZ[i] * shift
         thrust[i] = within(scale * 0.5 * (s + difference), maximum)
         thrust[7 - i] = within(scale * 0.5 * (s - difference), maximum)
     return scale
@@ -151,7 +175,7 @@ def within(thrust: float, maximum: float) -> float:
     return thrust
 
 
-def nearest_levels(strength: list, force: Vector3, quantum: float, highest: float) -> tuple[Vector3, float]:
+def nearest_levels(strength: Vector3, force: Vector3, quantum: float, highest: float) -> tuple[Vector3, float]:
     """The attainable neighbour, nearest to a force (N), on the lattice of forces without torque.
 
     The lattice is 2 quantum strength[i] n[i] with integers n all even or all odd; a point is attainable
@@ -201,16 +225,13 @@ def thrust_of_levels(levels: Vector3, quantum: float, thrust: list) -> None:
     minimum = math.inf
     u = [0.0] * 4
     for i in range(4):
-        total = 0.0
-        for k in range(3):
-            total = total + WALSH[JETS * k + i] * levels[k]
-        u[i] = 0.5 * WALSH[7 * JETS + i] * total
+        u[i] = 0.5 * XYZ[i] * (X[i] * levels.x + Y[i] * levels.y + Z[i] * levels.z)
         if u[i] > largest:
             largest = u[i]
         if u[i] < minimum:
             minimum = u[i]
     lift = 0.5 * (largest - minimum)
     for i in range(4):
-        d = WALSH[7 * JETS + i] * (u[i] - 0.5 * (largest + minimum))
+        d = XYZ[i] * (u[i] - 0.5 * (largest + minimum))
         thrust[i] = quantum * (0.5 * (lift + d))
         thrust[7 - i] = quantum * (0.5 * (lift - d))

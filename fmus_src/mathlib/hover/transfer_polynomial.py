@@ -1,8 +1,8 @@
 """Transfers to rest by polynomials of degree 7, and the thrust that flies them. Kernel functions.
 
-A transfer is a list of 24 coefficients (m), axis by axis, of the position over s = t/duration; it is meant from 0 to
-duration. Its thrust over mass is the acceleration less gravity: f = r'' + lift, with lift = -gravity (m/s2), constant
-over the transfer. Frame: any that does not rotate. Equations: docs/systems/hover_transfer.md.
+A transfer is the position as a polynomial in s = t/duration; it is meant from 0 to duration. Its thrust
+over mass is the acceleration less gravity: f = r'' + lift, with lift = -gravity (m/s2), constant over the transfer.
+Frame: any that does not rotate. Equations: docs/systems/hover_transfer.md.
 """
 
 import math
@@ -11,7 +11,6 @@ from ...kernel.functions import exp
 from ...kernel.records import Field, Record
 from ..vectors import Vector3, clip, cross, dot, norm, vector
 
-TRANSFER = 24
 SAMPLES = 41  # of a transfer, where its limits are looked at
 
 # Largest speed and acceleration from rest to rest over a way D, in D/T and D/T^2: r' = 140 s^3 (1 - s)^3 D/T.
@@ -24,6 +23,19 @@ FIRST = 8.0  # s
 GROWTH = 1.02
 TRIALS = 150
 EXCESS_PRICE = 1000.0  # m/s for a limit exceeded by all of itself
+
+
+class Transfer(Record):
+    """Position c0 + c1 s + ... + c7 s^7."""
+
+    c0 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^0: where it starts")
+    c1 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^1")
+    c2 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^2")
+    c3 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^3")
+    c4 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^4")
+    c5 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^5")
+    c6 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^6")
+    c7 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^7")
 
 
 class TransferLimits(Record):
@@ -56,54 +68,73 @@ class Capture(Record):
 
     duration = Field(unit="s", description="duration; 0: there is no transfer that is finite")
     expense = Field(Expense, description="what it takes")
+    transfer = Field(Transfer, description="its path")
 
 
 def transfer(
-    place: Vector3, speed: Vector3, acceleration: Vector3, jerk: Vector3, goal: Vector3, duration: float, c: list
-) -> None:
-    """c[24] = the transfer from place (m), speed, acceleration and jerk to rest at goal, without jerk there."""
-    for i in range(3):
-        p = place[i]
-        v = speed[i] * duration
-        a = 0.5 * acceleration[i] * duration * duration
-        j = jerk[i] * duration * duration * duration / 6.0
-        e0 = goal[i] - p - v - a - j
-        e1 = -v - 2.0 * a - 3.0 * j
-        e2 = -2.0 * a - 6.0 * j
-        e3 = -6.0 * j
-        c[8 * i] = p
-        c[8 * i + 1] = v
-        c[8 * i + 2] = a
-        c[8 * i + 3] = j
-        c[8 * i + 4] = 35.0 * e0 - 15.0 * e1 + 2.5 * e2 - e3 / 6.0
-        c[8 * i + 5] = -84.0 * e0 + 39.0 * e1 - 7.0 * e2 + 0.5 * e3
-        c[8 * i + 6] = 70.0 * e0 - 34.0 * e1 + 6.5 * e2 - 0.5 * e3
-        c[8 * i + 7] = -20.0 * e0 + 10.0 * e1 - 2.0 * e2 + e3 / 6.0
+    position: Vector3, speed: Vector3, acceleration: Vector3, jerk: Vector3, goal: Vector3, duration: float
+) -> Transfer:
+    """The transfer from position (m), speed, acceleration and jerk to rest at goal, without jerk there."""
+    v = speed * duration
+    a = 0.5 * acceleration * duration * duration
+    j = jerk * duration * duration * duration / 6.0
+    # what the first four terms lack at the end, and its derivatives by s
+    e0 = goal - position - v - a - j
+    e1 = -v - 2.0 * a - 3.0 * j
+    e2 = -2.0 * a - 6.0 * j
+    e3 = -6.0 * j
+    return Transfer(
+        c0=position,
+        c1=v,
+        c2=a,
+        c3=j,
+        c4=35.0 * e0 - 15.0 * e1 + 2.5 * e2 - e3 / 6.0,
+        c5=-84.0 * e0 + 39.0 * e1 - 7.0 * e2 + 0.5 * e3,
+        c6=70.0 * e0 - 34.0 * e1 + 6.5 * e2 - 0.5 * e3,
+        c7=-20.0 * e0 + 10.0 * e1 - 2.0 * e2 + e3 / 6.0,
+    )
 
 
-def derivative(c: list, order: int, t: float, duration: float) -> Vector3:
-    """Position (order 0; m) or its derivative of that order (m/s^order) at the time t (s), duration > 0."""
+def transfer_position(c: Transfer, t: float, duration: float) -> Vector3:
+    """Position (m) at the time t (s)."""
     s = t / duration
-    part = [0.0] * 3
-    for n in range(8 - order):
-        k = 7 - n
-        factor = 1.0
-        for m in range(order):
-            factor = factor * float(k - m)
-        for i in range(3):
-            part[i] = part[i] * s + factor * c[8 * i + k]
-    for _ in range(order):
-        for i in range(3):
-            part[i] = part[i] / duration
-    return vector(*part)
+    return ((((((c.c7 * s + c.c6) * s + c.c5) * s + c.c4) * s + c.c3) * s + c.c2) * s + c.c1) * s + c.c0
 
 
-def thrust_along(c: list, t: float, duration: float, lift: Vector3) -> ThrustAlong:
+def transfer_velocity(c: Transfer, t: float, duration: float) -> Vector3:
+    """Velocity (m/s)."""
+    s = t / duration
+    high = ((7.0 * c.c7 * s + 6.0 * c.c6) * s + 5.0 * c.c5) * s + 4.0 * c.c4
+    return (((high * s + 3.0 * c.c3) * s + 2.0 * c.c2) * s + c.c1) / duration
+
+
+def transfer_acceleration(c: Transfer, t: float, duration: float) -> Vector3:
+    """Acceleration (m/s2)."""
+    s = t / duration
+    high = ((42.0 * c.c7 * s + 30.0 * c.c6) * s + 20.0 * c.c5) * s + 12.0 * c.c4
+    return ((high * s + 6.0 * c.c3) * s + 2.0 * c.c2) / duration / duration
+
+
+def transfer_jerk(c: Transfer, t: float, duration: float) -> Vector3:
+    """Jerk (m/s3)."""
+    s = t / duration
+    high = ((210.0 * c.c7 * s + 120.0 * c.c6) * s + 60.0 * c.c5) * s + 24.0 * c.c4
+    return (high * s + 6.0 * c.c3) / duration / duration / duration
+
+
+def transfer_snap(c: Transfer, t: float, duration: float) -> Vector3:
+    """Derivative of the jerk (m/s4)."""
+    s = t / duration
+    high = ((840.0 * c.c7 * s + 360.0 * c.c6) * s + 120.0 * c.c5) * s + 24.0 * c.c4
+    return high / duration / duration / duration / duration
+
+
+def thrust_along(c: Transfer, t: float, duration: float, lift: Vector3) -> ThrustAlong:
     """Thrust at the time t (s).
 
     Where there is no thrust, the direction is that of lift, at rest.
     """
-    f = derivative(c, 2, t, duration) + lift
+    f = transfer_acceleration(c, t, duration) + lift
     size = norm(f)
     if size == 0.0:
         rest = vector(0.0, 0.0, 0.0)
@@ -111,8 +142,8 @@ def thrust_along(c: list, t: float, duration: float, lift: Vector3) -> ThrustAlo
         if weight == 0.0:
             return ThrustAlong(size=0.0, direction=vector(0.0, 0.0, 1.0), rate=rest, bend=rest)
         return ThrustAlong(size=0.0, direction=lift / weight, rate=rest, bend=rest)
-    jerk = derivative(c, 3, t, duration)
-    snap = derivative(c, 4, t, duration)
+    jerk = transfer_jerk(c, t, duration)
+    snap = transfer_snap(c, t, duration)
     d = f / size
     rate = (jerk - dot(jerk, d) * d) / size
     bend = (snap - (dot(d, snap) + dot(rate, jerk)) * d - 2.0 * dot(jerk, d) * rate) / size
@@ -130,7 +161,9 @@ def slow_duration(way: float, speed: float, acceleration: float) -> float:
     return time
 
 
-def expense(c: list, duration: float, lift: Vector3, mass: float, limits: TransferLimits, bearable: float) -> Expense:
+def expense(
+    c: Transfer, duration: float, lift: Vector3, mass: float, limits: TransferLimits, bearable: float
+) -> Expense:
     """What a transfer takes, as far as it is not dearer than ``bearable`` (m/s).
 
     Angular acceleration counts but at the start, which is given. By the trapezoidal rule, mass (kg) from that at the
@@ -161,7 +194,7 @@ def expense(c: list, duration: float, lift: Vector3, mass: float, limits: Transf
 
 
 def capture(
-    place: Vector3,
+    position: Vector3,
     speed: Vector3,
     acceleration: Vector3,
     jerk: Vector3,
@@ -169,21 +202,18 @@ def capture(
     lift: Vector3,
     mass: float,
     limits: TransferLimits,
-    c: list,
 ) -> Capture:
-    """c[24] = the transfer from flight to rest at goal that takes least thrust, with a price on limits exceeded."""
-    trial = [0.0] * TRANSFER
-    best = Capture(duration=0.0, expense=Expense(impulse=0.0, excess=0.0))
+    """The transfer from flight to rest at goal that takes least thrust, with a price on limits exceeded."""
+    quickest = transfer(position, speed, acceleration, jerk, goal, FIRST)
+    best = Capture(duration=0.0, expense=Expense(impulse=0.0, excess=0.0), transfer=quickest)
     minimum = math.inf
     duration = FIRST
     for _ in range(TRIALS):
-        transfer(place, speed, acceleration, jerk, goal, duration, trial)
+        trial = transfer(position, speed, acceleration, jerk, goal, duration)
         spent = expense(trial, duration, lift, mass, limits, minimum)
         price = spent.impulse + EXCESS_PRICE * spent.excess
         if price < minimum:
             minimum = price
-            best = Capture(duration=duration, expense=spent)
-            for i in range(TRANSFER):
-                c[i] = trial[i]
+            best = Capture(duration=duration, expense=spent, transfer=trial)
         duration = GROWTH * duration
     return best

@@ -223,3 +223,11 @@ def test_changes_through_calls_are_seen(tmp_path: Path) -> None:
     block, _ = block_of(tmp_path, "clear(self.v)", functions)
     assert check(block) == []
     refusal(tmp_path, RULES["read-only"], "clear(self.u)  # here", functions)
+
+
+def test_a_row_of_constants_is_read_and_never_changed(tmp_path: Path) -> None:
+    functions = "ROW = (1.0, 2.0)\n\n\ndef last(values: tuple) -> float:\n    return values[1]\n\n\n"
+    block, _ = block_of(tmp_path, "self.y = last(ROW)", functions)
+    assert check(block) == []
+    functions += "def clear(values: list) -> None:\n    values[0] = 0.0\n"
+    refusal(tmp_path, RULES["read-only"], "clear(ROW)  # here", functions)

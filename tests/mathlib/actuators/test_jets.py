@@ -19,8 +19,15 @@ from scipy.linalg import null_space
 from scipy.optimize import linprog
 
 from perilune.fmus_src.mathlib.actuators.jets import (
-    WALSH,
-    jet_strengths,
+    XY,
+    XYZ,
+    YZ,
+    ZX,
+    Wrench,
+    X,
+    Y,
+    Z,
+    jet_strength,
     jet_wrench,
     least_propellant,
     nearest_levels,
@@ -49,18 +56,25 @@ def published_matrix(tilt=TILT, azimuth=AZIMUTH, arm=ARM):
 
 
 B = published_matrix()
+ROWS = np.array([X, Y, Z, YZ, ZX, XY])
+NULL = np.array([[1.0] * 8, XYZ])
 
 
-def strengths(tilt=TILT, azimuth=AZIMUTH, arm=ARM):
-    actual = [0.0] * 6
-    jet_strengths(tilt, azimuth, vector(*arm), actual)
-    return actual
+def strength_of(tilt=TILT, azimuth=AZIMUTH, arm=ARM):
+    return jet_strength(tilt, azimuth, vector(*arm))
+
+
+def wrench_of(elements):
+    return Wrench.of_elements([float(x) for x in elements])
+
+
+FORCE = np.array(strength_of().force)
 
 
 def shared(wrench, rule, maximum=MAXIMUM):
     """Thrusts and scale that a rule gives for a wrench."""
     thrust = [0.0] * 8
-    assert pseudo_inverse(strengths(), list(wrench), thrust)
+    assert pseudo_inverse(strength_of(), wrench_of(wrench), thrust)
     scale = rule(thrust, maximum)
     return np.array(thrust), scale
 
@@ -96,13 +110,12 @@ def attainable_wrenches(count):
 
 
 def test_matrix_is_that_of_the_published_geometry():
-    wrench = [0.0] * 6
     for p in range(8):
-        jet_wrench(strengths(), np.eye(8)[p].tolist(), wrench)
-        assert wrench == pytest.approx(B[:, p], abs=1e-15)
+        wrench = jet_wrench(strength_of(), np.eye(8)[p].tolist())
+        assert wrench.elements() == pytest.approx(B[:, p], abs=1e-15)
     for tilt, azimuth, arm in [(0.2, 1.1, (0.3, 2.0, 0.9)), (-0.4, 0.3, (1.0, 1.0, 2.0))]:
-        actual = [strengths(tilt, azimuth, arm)[k] * np.array(WALSH[8 * k : 8 * k + 8]) for k in range(6)]
-        assert np.array(actual) == pytest.approx(published_matrix(tilt, azimuth, arm), abs=1e-15)
+        actual = np.array(strength_of(tilt, azimuth, arm).elements())[:, None] * ROWS
+        assert actual == pytest.approx(published_matrix(tilt, azimuth, arm), abs=1e-15)
 
 
 def test_a_jet_at_a_corner_pushes_towards_the_opposite_one():
@@ -113,11 +126,10 @@ def test_a_jet_at_a_corner_pushes_towards_the_opposite_one():
 
 def test_rank_and_null_space():
     assert np.linalg.matrix_rank(B) == 6
-    walsh = np.array(WALSH).reshape(8, 8)
+    walsh = np.vstack([ROWS, NULL])
     assert walsh @ walsh.T == pytest.approx(8.0 * np.eye(8), abs=0.0)
-    assert np.abs(B @ walsh[6:].T).max() < 1e-15
-    assert walsh[6:].tolist() == [[1.0] * 8, [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0]]
-    assert np.linalg.matrix_rank(np.hstack([null_space(B), walsh[6:].T]), tol=1e-9) == 2
+    assert np.abs(B @ NULL.T).max() < 1e-15
+    assert np.linalg.matrix_rank(np.hstack([null_space(B), NULL.T]), tol=1e-9) == 2
 
 
 def test_largest_forces_and_torques():
@@ -134,19 +146,18 @@ def test_largest_forces_and_torques():
 def test_pseudo_inverse_is_that_of_numpy(seed):
     wrench = np.random.default_rng(seed).normal(size=6)
     thrust = [0.0] * 8
-    assert pseudo_inverse(strengths(), wrench.tolist(), thrust)
+    assert pseudo_inverse(strength_of(), wrench_of(wrench), thrust)
     assert thrust == pytest.approx(np.linalg.pinv(B) @ wrench, abs=1e-13)
 
 
 def test_what_the_geometry_cannot_give_is_left_out_and_told():
     """Equal arms and angles: every jet's line goes through the centre, and there is no torque."""
-    strength = strengths(math.atan(math.sqrt(0.5)), math.radians(45.0), (1.0, 1.0, 1.0))
-    assert strength[3:] == [0.0, 0.0, 0.0]
-    thrust, wrench = [0.0] * 8, [0.0] * 6
-    assert pseudo_inverse(strength, [0.1, 0.2, -0.3, 0.0, 0.0, 0.0], thrust)
-    assert not pseudo_inverse(strength, [0.1, 0.2, -0.3, 0.0, 0.01, 0.0], thrust)
-    jet_wrench(strength, thrust, wrench)
-    assert wrench == pytest.approx([0.1, 0.2, -0.3, 0.0, 0.0, 0.0], abs=1e-15)
+    strength = strength_of(math.atan(math.sqrt(0.5)), math.radians(45.0), (1.0, 1.0, 1.0))
+    assert strength.torque == (0.0, 0.0, 0.0)
+    thrust = [0.0] * 8
+    assert pseudo_inverse(strength, wrench_of([0.1, 0.2, -0.3, 0.0, 0.0, 0.0]), thrust)
+    assert not pseudo_inverse(strength, wrench_of([0.1, 0.2, -0.3, 0.0, 0.01, 0.0]), thrust)
+    assert jet_wrench(strength, thrust).elements() == pytest.approx([0.1, 0.2, -0.3, 0.0, 0.0, 0.0], abs=1e-15)
 
 
 def test_least_propellant_is_the_linear_programme_over_the_attainable_set():
@@ -192,7 +203,7 @@ def test_beyond_the_attainable_set_the_wrench_is_scaled_to_its_surface(seed, siz
 def test_a_force_alone_is_attainable_where_two_axes_say_so(seed):
     """|Fi| + |Fj| <= 2 maximum |strength| for each two axes, in units of the strengths: 1.155 N."""
     force = np.random.default_rng(seed).normal(size=3)
-    levels = np.sort(np.abs(force / strengths()[:3]))
+    levels = np.sort(np.abs(force / FORCE))
     limit = 4.0 * MAXIMUM / (levels[1] + levels[2])
     inside, scale = shared([*(force * limit * (1.0 - 1e-9)), 0.0, 0.0, 0.0], least_propellant)
     assert scale == 1.0
@@ -223,7 +234,7 @@ def test_rule_of_the_paper_is_exact_exactly_where_its_condition_says():
 def test_rule_of_the_paper_for_a_force_alone(seed):
     """Exact while the sum over the axes, in units of the strengths, is 4 jets' worth of maximum: 1.154 N."""
     force = np.random.default_rng(seed).normal(size=3)
-    limit = 4.0 * MAXIMUM / np.abs(force / strengths()[:3]).sum()
+    limit = 4.0 * MAXIMUM / np.abs(force / FORCE).sum()
     assert shared([*(force * limit * (1.0 - 1e-9)), 0.0, 0.0, 0.0], shift_and_scale)[1] == 1.0
     assert shared([*(force * limit * 1.25), 0.0, 0.0, 0.0], shift_and_scale)[1] == pytest.approx(0.8, rel=1e-12)
 
@@ -239,9 +250,8 @@ def test_no_maximum_no_thrust_and_nothing_wanted():
 def torque_free_levels(highest):
     """All levels of eight jets up to ``highest`` that give no torque, and the sums of their signs along the axes."""
     levels = np.array(list(itertools.product(range(highest + 1), repeat=8)))
-    walsh = np.array(WALSH).reshape(8, 8)
-    free = levels[(levels @ walsh[3:6].T == 0).all(axis=1)]
-    return free, (free @ walsh[:3].T).astype(int)
+    free = levels[(levels @ ROWS[3:].T == 0).all(axis=1)]
+    return free, (free @ ROWS[:3].T).astype(int)
 
 
 def test_lattice_of_forces_without_torque():
@@ -269,7 +279,7 @@ def test_lattice_of_forces_without_torque():
         assert max(levels) <= highest
         assert sum(levels) == minimum[n]
         wrench = B @ thrust
-        assert wrench[:3] == pytest.approx(0.1 * np.array(n) * strengths()[:3], abs=1e-15)
+        assert wrench[:3] == pytest.approx(0.1 * np.array(n) * FORCE, abs=1e-15)
         assert wrench[3:] == pytest.approx([0.0, 0.0, 0.0], abs=1e-16)
 
 
@@ -286,12 +296,12 @@ def lattice(highest):
 def test_nearest_levels_are_the_nearest_of_all_attainable_ones(seed, size):
     """Against a search over the whole lattice; at the surface neighbours only are looked at, which may be farther."""
     highest = 4
-    attainable = 0.1 * lattice(highest) * strengths()[:3]
+    attainable = 0.1 * lattice(highest) * FORCE
     force = size * 0.4 * np.random.default_rng(seed).normal(size=3)
-    units = np.sort(np.abs(force / strengths()[:3] / 0.1))
-    levels, scale = nearest_levels(strengths(), vector(*force), 0.05, float(highest))
+    units = np.sort(np.abs(force / FORCE / 0.1))
+    levels, scale = nearest_levels(strength_of().force, vector(*force), 0.05, float(highest))
     assert scale == pytest.approx(min(1.0, 2 * highest / (units[1] + units[2])), rel=1e-14)
-    given_force = 0.1 * np.array(levels) * strengths()[:3]
+    given_force = 0.1 * np.array(levels) * FORCE
     nearest = np.linalg.norm(attainable - scale * force, axis=1).min()
     reached = np.linalg.norm(given_force - scale * force)
     assert reached >= nearest - 1e-12
@@ -301,6 +311,6 @@ def test_nearest_levels_are_the_nearest_of_all_attainable_ones(seed, size):
 
 
 def test_too_coarse_levels_give_nothing():
-    levels, scale = nearest_levels(strengths(), vector(0.3, -0.2, 0.1), 0.7, 0.0)
+    levels, scale = nearest_levels(strength_of().force, vector(0.3, -0.2, 0.1), 0.7, 0.0)
     assert scale == 0.0
     assert levels == [0.0, 0.0, 0.0]
