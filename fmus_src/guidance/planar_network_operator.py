@@ -1,10 +1,16 @@
 """Descent in a plane by a network operator."""
 
-from ..block import Output, Parameter
+from ..block import Parameter
 from ..interfaces.ports import landing, sampling
+from ..ports import Status, outcome
 from .network_operator_law import NetworkOperatorLaw
 
-BAD_LAW = 1
+
+class LawStatus(Status):
+    """Whether there is a law."""
+
+    GOOD = outcome("good")
+    BAD_LAW = outcome("the matrix is no network operator: no thrust")
 
 
 class PlanarNetworkOperator(NetworkOperatorLaw):
@@ -22,19 +28,17 @@ class PlanarNetworkOperator(NetworkOperatorLaw):
     measured_altitude = landing.MEASURED_ALTITUDE.input("altitude", start=18148.0)
     thrust_angle = landing.THRUST_ANGLE.output(direct=True)
     thrust = landing.THRUST.output(direct=True)
-    status = Output(
-        0, minimum=0, maximum=1, direct=True, description="0 good, 1 the matrix is no network operator: no thrust"
-    )
+    status = LawStatus.output(direct=True)
 
     def initialize(self) -> None:
         self.decode_law()
         if self.edge_count < 0:
-            self.status = BAD_LAW
+            self.status = LawStatus.BAD_LAW
         self.command()
 
     def command(self) -> None:
         """Thrust and angle for what is measured."""
-        if self.status != BAD_LAW:
+        if self.status != LawStatus.BAD_LAW:
             self.evaluate_law(self.measured_path_angle, self.measured_altitude, self.final_altitude)
             self.thrust_angle = self.law_angle()
             self.thrust = self.law_thrust()

@@ -9,10 +9,16 @@ from ..mathlib.attitude.quaternion import from_rotation_vector
 from ..mathlib.attitude.rotation import rotation_between
 from ..mathlib.spline import Spline, spline, spline_acceleration, spline_rate, spline_value
 from ..mathlib.vectors import norm, vector
+from ..ports import Status, outcome
 
-GOOD = 0
-NO_PLAN = 1
 ROUNDING = 1e-9  # of a period, allowed for in times of communication points
+
+
+class RendezvousStatus(Status):
+    """Whether there is a plan."""
+
+    GOOD = outcome("good")
+    NO_PLAN = outcome("no plan: phases out of order")
 
 
 class RendezvousGuidance(Block):
@@ -62,7 +68,7 @@ class RendezvousGuidance(Block):
     phase = Output(1, minimum=1, maximum=4, description="1 accelerate, 2 turn, 3 approach, 4 hold")
     translation_period = Output(8.0, unit="s", description="of translation control, from the last tick on")
     translation_count = robot.TRANSLATION_COUNT.output("ticks of translation control so far; a change tells a new one")
-    status = Output(0, minimum=0, maximum=1, description="0 good, 1 no plan: phases out of order")
+    status = RendezvousStatus.output()
     start_time = State(0.0, unit="s", description="start of the flight")
     acceleration = State([0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="of phase 1")
     spline_x = State(Spline)
@@ -78,10 +84,10 @@ class RendezvousGuidance(Block):
 
     def initialize(self) -> None:
         if not (self.turn_start > 0.0 and self.turn_start < self.turn_end and self.turn_end < self.arrival_time):
-            self.status = NO_PLAN
+            self.status = RendezvousStatus.NO_PLAN
         if self.spin_axis.x == 0.0 and self.spin_axis.y == 0.0 and self.spin_axis.z == 0.0:
-            self.status = NO_PLAN
-        if self.status == GOOD:
+            self.status = RendezvousStatus.NO_PLAN
+        if self.status == RendezvousStatus.GOOD:
             self.make_plan()
         self.tick(0.0)
         self.publish(0.0)
@@ -106,7 +112,7 @@ class RendezvousGuidance(Block):
 
     def motion(self, time: float) -> Translation:
         """Planned motion."""
-        if self.status != GOOD:
+        if self.status != RendezvousStatus.GOOD:
             return Translation(position=vector(0.0, 0.0, 0.0), velocity=vector(0.0, 0.0, 0.0))
         if time <= self.turn_start:
             return Translation(position=0.5 * self.acceleration * time * time, velocity=time * self.acceleration)
@@ -136,7 +142,7 @@ class RendezvousGuidance(Block):
         angle = 0.0
         rate = 0.0
         acceleration = 0.0
-        if self.status == GOOD:
+        if self.status == RendezvousStatus.GOOD:
             s = (time - self.turn_start) / duration
             ahead = s + 0.5 * self.attitude_period / duration
             if s >= 1.0:

@@ -23,18 +23,24 @@ from ..mathlib.entry.newtonian_cap import cap_tables
 from ..mathlib.entry.standard_atmosphere import Air, air
 from ..mathlib.orbits.attitude import apply_matrix
 from ..mathlib.vectors import Vector3, cross, norm, vector
+from ..ports import Status, outcome
 from ..units import deg
 
 KNOTS = 13
 MACHS = 10
 ANGLE_STEP = deg(5.0)  # between the knots
 STEP_ROUNDING = 1e-9
-GOOD = 0
-BEYOND_TABLES = 1
-NO_INERTIA = 2
 HEAD_ON = 1e-9  # sine of the spatial angle of attack below which the aerodynamic roll is taken as 0
 MACH_NUMBERS = [1.2, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0, 30.0]
 AXIAL, NORMAL = cap_tables(1.1, 2.235, MACH_NUMBERS, [5.0 * k for k in range(KNOTS)])
+
+
+class CapsuleStatus(Status):
+    """Whether the tables and the inertia serve."""
+
+    GOOD = outcome("good")
+    BEYOND_TABLES = outcome("beyond the tables")
+    NO_INERTIA = outcome("inertia cannot be inverted")
 
 
 class EntryCapsule(Block):
@@ -109,7 +115,7 @@ class EntryCapsule(Block):
     jet_seconds = body.PULSES.output("time that jets have fired about x, y, z")
     total_jet_seconds = Output(0.0, unit="s", description="their sum: the propellant")
     finished = landing.FINISHED.output("below final_height")
-    status = Output(GOOD, minimum=0, maximum=2, description="0 good, 1 beyond the tables, 2 inertia cannot be inverted")
+    status = CapsuleStatus.output()
     state = State(EntryState, radius=6471000.0, speed=7620.0)
     inverse_inertia = State([0.0] * 9, columns=3, description="inverse of inertia, 1/(kg m2)")
     axial_curvature = State([0.0] * 130, columns=KNOTS, description="second derivatives of the splines, 1/rad2")
@@ -120,7 +126,7 @@ class EntryCapsule(Block):
     def initialize(self) -> None:
         invertible = inverse(self.inertia, self.inverse_inertia, 3)
         if not invertible:
-            self.status = NO_INERTIA
+            self.status = CapsuleStatus.NO_INERTIA
         for k in range(MACHS):
             curvatures(self.axial_coefficient, KNOTS * k, KNOTS, ANGLE_STEP, True, self.axial_curvature)
             curvatures(self.normal_coefficient, KNOTS * k, KNOTS, ANGLE_STEP, False, self.normal_curvature)
@@ -231,11 +237,11 @@ class EntryCapsule(Block):
         self.dynamic_pressure = 0.5 * gas.density * self.speed * self.speed
         v = in_body(body_axes(s.attitude), vector(self.speed, 0.0, 0.0) - self.wind)
         self.mach = norm(v) / gas.speed_of_sound
-        if self.status != NO_INERTIA:
-            self.status = GOOD
+        if self.status != CapsuleStatus.NO_INERTIA:
+            self.status = CapsuleStatus.GOOD
             outside = self.mach < self.mach_numbers[0] or self.mach > self.mach_numbers[MACHS - 1]
             if outside or self.spatial_angle(v) > ANGLE_STEP * float(KNOTS - 1):
-                self.status = BEYOND_TABLES
+                self.status = CapsuleStatus.BEYOND_TABLES
         self.finished = self.height < self.final_height
 
     def step(self, t: float, h: float) -> None:
@@ -243,7 +249,7 @@ class EntryCapsule(Block):
             self.counted = self.pulse_count
             self.left = self.pulse_lengths
             self.fired_pulses = self.pulse_lengths
-        if self.status != NO_INERTIA:
+        if self.status != CapsuleStatus.NO_INERTIA:
             self.fly(t, h)
         before = lengths_of(self.left)
         self.left = left_after(self.left, h)

@@ -5,9 +5,14 @@ from ..interfaces.ports import body, sampling
 from ..mathlib.orbits.attitude import AttitudeState
 from ..mathlib.vectors import Vector3, vector
 from ..models.orbital_body import OrbitalBody
+from ..ports import Status, outcome
 
-GOOD = 0
-NO_INERTIA = 1
+
+class SpacecraftStatus(Status):
+    """Whether the spacecraft moves."""
+
+    GOOD = outcome("good")
+    NO_INERTIA = outcome("inertia cannot be inverted, nothing moves")
 
 
 class OrbitalSpacecraft(OrbitalBody):
@@ -33,7 +38,7 @@ class OrbitalSpacecraft(OrbitalBody):
     fired_pulses = body.PULSES.output("the last pulses, with their sign")
     held_torque = body.TORQUE.output("mean_torque over the last step")
     jet_seconds = Output(0.0, unit="s", description="time that jets have fired, summed over the axes: the propellant")
-    status = Output(GOOD, minimum=0, maximum=1, description="0 good, 1 inertia cannot be inverted, nothing moves")
+    status = SpacecraftStatus.output()
     left = State([0.0, 0.0, 0.0], unit="s", frame="body", description="what is left of the pulses, with their sign")
     counted = State(0, description="pulse_count of the last pulses")
 
@@ -42,7 +47,7 @@ class OrbitalSpacecraft(OrbitalBody):
         self.angular_velocity = self.initial_angular_velocity
         invertible = self.weigh()
         if not invertible:
-            self.status = NO_INERTIA
+            self.status = SpacecraftStatus.NO_INERTIA
 
     def after(self, length: float, h: float) -> float:
         """What is left of one pulse (s, with its sign) after h (s)."""
@@ -62,7 +67,7 @@ class OrbitalSpacecraft(OrbitalBody):
             self.left = self.pulse_lengths
             self.fired_pulses = self.pulse_lengths
         self.held_torque = self.mean_torque
-        if self.status == GOOD:
+        if self.status == SpacecraftStatus.GOOD:
             s = AttitudeState(angles=self.angles, angular_velocity=self.angular_velocity)
             s = self.fire(s, self.left, self.mean_torque, h, self.internal_step)
             self.angles = s.angles
