@@ -81,6 +81,7 @@ class Status:
         return ", ".join(f"{number} {meaning}" for number, meaning in enumerate(cls.meanings))
 
     @classmethod
-    def output(cls, *, direct: bool | tuple[str, ...] = False) -> Output:
-        """The output of a block, at first the first outcome."""
-        return Output(0, minimum=0, maximum=len(cls.meanings) - 1, direct=direct, description=cls.description())
+    def output(cls, about: str = "", *, direct: bool | tuple[str, ...] = False) -> Output:
+        """The output of a block, at first the first outcome; ``about`` says before the outcomes which one it is."""
+        description = f"{about}: {cls.description()}" if about else cls.description()
+        return Output(0, minimum=0, maximum=len(cls.meanings) - 1, direct=direct, description=description)

@@ -4,22 +4,7 @@ from ..block import Parameter, State
 from ..mathlib.lunar.gravity import altitude_of, from_centre, vertical_at
 from ..mathlib.lunar.landing_site import above_site, redesignate, site_below, within_reach
 from ..mathlib.vectors import Vector2, across, clip, norm
-from .landing_sequence import (
-    CAPTURE,
-    CUT_OFF,
-    DROPPED,
-    HOLD,
-    NEVER,
-    OWN,
-    PROGRAMME,
-    ROUNDING,
-    SHORTENED,
-    SINK,
-    SITE_MOVED,
-    SLOW,
-    TIMEOUT,
-    LandingSequence,
-)
+from .landing_sequence import CAPTURE, HOLD, NEVER, OWN, PROGRAMME, ROUNDING, SINK, SLOW, LandingSequence, LandingStatus
 
 
 class HoverPhases(LandingSequence, interface=True):
@@ -59,7 +44,7 @@ class HoverPhases(LandingSequence, interface=True):
         self.site = site_below(place, self.moon_radius)
         altitude = clip(altitude_of(place, self.moon_radius), self.lowest_hover, self.preliminary_altitude)
         self.target_position = above_site(self.site, altitude, self.moon_radius)
-        self.note(SITE_MOVED, time)
+        self.note(LandingStatus.SITE_MOVED, time)
 
     def is_settled(self) -> bool:
         """Whether the vehicle hovers at its target."""
@@ -72,7 +57,7 @@ class HoverPhases(LandingSequence, interface=True):
         if waited >= self.hover_time and self.is_settled():
             return True
         if waited >= self.hover_patience:
-            self.note(TIMEOUT, ahead)
+            self.note(LandingStatus.TIMEOUT, ahead)
             return True
         return False
 
@@ -88,7 +73,7 @@ class HoverPhases(LandingSequence, interface=True):
         """Put the site where a re-designation of at most ``reach`` (m) wants it."""
         reached, allowed = within_reach(move, reach)
         if not reached:
-            self.note(SHORTENED, time)
+            self.note(LandingStatus.SHORTENED, time)
         self.site = redesignate(self.site, allowed, self.moon_radius)
 
     def begin_transfer(self, time: float) -> None:
@@ -104,7 +89,7 @@ class HoverPhases(LandingSequence, interface=True):
         if self.is_answered() and not self.plan_judged:
             self.plan_judged = True
             if self.sampled_mass - self.sampled_propellant - self.reserve < self.dry_mass:
-                self.note(DROPPED, ahead)
+                self.note(LandingStatus.DROPPED, ahead)
                 self.site = self.first_site
                 self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
                 self.request_plan(PROGRAMME)
@@ -132,7 +117,7 @@ class HoverPhases(LandingSequence, interface=True):
         if self.sampled_probe_contact:
             return True
         if self.sampled_ground_contact or altitude_of(self.sampled_position, self.moon_radius) <= self.cut_altitude:
-            self.note(CUT_OFF, ahead)
+            self.note(LandingStatus.CUT_OFF, ahead)
             return True
         if self.hover_mode == HOLD and self.since_start(ahead) >= self.descent_wait - ROUNDING:
             self.request_plan(SINK)

@@ -3,6 +3,7 @@
 from ..block import Output, Parameter, State
 from ..interfaces.ports import landing
 from ..mathlib.vectors import vector
+from ..ports import Status, outcome
 from .landing_inputs import LandingInputs
 
 REFUSED_PHASE = 0
@@ -29,19 +30,23 @@ SLOW = 3
 CAPTURE = 4
 SINK = 5
 
-GOOD = 0
-SHORTENED = 1
-HOVER_GUIDANCE_SAID = 2
-TIMEOUT = 3
-SITE_MOVED = 4
-DROPPED = 5
-CUT_OFF = 6
-OUT_OF_PROPELLANT = 7
-BRAKING_FAILED = 8
-REFUSED = 9
-
 NEVER = -1.0  # s; the time of what has not happened
 ROUNDING = 1e-6  # s, allowed for in times of communication points
+
+
+class LandingStatus(Status):
+    """What has gone otherwise than planned."""
+
+    GOOD = outcome("good")
+    SHORTENED = outcome("re-designation shortened")
+    HOVER_GUIDANCE_SAID = outcome("hover guidance said so")
+    TIMEOUT = outcome("timeout")
+    SITE_MOVED = outcome("site moved")
+    DROPPED = outcome("re-designation dropped")
+    CUT_OFF = outcome("cut off without the probe")
+    OUT_OF_PROPELLANT = outcome("out of propellant")
+    BRAKING_FAILED = outcome("braking failed")
+    REFUSED = outcome("refused")
 
 
 class LandingSequence(LandingInputs, interface=True):
@@ -89,13 +94,7 @@ class LandingSequence(LandingInputs, interface=True):
     command_time = landing.COMMAND_TIME.output("own command: when it was computed")
     burn_duration = landing.BURN_DURATION.output("own command: how long to thrust from command_time on")
     free_flight = landing.FREE_FLIGHT.output("no thrust acts; for navigation")
-    status = Output(
-        GOOD,
-        minimum=0,
-        maximum=9,
-        description="largest so far: 1 re-designation shortened, 2 hover guidance said so, 3 timeout, 4 site moved, "
-        "5 re-designation dropped, 6 cut off without the probe, 7 out of propellant, 8 braking failed, 9 refused",
-    )
+    status = LandingStatus.output("largest so far")
     status_flags = Output(
         0, minimum=0, maximum=511, description="all statuses so far: the sum of 2^(k - 1) over every status k that came"
     )

@@ -9,19 +9,16 @@ from .landing_sequence import (
     BRAKING,
     COAST,
     CONTACT,
-    CUT_OFF,
     DEORBIT,
     DESCENT,
     HOVER_1,
     HOVER_2,
-    HOVER_GUIDANCE_SAID,
-    OUT_OF_PROPELLANT,
-    REFUSED,
     REFUSED_PHASE,
     ROUNDING,
     TRANSFER,
+    LandingStatus,
 )
-from .orbit_phases import ELSEWHERE, GOES_ON, OrbitPhases
+from .orbit_phases import OrbitPhases, PhaseEnd
 
 LEAST_MARGIN = 0.9  # of the least weight: what the least thrust must stay below
 
@@ -49,7 +46,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
         self.last_thrust = self.start_time
         if self.is_refused():
             self.phase = REFUSED_PHASE
-            self.note(REFUSED, self.start_time)
+            self.note(LandingStatus.REFUSED, self.start_time)
             self.finished = True
         else:
             self.enter(self.start_phase, self.start_time)
@@ -100,30 +97,30 @@ class LandingSequencer(OrbitPhases, HoverPhases):
     def watch(self, ahead: float) -> None:
         """What may be said in any phase."""
         if self.is_answered() and self.sampled_hover_status != 0:
-            self.note(HOVER_GUIDANCE_SAID, ahead)
+            self.note(LandingStatus.HOVER_GUIDANCE_SAID, ahead)
         if self.sampled_mass <= self.dry_mass:
-            self.note(OUT_OF_PROPELLANT, ahead)
+            self.note(LandingStatus.OUT_OF_PROPELLANT, ahead)
 
     def end_braking(self, how: int, ahead: float) -> None:
         """Go on to hover 1, over the site or where braking has ended."""
         self.enter(HOVER_1, ahead)
-        if how == ELSEWHERE:
+        if how == PhaseEnd.ELSEWHERE:
             self.move_site_ahead(ahead)
 
     def go_on(self, t: float, ahead: float) -> None:
         """Let the phase decide, and begin the next one where it is over."""
         if self.phase == DEORBIT:
             said = self.deorbit(t, ahead)
-            if said != GOES_ON:
+            if said != PhaseEnd.GOES_ON:
                 self.enter(COAST, ahead)
                 self.face_back(t)
         elif self.phase == COAST:
             said = self.coast(t, ahead)
-            if said != GOES_ON:
+            if said != PhaseEnd.GOES_ON:
                 self.enter(BRAKING, ahead)
         elif self.phase == BRAKING:
             said = self.brake(t, ahead)
-            if said != GOES_ON:
+            if said != PhaseEnd.GOES_ON:
                 self.end_braking(said, ahead)
         else:
             self.go_on_below(t, ahead)
@@ -165,7 +162,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
         if self.phase == CONTACT:
             self.finished = self.sampled_ground_contact
         elif self.sampled_ground_contact and self.phase < DESCENT:
-            self.note(CUT_OFF, ahead)
+            self.note(LandingStatus.CUT_OFF, ahead)
             self.enter(CONTACT, ahead)
         else:
             self.go_on(t, ahead)

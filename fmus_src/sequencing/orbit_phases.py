@@ -7,14 +7,19 @@ from ..kernel.functions import cos
 from ..mathlib.lunar.gravity import altitude_of, from_centre
 from ..mathlib.orbits.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range, lowest_altitude
 from ..mathlib.vectors import dot, norm
+from ..ports import Status, outcome
 from ..units import deg
-from .landing_sequence import BRAKING, BRAKING_FAILED, BRAKING_GUIDANCE, NEVER, OWN, ROUNDING, TIMEOUT, LandingSequence
+from .landing_sequence import BRAKING, BRAKING_GUIDANCE, NEVER, OWN, ROUNDING, LandingSequence, LandingStatus
 
 NOT_CONVERGED = 2  # status of the braking guidance from which on its command is an old one
-# What deorbit, coast and braking say of themselves
-GOES_ON = 0
-OVER = 1
-ELSEWHERE = 2
+
+
+class PhaseEnd(Status):
+    """What deorbit, coast and braking say of themselves."""
+
+    GOES_ON = outcome("goes on")
+    OVER = outcome("over")
+    ELSEWHERE = outcome("over, far from the site")
 
 
 class OrbitPhases(LandingSequence, interface=True):
@@ -99,11 +104,11 @@ class OrbitPhases(LandingSequence, interface=True):
                 self.burn_duration = burn
                 self.holding = burn <= self.hold_time
         if self.engine_on and ahead >= self.command_time + self.burn_duration - ROUNDING:
-            return OVER
+            return PhaseEnd.OVER
         if self.engine_on and ahead - self.ignition_time >= self.deorbit_patience * self.planned_burn:
-            self.note(TIMEOUT, ahead)
-            return OVER
-        return GOES_ON
+            self.note(LandingStatus.TIMEOUT, ahead)
+            return PhaseEnd.OVER
+        return PhaseEnd.GOES_ON
 
     def is_time_to_burn(self, burn: float) -> bool:
         """Whether a burn (s) from now has its middle braking_range and half a revolution before the site, or later."""
@@ -117,15 +122,15 @@ class OrbitPhases(LandingSequence, interface=True):
         before_site = self.sampled_position.z > -self.moon_radius
         left = ground_range(self.sampled_position, self.moon_radius) - self.braking_range
         if before_site and left <= 0.0:
-            return OVER
+            return PhaseEnd.OVER
         if not self.is_falling(left / self.moon_radius):
             self.falling_since = NEVER
         elif self.falling_since < 0.0:
             self.falling_since = t
         if self.falling_since >= 0.0 and ahead - self.falling_since >= self.coast_patience - ROUNDING:
-            self.note(TIMEOUT, ahead)
-            return OVER
-        return GOES_ON
+            self.note(LandingStatus.TIMEOUT, ahead)
+            return PhaseEnd.OVER
+        return PhaseEnd.GOES_ON
 
     def is_falling(self, angle: float) -> bool:
         """Whether the coast is low and comes to the ground before its end, which is an ``angle`` (rad) ahead.
@@ -149,7 +154,7 @@ class OrbitPhases(LandingSequence, interface=True):
         if answered and dot(self.sampled_attitude, self.sampled_direction) >= minimum:
             self.engine_on = True
         elif self.since_start(ahead) >= self.pointing_patience - ROUNDING:
-            self.note(TIMEOUT, ahead)
+            self.note(LandingStatus.TIMEOUT, ahead)
             self.engine_on = True
 
     def brake(self, t: float, ahead: float) -> int:
@@ -164,8 +169,8 @@ class OrbitPhases(LandingSequence, interface=True):
         far = ground_range(self.sampled_position, self.moon_radius) > self.far_range
         unsolved = self.unsolved_since >= 0.0 and ahead - self.unsolved_since >= self.solution_patience - ROUNDING
         if unsolved or self.since_start(ahead) >= self.braking_patience - ROUNDING:
-            self.note(BRAKING_FAILED, ahead)
-            return ELSEWHERE if far else OVER
+            self.note(LandingStatus.BRAKING_FAILED, ahead)
+            return PhaseEnd.ELSEWHERE if far else PhaseEnd.OVER
         # without a solution from its start on, the guidance says that no time is left
         counts = self.sampled_braking_status < NOT_CONVERGED or self.sampled_time_to_go > 0.0
         ending = self.sampled_braking_finished or (counts and self.sampled_time_to_go <= self.handover_time_to_go)
@@ -174,7 +179,7 @@ class OrbitPhases(LandingSequence, interface=True):
             self.elsewhere = True
         if self.elsewhere:
             if self.sampled_braking_finished or norm(self.sampled_velocity) < self.slow_speed:
-                return ELSEWHERE
+                return PhaseEnd.ELSEWHERE
         elif ending:
-            return OVER
-        return GOES_ON
+            return PhaseEnd.OVER
+        return PhaseEnd.GOES_ON
