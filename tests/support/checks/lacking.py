@@ -41,8 +41,5 @@ LACKING = (
     "pulse_allocation",
     "thrust_allocation",
     "forming_filter",
-    "command_switch",
-    "flight_monitor",
     "landing_sequencer",
-    "touchdown_monitor",
 )

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from tests.support.checks import control, disturbances, guidance, navigation, plants, sensors
+from tests.support.checks import control, disturbances, guidance, navigation, plants, sensors, sequencing
 from tests.support.checks.check import Check
 
 MODULES = {
@@ -12,6 +12,7 @@ MODULES = {
     "control": control,
     "disturbances": disturbances,
     "sensors": sensors,
+    "sequencing": sequencing,
 }
 TRUTHS: dict[str, tuple[str, Callable[[], Check]]] = {
     name: (kind, truth) for kind, module in MODULES.items() for name, truth in module.TRUTHS.items()
