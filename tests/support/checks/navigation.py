@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tests.support.checks import estimates
 from tests.support.checks.check import STEP, Check, follow
 
 ROWS = 17
@@ -39,4 +40,8 @@ def orbital_true_state():
     )
 
 
-TRUTHS = {"ideal_navigation": ideal_navigation, "orbital_true_state": orbital_true_state}
+TRUTHS = {
+    **estimates.TRUTHS,
+    "ideal_navigation": ideal_navigation,
+    "orbital_true_state": orbital_true_state,
+}
