@@ -2,7 +2,7 @@
 
 from ..block import Input, Output, Parameter, State
 from ..interfaces.ports import landing, sampling
-from ..interfaces.ports.landing import UNLIMITED
+from ..interfaces.ports.landing import UNLIMITED, HoverMode
 from ..kernel.functions import expm1, tan
 from ..mathlib.actuators.lagged_thrust import lagged_thrust
 from ..mathlib.attitude.rotation import TurningDirection
@@ -10,14 +10,6 @@ from ..mathlib.lunar.gravity import STANDARD_GRAVITY
 from ..mathlib.vectors import across, clip, dot, limit_length, norm, vector
 from ..units import deg
 from .hover_plan import HOLDING, POLYNOMIAL, HoverPlan, HoverStatus
-
-# Modes
-IDLE = 0
-HOLD = 1
-PROGRAMME = 2
-SLOW = 3
-CAPTURE = 4
-DESCEND = 5
 
 ROUNDING = 1e-9  # s, allowed for in times of communication points
 CYCLE_TOLERANCE = 1e-3  # of a cycle, by which communication points may miss sample instants
@@ -65,10 +57,10 @@ class HoverGuidance(HoverPlan):
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.1, "guidance cycle; 0: every communication point")
     active = landing.ACTIVE.input()
     mode = Input(
-        2,
+        HoverMode.PROGRAMME,
         minimum=0,
         maximum=5,
-        description="0 idle, 1 hold, 2 programme, 3 slow transfer, 4 capture, 5 descend; a change starts a plan",
+        description=f"{HoverMode.description()}; a change starts a plan",
     )
     plan_number = landing.PLAN_NUMBER.input()
     thrust_acceleration = landing.THRUST_ACCELERATION.output(direct=True)
@@ -122,7 +114,7 @@ class HoverGuidance(HoverPlan):
         if abs(self.elapsed - self.cycle) <= CYCLE_TOLERANCE * self.cycle or not self.elapsed > 0.0:
             self.elapsed = self.cycle
         self.sample_time = time
-        if not self.active or self.mode == IDLE:
+        if not self.active or self.mode == HoverMode.IDLE:
             self.rest(time)
         else:
             if self.in_charge:
@@ -158,11 +150,11 @@ class HoverGuidance(HoverPlan):
         self.drop_plan()
         possible = self.can_plan()
         if possible:
-            if self.mode == PROGRAMME:
+            if self.mode == HoverMode.PROGRAMME:
                 self.plan_programme()
-            elif self.mode == SLOW:
+            elif self.mode == HoverMode.SLOW:
                 self.plan_transfer(self.slow_speed, self.slow_acceleration)
-            elif self.mode == CAPTURE:
+            elif self.mode == HoverMode.CAPTURE:
                 self.plan_capture(self.elapsed)
 
     def weigh_thrust(self) -> None:
@@ -183,7 +175,7 @@ class HoverGuidance(HoverPlan):
 
     def sinking(self) -> bool:
         """Whether the reference sinks."""
-        return self.mode == DESCEND and self.status == HoverStatus.GOOD
+        return self.mode == HoverMode.DESCEND and self.status == HoverStatus.GOOD
 
     def sink_speed(self, t: float) -> float:
         """Speed (m/s) of the descent at the time t (s) after its start."""

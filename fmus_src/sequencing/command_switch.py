@@ -2,8 +2,8 @@
 
 from ..block import Block, Input
 from ..interfaces.ports import landing
+from ..interfaces.ports.landing import CommandSource
 from ..mathlib.vectors import vector
-from .landing_sequence import BRAKING_GUIDANCE, HOVER_GUIDANCE, OWN
 
 
 class CommandSwitch(Block):
@@ -56,27 +56,27 @@ class CommandSwitch(Block):
 
     def switch(self) -> None:
         """Pass on the command in charge; until the requested plan is answered, the outputs stay."""
-        if self.source != HOVER_GUIDANCE or self.hover_plan == self.plan_number:
+        if self.source != CommandSource.HOVER or self.hover_plan == self.plan_number:
             self.pass_on()
-        if not self.engine_on or self.source < OWN or self.source > HOVER_GUIDANCE:
+        if not self.engine_on or self.source < CommandSource.OWN or self.source > CommandSource.HOVER:
             self.thrust_acceleration = 0.0
 
     def pass_on(self) -> None:
         """Put the command of the source on the outputs."""
         self.angular_acceleration_feed = vector(0.0, 0.0, 0.0)
-        if self.source == OWN:
+        if self.source == CommandSource.OWN:
             self.thrust_acceleration = self.own_thrust_acceleration
             self.thrust_direction = self.own_thrust_direction
             self.thrust_direction_rate = self.own_thrust_direction_rate
             self.command_time = self.own_command_time
             self.burn_duration = self.own_burn_duration
-        elif self.source == BRAKING_GUIDANCE:
+        elif self.source == CommandSource.BRAKING:
             self.thrust_acceleration = self.braking_thrust_acceleration
             self.thrust_direction = self.braking_thrust_direction
             self.thrust_direction_rate = self.braking_thrust_direction_rate
             self.command_time = self.braking_command_time
             self.burn_duration = self.braking_burn_duration
-        elif self.source == HOVER_GUIDANCE:
+        elif self.source == CommandSource.HOVER:
             self.thrust_acceleration = self.hover_thrust_acceleration
             self.thrust_direction = self.hover_thrust_direction
             self.thrust_direction_rate = self.hover_thrust_direction_rate

@@ -1,10 +1,11 @@
 """From the first hover to the ground: phases 4 to 9 of a landing."""
 
 from ..block import Parameter, State
+from ..interfaces.ports.landing import CommandSource, HoverMode
 from ..mathlib.lunar.gravity import altitude_of, from_centre, vertical_at
 from ..mathlib.lunar.landing_site import above_site, redesignate, site_below, within_reach
 from ..mathlib.vectors import Vector2, across, clip, norm
-from .landing_sequence import CAPTURE, HOLD, NEVER, OWN, PROGRAMME, ROUNDING, SINK, SLOW, LandingSequence, LandingStatus
+from .landing_sequence import NEVER, ROUNDING, LandingSequence, LandingStatus
 
 
 class HoverPhases(LandingSequence, interface=True):
@@ -36,7 +37,7 @@ class HoverPhases(LandingSequence, interface=True):
     def begin_first_hover(self) -> None:
         """Capture the hover over the site."""
         self.target_position = above_site(self.site, self.preliminary_altitude, self.moon_radius)
-        self.request_plan(CAPTURE)
+        self.request_plan(HoverMode.CAPTURE)
 
     def move_site_ahead(self, time: float) -> None:
         """The site below the place that lookahead of the velocity leads to."""
@@ -82,7 +83,7 @@ class HoverPhases(LandingSequence, interface=True):
         reach = self.reach_over_drop * (self.preliminary_altitude - self.final_altitude)
         self.move_site(self.sampled_move_1, reach, time)
         self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
-        self.request_plan(PROGRAMME)
+        self.request_plan(HoverMode.PROGRAMME)
 
     def transfer(self, ahead: float) -> bool:
         """Until the plan is over; without a re-designation where it would need too much."""
@@ -92,25 +93,25 @@ class HoverPhases(LandingSequence, interface=True):
                 self.note(LandingStatus.DROPPED, ahead)
                 self.site = self.first_site
                 self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
-                self.request_plan(PROGRAMME)
+                self.request_plan(HoverMode.PROGRAMME)
                 return False
         return self.plan_is_over()
 
     def begin_second_hover(self) -> None:
         """Hold where the transfer went."""
         self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
-        self.request_plan(HOLD)
+        self.request_plan(HoverMode.HOLD)
 
     def begin_approach(self, time: float) -> None:
         """Slowly down to the last hover, over the site of the second re-designation."""
         self.move_site(self.sampled_move_2, self.second_reach, time)
         self.target_position = above_site(self.site, self.cutoff_altitude, self.moon_radius)
-        self.request_plan(SLOW)
+        self.request_plan(HoverMode.SLOW)
 
     def begin_descent(self) -> None:
         """Hold over the site."""
         self.target_position = above_site(self.site, self.cutoff_altitude, self.moon_radius)
-        self.request_plan(HOLD)
+        self.request_plan(HoverMode.HOLD)
 
     def descend(self, ahead: float) -> bool:
         """Sink after a while, until the probe touches the ground."""
@@ -119,13 +120,13 @@ class HoverPhases(LandingSequence, interface=True):
         if self.sampled_ground_contact or altitude_of(self.sampled_position, self.moon_radius) <= self.cut_altitude:
             self.note(LandingStatus.CUT_OFF, ahead)
             return True
-        if self.hover_mode == HOLD and self.since_start(ahead) >= self.descent_wait - ROUNDING:
-            self.request_plan(SINK)
+        if self.hover_mode == HoverMode.HOLD and self.since_start(ahead) >= self.descent_wait - ROUNDING:
+            self.request_plan(HoverMode.DESCEND)
         return False
 
     def begin_contact(self) -> None:
         """No thrust."""
-        self.take_over(OWN, False)
+        self.take_over(CommandSource.OWN, False)
 
     def face_up(self, time: float) -> None:
         """Own command: the local vertical, without thrust."""

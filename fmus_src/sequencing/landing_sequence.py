@@ -2,6 +2,7 @@
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports import landing
+from ..interfaces.ports.landing import CommandSource, HoverMode
 from ..mathlib.vectors import vector
 from ..ports import Status, outcome
 from .landing_inputs import LandingInputs
@@ -16,19 +17,6 @@ HOVER_2 = 6
 APPROACH = 7
 DESCENT = 8
 CONTACT = 9
-
-NO_SOURCE = 0
-OWN = 1
-BRAKING_GUIDANCE = 2
-HOVER_GUIDANCE = 3
-
-# Modes of hover_guidance
-IDLE = 0
-HOLD = 1
-PROGRAMME = 2
-SLOW = 3
-CAPTURE = 4
-SINK = 5
 
 NEVER = -1.0  # s; the time of what has not happened
 ROUNDING = 1e-6  # s, allowed for in times of communication points
@@ -74,17 +62,13 @@ class LandingSequence(LandingInputs, interface=True):
     phase = Output(0, minimum=0, maximum=9, description="1 to 9, see the block; 0: refused")
     braking_active = Output(False, description="the braking guidance is to command")
     hover_active = Output(False, description="the hover guidance is to command")
-    hover_mode = Output(
-        IDLE, minimum=0, maximum=5, description="0 idle, 1 hold, 2 programme, 3 slow, 4 capture, 5 sink"
-    )
+    hover_mode = HoverMode.output()
     plan_number = landing.PLAN_NUMBER.output(
         "of the plan requested from the hover guidance; a change requests a new one"
     )
     target_position = landing.POSITION.output("of the hover guidance")
     site = landing.POSITION.output("where to land, on the sphere")
-    source = landing.SOURCE.output(
-        "whose command counts: 0 nobody's, 1 own, 2 braking, 3 hover", start=NO_SOURCE, minimum=0, maximum=3
-    )
+    source = landing.SOURCE.output("whose command counts: 0 nobody's, 1 own, 2 braking, 3 hover", minimum=0, maximum=3)
     engine_on = landing.ENGINE_ON.output("the command's thrust is given")
     thrust_acceleration = landing.THRUST_ACCELERATION.output("own command: thrust over mass")
     thrust_direction = landing.DIRECTION.output(
@@ -131,11 +115,11 @@ class LandingSequence(LandingInputs, interface=True):
         """Give the command to a source."""
         self.source = source
         self.engine_on = engine_on
-        self.braking_active = source == BRAKING_GUIDANCE
-        self.hover_active = source == HOVER_GUIDANCE
-        if source != HOVER_GUIDANCE:
-            self.hover_mode = IDLE
-        if source != OWN:
+        self.braking_active = source == CommandSource.BRAKING
+        self.hover_active = source == CommandSource.HOVER
+        if source != CommandSource.HOVER:
+            self.hover_mode = HoverMode.IDLE
+        if source != CommandSource.OWN:
             self.thrust_acceleration = 0.0
             self.thrust_direction = vector(0.0, 0.0, 0.0)
             self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
@@ -143,13 +127,13 @@ class LandingSequence(LandingInputs, interface=True):
 
     def request_plan(self, mode: int) -> None:
         """Give the command to the hover guidance, with a new plan."""
-        self.take_over(HOVER_GUIDANCE, True)
+        self.take_over(CommandSource.HOVER, True)
         self.hover_mode = mode
         self.plan_number = self.plan_number + 1
 
     def is_answered(self) -> bool:
         """Whether the hover guidance's outputs belong to the requested plan."""
-        return self.source == HOVER_GUIDANCE and self.sampled_plan == self.plan_number
+        return self.source == CommandSource.HOVER and self.sampled_plan == self.plan_number
 
     def plan_is_over(self) -> bool:
         """Whether the requested plan has been flown."""

@@ -3,13 +3,14 @@
 import math
 
 from ..block import Parameter, State
+from ..interfaces.ports.landing import CommandSource
 from ..kernel.functions import cos
 from ..mathlib.lunar.gravity import altitude_of, from_centre
 from ..mathlib.orbits.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range, lowest_altitude
 from ..mathlib.vectors import dot, norm
 from ..ports import Status, outcome
 from ..units import deg
-from .landing_sequence import BRAKING, BRAKING_GUIDANCE, NEVER, OWN, ROUNDING, LandingSequence, LandingStatus
+from .landing_sequence import BRAKING, NEVER, ROUNDING, LandingSequence, LandingStatus
 
 NOT_CONVERGED = 2  # status of the braking guidance from which on its command is an old one
 
@@ -79,7 +80,7 @@ class OrbitPhases(LandingSequence, interface=True):
 
     def begin_deorbit(self) -> None:
         """Own command; the first step gives its direction."""
-        self.take_over(OWN, False)
+        self.take_over(CommandSource.OWN, False)
 
     def deorbit(self, t: float, ahead: float) -> int:
         """Wait, ignite, burn."""
@@ -146,7 +147,7 @@ class OrbitPhases(LandingSequence, interface=True):
 
     def begin_braking(self) -> None:
         """The braking guidance's command, without thrust until the axis is on it."""
-        self.take_over(BRAKING_GUIDANCE, False)
+        self.take_over(CommandSource.BRAKING, False)
 
     def ignite(self, answered: bool, ahead: float) -> None:
         """Turn the engine on once the axis is on the guidance's direction, or after a while in any case."""

@@ -1,8 +1,29 @@
 """Landing on the Moon: vectors of the landing-site frame, and the command, mass and Moon of a lander."""
 
-from ...ports import Port
+from ...ports import Port, Status, outcome
 
 UNLIMITED = 1e9  # s; longer than any flight
+
+
+class CommandSource(Status):
+    """Whose command counts."""
+
+    NOBODY = outcome("none")
+    OWN = outcome("own")
+    BRAKING = outcome("braking")
+    HOVER = outcome("hover")
+
+
+class HoverMode(Status):
+    """What the hover guidance is to do."""
+
+    IDLE = outcome("idle")
+    HOLD = outcome("hold")
+    PROGRAMME = outcome("programme")
+    SLOW = outcome("slow transfer")
+    CAPTURE = outcome("capture")
+    DESCEND = outcome("descend")
+
 
 ACCELERATION = Port([0.0, 0.0, 0.0], unit="m/s2", frame="landing site", description="acceleration")
 ACTIVE = Port(True, description="false: no command; where it becomes true, a plan starts")
@@ -50,7 +71,7 @@ PROBE_LENGTH = Port(1.5, unit="m", minimum=0.0, description="altitude at which t
 SCALE_FACTOR_SIGMA = Port(
     3e-4, unit="1", minimum=0.0, description="inertial sensor: scale factor error, 1 sigma per axis, constant"
 )
-SOURCE = Port(0, description="0 none, 1 own, 2 braking, 3 hover")
+SOURCE = Port(CommandSource.NOBODY, description=CommandSource.description())
 SPECIFIC_IMPULSE = Port(319.0, unit="s", minimum=1e-3, description="of the engine")
 THRUST = Port(0.0, unit="N", description="commanded thrust")
 THRUST_ACCELERATION = Port(0.0, unit="m/s2", description="commanded thrust over mass")

@@ -13,7 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from perilune.fmus_src.guidance.hover_guidance import HOLD, IDLE, SLOW, HoverGuidance
+from perilune.fmus_src.guidance.hover_guidance import HoverGuidance
+from perilune.fmus_src.interfaces.ports.landing import HoverMode
 from perilune.fmus_src.runtime import Component
 from tests.support.flights.hover_flight import EXHAUST, GRAVITY, MASS, TARGET, H, begun, fly
 
@@ -24,7 +25,7 @@ small = st.floats(-5.0, 5.0)
 @given(st.tuples(small, small, small), st.tuples(small, small, small).map(lambda v: np.array(v) / 10.0))
 def test_the_law_gives_the_acceleration_of_its_loop(error, slip):
     """Holding, without low-pass, the command is gravity and w^2 e + 2 damping w ev, exactly."""
-    block = begun(mode=HOLD, position=np.array(TARGET) - error, velocity=-slip, tilt_filter=0.0)
+    block = begun(mode=HoverMode.HOLD, position=np.array(TARGET) - error, velocity=-slip, tilt_filter=0.0)
     given_acceleration = block.thrust_acceleration * np.array(block.thrust_direction) - [0.0, 0.0, GRAVITY]
     wanted = 0.12**2 * np.array(error) + 2.0 * 0.9 * 0.12 * slip
     assert given_acceleration == pytest.approx(wanted, abs=1e-12)
@@ -36,7 +37,7 @@ def test_holding_decays_as_the_second_order_loop():
     wn, zeta = 0.12, 0.9
     damped = wn * math.sqrt(1.0 - zeta * zeta)
     position = np.array([3.0, -2.0, 1.0])
-    block = begun(mode=HOLD, position=position, target_position=[0.0, 0.0, 0.0], tilt_filter=0.0)
+    block = begun(mode=HoverMode.HOLD, position=position, target_position=[0.0, 0.0, 0.0], tilt_filter=0.0)
     for t, state in fly(block, 30.0, position):
         decay = math.exp(-zeta * wn * t) * (math.cos(damped * t) + zeta * wn / damped * math.sin(damped * t))
         # a command held for 0.1 s acts 0.05 s late
@@ -44,7 +45,7 @@ def test_holding_decays_as_the_second_order_loop():
 
 
 def test_low_pass_of_the_lateral_demand():
-    block = begun(mode=HOLD, position=np.array(TARGET) - [2.0, 0.0, 0.0], estimate_thrust=False)
+    block = begun(mode=HoverMode.HOLD, position=np.array(TARGET) - [2.0, 0.0, 0.0], estimate_thrust=False)
     lateral = 0.12**2 * 2.0 / GRAVITY
     for n in range(20):
         assert block.tilt.x == pytest.approx(lateral * (1.0 - math.exp(-H * (n + 1) / 0.7)), rel=1e-9)
@@ -60,15 +61,17 @@ def test_low_pass_of_the_lateral_demand():
 
 
 def test_errors_are_shortened():
-    far = begun(mode=HOLD, position=np.array(TARGET) - [0.0, 0.0, 100.0], tilt_filter=0.0)
+    far = begun(mode=HoverMode.HOLD, position=np.array(TARGET) - [0.0, 0.0, 100.0], tilt_filter=0.0)
     assert far.thrust_acceleration == pytest.approx(GRAVITY + 0.12**2 * 40.0)
     assert far.saturated
-    aside = begun(mode=HOLD, position=np.array(TARGET) - [39.0, 0.0, 0.0], velocity=[-5.0, 0.0, 0.0], tilt_filter=0.0)
+    aside = begun(
+        mode=HoverMode.HOLD, position=np.array(TARGET) - [39.0, 0.0, 0.0], velocity=[-5.0, 0.0, 0.0], tilt_filter=0.0
+    )
     d = aside.thrust_direction
     assert d.x / d.z == pytest.approx(math.tan(math.radians(12.0)))
     assert aside.saturated
-    assert begun(mode=HOLD, position=TARGET, mass=5000.0, maximum_thrust=1e4, minimum_thrust=9e3).saturated
-    falling = begun(mode=HOLD, position=TARGET, velocity=[0.0, 0.0, 20.0])
+    assert begun(mode=HoverMode.HOLD, position=TARGET, mass=5000.0, maximum_thrust=1e4, minimum_thrust=9e3).saturated
+    falling = begun(mode=HoverMode.HOLD, position=TARGET, velocity=[0.0, 0.0, 20.0])
     assert falling.thrust_acceleration == 0.02
     assert falling.saturated
 
@@ -79,14 +82,14 @@ def test_gains_of_a_programme():
     assert block.frequency(end - last_burn - 1.01) == 0.06
     assert block.frequency(end - last_burn - 0.99) == 0.15
     assert block.frequency(end) == 0.12
-    assert begun(mode=SLOW).frequency(1.0) == 0.12
+    assert begun(mode=HoverMode.SLOW).frequency(1.0) == 0.12
 
 
 @pytest.mark.parametrize(("lag", "factor"), [(0.0, 1.03), (0.1, 0.97)])
 def test_thrust_is_estimated_from_an_engine_with_a_lag(lag, factor):
     """Measured over commanded thrust of a first-order engine, integrated by scipy; the error falls by 0.1 or 0.02."""
     held = [0.0, 0.0, GRAVITY * H]
-    block = begun(mode=HOLD, position=TARGET, engine_lag=lag, maximum_thrust=2000.0, velocity_increment=held)
+    block = begun(mode=HoverMode.HOLD, position=TARGET, engine_lag=lag, maximum_thrust=2000.0, velocity_increment=held)
     thrust, errors = MASS * GRAVITY, [factor - 1.0]
     for n in range(40):
         command = min(max(block.mass * block.thrust_acceleration, block.minimum_thrust), 2000.0)
@@ -107,7 +110,7 @@ def test_thrust_is_estimated_from_an_engine_with_a_lag(lag, factor):
 @pytest.mark.parametrize("steps", [(0.075, 0.15), (0.08, 0.08, 0.16, 0.08)])
 def test_samples_that_come_late_count_with_their_own_time(steps):
     """An engine that does as told, seen at communication points that miss the sample instants: the factor stays 1."""
-    block = begun(mode=HOLD, position=TARGET, velocity_increment=[0.0, 0.0, GRAVITY * H])
+    block = begun(mode=HoverMode.HOLD, position=TARGET, velocity_increment=[0.0, 0.0, GRAVITY * H])
     time = 0.0
     for n in range(60):
         elapsed = steps[n % len(steps)]
@@ -135,7 +138,7 @@ def test_the_answer_is_the_number_of_the_plan_flown():
 
 def test_an_estimate_can_be_switched_off_and_follows_no_other_engine():
     for change in ({"estimate_thrust": False}, {}):
-        block = begun(mode=HOLD, position=TARGET, **change)
+        block = begun(mode=HoverMode.HOLD, position=TARGET, **change)
         block.velocity_increment = [0.0, 0.0, 0.0 if not change else 0.2]
         for n in range(10):
             block.step(n * H, H)
@@ -154,10 +157,10 @@ def test_starts_of_plans():
     block.plan_number = 4
     block.step(0.2, H)
     assert (block.plan_kind, block.plan_time) == (1, 0.0)
-    block.mode = HOLD
+    block.mode = HoverMode.HOLD
     block.step(0.3, H)
     assert (block.plan_kind, block.plan_time, block.finished) == (0, 0.0, True)
-    block.mode = IDLE
+    block.mode = HoverMode.IDLE
     block.step(0.4, H)
     assert (block.thrust_acceleration, block.finished, block.saturated) == (0.0, False, False)
     assert block.angular_acceleration_feed == (0.0, 0.0, 0.0)
@@ -170,7 +173,7 @@ def test_starts_of_plans():
 def test_samples_at_its_period():
     component = Component(HoverGuidance)
     names = [name for name, _ in component.elements]
-    for name, value in (("mode", HOLD), ("mass", MASS), ("uniform_gravity", GRAVITY)):
+    for name, value in (("mode", HoverMode.HOLD), ("mass", MASS), ("uniform_gravity", GRAVITY)):
         component.set([names.index(name)], [value])
     component.start()
     seen = []

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from perilune.fmus_src.guidance.hover_guidance import CAPTURE, DESCEND, PROGRAMME, SLOW
+from perilune.fmus_src.interfaces.ports.landing import HoverMode
 from perilune.fmus_src.mathlib.hover.motion import HoverVehicle
 from tests.support.flights.hover_equations import flown
 from tests.support.flights.hover_flight import EXHAUST, GRAVITY, MASS, START, TARGET, H, begun, fly, last
@@ -64,12 +64,12 @@ def test_the_reference_is_the_programme_in_space(t):
     assert [end[0], end[2]] == pytest.approx([np.linalg.norm(side), way @ up], abs=1e-5)
 
 
-@pytest.mark.parametrize("mode", [PROGRAMME, SLOW, CAPTURE])
+@pytest.mark.parametrize("mode", [HoverMode.PROGRAMME, HoverMode.SLOW, HoverMode.CAPTURE])
 def test_the_feed_turns_the_planned_direction(mode):
     start = {
-        PROGRAMME: {},
-        SLOW: {"position": [1580.0, 30.0, 140.0]},
-        CAPTURE: {"velocity": [30.0, 5.0, -20.0], "velocity_increment": [0.0, 0.0, 0.2]},
+        HoverMode.PROGRAMME: {},
+        HoverMode.SLOW: {"position": [1580.0, 30.0, 140.0]},
+        HoverMode.CAPTURE: {"velocity": [30.0, 5.0, -20.0], "velocity_increment": [0.0, 0.0, 0.2]},
     }
     block = begun(mode=mode, **start[mode])
     rate = np.array(block.plan_rate(0.0))
@@ -105,7 +105,7 @@ def test_kinds_of_plans_all_arrive(target, kind):
 def test_slow_transfer():
     """From rest to rest by the polynomial whose rate is 140 s^3 (1 - s)^3."""
     start, target = [0.0, 0.0, 100.0], [20.0, -10.0, 4.0]
-    block = begun(mode=SLOW, position=start, target_position=target, mass=490.0)
+    block = begun(mode=HoverMode.SLOW, position=start, target_position=target, mass=490.0)
     assert (block.plan_kind, block.status) == (4, 0)
     assert block.duration == pytest.approx(2.1875 * 96.0 / 4.0)
     s = 0.3
@@ -123,7 +123,7 @@ def capturing(**changes):
     """Capture from the end of a braking, the thrust axis 62 deg off the vertical and turning."""
     axis = np.array([math.sin(math.radians(62.0)), 0.0, math.cos(math.radians(62.0))])
     values = {
-        "mode": CAPTURE,
+        "mode": HoverMode.CAPTURE,
         "uniform_gravity": 0.0,
         "position": [1700.0, 20.0, 2769.0],
         "velocity": [-120.0, -1.0, -25.0],
@@ -162,7 +162,7 @@ def test_capture_beyond_limits():
 
 def test_descent():
     """The reference sinks with a ramp of speed; feedback alone follows it, as the linear loop does by scipy."""
-    block = begun(mode=DESCEND, position=[0.0, 0.0, 4.0], target_position=[0.0, 0.0, 4.0], mass=480.0)
+    block = begun(mode=HoverMode.DESCEND, position=[0.0, 0.0, 4.0], target_position=[0.0, 0.0, 4.0], mass=480.0)
     assert (block.status, block.finished) == (0, False)
     w, damping = block.holding_frequency, block.damping
 
@@ -184,7 +184,7 @@ def test_descent():
 @pytest.mark.parametrize(
     "change", [{"maximum_thrust": 900.0}, {"mass": math.nan}, {"mass": 0.0}, {"velocity": [math.inf, 0.0, 0.0]}]
 )
-@pytest.mark.parametrize("mode", [PROGRAMME, SLOW, CAPTURE])
+@pytest.mark.parametrize("mode", [HoverMode.PROGRAMME, HoverMode.SLOW, HoverMode.CAPTURE])
 def test_no_plan_possible_holds_where_it_is(mode, change):
     block = begun(mode=mode, **change)
     assert (block.status, block.plan_kind, block.predicted_propellant) == (3, 0, 0.0)
