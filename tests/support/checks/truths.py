@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from tests.support.checks import control, disturbances, guidance, navigation, plants, sensors, sequencing
+from tests.support.checks import actuators, control, disturbances, guidance, navigation, plants, sensors, sequencing
 from tests.support.checks.check import Check
 
 MODULES = {
@@ -13,6 +13,7 @@ MODULES = {
     "disturbances": disturbances,
     "sensors": sensors,
     "sequencing": sequencing,
+    "actuators": actuators,
 }
 TRUTHS: dict[str, tuple[str, Callable[[], Check]]] = {
     name: (kind, truth) for kind, module in MODULES.items() for name, truth in module.TRUTHS.items()
