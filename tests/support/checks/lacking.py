@@ -30,7 +30,6 @@ LACKING = (
     "translation_control",
     "gyro_steering_explicit",
     "jet_allocation_quantised",
-    "pulse_allocation",
     "thrust_allocation",
     "forming_filter",
     "landing_sequencer",
