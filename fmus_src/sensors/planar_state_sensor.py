@@ -16,8 +16,6 @@ class PlanarStateSensor(RandomSensor):
 
     default_step = 0.01
 
-    default_step = 0.01
-
     path_angle_noise = Parameter(0.0, unit="1", minimum=0.0, description="largest relative error of the path angle")
     altitude_noise = Parameter(0.0, unit="1", minimum=0.0, description="largest relative error of the altitude")
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.01)
