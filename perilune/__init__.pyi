@@ -186,6 +186,10 @@ from .fmus_src.mathlib.vectors import (
 from .fmus_src.navigation.attitude_observer import AttitudeObserver as AttitudeObserver
 from .fmus_src.navigation.filtered_navigation import FilteredNavigation as FilteredNavigation
 from .fmus_src.navigation.inertial_navigation import InertialNavigation as InertialNavigation
+from .fmus_src.ports import Port as Port
+from .fmus_src.ports import Status as Status
+from .fmus_src.ports import outcome as outcome
+from .fmus_src.units import deg as deg
 from .fmus_src.variables import (
     DeclarationError as DeclarationError,
 )

@@ -11,9 +11,12 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from importlib import import_module
 
 import pytest
 
+import perilune
+from perilune.fmus_src.face import HOME_OF
 from perilune.fmus_src.paths import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -97,3 +100,10 @@ def test_make_shows_what_pip_does_on_a_terminal_only(tmp_path, watched, quiet):
     installs = [line for line in lines if "pip install" in line]
     assert len(installs) == 2
     assert all(("--quiet" in line) == quiet for line in installs)
+
+
+def test_every_name_for_blocks_is_public() -> None:
+    """An FMU's packed files find the names in `face`, a block at work in `perilune`: one list and its stub."""
+    assert set(HOME_OF) <= set(perilune.__all__)
+    for name in HOME_OF:
+        assert getattr(perilune, name) is getattr(import_module(f"perilune.fmus_src.{HOME_OF[name]}"), name)

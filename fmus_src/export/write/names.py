@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from dataclasses import dataclass
@@ -121,13 +122,17 @@ def block_type_name(name: str) -> str:
 
 
 def _constant_names(constants: list[Constant]) -> dict[Constant, str]:
-    """``UNLIMITED`` of terminal_guidance -> ``TERMINAL_GUIDANCE_UNLIMITED``; with folders where that is not enough."""
+    """``UNLIMITED`` of terminal_guidance -> ``TERMINAL_GUIDANCE_UNLIMITED``; with folders where that is not enough.
+
+    Members of several enumerations of one module may share a name; then they are numbered.
+    """
     names: dict[Constant, str] = {}
-    for constant in constants:
-        name = f"{module_prefix(constant.module)}_{constant.name.strip('_')}".upper()
-        if name in names.values():
-            name = re.sub(r"\W", "_", f"{constant.module}_{constant.name}").upper()
-        names.setdefault(constant, name)
+    for constant in dict.fromkeys(constants):
+        short = f"{module_prefix(constant.module)}_{constant.name.strip('_')}".upper()
+        long = re.sub(r"\W", "_", f"{constant.module}_{constant.name}").upper()
+        candidates = itertools.chain((short, long), (f"{long}_{n}" for n in itertools.count(2)))
+        used = set(names.values())
+        names[constant] = next(name for name in candidates if name not in used)
     return names
 
 

@@ -9,6 +9,7 @@ from tests.support.kernels import samples
 from tests.support.kernels.comparison import Pair, fly
 from tests.support.kernels.language_blocks import Faults, Language, VectorFaults, VectorLanguage
 from tests.support.kernels.record_blocks import RecordFaults, RecordLanguage
+from tests.support.kernels.status_block import Engine, Readiness, Tank, Valve
 
 
 def test_blocks_are_in_the_subset() -> None:
@@ -58,6 +59,11 @@ def test_every_fault_of_records_is_at_the_same_line_and_leaves_the_same_values()
     fly(pair, samples.size(3000))
     lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
     assert len(lines) >= 5, sorted(lines)
+
+
+def test_enumerations_of_one_module_may_name_their_members_alike() -> None:
+    assert [Engine.READY, Tank.READY, Valve.READY] == [0, 1, 2]
+    fly(Pair(Readiness, samples.generator("statuses")), samples.size(200))
 
 
 def test_generated_integrators_are_readable() -> None:
