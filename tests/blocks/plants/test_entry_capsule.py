@@ -174,10 +174,10 @@ def test_pulses_are_cut_where_they_end():
         actual.append(state_of(block))
     assert np.abs(actual[0] - actual[1])[1:].max() < 1e-10
     assert [*block.jet_seconds] == pytest.approx([1.3, 0.7, 0.3])
-    torque = [block.jet(k, length, 0.0) for k in range(3) for length in (0.1, -0.1, 0.0)]
+    torque = [block.jet(2 * k, 2 * k + 1, length, 0.0) for k in range(3) for length in (0.1, -0.1, 0.0)]
     assert torque == [100.0, -45.0, 0.0, 80.0, 0.0, 0.0, 60.0, -50.0, 0.0]
-    assert math.copysign(1.0, block.jet(0, 0.1, 0.05)) == 1.0
-    assert block.jet(0, 0.1, 0.1) == 0.0
+    assert math.copysign(1.0, block.jet(0, 1, 0.1, 0.05)) == 1.0
+    assert block.jet(0, 1, 0.1, 0.1) == 0.0
 
 
 def test_wind_moves_the_air():
