@@ -7,7 +7,7 @@ from ..interfaces.ports import body, inertial, robot
 from ..kernel.integrators import Translation
 from ..mathlib.attitude.quaternion import from_rotation_vector
 from ..mathlib.attitude.rotation import rotation_between
-from ..mathlib.spline import Spline, spline, spline_acceleration, spline_rate, spline_value
+from ..mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
 from ..mathlib.vectors import norm, vector
 from ..ports import Status, outcome
 
@@ -71,11 +71,9 @@ class RendezvousGuidance(Block):
     status = RendezvousStatus.output()
     start_time = State(0.0, unit="s", description="start of the flight")
     acceleration = State([0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="of phase 1")
-    spline_x = State(Spline)
-    spline_y = State(Spline)
-    spline_z = State(Spline)
+    splines = State([0.0] * 21, unit="m", frame="inertial", description="coefficients of phase 3, axis by axis")
     turn_axis = State([0.0, 0.0, 0.0], unit="1", description="of the turn, the same in inertial and body axes")
-    turn_spline = State(Spline)
+    turn_polynomial = State([0.0] * 7, unit="rad", description="coefficients of the angle of the turn")
     place = State([0.0, 0.0, 0.0], unit="m", frame="inertial", description="where to be at arrival_time")
     next_tick = State(0, description="when translation control ticks next, in fast periods")
     granted_velocity = State(
@@ -95,7 +93,7 @@ class RendezvousGuidance(Block):
     def make_plan(self) -> None:
         """Acceleration of phase 1, splines of phase 3 and the turn."""
         self.turn_axis, angle = rotation_between(vector(1.0, 0.0, 0.0), self.spin_axis)
-        self.turn_spline = spline(0.0, 0.0, angle, 0.0, self.turn_end - self.turn_start, 6)
+        spline(0.0, 0.0, angle, 0.0, self.turn_end - self.turn_start, 6, self.turn_polynomial)
         spin = norm(self.spin_axis)
         approach = self.arrival_time - self.turn_end
         # the way per acceleration: phases 1 and 2, and half of phase 3 with the velocity of phase 2
@@ -105,10 +103,11 @@ class RendezvousGuidance(Block):
         self.acceleration = (self.place - 0.5 * approach * self.target_velocity) / reach
         coasting = self.turn_start * self.acceleration
         begin = (self.turn_end - 0.5 * self.turn_start) * coasting
-        last = self.target_velocity
-        self.spline_x = spline(begin.x, coasting.x, self.place.x, last.x, approach, self.spline_degree)
-        self.spline_y = spline(begin.y, coasting.y, self.place.y, last.y, approach, self.spline_degree)
-        self.spline_z = spline(begin.z, coasting.z, self.place.z, last.z, approach, self.spline_degree)
+        c = [0.0] * 7
+        for i in range(3):
+            spline(begin[i], coasting[i], self.place[i], self.target_velocity[i], approach, self.spline_degree, c)
+            for k in range(7):
+                self.splines[7 * i + k] = c[k]
 
     def motion(self, time: float) -> Translation:
         """Planned motion."""
@@ -128,13 +127,15 @@ class RendezvousGuidance(Block):
         """Motion on the splines."""
         duration = self.arrival_time - self.turn_end
         s = (time - self.turn_end) / duration
-        x = self.spline_x
-        y = self.spline_y
-        z = self.spline_z
-        return Translation(
-            position=vector(spline_value(x, s), spline_value(y, s), spline_value(z, s)),
-            velocity=vector(spline_rate(x, s, duration), spline_rate(y, s, duration), spline_rate(z, s, duration)),
-        )
+        position = [0.0] * 3
+        velocity = [0.0] * 3
+        c = [0.0] * 7
+        for i in range(3):
+            for k in range(7):
+                c[k] = self.splines[7 * i + k]
+            position[i] = spline_value(c, s)
+            velocity[i] = spline_rate(c, s, duration)
+        return Translation(position=vector(*position), velocity=vector(*velocity))
 
     def turn(self, time: float) -> None:
         """Planned attitude, its rate, and its acceleration half a period of attitude control later."""
@@ -146,12 +147,12 @@ class RendezvousGuidance(Block):
             s = (time - self.turn_start) / duration
             ahead = s + 0.5 * self.attitude_period / duration
             if s >= 1.0:
-                angle = spline_value(self.turn_spline, 1.0)
+                angle = spline_value(self.turn_polynomial, 1.0)
             elif s > 0.0:
-                angle = spline_value(self.turn_spline, s)
-                rate = spline_rate(self.turn_spline, s, duration)
+                angle = spline_value(self.turn_polynomial, s)
+                rate = spline_rate(self.turn_polynomial, s, duration)
             if ahead > 0.0 and ahead < 1.0:
-                acceleration = spline_acceleration(self.turn_spline, ahead, duration)
+                acceleration = spline_acceleration(self.turn_polynomial, ahead, duration)
         self.planned_quaternion = from_rotation_vector(angle * self.turn_axis)
         self.planned_angular_velocity = rate * self.turn_axis
         self.planned_angular_acceleration = acceleration * self.turn_axis

@@ -7,9 +7,17 @@ from perilune.fmus_src.export.judge.subset import check
 from perilune.fmus_src.export.write.translate import translate
 from tests.support.kernels import samples
 from tests.support.kernels.comparison import Pair, fly
-from tests.support.kernels.language_blocks import Faults, Language, VectorFaults, VectorLanguage
+from tests.support.kernels.language_blocks import (
+    Engine,
+    Faults,
+    Language,
+    Readiness,
+    Tank,
+    Valve,
+    VectorFaults,
+    VectorLanguage,
+)
 from tests.support.kernels.record_blocks import RecordFaults, RecordLanguage
-from tests.support.kernels.status_block import Engine, Readiness, Tank, Valve
 
 
 def test_blocks_are_in_the_subset() -> None:

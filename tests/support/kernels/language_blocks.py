@@ -6,6 +6,7 @@ from math import floor
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
 from perilune.fmus_src.kernel.functions import asin, exp, log, pow, sin
 from perilune.fmus_src.mathlib.vectors import Vector, Vector3, clip, cross, dot, norm, vector
+from perilune.fmus_src.ports import Status, outcome
 
 TABLE = (0.5, -1.25, 3.0, 8.0)
 WEIGHTS = (3, 1, 2)
@@ -415,3 +416,38 @@ class Faults(Block):
             self.result = x if x > 1.0 else 1.0 / x
         else:
             self.result = math.fmod(1.0, x) + sin(1e308 * 10.0)
+
+
+class Engine(Status):
+    """Of the engine."""
+
+    READY = outcome("cold")
+
+
+class Tank(Status):
+    """Of the tank."""
+
+    FULL = outcome("full")
+    READY = outcome("pressurised")
+
+
+class Valve(Status):
+    """Of the valve."""
+
+    SHUT = outcome("shut")
+    OPEN = outcome("open")
+    READY = outcome("checked")
+
+
+class Readiness(Block):
+    """Outcomes of one name and different values."""
+
+    count = Input(0, description="number that is added")
+    engine = Output(0, description="of the engine")
+    tank = Output(0, description="of the tank")
+    valve = Output(0, description="of the valve")
+
+    def step(self, t: float, h: float) -> None:
+        self.engine = Engine.READY + self.count
+        self.tank = Tank.READY + self.count
+        self.valve = Valve.READY + self.count
