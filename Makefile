@@ -21,7 +21,7 @@ QUICK := tests/campaigns/spec tests/campaigns/compare tests/export/judge tests/d
 
 quick: .venv/ready
 	$(BIN)/ruff check .
-	$(BIN)/python -m pytest -n 2 --dist loadfile $(QUICK)
+	$(BIN)/python -m pytest -n 2 --dist loadfile -m 'not flies' $(QUICK)
 
 # The checks that take their whole size: every published start, system and noise, of which `make test` takes a part.
 long: build

@@ -50,9 +50,13 @@ def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "slow: takes minutes; `make long` runs it")
+    config.addinivalue_line("markers", "flies: takes the built FMUs; `make quick` leaves it out")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        if "fmus" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.flies)
     if not LONG:
         for item in items:
             if item.get_closest_marker("slow"):

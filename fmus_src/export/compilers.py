@@ -18,9 +18,9 @@ from pathlib import Path
 
 from .fat_binary import fat_binary
 
-# -O3 for what it does to calls and branches. -fno-tree-vectorize for bits: GCC's vectoriser fuses a difference beside a
-# sum with their products even under -ffp-contract=off (`kernel_self_test.h`). It costs no speed: vectors of doubles of
-# our loops, of three or nine passes, cost more than they save.
+# -O3 for what it does to calls and branches. -fno-tree-vectorize for bits: GCC's vectoriser fuses a difference next to
+# a sum with their products even under -ffp-contract=off (`kernel_self_test.h`). It costs no speed: vectors of
+# doubles of our loops, of three or nine passes, cost more than they save.
 FLAGS = ("-O3", "-fno-tree-vectorize", "-std=c99", "-ffp-contract=off", "-fPIC", "-shared", "-s")
 
 

@@ -5,7 +5,7 @@
  * The first fault is kept. What Python's unbounded ints could still do beyond 64 bits is a fault.
  *
  * Compile with -ffp-contract=off -fno-tree-vectorize: a contracted a * b + c rounds once, and GCC's vectoriser contracts
- * sums beside differences even under -ffp-contract=off. Of the C library only what IEEE 754 defines to the last bit is
+ * a sum next to a difference even under -ffp-contract=off. Of the C library only what IEEE 754 defines to the last bit is
  * called.
  */
 #ifndef KERNEL_MATH_H

@@ -15,7 +15,7 @@
 #define NOT_INLINED
 #endif
 
-/* A difference beside a sum, which GCC's vectoriser fuses with their products even under -ffp-contract=off. */
+/* A difference next to a sum, which GCC's vectoriser fuses with their products even under -ffp-contract=off. */
 static NOT_INLINED void add_and_subtract(const double *x, const double *y, const double *z, double *result)
 {
     const double difference = x[0] * y[0] - z[0] * y[0], sum = x[1] * y[1] + z[1] * y[1];
@@ -60,9 +60,9 @@ static NOT_INLINED const char *check_arithmetic(void)
                "compile sources/ with -ffp-contract=off";
     }
     const double equal[2] = {a, a};
-    double result_pair[2];
-    add_and_subtract(equal, equal, equal, result_pair);
-    if (result_pair[0] != 0.0) { /* 2^-54 or its negative if one of the equal products is fused */
+    double pair[2];
+    add_and_subtract(equal, equal, equal, pair);
+    if (pair[0] != 0.0) { /* 2^-54 or its negative if one of the equal products is fused */
         return "the compiler's vectoriser fuses a * b + c into one operation, which rounds once; "
                "compile sources/ with -fno-tree-vectorize";
     }

@@ -45,7 +45,7 @@ def exact_numerator(state):
 
 
 class Numbers:
-    """The random numbers of a seed and a stream: arrays of the shape asked for, in the order of drawing."""
+    """The random numbers of a seed and a stream: arrays of the given shape, in the order of drawing."""
 
     def __init__(self, seed, stream):
         self.state = advanced([12345] * 6, seed * 2**127 + stream * 2**76)

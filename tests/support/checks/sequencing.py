@@ -4,7 +4,7 @@ import numpy as np
 
 from tests.support.checks.check import STEP, Check, follow
 
-PLAN = 4  # hover plan that is asked for
+PLAN = 4  # requested hover plan
 
 
 def unit_vectors(random, rows):
