@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | checks | figures | bench | sanitize | elementary | processors | browser | emulator | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | checks | figures | bench | sanitize | elementary | processors | browser | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # On a terminal pip shows what it does, in a log nothing.
@@ -86,13 +86,18 @@ elementary: .venv/ready
 	PERILUNE_ELEMENTARY_SAMPLES=1000000 $(BIN)/python -m pytest -n 2 -rP tests/kernel
 	$(BIN)/python -m tests.kernel.coefficients
 
-# The same bits everywhere: whole campaigns with less of the processor, the C of every block by every compiler.
-processors: build emulator
+# The same bits everywhere: whole campaigns with less of the processor, the C of every block by every compiler, and the
+# shipped Windows libraries under Wine.
+processors: build emulator windows
 	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 tests/processors
 
 # What the tests of the C on aarch64 need, from Debian's packages (as root); without it they are left out.
 emulator:
 	@command -v qemu-aarch64-static >/dev/null || { apt-get update -qq && apt-get install -y -qq qemu-user-static >/dev/null; }
+
+# What runs the Windows libraries, from Debian's packages (as root).
+windows:
+	@command -v wine >/dev/null || { apt-get update -qq && apt-get install -y -qq --no-install-recommends wine wine64 >/dev/null; }
 
 # What the tests of the HTML pages need, from Debian's packages (as root). `make test` tries it where it can; without a
 # browser these tests are left out, which the last lines say.
@@ -120,4 +125,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build docs wheel notebooks explore gains checks bench large sanitize browser lint clean
+.PHONY: demo test quick long long-campaigns build docs wheel notebooks explore gains checks bench large sanitize processors emulator windows browser lint clean

@@ -1,10 +1,11 @@
-"""Programs of one block's C and `checksum_fmu.c`, made by any compiler for any processor."""
+"""Programs of `checksum_fmu.c` and one block: its C, by any compiler for any processor, or its FMU's library."""
 
 from __future__ import annotations
 
 import shutil
 import subprocess
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 from perilune.fmus_src.block import Block
@@ -35,13 +36,25 @@ def checksum(block: type[Block], compiler: str, steps: int, folder: Path) -> str
     for name, text in native_sources(block, GUID).items():
         (folder / name).write_bytes(text)
     program = folder / "program"
-    sources = ["-I", ".", "-o", str(program), str(DRIVER), f"{block.fmu_name}.c", "-lm"]
-    compiled = subprocess.run([*command, *FLAGS, *sources], cwd=folder, capture_output=True, text=True, check=False)
+    link([*command, *FLAGS], [f"{block.fmu_name}.c", "-lm"], program)
+    return fly(block, [*runner, str(program)], GUID, steps)
+
+
+def link(command: list[str], inputs: list[str], program: Path) -> None:
+    """Make the driver's program with sources or a library of its folder, where the FMI headers lie."""
+    words = [*command, "-I", ".", "-o", str(program), str(DRIVER), *inputs]
+    compiled = subprocess.run(words, cwd=program.parent, capture_output=True, text=True, check=False)
     assert compiled.returncode == 0, compiled.stderr
+
+
+def fly(
+    block: type[Block], program: list[str], guid: str, steps: int, environment: Mapping[str, str] | None = None
+) -> str:
+    """What a program of `link` prints."""
     variables = block.variables.values()
     kinds = "".join(variable.type_name[0].lower() * variable.size for variable in variables)
     causalities = "".join(variable.causality[0] * variable.size for variable in variables)
-    words = [*runner, str(program), GUID, kinds, causalities, str(block.default_step), str(steps)]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    words = [*program, guid, kinds, causalities, str(block.default_step), str(steps)]
+    done = subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout

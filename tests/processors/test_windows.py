@@ -1,0 +1,57 @@
+"""The Windows libraries of the FMUs as they are shipped give the bits of their C here.
+
+Truth: the checksum of `test_compilers.py`, by the system's compiler without optimisation. Windows is Wine's, with
+Microsoft's C runtime (ucrtbase) as Wine writes it: what an FMU calls of it is exact. Only `make processors` takes it.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import zipfile
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.paths import shipped_fmu
+from tests.support.kernels.programs import ZIG, checksum, fly, link
+from tests.support.lengths import LONG
+
+WINE = shutil.which("wine")
+BLOCKS = [block for block in catalogue().values() if not block.python_only]
+STEPS = 2000
+
+pytestmark = [
+    pytest.mark.usefixtures("fmus"),
+    pytest.mark.skipif(WINE is None or not LONG, reason="only with Wine, in make processors"),
+]
+
+
+@pytest.fixture(scope="module")
+def windows(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """An environment whose Wine has a fresh Windows."""
+    prefix = tmp_path_factory.mktemp("windows")
+    environment = {**os.environ, "WINEPREFIX": str(prefix), "WINEDEBUG": "-all"}
+    subprocess.run([str(WINE), "cmd", "/c", "exit"], env=environment, check=True, capture_output=True)
+    return environment
+
+
+@pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.fmu_name)
+def test_a_shipped_windows_library_gives_the_same_bits(
+    block: type[Block], windows: dict[str, str], tmp_path: Path
+) -> None:
+    library = f"{block.fmu_name}.dll"
+    with zipfile.ZipFile(shipped_fmu(block.fmu_name, "native")) as archive:
+        guid = etree.fromstring(archive.read("modelDescription.xml")).get("guid")
+        for name in archive.namelist():
+            if name.startswith("sources/fmi2") or name == f"binaries/win64/{library}":
+                (tmp_path / Path(name).name).write_bytes(archive.read(name))
+    program = tmp_path / "program.exe"
+    link([*ZIG, "-target", "x86_64-windows-gnu", "-std=c99", "-O2"], [library], program)
+    (tmp_path / "here").mkdir()
+    expected = checksum(block, "cc -O0", STEPS, tmp_path / "here")
+    assert fly(block, [str(WINE), str(program)], guid, STEPS, windows) == expected
