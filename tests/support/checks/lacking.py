@@ -20,7 +20,6 @@ LACKING = (
     "hover_guidance",
     "network_operator_guidance",
     "planar_network_operator",
-    "rendezvous_guidance",
     "attitude_control",
     "orbital_arrival_control",
     "orbital_modal_control",

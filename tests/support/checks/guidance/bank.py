@@ -1,4 +1,4 @@
-"""Truths of guidance: closed forms."""
+"""Truth of the programme of bank: closed forms."""
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
