@@ -2,7 +2,6 @@
 
 LACKING = (
     "attitude_moon_lander",
-    "attitude_filter",
     "kalman_navigation",
     "kalman_navigation_filterpy",
     "orbital_filter",
@@ -11,7 +10,6 @@ LACKING = (
     "orbital_observer_discrete",
     "orbital_observer_discrete_reduced",
     "orbital_sequence",
-    "translation_filter",
     "analytic_guidance",
     "analytic_exact_guidance",
     "astar_guidance",

@@ -1,8 +1,7 @@
-"""Truths of navigation: what is passed on. Direct outputs follow one row later."""
+"""Truths of navigation that passes the true state on. Direct outputs follow one row later."""
 
 import numpy as np
 
-from tests.support.checks import estimates
 from tests.support.checks.check import STEP, Check, follow
 
 ROWS = 17
@@ -41,7 +40,6 @@ def orbital_true_state():
 
 
 TRUTHS = {
-    **estimates.TRUTHS,
     "ideal_navigation": ideal_navigation,
     "orbital_true_state": orbital_true_state,
 }
