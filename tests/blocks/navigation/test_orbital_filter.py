@@ -1,6 +1,6 @@
 """The filter of the orbital attitude.
 
-Truth: filterpy's extended Kalman filter with the equations written out by numpy (1e-9 of the states, 1e-12 of the
+Truth: filterpy's extended Kalman filter with the derivatives by complex steps (1e-9 of the states, 1e-12 of the
 covariance); the least possible variance of yaw, in closed form; the bias that yaw hides.
 """
 
@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 import pytest
-from filterpy.kalman import ExtendedKalmanFilter
 
-from tests.support.flights.orbital_motion import DEGREE, INERTIA, JET_TORQUE, ORBITAL_RATE
+from tests.support.checks.navigation.orbital_filter import AttitudeKalman
+from tests.support.flights.orbital_motion import DEGREE, ORBITAL_RATE
 from tests.support.flights.orbital_runs import TICK, Run
 
 NOISY = {
@@ -20,68 +20,10 @@ NOISY = {
 }
 
 
-def rates_of(a, w):
-    """The rates of the angles by Euler's kinematic matrix, and that matrix."""
-    g, y, t = a
-    turn = np.array(
-        [
-            [1.0, -math.tan(t) * math.cos(g), math.tan(t) * math.sin(g)],
-            [0.0, math.cos(g) / math.cos(t), -math.sin(g) / math.cos(t)],
-            [0.0, math.sin(g), math.cos(g)],
-        ]
-    )
-    normal = np.array(
-        [
-            -math.sin(y) * math.cos(t),
-            math.cos(g) * math.sin(y) * math.sin(t) + math.sin(g) * math.cos(y),
-            math.cos(g) * math.cos(y) - math.sin(g) * math.sin(y) * math.sin(t),
-        ]
-    )
-    return turn @ (np.asarray(w) + ORBITAL_RATE * normal), turn
-
-
-def derivative(a, w, h=1e-5):
-    return np.array([(rates_of(a + h * e, w)[0] - rates_of(a - h * e, w)[0]) / (2.0 * h) for e in np.eye(3)]).T
-
-
-class Twin:
-    """The filter by filterpy."""
-
-    def __init__(self, sample, settings):
-        self.filter = ExtendedKalmanFilter(6, 1)
-        self.filter.x = np.array([sample[0], 0.0, sample[1], 0.0, 0.0, 0.0])
-        horizon, bias = settings["vertical_sigma"] ** 2, settings["gyro_bias_sigma"] ** 2
-        self.filter.P = np.diag([horizon, (10.0 * DEGREE) ** 2, horizon, bias, bias, bias])
-        self.filter.Q = np.diag([(settings["gyro_sigma"] * TICK) ** 2] * 3 + [0.0] * 3)
-        self.filter.R = np.array([[horizon]])
-        self.rates = self.before = np.array(sample[2])
-
-    def step(self, sample, pulses):
-        measured, pulses = np.array(sample[2]), np.array(pulses)
-        gained = np.linalg.solve(INERTIA, JET_TORQUE * pulses)
-        missed = np.linalg.solve(INERTIA, JET_TORQUE * pulses * (TICK - np.abs(pulses)) / (2.0 * TICK))
-        w = 0.5 * (self.before + measured) + missed - self.filter.x[3:]
-        middle = self.filter.x[:3] + 0.5 * TICK * rates_of(self.filter.x[:3], w)[0]
-        moved, turn = rates_of(middle, w)
-        self.filter.F = np.eye(6)
-        self.filter.F[:3, :3] += TICK * derivative(middle, w)
-        self.filter.F[:3, 3:] = -TICK * turn
-        ahead = self.filter.x.copy()
-        ahead[:3] += TICK * moved
-        self.filter.predict()
-        self.filter.x = ahead
-        for index, value in ((0, sample[0]), (2, sample[1])):
-            row = np.eye(6)[index : index + 1]
-            self.filter.update(np.array([value]), lambda x, row=row: row, lambda x, row=row: row @ x)
-        expected = self.rates + gained
-        self.rates = expected + 0.15 * (measured - self.filter.x[3:] - expected)
-        self.before = measured
-
-
 def test_it_is_the_filter_of_filterpy():
     random = np.random.default_rng(8)
     sample = (0.02, -0.01, (1e-4, -2e-4, -ORBITAL_RATE))
-    run, twin = Run("orbital_filter", sample, **NOISY), Twin(sample, NOISY)
+    run, twin = Run("orbital_filter", sample, **NOISY), AttitudeKalman(sample, **NOISY, tick=TICK)
     for _ in range(100):
         sample = (
             0.02 + random.normal(0.0, 1e-3),

@@ -5,6 +5,7 @@ Written from Euler's equations and the gravity gradient of a rigid body (Hughes 
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 ORBITAL_RATE = 0.0011
@@ -35,6 +36,27 @@ def acceleration(matrix, w, torque, inertia=INERTIA):
     up = matrix[:, 1]
     moment = 3.0 * ORBITAL_RATE**2 * np.cross(up, inertia @ up) - np.cross(w, inertia @ w) + torque
     return np.linalg.solve(inertia, moment)
+
+
+def turn(axis, angle):
+    """Matrix of a turn about a coordinate axis; angles may be complex."""
+    return expm(angle * np.cross(np.eye(3), np.eye(3)[axis]))
+
+
+def rates_of(state, torque=(0.0, 0.0, 0.0), inertia=INERTIA):
+    """(angles, w)' of (angles, w), which may be complex: the turns' axes in the body give what their rates are."""
+    roll, yaw, pitch = state[:3]
+    by_roll, by_pitch = turn(0, roll).T, turn(2, pitch).T
+    from_orbital = by_roll @ by_pitch @ turn(1, yaw).T
+    axes = np.column_stack([np.eye(3)[0], by_roll @ by_pitch[:, 1], by_roll[:, 2]])
+    w = state[3:]
+    angle_rates = np.linalg.solve(axes, w + ORBITAL_RATE * from_orbital[:, 2])
+    return np.concatenate([angle_rates, acceleration(from_orbital, w, np.array(torque), inertia)])
+
+
+def derivatives_of(function, state):
+    """Matrix of the derivatives of a function by a state, by complex steps."""
+    return np.column_stack([function(state + 1e-30j * unit).imag / 1e-30 for unit in np.eye(len(state))])
 
 
 def flown(angles, w, times, torque_at, cuts=(), inertia=INERTIA):

@@ -1,13 +1,16 @@
 """Truths of navigation."""
 
-from tests.support.checks.navigation import lunar, monitors, passing
+from tests.support.checks.navigation import lunar, monitors, orbital_observers, passing
 from tests.support.checks.navigation.attitude_filter import attitude_filter
+from tests.support.checks.navigation.orbital_filter import orbital_filter
 from tests.support.checks.navigation.translation_filter import translation_filter
 
 TRUTHS = {
     **lunar.TRUTHS,
     **monitors.TRUTHS,
+    **orbital_observers.TRUTHS,
     **passing.TRUTHS,
     "attitude_filter": attitude_filter,
+    "orbital_filter": orbital_filter,
     "translation_filter": translation_filter,
 }
