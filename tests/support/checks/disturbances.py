@@ -1,8 +1,10 @@
-"""Truths of disturbances: closed forms."""
+"""Truths of disturbances: closed forms, and the theory of linear systems driven by white noise."""
 
 import numpy as np
+from scipy.linalg import expm, solve_continuous_lyapunov
 
 from tests.support.checks.check import STEP, Check
+from tests.support.checks.mrg32k3a import Numbers
 
 
 def air_disturbance():
@@ -42,4 +44,35 @@ def jet_health():
     )
 
 
-TRUTHS = {"air_disturbance": air_disturbance, "jet_health": jet_health}
+def forming_filter():
+    """The matrix exponential, van Loan's covariance of a step's noise and Lyapunov's of the start.
+
+    Each step takes two numbers, the first for the disturbance, by the lower Cholesky factor.
+    """
+    damping, w, intensity, rows, seed, stream = 0.3, 2.0, 0.7, 49, 28, 7
+    a, noise = np.array([[0.0, 1.0], [-w * w, -2.0 * damping * w]]), np.diag([0.0, intensity * w**4])
+    whole = expm(STEP * np.block([[-a, noise], [np.zeros((2, 2)), a.T]]))
+    f = whole[2:, 2:].T
+    start, step = (np.linalg.cholesky(c) for c in (solve_continuous_lyapunov(a, -noise), f @ whole[:2, 2:]))
+    first, *later = Numbers(seed, stream).normal(rows, 2)
+    states = [start @ first]
+    for numbers in later:
+        states.append(f @ states[-1] + step @ numbers)
+    disturbance, rate = np.transpose(states)
+    return Check(
+        truth="matrix exponentials by scipy, exact random numbers",
+        step=STEP,
+        inputs={},
+        outputs={"disturbance": disturbance, "disturbance_rate": rate},
+        tolerances={"disturbance": (1e-12, 0.0), "disturbance_rate": (1e-12, 0.0)},
+        parameters={
+            "damping": damping,
+            "natural_frequency": w,
+            "intensity": intensity,
+            "seed": np.array(seed),
+            "stream": np.array(stream),
+        },
+    )
+
+
+TRUTHS = {"air_disturbance": air_disturbance, "forming_filter": forming_filter, "jet_health": jet_health}

@@ -1,7 +1,6 @@
 """Blocks that lack a check; the list may only shrink."""
 
 LACKING = (
-    "attitude_moon_lander",
     "kalman_navigation",
     "kalman_navigation_filterpy",
     "analytic_guidance",
@@ -12,16 +11,5 @@ LACKING = (
     "hover_guidance",
     "network_operator_guidance",
     "planar_network_operator",
-    "attitude_control",
-    "orbital_arrival_control",
-    "orbital_modal_control",
-    "output_feedback",
-    "standard_control",
-    "thrust_axis_control",
-    "translation_control",
-    "gyro_steering_explicit",
-    "jet_allocation_quantised",
-    "thrust_allocation",
-    "forming_filter",
     "landing_sequencer",
 )

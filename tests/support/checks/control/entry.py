@@ -1,4 +1,4 @@
-"""Truths of regulators of an entry capsule: their equations as matrices. Direct outputs follow one row later."""
+"""Truths of regulators of an entry capsule."""
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -64,4 +64,49 @@ def robust_control():
     )
 
 
-TRUTHS = {"no_control": no_control, "robust_control": robust_control}
+def output_feedback():
+    """One matrix over bank and rates against the reference, its gains interpolated by numpy; the turn by scipy.
+
+    The dynamic pressure goes from below the first pressure to above the last, the bank once around.
+    """
+    trim, dead_zone, pitch, error_limit = -0.3, 0.2, 900.0, 0.3
+    pressures, level = np.array([400.0, 1100.0, 5000.0]), np.array([90.0, 70.0, 80.0])
+    gains = np.random.default_rng(286).uniform(-900.0, 300.0, (3, 6)) * np.array([0.4, 1.0, 1.0, 0.4, 1.0, 1.0])
+    inputs = signals()
+    inputs["measured_bank"] = 4.0 * np.linspace(-1.0, 1.0, ROWS) ** 3
+    inputs["dynamic_pressure"] = np.geomspace(200.0, 9000.0, ROWS)
+    inputs["error_limit"] = np.full(ROWS, error_limit)
+    interpolated = [np.interp(np.log(inputs["dynamic_pressure"]), np.log(pressures), column) for column in gains.T]
+    along = Rotation.from_euler("z", trim).inv().apply([1.0, 0.0, 0.0])
+    error = np.angle(np.exp(1j * (inputs["measured_bank"] - inputs["reference_bank"])))
+    assert 0 < (np.abs(error) > error_limit).sum() < ROWS
+    rates = inputs["measured_angular_velocity"] - np.outer(inputs["reference_bank_rate"], along)
+    errors = np.column_stack([error.clip(-error_limit, error_limit), rates[:, :2]])
+    torque = np.outer(inputs["reference_bank_acceleration"], INERTIA @ along)
+    torque[:, :2] += np.einsum("krc,rc->rk", np.reshape(interpolated, (2, 3, ROWS)).transpose(0, 2, 1), errors)
+    torque[:, 2] = -pitch * inputs["measured_angular_velocity"][:, 2]
+    small = np.abs(torque) < dead_zone * level
+    assert (small.any(axis=0) & ~small.all(axis=0)).all()
+    return Check(
+        truth="matrices and interpolation by numpy, the turn by scipy",
+        step=STEP,
+        inputs=inputs,
+        outputs={"torque_command": follow(np.where(small, 0.0, torque)), "status": np.zeros(ROWS)},
+        tolerances={"torque_command": (1e-10, 0.0), "status": (0.0, 0.0)},
+        parameters={
+            "sample_period": STEP,
+            "trim_attack": trim,
+            "dead_zone": dead_zone,
+            "pitch_damping": pitch,
+            "jet_torque": level,
+            "pressures": pressures,
+            "gains": gains.reshape(6, 3),
+        },
+    )
+
+
+TRUTHS = {
+    "no_control": no_control,
+    "output_feedback": output_feedback,
+    "robust_control": robust_control,
+}

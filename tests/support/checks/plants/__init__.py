@@ -1,0 +1,5 @@
+"""Truths of plants: closed forms, and scipy's DOP853 on equations written out anew."""
+
+from tests.support.checks.plants import attitude_lander, bodies, landers
+
+TRUTHS = {**attitude_lander.TRUTHS, **bodies.TRUTHS, **landers.TRUTHS}

@@ -1,0 +1,26 @@
+"""What truths of plants share: integration by DOP853."""
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from tests.support.checks.check import STEP
+
+STANDARD_GRAVITY = 9.80665
+UP = np.array([0.0, 0.0, 1.0])
+
+
+def integrate(slope, start, end, y, rtol=1e-13, atol=1e-10):
+    """The state at ``end`` by DOP853."""
+    return solve_ivp(slope, (start, end), y, method="DOP853", rtol=rtol, atol=atol).y[:, -1]
+
+
+def unit(vector):
+    return np.asarray(vector) / np.linalg.norm(vector)
+
+
+def fly(rates_of, start, rows, **tolerances):
+    """The state at every row; ``rates_of``: row -> y' as a function of time and state while its inputs are held."""
+    states = [np.asarray(start, dtype=float)]
+    for row in range(rows - 1):
+        states.append(integrate(rates_of(row), STEP * row, STEP * (row + 1), states[-1], **tolerances))
+    return np.array(states)
