@@ -13,36 +13,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from perilune.fmus_src.mathlib import network_operator as no
+from tests.support.laws.operations import FORMULAS, LARGE, backwards
 from tests.support.lengths import either
 
-LARGE = 1e8
 ROUNDING = 4 * 2.0**-53
 
-# The published formulas where they hold, that is without saturation.
-FORMULAS = {
-    1: lambda z: z,
-    2: lambda z: z**2,
-    3: lambda z: -z,
-    4: lambda z: np.sign(z) * np.sqrt(np.abs(z)),
-    5: lambda z: 1 / z,
-    6: np.exp,
-    7: lambda z: np.log(np.abs(z)),
-    8: lambda z: (1 - np.exp(-z)) / (1 + np.exp(-z)),
-    9: lambda z: float(z >= 0),
-    10: lambda z: 1.0 if z >= 0 else -1.0,
-    11: np.cos,
-    12: np.sin,
-    13: np.arctan,
-    14: lambda z: z**3,
-    15: lambda z: np.sign(z) * np.abs(z) ** (1 / 3),
-    16: lambda z: max(-1.0, min(1.0, z)),
-    17: lambda z: np.sign(z) * np.log(np.abs(z) + 1),
-    18: lambda z: np.sign(z) * (np.exp(np.abs(z)) - 1),
-    19: lambda z: np.sign(z) * np.exp(-np.abs(z)),
-    20: lambda z: z / 2,
-    21: lambda z: 2 * z,
-    23: lambda z: z - z**3,
-}
 # Beyond saturation and at the poles: (operation, argument, value).
 EDGES = [
     (2, 1e5, LARGE),
@@ -136,30 +111,13 @@ def evaluated(matrix, sources):
     return nodes
 
 
-def backwards(matrix, sources, node):
-    """A node's value from its predecessors' values, recursively."""
-    if node < len(sources):
-        return sources[node]
-    kind = matrix[node, node]
-    value = {0: 0.0, 1: 1.0, 2: -LARGE, 3: LARGE}[kind]
-    for before in range(node):
-        if matrix[before, node]:
-            term = no.unary(int(matrix[before, node]), backwards(matrix, sources, before), LARGE)
-            value = {
-                0: value + term,
-                1: max(-LARGE, min(LARGE, value * term)),
-                2: max(value, term),
-                3: min(value, term),
-            }[kind]
-    return value
-
-
 def test_random_networks_are_evaluated_in_order():
     generator = np.random.default_rng(1)
     for _ in range(100):
         matrix, sources = a_network(generator, 0.2), generator.normal(size=6).tolist()
         nodes = evaluated(matrix, sources)
-        assert nodes == [backwards(matrix, sources, node) for node in range(16)]
+        value_of = backwards(matrix, sources, lambda operation, z: no.unary(operation, z, LARGE))
+        assert nodes == [value_of(node) for node in range(16)]
 
 
 @given(

@@ -9,7 +9,5 @@ LACKING = (
     "astar_modified_guidance",
     "astar_robust_guidance",
     "hover_guidance",
-    "network_operator_guidance",
-    "planar_network_operator",
     "landing_sequencer",
 )

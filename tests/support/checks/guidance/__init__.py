@@ -1,5 +1,6 @@
 """Truths of guidance, a module per family."""
 
-from tests.support.checks.guidance import bank, rendezvous
+from tests.support.checks.guidance import bank, network, planar_network, rendezvous
 
-TRUTHS = {name: truth for module in (bank, rendezvous) for name, truth in module.TRUTHS.items()}
+MODULES = (bank, network, planar_network, rendezvous)
+TRUTHS = {name: truth for module in MODULES for name, truth in module.TRUTHS.items()}
