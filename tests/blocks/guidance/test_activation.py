@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from perilune.fmus_src.guidance.network_operator import NetworkOperatorGuidance
-from tests.support.flights.terminal_guidance import ALL, POSITION, VELOCITY, command_of, see
+from tests.support.flights.linear_thrust import POSITION, VELOCITY
+from tests.support.flights.terminal_guidance import ALL, command_of, see
 
 START = 37.0
 STEP = 0.5

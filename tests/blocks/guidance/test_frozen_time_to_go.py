@@ -10,20 +10,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from perilune.fmus_src.interfaces.ports.landing import UNLIMITED
+from tests.support.flights.linear_thrust import GRAVITY, POSITION, TARGET, VELOCITY, impulse_and_miss
 from tests.support.flights.terminal_guidance import (
     ALL,
     EXACT,
     GOOD,
-    GRAVITY,
     NOT_CONVERGED,
-    POSITION,
-    TARGET,
-    VELOCITY,
     AnalyticGuidance,
     AstarGuidance,
     AstarModifiedGuidance,
     commanded,
-    impulse_and_miss,
     see,
 )
 

@@ -15,21 +15,23 @@ from perilune.fmus_src.guidance.analytic_exact import AnalyticExactGuidance
 from perilune.fmus_src.guidance.astar import AstarGuidance
 from perilune.fmus_src.guidance.astar_modified import AstarModifiedGuidance
 from perilune.fmus_src.guidance.astar_robust import AstarRobustGuidance
-from tests.support.flights.terminal_guidance import (
-    CLAMPED,
-    GOOD,
-    NOT_CONVERGED,
+from tests.support.flights.linear_thrust import (
     POSITION,
     VELOCITY,
-    assert_points_along,
     astar_roots,
     balance_roots,
-    box,
-    commanded,
     impulse_and_miss,
     linear_thrust,
     modified_time,
     states_of_the_box,
+)
+from tests.support.flights.terminal_guidance import (
+    CLAMPED,
+    GOOD,
+    NOT_CONVERGED,
+    assert_points_along,
+    box,
+    commanded,
 )
 from tests.support.lengths import either
 

@@ -16,19 +16,16 @@ from numpy.polynomial import Polynomial
 
 from perilune.fmus_src.guidance.analytic_exact import AnalyticExactGuidance
 from perilune.fmus_src.guidance.astar import AstarGuidance
+from tests.support.flights.linear_thrust import GRAVITY, POSITION, VELOCITY, states_of_the_box
 from tests.support.flights.terminal_guidance import (
     ALL,
     EXACT,
     GOOD,
-    GRAVITY,
     NOT_CONVERGED,
-    POSITION,
-    VELOCITY,
     command_of,
     commanded,
     rootless_state,
     see,
-    states_of_the_box,
 )
 from tests.support.lengths import either
 

@@ -17,17 +17,8 @@ from perilune.fmus_src.guidance.analytic_exact import AnalyticExactGuidance
 from perilune.fmus_src.guidance.astar import AstarGuidance
 from perilune.fmus_src.guidance.astar_modified import AstarModifiedGuidance
 from perilune.fmus_src.guidance.astar_robust import AstarRobustGuidance
-from tests.support.flights.terminal_guidance import (
-    ALL,
-    GOOD,
-    UP,
-    assert_points_along,
-    balance_roots,
-    box,
-    commanded,
-    impulse_and_miss,
-    linear_thrust,
-)
+from tests.support.flights.linear_thrust import UP, balance_roots, impulse_and_miss, linear_thrust
+from tests.support.flights.terminal_guidance import ALL, GOOD, assert_points_along, box, commanded
 from tests.support.lengths import either
 
 

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from perilune.fmus_src.guidance.astar import AstarGuidance
+from tests.support.flights.linear_thrust import POSITION, VELOCITY
 from tests.support.flights.terminal_guidance import (
     ALL,
     CLAMPED,
@@ -18,9 +19,7 @@ from tests.support.flights.terminal_guidance import (
     GOOD,
     NO_SOLUTION,
     NOT_CONVERGED,
-    POSITION,
     STOPPING,
-    VELOCITY,
     command_of,
     commanded,
     rootless_state,

@@ -13,21 +13,16 @@ from scipy.optimize import minimize_scalar
 
 from perilune.fmus_src.guidance.analytic_exact import AnalyticExactGuidance
 from perilune.fmus_src.guidance.astar_robust import AstarRobustGuidance
-from tests.support.flights.terminal_guidance import (
-    EXACT,
-    GOOD,
+from tests.support.flights.linear_thrust import (
     GRAVITY,
-    NO_SOLUTION,
     POSITION,
     TARGET,
     UP,
     VELOCITY,
-    commanded,
-    flight,
     linear_thrust,
-    see,
     states_of_the_box,
 )
+from tests.support.flights.terminal_guidance import EXACT, GOOD, NO_SOLUTION, commanded, flight, see
 from tests.support.lengths import either
 
 STARTS = {  # from the target, m and m/s

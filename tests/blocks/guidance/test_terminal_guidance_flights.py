@@ -12,17 +12,15 @@ from perilune.fmus_src.guidance.astar import AstarGuidance
 from perilune.fmus_src.guidance.astar_modified import AstarModifiedGuidance
 from perilune.fmus_src.guidance.astar_robust import AstarRobustGuidance
 from tests.support.flights.independent_lander import fly
-from tests.support.flights.terminal_guidance import (
-    EXACT,
-    GOOD,
+from tests.support.flights.linear_thrust import (
     GRAVITY,
     POSITION,
     TARGET,
     UP,
     VELOCITY,
-    flight,
     states_of_the_box,
 )
+from tests.support.flights.terminal_guidance import EXACT, GOOD, flight
 from tests.support.lengths import either
 
 

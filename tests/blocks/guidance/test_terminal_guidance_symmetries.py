@@ -13,14 +13,10 @@ from hypothesis import strategies as st
 from perilune.fmus_src.guidance.analytic import AnalyticGuidance
 from perilune.fmus_src.guidance.analytic_exact import AnalyticExactGuidance
 from perilune.fmus_src.guidance.astar_modified import AstarModifiedGuidance
+from tests.support.flights.linear_thrust import EXHAUST_SPEED, GRAVITY, POSITION, TARGET, VELOCITY
 from tests.support.flights.terminal_guidance import (
     ALL,
-    EXHAUST_SPEED,
     GOOD,
-    GRAVITY,
-    POSITION,
-    TARGET,
-    VELOCITY,
     assert_points_along,
     box,
     command_of,

@@ -18,7 +18,8 @@ from scipy.integrate import solve_ivp
 
 from perilune.fmus_src.mathlib.lunar import terminal
 from perilune.fmus_src.mathlib.vectors import vector
-from tests.support.flights.terminal_guidance import GRAVITY, TARGET, UP, box, states_of_the_box
+from tests.support.flights.linear_thrust import GRAVITY, TARGET, UP, states_of_the_box
+from tests.support.flights.terminal_guidance import box
 from tests.support.lengths import either
 
 ZERO = [0.0, 0.0, 0.0]

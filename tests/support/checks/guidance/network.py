@@ -54,8 +54,8 @@ def network_operator_guidance():
     up, altitude, velocity, mass, active = descent()
     rows = np.arange(len(up))
     across = np.cross(up, velocity)
-    path_angle = -np.arctan2(np.linalg.norm(across, axis=1), (up * velocity).sum(axis=1))
-    law = np.array([encoded_law(a, h, LEGACY) for a, h in zip(path_angle, altitude, strict=True)])
+    velocity_angle = -np.arctan2(np.linalg.norm(across, axis=1), (up * velocity).sum(axis=1))
+    law = np.array([encoded_law(a, h, LEGACY) for a, h in zip(velocity_angle, altitude, strict=True)])
     angle, above = law[:, 0].clip(0.0, np.pi), (STANDARD_GRAVITY * law[:, 1]).clip(-VARIATION, VARIATION)
     assert set(np.sign(np.abs(above) - VARIATION)) == {-1.0, 0.0}
     axis = np.cross(hold_forward(velocity, up, active), up)
@@ -83,14 +83,14 @@ def network_operator_guidance():
     assert first_end.sum() == 1
     fresh = good & (~finished | first_end)
     last = np.maximum.accumulate(np.where(fresh, rows, -1))  # the row of the command
-    none, thrusts = last < 0, active & ~finished & (last > flight)
+    unset, thrusts = last < 0, active & ~finished & (last > flight)
     acceleration = np.divide(NOMINAL + above, mass, out=np.zeros(len(rows)), where=mass > 0.0)
     time = np.array([braking_time(row) if good[row] else 0.0 for row in rows])
     outputs = {
         "thrust_acceleration": np.where(thrusts, acceleration[last], 0.0),
-        "thrust_direction": np.where(none[:, None], [0.0, 0.0, 1.0], direction[last]),
+        "thrust_direction": np.where(unset[:, None], [0.0, 0.0, 1.0], direction[last]),
         "thrust_direction_rate": np.zeros((len(rows), 3)),
-        "command_time": np.where(none, 0.0, STEP * (last + 1)),
+        "command_time": np.where(unset, 0.0, STEP * (last + 1)),
         "burn_duration": np.where(finished, 0.0, FOREVER),
         "time_to_go": np.where(thrusts, time[last], 0.0),
         "status": np.where(active & ~good & ~finished, 3, 0),
