@@ -25,10 +25,10 @@ def declared_state(fractions):
     height = 0.95e4 + 2e3 * u[2]
     speed = 940.0 + 20.0 * u[3]
     climb = -math.atan2(height, ground) * u[4]
-    course = azimuth + math.pi + math.pi / 18 * (2.0 * u[5] - 1.0)
+    heading = azimuth + math.pi + math.pi / 18 * (2.0 * u[5] - 1.0)
     position = np.array([ground * math.cos(azimuth), ground * math.sin(azimuth), height])
     velocity = speed * np.array(
-        [math.cos(climb) * math.cos(course), math.cos(climb) * math.sin(course), math.sin(climb)]
+        [math.cos(climb) * math.cos(heading), math.cos(climb) * math.sin(heading), math.sin(climb)]
     )
     return position, velocity
 
