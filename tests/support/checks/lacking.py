@@ -9,5 +9,4 @@ LACKING = (
     "astar_modified_guidance",
     "astar_robust_guidance",
     "hover_guidance",
-    "landing_sequencer",
 )
