@@ -1,8 +1,6 @@
 """Blocks that lack a check; the list may only shrink."""
 
 LACKING = (
-    "kalman_navigation",
-    "kalman_navigation_filterpy",
     "analytic_guidance",
     "analytic_exact_guidance",
     "astar_guidance",

@@ -1,22 +1,20 @@
-"""Truths of lunar navigation with errors. Direct outputs follow one row later."""
+"""Truths of lunar navigation with errors of its own. Direct outputs follow one row later."""
 
 import numpy as np
 from filterpy.kalman import KalmanFilter
 
 from tests.support.checks.check import STEP, Check, follow
 from tests.support.checks.mrg32k3a import Numbers
-
-ROWS, SEED, STREAM, MOON_RADIUS, MU = 33, 28, 7, 1.7374e6, 4.9028e12
-TIME = STEP * np.arange(ROWS)
-UPPER = np.triu_indices(6)
-STREAMS = {"seed": SEED, "stream": STREAM}
-
-
-def truth_of_flight():
-    """Position and velocity of a parabola."""
-    velocity = np.array([-900.0, 50.0, -40.0]) + np.outer(TIME, [3.0, -0.5, 1.0])
-    position = np.array([9.0e4, -5.0e3, 1.2e4]) + np.outer(TIME, [-900.0, 50.0, -40.0])
-    return position + np.outer(TIME**2 / 2.0, [3.0, -0.5, 1.0]), velocity
+from tests.support.checks.navigation.lunar_flight import (
+    ROWS,
+    SEED,
+    STREAM,
+    STREAMS,
+    TIME,
+    UPPER,
+    first_knowledge,
+    truth_of_flight,
+)
 
 
 def coloured_navigation():
@@ -55,12 +53,6 @@ def coloured_navigation():
             **STREAMS,
         },
     )
-
-
-def first_knowledge(numbers, position, velocity, position_sigma, velocity_sigma):
-    """Truth with errors, drawn axis by axis."""
-    errors = numbers.normal(3, 2)
-    return position[0] + position_sigma * errors[:, 0], velocity[0] + velocity_sigma * errors[:, 1]
 
 
 def noisy_navigation():
@@ -123,72 +115,4 @@ def noisy_navigation():
     )
 
 
-def raw_navigation():
-    """Dead reckoning as documented, with an altitude, a velocity and a position put in."""
-    position, velocity = truth_of_flight()
-    increment = STEP * (np.array([3.0, -0.5, 2.6]) + 0.3 * np.sin(TIME[:, None] + np.array([0.0, 1.0, 2.0])))
-    altitude_row, velocity_row, position_row = 8, 16, 24
-    fixes = {"altitude": 11900.0, "velocity": [-880.0, 48.0, -30.0], "position": [8.8e4, -4.8e3, 1.19e4]}
-    centre = np.array([0.0, 0.0, -MOON_RADIUS])
-
-    def gravity(r):
-        return -MU * (r - centre) / np.linalg.norm(r - centre) ** 3
-
-    r, v = first_knowledge(Numbers(SEED, STREAM), position, velocity, 40.0, 0.8)
-    states, before = [(r, v)], np.zeros(3)
-    for row in range(ROWS - 1):
-        f = increment[row] / STEP if row > 0 else np.zeros(3)  # the sample of the start is not an increment
-        ahead = v + STEP * (f + (gravity(r) + gravity(r + STEP * v)) / 2.0)
-        r, v, before = r + STEP * (v + ahead) / 2.0 - STEP**2 / 12.0 * (f - before), ahead, f
-        if row == altitude_row:
-            r = centre + (MOON_RADIUS + fixes["altitude"]) * (r - centre) / np.linalg.norm(r - centre)
-        elif row == velocity_row:
-            v = np.array(fixes["velocity"])
-        elif row == position_row:
-            r = np.array(fixes["position"])
-        states.append((r, v))
-    y, rows = np.array(states), np.arange(ROWS)
-    counts = np.array([rows >= row for row in (altitude_row, velocity_row, position_row)]).astype(float)
-    outputs = {
-        "estimated_position": y[:, 0],
-        "estimated_velocity": y[:, 1],
-        "position_estimate_sigma": np.zeros((ROWS, 3)),
-        "velocity_estimate_sigma": np.zeros((ROWS, 3)),
-        "sample_count": follow(rows + counts.sum(axis=0)),
-    }
-    return Check(
-        truth="the documented equations by numpy; exact random numbers",
-        step=STEP,
-        inputs={
-            "position": position,
-            "velocity": velocity,
-            "velocity_increment": increment,
-            "inertial_count": rows,
-            "measured_altitude": np.full(ROWS, fixes["altitude"]),
-            "altitude_count": counts[0],
-            "measured_velocity": np.tile(fixes["velocity"], (ROWS, 1)),
-            "velocity_count": counts[1],
-            "measured_position": np.tile(fixes["position"], (ROWS, 1)),
-            "position_count": counts[2],
-        },
-        outputs=outputs,
-        tolerances={
-            **dict.fromkeys(outputs, (0.0, 0.0)),
-            "estimated_position": (1e-8, 0.0),
-            "estimated_velocity": (1e-11, 0.0),
-        },
-        parameters={
-            "moon_radius": MOON_RADIUS,
-            "gravitational_parameter": MU,
-            "first_position_sigma": 40.0,
-            "first_velocity_sigma": 0.8,
-            **STREAMS,
-        },
-    )
-
-
-TRUTHS = {
-    "coloured_navigation": coloured_navigation,
-    "noisy_navigation": noisy_navigation,
-    "raw_navigation": raw_navigation,
-}
+TRUTHS = {"coloured_navigation": coloured_navigation, "noisy_navigation": noisy_navigation}

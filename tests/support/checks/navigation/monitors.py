@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from tests.support.checks.check import STEP, Check, follow
-from tests.support.checks.navigation.lunar import ROWS, TIME, UPPER, truth_of_flight
+from tests.support.checks.navigation.lunar_flight import ROWS, TIME, UPPER, truth_of_flight
 
 
 def estimate_monitor():
