@@ -1,10 +1,11 @@
 """Truths of disturbances: closed forms, and the theory of linear systems driven by white noise."""
 
 import numpy as np
-from scipy.linalg import expm, solve_continuous_lyapunov
+from scipy.linalg import solve_continuous_lyapunov
 
 from tests.support.checks.check import STEP, Check
 from tests.support.checks.mrg32k3a import Numbers
+from tests.support.checks.white_noise import discretise
 
 
 def air_disturbance():
@@ -51,9 +52,8 @@ def forming_filter():
     """
     damping, w, intensity, rows, seed, stream = 0.3, 2.0, 0.7, 49, 28, 7
     a, noise = np.array([[0.0, 1.0], [-w * w, -2.0 * damping * w]]), np.diag([0.0, intensity * w**4])
-    whole = expm(STEP * np.block([[-a, noise], [np.zeros((2, 2)), a.T]]))
-    f = whole[2:, 2:].T
-    start, step = (np.linalg.cholesky(c) for c in (solve_continuous_lyapunov(a, -noise), f @ whole[:2, 2:]))
+    f, step_covariance = discretise(a, noise)
+    start, step = (np.linalg.cholesky(c) for c in (solve_continuous_lyapunov(a, -noise), step_covariance))
     first, *later = Numbers(seed, stream).normal(rows, 2)
     states = [start @ first]
     for numbers in later:

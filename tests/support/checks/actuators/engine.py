@@ -6,13 +6,10 @@ from scipy.spatial.transform import Rotation
 
 from tests.support.checks.check import STEP, Check, follow
 from tests.support.checks.mrg32k3a import Numbers
+from tests.support.checks.vectors import unit
 
 ROWS, SEED, STREAM = 49, 28, 7
 TIME = STEP * np.arange(ROWS)
-
-
-def unit(rows):
-    return rows / np.linalg.norm(rows, axis=-1, keepdims=True)
 
 
 def thrust_allocation():

@@ -16,6 +16,17 @@ def jets():
     return -np.concatenate([nozzles.T, np.cross(CORNERS * ARM, nozzles).T])
 
 
+def attainable_part(matrix, wrench, largest):
+    """The largest part, up to 1, of a wrench that jets of at most ``largest`` (N) give: a linear programme of HiGHS."""
+    programme = linprog(
+        -np.eye(9)[8],
+        A_eq=np.column_stack([matrix, -wrench]),
+        b_eq=np.zeros(6),
+        bounds=[(0.0, largest)] * 8 + [(0.0, 1.0)],
+    )
+    return programme.x[8]
+
+
 def allocate_jets(allocate):
     """Wrenches of all sizes at a body that is not turned, each new at its row and put out at once."""
     rows = 25
@@ -67,13 +78,7 @@ def jet_allocation_least_propellant():
     matrix = jets()
 
     def allocate(wrench):
-        largest = linprog(
-            -np.eye(9)[8],
-            A_eq=np.column_stack([matrix, -wrench]),
-            b_eq=np.zeros(6),
-            bounds=[(0.0, LARGEST)] * 8 + [(0, 1)],
-        )
-        part = largest.x[8]
+        part = attainable_part(matrix, wrench, LARGEST)
         optimum = linprog(np.ones(8), A_eq=matrix, b_eq=part * wrench, bounds=[(0.0, None)] * 8)
         assert optimum.x.max() <= LARGEST + 1e-9
         return optimum.x, part < 1.0 - 1e-9

@@ -3,10 +3,9 @@
 import itertools
 
 import numpy as np
-from scipy.optimize import linprog
 from scipy.spatial.transform import Rotation
 
-from tests.support.checks.actuators.jets import ARM, AZIMUTH, TILT, jets
+from tests.support.checks.actuators.jets import ARM, AZIMUTH, TILT, attainable_part, jets
 from tests.support.checks.check import STEP, Check, follow
 
 ROWS, QUANTUM, LARGEST, DELAY = 49, 0.05, 0.16, 0.25
@@ -33,19 +32,14 @@ def jet_allocation_quantised():
     thrusts, statuses, owed = np.zeros((len(commands), 8)), np.full(len(commands), 3), np.zeros(3)
     for k in np.nonzero(period)[0]:
         wanted = attitude[k].inv().apply(force[k] + owed / period[k])
-        programme = linprog(
-            -np.eye(9)[8],
-            A_eq=np.column_stack([matrix, [*-wanted, 0.0, 0.0, 0.0]]),
-            b_eq=np.zeros(6),
-            bounds=[(0.0, QUANTUM * levels.max())] * 8 + [(0.0, 1.0)],
-        )
-        part = programme.x[8] * wanted
-        distance = np.linalg.norm(forces - part, axis=1)
+        part = attainable_part(matrix, np.append(wanted, np.zeros(3)), QUANTUM * levels.max())
+        attained = part * wanted
+        distance = np.linalg.norm(forces - attained, axis=1)
         best, *others = np.nonzero(distance < distance.min() + 1e-9)[0]
         assert all(levels[other].sum() > levels[best].sum() for other in others)
-        owed = period[k] * attitude[k].apply(part - forces[best])
+        owed = period[k] * attitude[k].apply(attained - forces[best])
         thrusts[k] = QUANTUM * levels[best]
-        statuses[k] = 1 if programme.x[8] < 1.0 - 1e-9 else 2 * torque[k].any()
+        statuses[k] = 1 if part < 1.0 - 1e-9 else 2 * torque[k].any()
     assert set(statuses) == {0, 1, 2, 3}
     count = 1 + np.searchsorted(commands, np.arange(ROWS), side="right")
     newest = follow(count) - 2  # at the end of each row's step

@@ -3,20 +3,11 @@
 import numpy as np
 
 from tests.support.checks.check import STEP, Check, follow
-from tests.support.flights.orbital_motion import INERTIA, JET_TORQUE, ORBITAL_RATE, acceleration, body_from_orbital
+from tests.support.flights.orbital_motion import INERTIA, JET_TORQUE, ORBITAL_RATE, derivatives_of, rates_of
 
 ROWS = 33
 TIME = STEP * np.arange(ROWS)
 DOWN = np.array([0.0, 0.0, -ORBITAL_RATE])
-
-
-def rates_of_angles(angles, w):
-    """(roll, yaw, pitch)': the angular velocity against the orbital frame along the three axes that they turn about."""
-    roll, _, pitch = angles
-    pitch_axis = body_from_orbital([roll, 0.0, 0.0])[:, 2]
-    yaw_axis = body_from_orbital([roll, 0.0, pitch])[:, 1]
-    axes = np.column_stack([[1.0, 0.0, 0.0], yaw_axis, pitch_axis])
-    return np.linalg.solve(axes, w - body_from_orbital(angles) @ DOWN)
 
 
 def estimates(seed, angles_size, rates_size):
@@ -26,31 +17,17 @@ def estimates(seed, angles_size, rates_size):
     return angles, DOWN + rates_size * random.normal(size=(ROWS, 3))
 
 
-def linear_model():
-    """A of (angles, w - wp)' = A (angles, w - wp): central differences of the motion, of fourth order."""
-
-    def motion(x):
-        w = DOWN + x[3:]
-        return np.concatenate([rates_of_angles(x[:3], w), acceleration(body_from_orbital(x[:3]), w, np.zeros(3))])
-
-    h = 1e-3
-    near, far = (
-        np.transpose([motion(k * h * e) - motion(-k * h * e) for e in np.eye(6)]) / (2.0 * k * h) for k in (1, 2)
-    )
-    return (4.0 * near - far) / 3.0
-
-
 def orbital_modal_control():
     """The closed loop that is wanted, a' = S1 a + z and z' = S0 z, in the coordinates (a, w - wp); u makes up for A."""
     angle_poles, rate_poles = np.array([0.12, 0.07, 0.1]), np.array([0.16, 0.13, 0.2])
     angles, w = estimates(287, 0.05, 0.003)
-    a = linear_model()
+    a = derivatives_of(rates_of, np.concatenate([np.zeros(3), DOWN]))
     unit, zero = np.eye(3), np.zeros((3, 3))
     lacking = np.block([[unit, zero], [a[:3, :3] + np.diag(angle_poles), unit]])  # (a, z) of (a, w - wp)
     wanted = np.block([[-np.diag(angle_poles), unit], [zero, -np.diag(rate_poles)]])
     gain = INERTIA @ (np.linalg.solve(lacking, wanted @ lacking) - a)[3:]
     return Check(
-        truth="poles placed by numpy on a model differentiated numerically",
+        truth="poles placed by numpy on the motion differentiated by complex steps",
         step=STEP,
         inputs={"estimated_angles": angles, "estimated_angular_velocity": w},
         outputs={"torque_command": follow(np.hstack([angles, w - DOWN]) @ gain.T), "status": np.zeros(ROWS)},
@@ -70,7 +47,7 @@ def orbital_arrival_control():
     led_rates = np.zeros((ROWS, 3))
     led_rates[:, 1] = np.array([0.0, -turn_rate, 0.0, turn_rate, 0.0])[np.searchsorted(corners, TIME)]
     seen = follow(angles)
-    rates = np.array([rates_of_angles(*row) for row in zip(seen, follow(w), strict=True)])
+    rates = np.array([rates_of(state)[:3] for state in np.hstack([seen, follow(w)])])
     error = seen - led
     outside = error - error.clip(-band, band)
     wanted = led_rates - outside / np.maximum(arrival - TIME, shortest_time)[:, None]

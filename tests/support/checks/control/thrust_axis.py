@@ -4,12 +4,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from tests.support.checks.check import STEP, Check, follow
+from tests.support.checks.vectors import unit
 
 ROWS = 33
-
-
-def unit(rows):
-    return rows / np.sqrt((rows * rows).sum(axis=1))[:, None]
 
 
 def thrust_axis_control():

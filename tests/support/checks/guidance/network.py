@@ -5,6 +5,7 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from tests.support.checks.check import STEP, Check, follow
+from tests.support.checks.vectors import unit
 from tests.support.flights.independent_descent import LEGACY, encoded_law
 
 STANDARD_GRAVITY, NOMINAL, VARIATION = 9.80665, 4314.926, 784.532
@@ -18,8 +19,7 @@ def descent():
     up = Rotation.from_rotvec(random.uniform(-0.2, 0.2, (rows, 3))).apply([0.0, 0.0, 1.0])
     altitude = np.linspace(18148.0, 1700.0, rows).round(1)
     speed, angle = np.linspace(1689.0, 40.0, rows).round(1), -random.uniform(0.3, 3.0, rows)
-    forward = np.cross(np.cross(up, random.normal(size=(rows, 3))), up)
-    forward = forward / np.linalg.norm(forward, axis=1)[:, None]
+    forward = unit(np.cross(np.cross(up, random.normal(size=(rows, 3))), up))
     velocity = speed[:, None] * (np.cos(angle)[:, None] * up - np.sin(angle)[:, None] * forward)
     mass, active = np.linspace(940.0, 500.0, rows).round(1), np.ones(rows, dtype=bool)
     mass[[9, 10]] = 0.0
@@ -59,7 +59,7 @@ def network_operator_guidance():
     angle, above = law[:, 0].clip(0.0, np.pi), (STANDARD_GRAVITY * law[:, 1]).clip(-VARIATION, VARIATION)
     assert set(np.sign(np.abs(above) - VARIATION)) == {-1.0, 0.0}
     axis = np.cross(hold_forward(velocity, up, active), up)
-    direction = Rotation.from_rotvec(angle[:, None] * axis / np.linalg.norm(axis, axis=1)[:, None]).apply(up)
+    direction = Rotation.from_rotvec(angle[:, None] * unit(axis)).apply(up)
     speed, exhaust = np.linalg.norm(velocity, axis=1), STANDARD_GRAVITY * SPECIFIC_IMPULSE
 
     def braking_time(row):

@@ -1,25 +1,15 @@
-"""Kalman filters of three like axes at once, by filterpy, and the rows of the checks that use them.
-
-White noise is discretised by Van Loan's exponential (1978).
-"""
+"""Kalman filters of three like axes at once, by filterpy, and the rows of the checks that use them."""
 
 import numpy as np
 from filterpy.kalman import KalmanFilter
-from scipy.linalg import expm
 
 from tests.support.checks.check import STEP
+from tests.support.checks.white_noise import discretise
 
 ROWS = 41
 TIME = STEP * np.arange(ROWS)
 PHASES = np.array([0.0, 1.0, 2.0])
 NOT_FINITE = 24  # row of a sample that is not finite
-
-
-def discretise(a, density):
-    """Transition over a step, and the covariance of white noise of a density, of x' = A x + noise."""
-    n = len(a)
-    both = expm(STEP * np.block([[-a, density], [np.zeros((n, n)), a.T]]))
-    return both[n:, n:].T, both[n:, n:].T @ both[:n, n:]
 
 
 def chain_filter(sigmas, sigma):

@@ -4,7 +4,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from tests.support.checks.check import STEP, Check, follow
-from tests.support.checks.plants.motion import STANDARD_GRAVITY, UP, unit
+from tests.support.checks.plants.motion import STANDARD_GRAVITY, UP
+from tests.support.checks.vectors import unit
 
 ROWS, INTERNAL_STEP, RADIUS, MU = 41, 0.0078125, 1.7374e6, 4.9028e12
 CENTRE = -RADIUS * UP

@@ -7,7 +7,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from tests.support.checks.check import STEP, Check
-from tests.support.checks.plants.motion import fly, unit
+from tests.support.checks.plants.motion import fly
+from tests.support.checks.vectors import unit
 from tests.support.flights.entry_motion import Coefficients, Entry
 from tests.support.flights.orbital_motion import DEGREE, JET_TORQUE, flown
 

@@ -6,7 +6,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from tests.support.checks.check import STEP, Check
-from tests.support.checks.plants.motion import STANDARD_GRAVITY, UP, fly, integrate, unit
+from tests.support.checks.plants.motion import STANDARD_GRAVITY, UP, fly, integrate
+from tests.support.checks.vectors import unit
 
 
 def flat_moon_lander():

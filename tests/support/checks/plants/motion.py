@@ -14,10 +14,6 @@ def integrate(slope, start, end, y, rtol=1e-13, atol=1e-10):
     return solve_ivp(slope, (start, end), y, method="DOP853", rtol=rtol, atol=atol).y[:, -1]
 
 
-def unit(vector):
-    return np.asarray(vector) / np.linalg.norm(vector)
-
-
 def fly(rates_of, start, rows, **tolerances):
     """The state at every row; ``rates_of``: row -> y' as a function of time and state while its inputs are held."""
     states = [np.asarray(start, dtype=float)]

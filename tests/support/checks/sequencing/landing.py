@@ -64,7 +64,7 @@ def own_command(position, velocity):
 def landing_sequencer():
     """Nine phases and all statuses but two, 8 and 9.
 
-    The deorbit ignites on time and holds its end. The coast falls, once not to the ground, a hand's breadth before
+    The deorbit ignites on time and holds its end. The coast falls, once not to the ground, just short of
     its range, once not low enough, then for good. The braking waits for a command and for the axis, is without a
     solution for a while and ends elsewhere. A plan that was not requested and inputs between two cycles do not count.
     Hover 2 does not settle, the probe does not touch.
