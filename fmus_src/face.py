@@ -11,9 +11,11 @@ HOMES = {
     "block": ("Block",),
     "control.entry_control": ("EntryControl",),
     "control.orbital_control": ("OrbitalControl",),
-    "guidance.terminal_guidance": ("CLAMPED", "GOOD", "NOT_CONVERGED", "NO_SOLUTION", "TerminalGuidance"),
+    "guidance.terminal_guidance": ("TerminalGuidance",),
     "interfaces.allocation": ("Allocation",),
     "interfaces.navigation": ("Navigation",),
+    "interfaces.ports.landing": ("TerminalStatus",),
+    "kernel.enumerations": ("Enumeration", "member"),
     "kernel.functions": (
         *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "exp2", "expm1"),
         *("log", "log2", "log10", "log1p", "pow", "sinh", "cosh", "tanh", "cbrt", "fmod"),
@@ -24,7 +26,7 @@ HOMES = {
     "navigation.attitude_observer": ("AttitudeObserver",),
     "navigation.filtered_navigation": ("FilteredNavigation",),
     "navigation.inertial_navigation": ("InertialNavigation",),
-    "ports": ("Port", "Status", "outcome"),
+    "ports": ("Port",),
     "units": ("deg",),
     "variables": ("DeclarationError", "Input", "Output", "Parameter", "State"),
 }

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from .kernel.enumerations import Enumeration
 from .kernel.records import Field, Record, count_numbers, flat_fields, replace
 from .kernel.vector_types import VECTORS, vector
 from .units import unit_definition
@@ -32,10 +33,11 @@ class DeclarationError(TypeError):
 class Variable:
     """One declared variable: start value, unit, description, bounds.
 
-    ``start`` fixes type and size: a float, int or bool, or a list of equal ones. ``unit`` is a
-    name that `fmus_src.units` understands; ``minimum``, ``maximum`` and ``nominal`` hold per element;
-    ``frame`` names the frame that a vector's components refer to. ``columns`` makes the list a
-    matrix in row order, whose elements are named by row and column.
+    ``declared`` is the start value and fixes type and size: a float, int or bool, or a list of equal ones. Or it is an
+    `Enumeration`, which gives bounds and the end of the description; ``start`` is then its first member or another.
+    ``unit`` is a name that `fmus_src.units` understands; ``minimum``, ``maximum`` and ``nominal`` hold per element;
+    ``frame`` names the frame that a vector's components refer to. ``columns`` makes the list a matrix in row order,
+    whose elements are named by row and column.
 
     Two to four Reals are a vector: a value that is stored as a whole, ``self.velocity = self.velocity + gained``.
     More of them, Integers, Booleans, what has ``columns`` and what says ``vector=False`` are a list, whose
@@ -46,8 +48,10 @@ class Variable:
 
     def __init__(
         self,
-        start: Any,
+        declared: Any,
+        /,
         *,
+        start: int | None = None,
         unit: str | None = None,
         description: str = "",
         frame: str | None = None,
@@ -57,8 +61,13 @@ class Variable:
         columns: int | None = None,
         vector: bool = True,
     ) -> None:
-        self.record: type[Record] | None = type(start) if isinstance(start, Record) else None
-        self.start: Value = list(start.elements() if self.record else start) if is_several(start) else start
+        if isinstance(declared, type) and issubclass(declared, Enumeration):
+            minimum, maximum = min(declared.meanings), max(declared.meanings)
+            description = declared.describe(description)
+            declared = minimum if start is None else start
+        self.record: type[Record] | None = type(declared) if isinstance(declared, Record) else None
+        elements = declared.elements() if self.record else declared
+        self.start: Value = list(elements) if is_several(declared) else declared
         self.unit = unit
         self.description = description
         self.frame = frame
@@ -222,8 +231,8 @@ class Parameter(Variable):
 class State(Variable):
     """Internal, kept from step to step; readable from outside, never set.
 
-    ``start`` may be a record's class, with the starts of fields by name (others 0): ``State(Motion, speed=7620.0)`` has
-    the FMI variables ``NAME.speed``, ``NAME.attitude[1]`` and so on, NAME the variable's.
+    ``declared`` may be a record's class, with the starts of fields by name (others 0): ``State(Motion, speed=7620.0)``
+    has the FMI variables ``NAME.speed``, ``NAME.attitude[1]`` and so on, NAME the variable's.
 
     ``frozen``: left as it is along the flight where a system is linearised: the memory of random number generators,
     and covariances, whose small changes act on estimates only through innovations.
@@ -231,12 +240,12 @@ class State(Variable):
 
     causality = "local"
 
-    def __init__(self, start: Any, *, frozen: bool = False, **declaration: Any) -> None:
-        if isinstance(start, type) and issubclass(start, Record):
-            starts = {name: declaration.pop(name) for name in start.fields if name in declaration}
-            declaration.setdefault("description", (start.__doc__ or "").partition("\n")[0].rstrip("."))
-            start = replace(start.of_elements([0.0] * count_numbers(start)), **starts)
-        super().__init__(start, **declaration)
+    def __init__(self, declared: Any, /, *, frozen: bool = False, **declaration: Any) -> None:
+        if isinstance(declared, type) and issubclass(declared, Record):
+            starts = {name: declaration.pop(name) for name in declared.fields if name in declaration}
+            declaration.setdefault("description", (declared.__doc__ or "").partition("\n")[0].rstrip("."))
+            declared = replace(declared.of_elements([0.0] * count_numbers(declared)), **starts)
+        super().__init__(declared, **declaration)
         self.frozen = frozen
 
     def frozen_elements(self) -> list[bool]:
@@ -255,8 +264,8 @@ class Output(Variable):
 
     causality = "output"
 
-    def __init__(self, start: Any, *, direct: bool | tuple[str, ...] = False, **declaration: Any) -> None:
-        super().__init__(start, **declaration)
+    def __init__(self, declared: Any, /, *, direct: bool | tuple[str, ...] = False, **declaration: Any) -> None:
+        super().__init__(declared, **declaration)
         self.direct = direct
 
 

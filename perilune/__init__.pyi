@@ -58,23 +58,12 @@ from .fmus_src.block import (
 )
 from .fmus_src.control.entry_control import EntryControl as EntryControl
 from .fmus_src.control.orbital_control import OrbitalControl as OrbitalControl
-from .fmus_src.guidance.terminal_guidance import (
-    CLAMPED as CLAMPED,
-)
-from .fmus_src.guidance.terminal_guidance import (
-    GOOD as GOOD,
-)
-from .fmus_src.guidance.terminal_guidance import (
-    NO_SOLUTION as NO_SOLUTION,
-)
-from .fmus_src.guidance.terminal_guidance import (
-    NOT_CONVERGED as NOT_CONVERGED,
-)
-from .fmus_src.guidance.terminal_guidance import (
-    TerminalGuidance as TerminalGuidance,
-)
+from .fmus_src.guidance.terminal_guidance import TerminalGuidance as TerminalGuidance
 from .fmus_src.interfaces.allocation import Allocation as Allocation
 from .fmus_src.interfaces.navigation import Navigation as Navigation
+from .fmus_src.interfaces.ports.landing import TerminalStatus as TerminalStatus
+from .fmus_src.kernel.enumerations import Enumeration as Enumeration
+from .fmus_src.kernel.enumerations import member as member
 from .fmus_src.kernel.functions import (
     acos as acos,
 )
@@ -187,8 +176,6 @@ from .fmus_src.navigation.attitude_observer import AttitudeObserver as AttitudeO
 from .fmus_src.navigation.filtered_navigation import FilteredNavigation as FilteredNavigation
 from .fmus_src.navigation.inertial_navigation import InertialNavigation as InertialNavigation
 from .fmus_src.ports import Port as Port
-from .fmus_src.ports import Status as Status
-from .fmus_src.ports import outcome as outcome
 from .fmus_src.units import deg as deg
 from .fmus_src.variables import (
     DeclarationError as DeclarationError,

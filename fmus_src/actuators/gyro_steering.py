@@ -3,18 +3,18 @@
 from ..block import Block, Output, Parameter
 from ..interfaces.ports import body, robot, sampling
 from ..interfaces.ports.robot import LARGEST
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.actuators.gyros import singularity_measure
 from ..mathlib.vectors import Vector3, Vector4, all_below, vector
-from ..ports import Status, outcome
 
 
-class GyroSteeringStatus(Status):
+class GyroSteeringStatus(Enumeration):
     """What became of the last command."""
 
-    GOOD = outcome("good")
-    NEAR_SINGULAR = outcome("near a singular state of cluster or law")
-    LIMITED = outcome("rates limited")
-    NOT_FINITE = outcome("command not finite")
+    GOOD = member("good")
+    NEAR_SINGULAR = member("near a singular state of cluster or law")
+    LIMITED = member("rates limited")
+    NOT_FINITE = member("command not finite")
 
 
 class GyroSteering(Block, interface=True):
@@ -55,7 +55,7 @@ class GyroSteering(Block, interface=True):
     singularity = Output(
         1.5396007178390021, unit="1", direct=True, description="root of det(A A'), A = dh/dbeta; 0 in a singular state"
     )
-    status = GyroSteeringStatus.output(direct=True)
+    status = Output(GyroSteeringStatus, direct=True)
 
     start_time = sampling.START_TIME.state()
 

@@ -1,22 +1,22 @@
 """The slot of jet allocation: from the force and torque wanted to the thrusts of eight jets."""
 
-from ..block import Block, State
+from ..block import Block, Output, State
 from ..interfaces.ports import body, inertial, robot, sampling
 from ..interfaces.ports.robot import LARGEST
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.actuators.jets import JETS, JetStrength, Wrench, jet_strength, jet_wrench
 from ..mathlib.attitude.quaternion import normalise, to_body
-from ..ports import Status, outcome
 
 ROUNDING = 1e-9  # s, allowed for in times of communication points
 
 
-class JetAllocationStatus(Status):
+class JetAllocationStatus(Enumeration):
     """What became of the newest command."""
 
-    GOOD = outcome("good")
-    SATURATED = outcome("saturated")
-    TORQUE_LEFT_OUT = outcome("a torque or what the geometry cannot give left out")
-    NOT_FINITE = outcome("command unusable")
+    GOOD = member("good")
+    SATURATED = member("saturated")
+    TORQUE_LEFT_OUT = member("a torque or what the geometry cannot give left out")
+    NOT_FINITE = member("command unusable")
 
 
 class JetAllocation(Block, interface=True):
@@ -51,7 +51,7 @@ class JetAllocation(Block, interface=True):
     jet_thrust = robot.JET_THRUST.output(direct=True)
     allocated_force = body.FORCE.output("force of jet_thrust", direct=True)
     allocated_torque = body.TORQUE.output("torque of jet_thrust", direct=True)
-    status = JetAllocationStatus.output(direct=True)
+    status = Output(JetAllocationStatus, direct=True)
     start_time = sampling.START_TIME.state()
     strength = State(JetStrength)
     attitude = State([1.0, 0.0, 0.0, 0.0], unit="1", description="quaternion, of length one")

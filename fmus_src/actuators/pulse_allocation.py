@@ -2,18 +2,18 @@
 
 import math
 
-from ..block import Block, Parameter, State
+from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, sampling
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.vectors import clip, is_finite, vector
-from ..ports import Status, outcome
 
 
-class PulseStatus(Status):
+class PulseStatus(Enumeration):
     """What became of the last demand."""
 
-    GOOD = outcome("good")
-    SATURATED = outcome("a demand beyond the tick")
-    NOT_FINITE = outcome("demand not finite")
+    GOOD = member("good")
+    SATURATED = member("a demand beyond the tick")
+    NOT_FINITE = member("demand not finite")
 
 
 class PulseAllocation(Block):
@@ -43,7 +43,7 @@ class PulseAllocation(Block):
     pulse_count = body.PULSE_COUNT.output()
     mean_torque = body.TORQUE.output("torque instead of pulses", direct=True)
     remainder = body.PULSES.output("demanded and not fired, with its sign", direct=True)
-    status = PulseStatus.output(direct=True)
+    status = Output(PulseStatus, direct=True)
     lengths = State([0.0] * 3, vector=False, unit="s", description="of the pulses, while they are worked out")
     rests = State([0.0] * 3, vector=False, unit="s", description="demanded and not fired")
 

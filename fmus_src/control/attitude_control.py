@@ -2,21 +2,20 @@
 
 import math
 
-from ..block import Block, Input, Parameter, State
+from ..block import Block, Input, Output, Parameter, State
 from ..interfaces.ports import body, sampling
+from ..interfaces.ports.robot import ControlLaw
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.attitude.quaternion import quaternion, to_body
 from ..mathlib.lead import advance_lead, lead_output, tustin_lead
 from ..mathlib.vectors import Vector3, cross, dot, is_finite, vector
-from ..ports import Status, outcome
-
-LEAD = 0
 
 
-class AttitudeControlStatus(Status):
+class AttitudeControlStatus(Enumeration):
     """Whether the torque is new."""
 
-    GOOD = outcome("good")
-    NOT_FINITE = outcome("last inputs not finite, torque held")
+    GOOD = member("good")
+    NOT_FINITE = member("last inputs not finite, torque held")
 
 
 class AttitudeControl(Block):
@@ -36,7 +35,7 @@ class AttitudeControl(Block):
 
     default_step = 0.125
 
-    law = Parameter(1, minimum=0, maximum=1, description="0 lead compensator, 1 attitude and rate")
+    law = Parameter(ControlLaw, start=ControlLaw.PROPORTIONAL_DERIVATIVE)
     inertia = Parameter([812.0, 587.0, 910.0], unit="kg.m2", minimum=1e-3, description="of the robot, about x, y, z")
     lead_gain = Parameter(0.16, minimum=0.0, description="of the lead at rest, 1/s2")
     lead_time = Parameter(5.0, unit="s", minimum=0.0, description="lead")
@@ -55,7 +54,7 @@ class AttitudeControl(Block):
     jet_torque = body.TORQUE.input("of the jets from now on")
     disturbance = body.ANGULAR_ACCELERATION.input("angular acceleration by neither gyros nor jet_torque")
     torque_command = body.TORQUE.output("torque on the body wanted from the gyros", direct=True)
-    status = AttitudeControlStatus.output(direct=True)
+    status = Output(AttitudeControlStatus, direct=True)
     period = State(0.0, unit="s", description="to the next tick")
     lead_state = body.ROTATION.state("of the lead compensator")
 
@@ -65,7 +64,7 @@ class AttitudeControl(Block):
 
     def correction(self) -> Vector3:
         """What to take off the angular acceleration (rad/s2); moves the lead to the next tick."""
-        if self.law == LEAD:
+        if self.law == ControlLaw.LEAD:
             law = tustin_lead(self.lead_gain, self.lead_time, self.lag_time, self.period)
             m = lead_output(law, self.lead_state, self.attitude_error)
             self.lead_state = advance_lead(law, self.lead_state, self.attitude_error)

@@ -2,18 +2,18 @@
 
 import math
 
-from ..block import Block, Parameter
+from ..block import Block, Output, Parameter
 from ..interfaces.ports import body, entry, sampling
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
-from ..ports import Status, outcome
 from ..units import deg
 
 
-class EntryControlStatus(Status):
+class EntryControlStatus(Enumeration):
     """Whether there is a demand."""
 
-    GOOD = outcome("good")
-    NOT_FINITE = outcome("inputs not finite")
+    GOOD = member("good")
+    NOT_FINITE = member("inputs not finite")
 
 
 class EntryControl(Block, interface=True):
@@ -44,7 +44,7 @@ class EntryControl(Block, interface=True):
     error_limit = entry.ERROR_LIMIT.input("largest error of bank to act on")
     dynamic_pressure = entry.DYNAMIC_PRESSURE.input("for regulators that are told", start=1000.0)
     torque_command = body.TORQUE.output("torque wanted over the tick", direct=True)
-    status = EntryControlStatus.output(direct=True)
+    status = Output(EntryControlStatus, direct=True)
 
     def regulate(self) -> Vector3:
         """The torque (N m, body) for the present inputs."""

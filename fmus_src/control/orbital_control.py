@@ -1,19 +1,19 @@
 """The slot of regulators of the orbital attitude: from the estimate to the torque wanted over a tick."""
 
-from ..block import Parameter, State
+from ..block import Output, Parameter, State
 from ..interfaces.ports import body, sampling
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.vectors import is_finite, vector
 from ..models.orbital_body import OrbitalBody
-from ..ports import Status, outcome
 from ..units import deg
 
 
-class OrbitalControlStatus(Status):
+class OrbitalControlStatus(Enumeration):
     """Whether there is a command."""
 
-    GOOD = outcome("good")
-    NOT_FINITE = outcome("estimate not finite")
-    NO_GAIN = outcome("parameters unusable")
+    GOOD = member("good")
+    NOT_FINITE = member("estimate not finite")
+    NO_GAIN = member("parameters unusable")
 
 
 class OrbitalControl(OrbitalBody, interface=True):
@@ -47,7 +47,7 @@ class OrbitalControl(OrbitalBody, interface=True):
     estimated_angles = body.ESTIMATED_ANGLES.input()
     estimated_angular_velocity = body.ANGULAR_VELOCITY.input()
     torque_command = body.TORQUE.output("torque wanted over the tick", direct=True)
-    status = OrbitalControlStatus.output(direct=True)
+    status = Output(OrbitalControlStatus, direct=True)
     start_time = sampling.START_TIME.state()
     usable = State(True, description="what the regulator needs could be made")
 

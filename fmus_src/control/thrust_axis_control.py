@@ -4,9 +4,9 @@ import math
 
 from ..block import Block, Output, Parameter
 from ..interfaces.ports import landing, sampling
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.attitude.rotation import rotation_between
 from ..mathlib.vectors import Vector3, across, cross, limit_length, norm, vector
-from ..ports import Status, outcome
 from ..units import deg
 
 
@@ -15,11 +15,11 @@ def has_direction(length: float) -> bool:
     return length != 0.0 and length != math.inf
 
 
-class ThrustAxisStatus(Status):
+class ThrustAxisStatus(Enumeration):
     """Whether the demand is given."""
 
-    GOOD = outcome("good")
-    LIMITED = outcome("shortened to the limit")
+    GOOD = member("good")
+    LIMITED = member("shortened to the limit")
 
 
 class ThrustAxisControl(Block):
@@ -54,7 +54,7 @@ class ThrustAxisControl(Block):
     angular_rate = landing.ANGULAR_RATE.input("measured angular rate")
     angular_acceleration = landing.ANGULAR_ACCELERATION.output("commanded angular acceleration", direct=True)
     direction_error = Output(0.0, unit="rad", direct=True, description="angle from measured attitude to the command")
-    status = ThrustAxisStatus.output(direct=True)
+    status = Output(ThrustAxisStatus, direct=True)
     start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:

@@ -1,19 +1,18 @@
 """From the error of position and velocity to the force wanted."""
 
-from ..block import Block, Parameter, State
+from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import inertial, landing, robot
+from ..interfaces.ports.robot import ControlLaw
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.lead import LeadLaw, advance_lead, change_lead, is_same, lead_output, tustin_lead
 from ..mathlib.vectors import Vector3, is_finite
-from ..ports import Status, outcome
-
-LEAD = 0
 
 
-class TranslationControlStatus(Status):
+class TranslationControlStatus(Enumeration):
     """Whether the force is new."""
 
-    GOOD = outcome("good")
-    NOT_FINITE = outcome("last inputs not finite, force held")
+    GOOD = member("good")
+    NOT_FINITE = member("last inputs not finite, force held")
 
 
 class TranslationControl(Block):
@@ -32,7 +31,7 @@ class TranslationControl(Block):
 
     default_step = 0.125
 
-    law = Parameter(1, minimum=0, maximum=1, description="0 lead compensator, 1 position and velocity")
+    law = Parameter(ControlLaw, start=ControlLaw.PROPORTIONAL_DERIVATIVE)
     mass = landing.MASS.parameter(1000.0, "of the robot", minimum=1e-3)
     design_period = Parameter([8.0, 4.0], unit="s", minimum=1e-3, description="translation_period of the two designs")
     lead_gain = Parameter([1.5625e-4, 6.25e-4], minimum=0.0, description="of the lead at rest, per design, 1/s2")
@@ -47,7 +46,7 @@ class TranslationControl(Block):
     translation_count = robot.TRANSLATION_COUNT.input()
     force_command = inertial.FORCE.output(direct=True)
     command_count = robot.COMMAND_COUNT.output(direct=True)
-    status = TranslationControlStatus.output(direct=True)
+    status = Output(TranslationControlStatus, direct=True)
     ticks = State(0, description="translation_count of the last tick")
     lead_state = inertial.POSITION.state("of the lead compensator")
     last_law = State(LeadLaw, description="lead of the last tick")
@@ -69,7 +68,7 @@ class TranslationControl(Block):
     def correction(self) -> Vector3:
         """What to take off the acceleration (m/s2); moves the lead to the next tick."""
         k = self.design()
-        if self.law == LEAD:
+        if self.law == ControlLaw.LEAD:
             law = tustin_lead(self.lead_gain[k], self.lead_time[k], self.lag_time[k], self.translation_period)
             changed = not is_same(law, self.last_law)
             if self.started and changed:

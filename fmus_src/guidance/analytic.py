@@ -2,10 +2,11 @@
 
 import math
 
+from ..interfaces.ports.landing import TerminalStatus
 from ..kernel.functions import atan, atan2, cos, sin
 from ..mathlib.lunar.terminal import impulse_and_miss, quadratic_time
 from ..mathlib.vectors import norm, vector
-from .terminal_guidance import GOOD, NO_SOLUTION, TerminalGuidance
+from .terminal_guidance import TerminalGuidance
 
 
 class AnalyticGuidance(TerminalGuidance):
@@ -20,7 +21,7 @@ class AnalyticGuidance(TerminalGuidance):
         dr, dv = self.remaining()
         time = self.planned_time(quadratic_time(dr, self.velocity, dv, self.gravity))
         self.time_to_go = time
-        self.status = GOOD
+        self.status = TerminalStatus.GOOD
         if time > 0.0:
             a, b = impulse_and_miss(dr, self.velocity, dv, self.gravity, time)
             p = 3.0 * b - time * a
@@ -44,4 +45,4 @@ class AnalyticGuidance(TerminalGuidance):
                     cp * pitch_rate,
                 )
             else:
-                self.status = NO_SOLUTION
+                self.status = TerminalStatus.NO_SOLUTION

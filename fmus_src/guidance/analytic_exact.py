@@ -1,9 +1,9 @@
 """Analytic terminal guidance with nothing dropped: cubic time-to-go, exact rates, exact last burn."""
 
+from ..interfaces.ports.landing import TerminalStatus
 from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import norm
 from .certain_time import CertainTime
-from .terminal_guidance import GOOD
 
 
 class AnalyticExactGuidance(CertainTime):
@@ -24,7 +24,7 @@ class AnalyticExactGuidance(CertainTime):
         dr, dv = self.remaining()
         time = self.time_left(dr, dv)
         self.time_to_go = time
-        self.status = GOOD
+        self.status = TerminalStatus.GOOD
         if time > 0.0:
             a, b = impulse_and_miss(dr, self.velocity, dv, self.gravity, time)
             self.thrust_linearly(a, b, time)

@@ -1,10 +1,10 @@
 """Method A* as published: time-to-go by Newton's method, which fails where there is no root."""
 
 from ..block import State
+from ..interfaces.ports.landing import TerminalStatus
 from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import Vector3, dot, norm, vector
 from .astar_programme import AstarProgramme
-from .terminal_guidance import NO_SOLUTION, NOT_CONVERGED
 
 
 class AstarGuidance(AstarProgramme):
@@ -53,12 +53,12 @@ class AstarGuidance(AstarProgramme):
     def newton_time(self, dr: Vector3, dv: Vector3) -> float:
         """Time-to-go (s) from what is to gain, or 0, and the status where it is."""
         speed = norm(self.velocity)
-        self.status = NO_SOLUTION
+        self.status = TerminalStatus.NO_SOLUTION
         start = self.last_root
         if start <= 0.0 and speed > 0.0:
             start = 2.0 * norm(dr) / speed
         if start > 0.0:
-            self.status = NOT_CONVERGED
+            self.status = TerminalStatus.NOT_CONVERGED
             return self.root(dr, self.velocity, dv, start)
         return 0.0
 

@@ -3,10 +3,10 @@
 import math
 
 from ..block import Parameter
+from ..interfaces.ports.landing import TerminalStatus
 from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import Vector3, norm
 from .astar_programme import AstarProgramme
-from .terminal_guidance import GOOD, NO_SOLUTION
 
 
 class AstarModifiedGuidance(AstarProgramme):
@@ -23,14 +23,14 @@ class AstarModifiedGuidance(AstarProgramme):
         g = self.gravity
         distance = norm(dr)
         speed_sum = norm(self.velocity) + norm(self.target_velocity)
-        self.status = NO_SOLUTION
+        self.status = TerminalStatus.NO_SOLUTION
         if speed_sum > 0.0:
             lift = dv.z + 2.0 * g * distance / speed_sum
             e = math.sqrt(dv.x * dv.x + dv.y * dv.y + lift * lift)
             closing = norm(self.velocity) - dr.z * g / speed_sum - 0.5 * e + e * e / (12.0 * self.exhaust_speed)
             if closing != 0.0:
                 # close to the target the formula can give a negative time, which ends the flight
-                self.status = GOOD
+                self.status = TerminalStatus.GOOD
                 return distance / closing
         return 0.0
 
@@ -45,4 +45,4 @@ class AstarModifiedGuidance(AstarProgramme):
             if acceleration > 0.0:
                 self.point(a, b, time, acceleration)
             else:
-                self.status = NO_SOLUTION
+                self.status = TerminalStatus.NO_SOLUTION

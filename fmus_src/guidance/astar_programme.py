@@ -1,9 +1,10 @@
 """The angle programme that the three guidances of method A* share."""
 
 from ..block import Output
+from ..interfaces.ports.landing import TerminalStatus
 from ..kernel.functions import asin, cos, sin
 from ..mathlib.vectors import Vector3, clip, norm, vector
-from .terminal_guidance import CLAMPED, GOOD, TerminalGuidance
+from .terminal_guidance import TerminalGuidance
 
 
 class AstarProgramme(TerminalGuidance, interface=True):
@@ -25,7 +26,7 @@ class AstarProgramme(TerminalGuidance, interface=True):
         """Arcsine, clamped and counted outside [-1, 1] (1e-12 allowed for rounding)."""
         if abs(sine) > 1.000000000001:
             self.clamp_count = self.clamp_count + 1
-            self.status = CLAMPED
+            self.status = TerminalStatus.CLAMPED
         return asin(clip(sine, -1.0, 1.0))
 
     def apply_weights(self, weight: float, theta: float, psi: float) -> Vector3:
@@ -40,7 +41,7 @@ class AstarProgramme(TerminalGuidance, interface=True):
         by = b.z
         bz = -b.y
         w = acceleration
-        self.status = GOOD
+        self.status = TerminalStatus.GOOD
         psi = self.angle((2.0 * az / time - 6.0 * bz / (time * time)) / w)
         cpsi = cos(psi)
         spsi = sin(psi)

@@ -1,10 +1,10 @@
 """Method A* made to work for every start: time-to-go from the cubic or the least effort, thrust from |a0|."""
 
+from ..interfaces.ports.landing import TerminalStatus
 from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import norm
 from .astar_programme import AstarProgramme
 from .certain_time import CertainTime
-from .terminal_guidance import GOOD
 
 FORWARD = 0.05  # least part of the thrust along x that the arcsines are trusted with; 0.07 in the published box
 
@@ -26,7 +26,7 @@ class AstarRobustGuidance(AstarProgramme, CertainTime):
         dr, dv = self.remaining()
         time = self.time_left(dr, dv)
         self.time_to_go = time
-        self.status = GOOD
+        self.status = TerminalStatus.GOOD
         if time > 0.0:
             a, b = impulse_and_miss(dr, self.velocity, dv, self.gravity, time)
             p = 3.0 * b - time * a

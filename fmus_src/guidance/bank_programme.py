@@ -4,13 +4,19 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import entry, sampling
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.vectors import clip
 from ..units import deg
 
-IDEAL = 0
-LIMITED = 1
-TIME_OPTIMAL = 2
 NEVER = 1e9
+
+
+class BankMethod(Enumeration):
+    """How the reference follows the target."""
+
+    IDEAL = member("ideal")
+    LIMITED = member("limited")
+    TIME_OPTIMAL = member("time-optimal")
 
 
 class BankProgramme(Block):
@@ -29,7 +35,7 @@ class BankProgramme(Block):
     reversal_times = Parameter(
         [NEVER, NEVER], unit="s", minimum=0.0, description="of the reversals after the start, in order"
     )
-    method = Parameter(TIME_OPTIMAL, minimum=0, maximum=2, description="0 ideal, 1 limited, 2 time-optimal")
+    method = Parameter(BankMethod, start=BankMethod.TIME_OPTIMAL)
     bank_rate = Parameter(deg(12.0), unit="rad/s", minimum=1e-6, description="largest rate, time-optimal")
     bank_acceleration = Parameter(0.06, unit="rad/s2", minimum=1e-6, description="acceleration, time-optimal")
     largest_error = Parameter(deg(48.0), unit="rad", minimum=0.0, description="of the limited method")
@@ -59,9 +65,9 @@ class BankProgramme(Block):
         self.reference_bank_rate = 0.0
         self.reference_bank_acceleration = 0.0
         self.error_limit = math.pi
-        if self.method == LIMITED:
+        if self.method == BankMethod.LIMITED:
             self.error_limit = self.largest_error
-        if self.method == TIME_OPTIMAL and self.time_since_reversal < NEVER:
+        if self.method == BankMethod.TIME_OPTIMAL and self.time_since_reversal < NEVER:
             self.lead(before, self.time_since_reversal)
 
     def lead(self, before: float, s: float) -> None:

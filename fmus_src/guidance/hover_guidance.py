@@ -2,14 +2,15 @@
 
 from ..block import Input, Output, Parameter, State
 from ..interfaces.ports import landing, sampling
-from ..interfaces.ports.landing import UNLIMITED, HoverMode
+from ..interfaces.ports.landing import UNLIMITED, HoverMode, HoverStatus
 from ..kernel.functions import expm1, tan
 from ..mathlib.actuators.lagged_thrust import lagged_thrust
 from ..mathlib.attitude.rotation import TurningDirection
+from ..mathlib.hover.solution import PlanKind
 from ..mathlib.lunar.gravity import STANDARD_GRAVITY
 from ..mathlib.vectors import across, clip, dot, limit_length, norm, vector
 from ..units import deg
-from .hover_plan import HOLDING, POLYNOMIAL, HoverPlan, HoverStatus
+from .hover_plan import HoverPlan
 
 ROUNDING = 1e-9  # s, allowed for in times of communication points
 CYCLE_TOLERANCE = 1e-3  # of a cycle, by which communication points may miss sample instants
@@ -56,12 +57,7 @@ class HoverGuidance(HoverPlan):
     descent_speed = Parameter(1.0, unit="m/s", minimum=1e-3, description="of a descent")
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.1, "guidance cycle; 0: every communication point")
     active = landing.ACTIVE.input()
-    mode = Input(
-        HoverMode.PROGRAMME,
-        minimum=0,
-        maximum=5,
-        description=f"{HoverMode.description()}; a change starts a plan",
-    )
+    mode = Input(HoverMode, start=HoverMode.PROGRAMME, description="a change starts a plan")
     plan_number = landing.PLAN_NUMBER.input()
     thrust_acceleration = landing.THRUST_ACCELERATION.output(direct=True)
     thrust_direction = landing.DIRECTION.output("commanded unit vector at command_time", direct=True)
@@ -89,7 +85,7 @@ class HoverGuidance(HoverPlan):
     sample_time = State(0.0, unit="s", description="time of the last sample")
     plan_start = State(0.0, frozen=True, unit="s", description="when the plan started")
     in_charge = State(False, description="active at the last sample")
-    flown_mode = State(0, description="mode of the last plan")
+    flown_mode = State(HoverMode, description="of the last plan")
     engine_thrust = State(0.0, unit="N", description="thrust now, if the engine does as commanded")
     commanded_thrust = State(0.0, unit="N", description="command within the engine's limits; 0: none")
     start_time = State(0.0, unit="s", description="start of the flight")
@@ -211,7 +207,7 @@ class HoverGuidance(HoverPlan):
 
     def frequency(self, t: float) -> float:
         """Of the loop (rad/s) at the time t (s) after the plan's start."""
-        if self.plan_kind == HOLDING or self.plan_kind == POLYNOMIAL or t >= self.duration:
+        if self.plan_kind == PlanKind.NONE or self.plan_kind == PlanKind.POLYNOMIAL or t >= self.duration:
             return self.holding_frequency
         if t >= self.shape.last_burn_begin - BEFORE_LAST_BURN:
             return self.braking_frequency

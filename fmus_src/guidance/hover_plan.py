@@ -4,13 +4,14 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import landing
+from ..interfaces.ports.landing import HoverStatus
 from ..kernel.functions import cos, expm1, sin
 from ..kernel.integrators import Translation
 from ..mathlib.attitude.rotation import TurningDirection
 from ..mathlib.hover.motion import HoverVehicle, motion, propellant, thrust_impulse
 from ..mathlib.hover.programme import programme
 from ..mathlib.hover.shape import HoverProgramme, HoverShape, pitch, shape_of, without_programme
-from ..mathlib.hover.solution import NONE, VERTICAL
+from ..mathlib.hover.solution import PlanKind
 from ..mathlib.hover.transfer_polynomial import (
     Transfer,
     TransferLimits,
@@ -24,12 +25,7 @@ from ..mathlib.hover.transfer_polynomial import (
 )
 from ..mathlib.lunar.gravity import STANDARD_GRAVITY, from_centre, vertical_at
 from ..mathlib.vectors import Vector3, add_along, clip, cross, dot, is_finite, norm, smallest_component, vector
-from ..ports import Status, outcome
 from ..units import deg
-
-HOLDING = 0  # kinds of plans besides those of mathlib.hover.solution
-POLYNOMIAL = 4
-
 
 LEAST_MEASURED = 0.5  # of the planned minimum, below which the engine is off
 # What a transfer keeps to that stands in for a programme.
@@ -37,19 +33,9 @@ STANDBY_SPEED = 60.0  # m/s
 STANDBY_ACCELERATION = 0.5  # m/s2
 
 
-class HoverStatus(Status):
-    """What became of the last plan."""
-
-    GOOD = outcome("good")
-    NO_PROGRAMME = outcome("no programme, polynomial flown")
-    BEYOND_LIMITS = outcome("capture breaks a limit")
-    NO_PLAN = outcome("no plan possible: holds")
-
-
 class HoverPlan(Block, interface=True):
     """A plan to a hover, vertical and at rest, and the thrust that it asks for.
 
-    Kinds: 0 none, 1 vertical programme, 2 programme without first burn, 3 with first burn, 4 polynomial of degree 7.
     Programmes lie in the plane through start and target with the target's vertical; gravity is constant over a plan,
     the mean of start and target. Plans keep margins of the engine and of the angular acceleration, for control to
     work with. Frame: landing site. Equations: docs/systems/hover_transfer.md. Source: Huang 2017; in space, ours.
@@ -80,14 +66,8 @@ class HoverPlan(Block, interface=True):
     attitude = landing.DIRECTION.input("measured unit vector of thrust")
     angular_rate = landing.ANGULAR_RATE.input("measured angular rate")
     velocity_increment = landing.VELOCITY.input("measured integral of specific force over the last cycle")
-    status = HoverStatus.output(direct=True)
-    plan_kind = Output(
-        0,
-        minimum=0,
-        maximum=4,
-        direct=True,
-        description="0 none, 1 vertical, 2 without first burn, 3 with first burn, 4 polynomial",
-    )
+    status = Output(HoverStatus, direct=True)
+    plan_kind = Output(PlanKind, direct=True)
     predicted_propellant = landing.PREDICTED_PROPELLANT.output(direct=True)
     programme = Output([0.0] * 5, unit="s", direct=True, description="t2, t5, w, tp, t7 of the programme; 0 where none")
     origin = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="where the plan starts")
@@ -121,7 +101,7 @@ class HoverPlan(Block, interface=True):
     def drop_plan(self) -> None:
         """No plan: hold at the target from here on."""
         self.status = HoverStatus.GOOD
-        self.plan_kind = HOLDING
+        self.plan_kind = PlanKind.NONE
         self.duration = 0.0
         self.predicted_propellant = 0.0
         self.set_programme(without_programme())
@@ -163,7 +143,7 @@ class HoverPlan(Block, interface=True):
         x = norm(side)
         kind, times = programme(x, y, self.vehicle)
         self.set_programme(times)
-        if kind == NONE:
+        if kind == PlanKind.NONE:
             self.plan_transfer(STANDBY_SPEED, STANDBY_ACCELERATION)
             if self.status == HoverStatus.GOOD:
                 self.status = HoverStatus.NO_PROGRAMME
@@ -174,7 +154,7 @@ class HoverPlan(Block, interface=True):
                 k, smallest = smallest_component(self.up)
                 level = add_along(-smallest * self.up, k, 1.0)
                 self.along = level / norm(level)
-            if kind == VERTICAL:
+            if kind == PlanKind.VERTICAL:
                 self.origin = self.goal - y * self.up
             self.shape, is_feasible = shape_of(times, self.vehicle.swing)
             if is_feasible:
@@ -235,7 +215,7 @@ class HoverPlan(Block, interface=True):
     def take_polynomial(self, duration: float, spent: float) -> None:
         """Fly the polynomial, which takes a duration (s) and spends so much (m/s); status 3 if these are not finite."""
         if duration > 0.0 and math.isfinite(duration) and math.isfinite(spent):
-            self.plan_kind = POLYNOMIAL
+            self.plan_kind = PlanKind.POLYNOMIAL
             self.duration = duration
             exhaust = STANDARD_GRAVITY * self.specific_impulse
             self.predicted_propellant = -self.mass * expm1(-spent / exhaust)
@@ -251,7 +231,7 @@ class HoverPlan(Block, interface=True):
         rest = vector(0.0, 0.0, 0.0)
         if t >= self.duration:
             return Translation(position=self.goal, velocity=rest)
-        if self.plan_kind == POLYNOMIAL:
+        if self.plan_kind == PlanKind.POLYNOMIAL:
             place = transfer_position(self.transfer, t, self.duration)
             return Translation(position=place, velocity=transfer_velocity(self.transfer, t, self.duration))
         s, moved = motion(self.shape, self.vehicle, t)
@@ -265,7 +245,7 @@ class HoverPlan(Block, interface=True):
         rest = vector(0.0, 0.0, 0.0)
         if t >= self.duration:
             return TurningDirection(direction=self.up, rate=rest)
-        if self.plan_kind == POLYNOMIAL:
+        if self.plan_kind == PlanKind.POLYNOMIAL:
             thrust = thrust_along(self.transfer, t, self.duration, self.lift())
             return TurningDirection(direction=thrust.direction, rate=thrust.rate)
         turn = pitch(self.shape, self.vehicle.swing, t)
@@ -281,7 +261,7 @@ class HoverPlan(Block, interface=True):
 
     def plan_impulse(self, begin: float, end: float) -> float:
         """Integral (m/s) of the plan's thrust over mass between two times (s) after its start, within its duration."""
-        if self.plan_kind != POLYNOMIAL:
+        if self.plan_kind != PlanKind.POLYNOMIAL:
             return thrust_impulse(self.shape, self.vehicle, begin, end)
         first = thrust_along(self.transfer, begin, self.duration, self.lift())
         middle = thrust_along(self.transfer, 0.5 * (begin + end), self.duration, self.lift())

@@ -2,12 +2,12 @@
 
 from ..block import State
 from ..interfaces.ports import landing
-from ..interfaces.ports.landing import UNLIMITED
+from ..interfaces.ports.landing import UNLIMITED, TerminalStatus
 from ..kernel.functions import atan2, cos, expm1, sin
 from ..mathlib.lunar.gravity import STANDARD_GRAVITY, altitude_of, from_centre
 from ..mathlib.vectors import Vector3, dot, norm, vector
 from .network_operator_law import NetworkOperatorLaw
-from .terminal_guidance import GOOD, NO_SOLUTION, TerminalGuidance
+from .terminal_guidance import TerminalGuidance
 
 LEAST_HORIZONTAL_SPEED = 0.5  # m/s; below it the horizontal direction is held
 
@@ -55,9 +55,9 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
         if self.edge_count >= 0 and self.mass > 0.0 and radius > 0.0:
             self.altitude = radius - self.moon_radius
             self.command_thrust(centred / radius)
-            self.status = GOOD
+            self.status = TerminalStatus.GOOD
         else:
-            self.status = NO_SOLUTION
+            self.status = TerminalStatus.NO_SOLUTION
 
     def command_thrust(self, up: Vector3) -> None:
         """Command from the law, with the local vertical ``up``."""
@@ -89,7 +89,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     def go_on(self, t: float, h: float) -> None:
         if not self.finished:
             self.solve()
-            if self.status == GOOD:
+            if self.status == TerminalStatus.GOOD:
                 self.command_time = t + h
                 slow = norm(self.velocity) < self.handover_speed
                 low = self.altitude <= self.handover_altitude_high

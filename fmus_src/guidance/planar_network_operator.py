@@ -1,16 +1,16 @@
 """Descent in a plane by a network operator."""
 
-from ..block import Parameter
+from ..block import Output, Parameter
 from ..interfaces.ports import landing, sampling
-from ..ports import Status, outcome
+from ..kernel.enumerations import Enumeration, member
 from .network_operator_law import NetworkOperatorLaw
 
 
-class LawStatus(Status):
+class LawStatus(Enumeration):
     """Whether there is a law."""
 
-    GOOD = outcome("good")
-    BAD_LAW = outcome("the matrix is no network operator: no thrust")
+    GOOD = member("good")
+    BAD_LAW = member("the matrix is no network operator: no thrust")
 
 
 class PlanarNetworkOperator(NetworkOperatorLaw):
@@ -28,7 +28,7 @@ class PlanarNetworkOperator(NetworkOperatorLaw):
     measured_altitude = landing.MEASURED_ALTITUDE.input("altitude", start=18148.0)
     thrust_angle = landing.THRUST_ANGLE.output(direct=True)
     thrust = landing.THRUST.output(direct=True)
-    status = LawStatus.output(direct=True)
+    status = Output(LawStatus, direct=True)
 
     def initialize(self) -> None:
         self.decode_law()

@@ -4,21 +4,30 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, robot
+from ..kernel.enumerations import Enumeration, member
 from ..kernel.integrators import Translation
 from ..mathlib.attitude.quaternion import from_rotation_vector
 from ..mathlib.attitude.rotation import rotation_between
 from ..mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
 from ..mathlib.vectors import norm, vector
-from ..ports import Status, outcome
 
 ROUNDING = 1e-9  # of a period, allowed for in times of communication points
 
 
-class RendezvousStatus(Status):
+class RendezvousStatus(Enumeration):
     """Whether there is a plan."""
 
-    GOOD = outcome("good")
-    NO_PLAN = outcome("no plan: phases out of order")
+    GOOD = member("good")
+    NO_PLAN = member("no plan: phases out of order")
+
+
+class RendezvousPhase(Enumeration, first=1):
+    """What the plan does."""
+
+    ACCELERATE = member("accelerate")
+    TURN = member("turn")
+    APPROACH = member("approach")
+    HOLD = member("hold")
 
 
 class RendezvousGuidance(Block):
@@ -65,10 +74,10 @@ class RendezvousGuidance(Block):
     planned_quaternion = robot.PLANNED_QUATERNION.output("from body to inertial, scalar first")
     planned_angular_velocity = body.ANGULAR_VELOCITY.output("of the plan")
     planned_angular_acceleration = body.ANGULAR_ACCELERATION.output("of the plan, half an attitude_period later")
-    phase = Output(1, minimum=1, maximum=4, description="1 accelerate, 2 turn, 3 approach, 4 hold")
+    phase = Output(RendezvousPhase)
     translation_period = Output(8.0, unit="s", description="of translation control, from the last tick on")
     translation_count = robot.TRANSLATION_COUNT.output("ticks of translation control so far; a change tells a new one")
-    status = RendezvousStatus.output()
+    status = Output(RendezvousStatus)
     start_time = State(0.0, unit="s", description="start of the flight")
     acceleration = State([0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="of phase 1")
     splines = State([0.0] * 21, unit="m", frame="inertial", description="coefficients of phase 3, axis by axis")
@@ -192,13 +201,13 @@ class RendezvousGuidance(Block):
         target = self.target_position + time * self.target_velocity
         self.planned_relative_position = target - self.planned_position
         self.turn(time)
-        self.phase = 4
+        self.phase = RendezvousPhase.HOLD
         if time < self.turn_start:
-            self.phase = 1
+            self.phase = RendezvousPhase.ACCELERATE
         elif time < self.turn_end:
-            self.phase = 2
+            self.phase = RendezvousPhase.TURN
         elif time < self.arrival_time:
-            self.phase = 3
+            self.phase = RendezvousPhase.APPROACH
 
     def step(self, t: float, h: float) -> None:
         time = t + h - self.start_time

@@ -1,11 +1,11 @@
 """The slot of terminal guidance: bring the vehicle to a position and velocity at time_to_go."""
 
-from ..block import Block, Parameter, State
+from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import landing, sampling
-from ..interfaces.ports.landing import UNLIMITED
+from ..interfaces.ports.landing import UNLIMITED, TerminalStatus
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.lunar.gravity import central_gravity
 from ..mathlib.vectors import Vector3, vector
-from ..ports import Status, outcome
 
 ROUNDING = 1e-9  # of a cycle, allowed for in times of communication points
 # Cycles; a last burn is never a sliver of one, in which small misses would ask for a large thrust.
@@ -15,19 +15,11 @@ SETTLING = 20
 SETTLED = 1e-10
 
 
-class TerminalStatus(Status):
-    """What became of the last solution."""
+class TerminalStep(Enumeration):
+    """How a terminal guidance ends."""
 
-    GOOD = outcome("good")
-    CLAMPED = outcome("clamped")
-    NOT_CONVERGED = outcome("not converged")
-    NO_SOLUTION = outcome("no solution")
-
-
-GOOD = TerminalStatus.GOOD
-CLAMPED = TerminalStatus.CLAMPED
-NOT_CONVERGED = TerminalStatus.NOT_CONVERGED
-NO_SOLUTION = TerminalStatus.NO_SOLUTION
+    STOP = member("stop: finished when time_to_go < cycle")
+    EXACT = member("exact: burn the last 0.5 to 1.5 cycles to the end")
 
 
 class TerminalGuidance(Block, interface=True):
@@ -69,12 +61,7 @@ class TerminalGuidance(Block, interface=True):
         description="from the Moon's centre, which is straight below, to the site"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.0, "guidance cycle; 0: every communication point")
-    terminal_step = Parameter(
-        0,
-        minimum=0,
-        maximum=1,
-        description="0 stop: finished when time_to_go < cycle; 1 exact: burn the last 0.5 to 1.5 cycles to the end",
-    )
+    terminal_step = Parameter(TerminalStep)
     last_burn = Parameter(
         0.0,
         unit="s",
@@ -98,7 +85,7 @@ class TerminalGuidance(Block, interface=True):
     command_time = landing.COMMAND_TIME.output("when the command was computed", direct=True)
     burn_duration = landing.BURN_DURATION.output(start=UNLIMITED, direct=True)
     time_to_go = landing.TIME_TO_GO.output(direct=True)
-    status = TerminalStatus.output(direct=True)
+    status = Output(TerminalStatus, direct=True)
     finished = landing.FINISHED.output(direct=True)
     cycle = State(0.0, unit="s", description="time to the next sample; 0 until the first step")
     under_way = State(False, description="active at the last sample")
@@ -142,7 +129,7 @@ class TerminalGuidance(Block, interface=True):
             for _ in range(SETTLING):
                 time = self.time_to_go
                 change = abs(time - self.expected_time)
-                if self.status < NOT_CONVERGED and time > 0.0 and change > SETTLED * time:
+                if self.status < TerminalStatus.NOT_CONVERGED and time > 0.0 and change > SETTLED * time:
                     self.expected_time = time
                     self.solve()
 
@@ -158,18 +145,18 @@ class TerminalGuidance(Block, interface=True):
         self.expected_time = self.planned_time(0.0)
         self.aim()
         self.judge()
-        if self.status >= NOT_CONVERGED:
+        if self.status >= TerminalStatus.NOT_CONVERGED:
             self.time_to_go = 0.0
             self.thrust_acceleration = 0.0
-        elif self.terminal_step == 1 and not self.plan_frozen():
+        elif self.terminal_step == TerminalStep.EXACT and not self.plan_frozen():
             self.burn_duration = self.time_to_go
 
     def judge(self) -> None:
         """Tell time that is up from time that never was."""
-        if self.time_to_go > 0.0 and self.status < NOT_CONVERGED:
+        if self.time_to_go > 0.0 and self.status < TerminalStatus.NOT_CONVERGED:
             self.started = True
-        if not self.started and self.status < NOT_CONVERGED:
-            self.status = NO_SOLUTION
+        if not self.started and self.status < TerminalStatus.NOT_CONVERGED:
+            self.status = TerminalStatus.NO_SOLUTION
 
     def step(self, t: float, h: float) -> None:
         if not self.active:
@@ -191,7 +178,7 @@ class TerminalGuidance(Block, interface=True):
         self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
         self.burn_duration = UNLIMITED
         self.time_to_go = 0.0
-        self.status = GOOD
+        self.status = TerminalStatus.GOOD
         self.forget()
 
     def forget(self) -> None:
@@ -204,7 +191,7 @@ class TerminalGuidance(Block, interface=True):
             if self.cycle <= 0.0:
                 self.cycle = h
             burn_left = self.command_time + self.burn_duration - t - h
-            if self.terminal_step == 0 or not self.started or burn_left > self.hold_time() - self.cycle:
+            if self.terminal_step == TerminalStep.STOP or not self.started or burn_left > self.hold_time() - self.cycle:
                 self.follow(t + h)
             elif burn_left > self.cycle * ROUNDING:
                 self.time_to_go = burn_left
@@ -232,7 +219,7 @@ class TerminalGuidance(Block, interface=True):
         self.expected_time = left
         self.aim()
         self.judge()
-        if self.status >= NOT_CONVERGED:
+        if self.status >= TerminalStatus.NOT_CONVERGED:
             self.time_to_go = left
             if not self.started:
                 self.time_to_go = 0.0
@@ -244,7 +231,7 @@ class TerminalGuidance(Block, interface=True):
 
     def end(self, time: float) -> None:
         """At ``time`` (s): the last burn where it is due, or the end where less than a cycle is left."""
-        if self.terminal_step == 1:
+        if self.terminal_step == TerminalStep.EXACT:
             self.burn_duration = UNLIMITED
             if self.time_to_go <= self.hold_time():
                 # from command_time on, which is earlier where the last command is held

@@ -1,16 +1,16 @@
 """The slot of allocation: from a guidance command to what engine and attitude do."""
 
-from ..block import Block, Input
-from ..ports import Status, outcome
+from ..block import Block, Input, Output
+from ..kernel.enumerations import Enumeration, member
 from .ports import landing
 
 
-class AllocationStatus(Status):
+class AllocationStatus(Enumeration):
     """Whether the demand is given."""
 
-    GOOD = outcome("good")
-    LIMITED = outcome("limited by thrust or slew rate")
-    CONTRADICTORY = outcome("the limits contradict each other")
+    GOOD = member("good")
+    LIMITED = member("limited by thrust or slew rate")
+    CONTRADICTORY = member("the limits contradict each other")
 
 
 class Allocation(Block, interface=True):
@@ -30,4 +30,4 @@ class Allocation(Block, interface=True):
     thrust_direction_rate = landing.DIRECTION_RATE.output(direct=True)
     command_time = landing.COMMAND_TIME.output(direct=True)
     burn_duration = landing.BURN_DURATION.output(direct=True)
-    status = AllocationStatus.output(direct=True)
+    status = Output(AllocationStatus, direct=True)

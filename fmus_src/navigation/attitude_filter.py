@@ -4,7 +4,7 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, robot, sampling
-from ..interfaces.ports.robot import SampleStatus
+from ..interfaces.ports.robot import FilterMethod, SampleStatus
 from ..kernel.matrices import element, set_element
 from ..mathlib.attitude.quaternion import (
     angle_error,
@@ -18,7 +18,6 @@ from ..mathlib.attitude.quaternion import (
 from ..mathlib.estimation.tracking import DISTURBANCE, RATE, TRACKED, measure_chain, predict_chain
 from ..mathlib.vectors import cross, dot, is_finite, vector
 
-MEAN = 0
 # Inputs that the outputs depend on at once: all but the jets' torque, which is that of the step just past.
 AT_ONCE = ("measured_quaternion", "sample_count", "planned_quaternion", "planned_angular_velocity", "gyro_momentum")
 
@@ -43,7 +42,7 @@ class AttitudeFilter(Block):
 
     default_step = 0.125
 
-    method = Parameter(1, minimum=0, maximum=1, description="0 mean, 1 Kalman filter")
+    method = Parameter(FilterMethod, start=FilterMethod.KALMAN)
     mean_samples = Parameter(2, minimum=1, description="samples in a mean: those in a period of attitude control")
     inertia = Parameter([812.0, 587.0, 910.0], unit="kg.m2", minimum=1e-3, description="of the robot, about x, y, z")
     attitude_sigma = Parameter(
@@ -86,7 +85,7 @@ class AttitudeFilter(Block):
     )
     innovation_square = sampling.INNOVATION_SQUARE.output(direct=AT_ONCE)
     samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
-    status = SampleStatus.output(direct=AT_ONCE)
+    status = Output(SampleStatus, direct=AT_ONCE)
     angular_velocity = body.ANGULAR_VELOCITY.state("estimate of the Kalman filter")
     covariance = State([0.0] * 9, frozen=True, description="of attitude, rate and disturbance, row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
@@ -144,7 +143,7 @@ class AttitudeFilter(Block):
             return
         self.status = SampleStatus.GOOD
         self.samples_taken = self.samples_taken + 1
-        if self.method == MEAN:
+        if self.method == FilterMethod.MEAN:
             self.total = self.total + angle_error(self.planned_quaternion, self.measured_quaternion)
             self.summed = self.summed + 1
         elif self.samples_taken == 1:
@@ -182,7 +181,7 @@ class AttitudeFilter(Block):
 
     def publish(self) -> None:
         """Put errors and standard deviations on the outputs."""
-        if self.method == MEAN:
+        if self.method == FilterMethod.MEAN:
             # the attitude is the planned one turned by the error
             self.quaternion = multiply(self.planned_quaternion, from_rotation_vector(self.attitude_error))
             return
@@ -193,7 +192,7 @@ class AttitudeFilter(Block):
         self.rate_error_sigma = math.sqrt(element(self.covariance, 3, RATE, RATE))
 
     def step(self, t: float, h: float) -> None:
-        if self.method != MEAN:
+        if self.method != FilterMethod.MEAN:
             self.predict(t + h - self.last_time)
         self.take_sample()
         if self.summed >= self.mean_samples:

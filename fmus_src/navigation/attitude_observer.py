@@ -4,24 +4,24 @@ import math
 
 from ..block import Input, Output, Parameter, State
 from ..interfaces.ports import body, sampling
+from ..kernel.enumerations import Enumeration, member
 from ..kernel.integrators import runge_kutta_4
 from ..kernel.records import replace
 from ..mathlib.orbits.attitude import AttitudeState
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
 from ..models.orbital_body import OrbitalBody
-from ..ports import Status, outcome
 from ..units import deg
 
 
-class ObserverStatus(Status):
+class ObserverStatus(Enumeration):
     """What the estimate rests on."""
 
-    GOOD = outcome("good")
-    HELD = outcome("no new sample")
-    NOT_FINITE = outcome("not finite")
-    YAW_LIMITED = outcome("yaw at its bound")
-    NO_GAIN = outcome("no gain")
-    NOT_POSITIVE = outcome("variance not positive")
+    GOOD = member("good")
+    HELD = member("no new sample")
+    NOT_FINITE = member("not finite")
+    YAW_LIMITED = member("yaw at its bound")
+    NO_GAIN = member("no gain")
+    NOT_POSITIVE = member("variance not positive")
 
 
 class AttitudeObserver(OrbitalBody, interface=True):
@@ -71,7 +71,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
     estimated_angular_velocity = body.ANGULAR_VELOCITY.output(direct=True)
     estimated_gyro_bias = body.ANGULAR_VELOCITY.output("bias of the gyros; 0 where it is not sought", direct=True)
     yaw_sigma = Output(0.0, unit="rad", direct=True, description="of the estimated yaw, 1 sigma; 0 where there is none")
-    status = ObserverStatus.output(direct=True)
+    status = Output(ObserverStatus, direct=True)
     estimate = State(AttitudeState, description="estimate of now")
     last_roll = State(0.0, unit="rad", description="roll measured at the tick before")
     last_pitch = State(0.0, unit="rad", description="pitch measured at the tick before")

@@ -4,11 +4,11 @@ import math
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports import landing, sampling
+from ..kernel.enumerations import Enumeration, member
 from ..kernel.matrices import element
 from ..mathlib.estimation.inertial import STATES, sensor_addition, start_errors
 from ..mathlib.lunar.gravity import from_centre
 from ..mathlib.vectors import Vector3, norm, vector
-from ..ports import Status, outcome
 from ..units import deg
 from .inertial_navigation import InertialNavigation
 
@@ -17,13 +17,13 @@ VELOCITY = 1
 POSITION = 2
 
 
-class FilterStatus(Status):
+class FilterStatus(Enumeration):
     """What became of the last samples."""
 
-    GOOD = outcome("good")
-    REJECTED = outcome("a sensor's last sample was rejected")
-    LOCKED_OUT = outcome("its last rejection_limit")
-    NOT_POSITIVE = outcome("variance negative")
+    GOOD = member("good")
+    REJECTED = member("a sensor's last sample was rejected")
+    LOCKED_OUT = member("its last rejection_limit")
+    NOT_POSITIVE = member("variance negative")
 
 
 class FilteredNavigation(InertialNavigation, interface=True):
@@ -90,7 +90,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         0.0, unit="1", direct=True, description="normalised innovation squared of the last position, three scalars"
     )
     rejected_count = Output(0, direct=True, description="scalars rejected by the gate")
-    status = FilterStatus.output(direct=True)
+    status = Output(FilterStatus, direct=True)
     sensor_errors = State([0.0] * 9, description="bias (m/s2), scale factor and misalignment (rad) per axis, estimated")
     covariance = State([0.0] * 225, frozen=True, description="covariance of the fifteen states, row order, SI")
     rejected_in_a_row = State([0] * 3, description="samples with a scalar rejected: altitude, velocity, position")

@@ -3,11 +3,16 @@
 import math
 
 from ..block import Parameter, State
+from ..kernel.enumerations import Enumeration, member
 from .attitude_observer import AttitudeObserver
 
-LEVELLING = 0
-AVERAGING = 1
-HOLDING = 2
+
+class Stage(Enumeration):
+    """What the vehicle does."""
+
+    LEVELLING = member("levelling")
+    AVERAGING = member("averaging")
+    HOLDING = member("holding")
 
 
 class OrbitalSequence(AttitudeObserver):
@@ -21,7 +26,7 @@ class OrbitalSequence(AttitudeObserver):
 
     levelling_end = Parameter(90.0, unit="s", minimum=0.0, description="end of the first stage after the start")
     averaging_end = Parameter(270.0, unit="s", minimum=0.0, description="end of the second stage after the start")
-    stage = State(LEVELLING, minimum=0, maximum=2, description="0 levelling, 1 averaging, 2 holding")
+    stage = State(Stage)
     since = State(0, description="tick at which averaging began")
     last_tick = State(0, description="tick of the last sample")
     first_roll = State(0.0, unit="rad", description="roll when averaging began")
@@ -37,19 +42,19 @@ class OrbitalSequence(AttitudeObserver):
         self.turned = self.turned + 0.5 * elapsed * (self.last_rates.x + self.measured_angular_velocity.x)
         if not self.due(self.averaging_end):
             return 0.0
-        self.stage = HOLDING
+        self.stage = Stage.HOLDING
         time = float(self.ticks - self.since) * self.sample_period
         return (self.turned - (self.measured_roll - self.first_roll)) / (self.orbital_rate * time)
 
     def observe(self) -> None:
         yaw = 0.0
-        if self.stage == HOLDING:
+        if self.stage == Stage.HOLDING:
             carried = self.carry(True)
             yaw = carried.angles.y
-        elif self.stage == AVERAGING:
+        elif self.stage == Stage.AVERAGING:
             yaw = self.average()
         elif self.due(self.levelling_end):
-            self.stage = AVERAGING
+            self.stage = Stage.AVERAGING
             self.since = self.ticks
             self.first_roll = self.measured_roll
         self.last_tick = self.ticks

@@ -4,12 +4,11 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, landing, robot, sampling
-from ..interfaces.ports.robot import SampleStatus
+from ..interfaces.ports.robot import FilterMethod, SampleStatus
 from ..mathlib.attitude.quaternion import normalise, to_reference
 from ..mathlib.estimation.tracking import measure_chain, predict_chain
 from ..mathlib.vectors import Vector3, is_finite, norm, vector
 
-MEAN = 0
 # Inputs that the outputs depend on at once: all but the force, which is that of the step just past.
 AT_ONCE = (
     "relative_position",
@@ -39,7 +38,7 @@ class TranslationFilter(Block):
 
     default_step = 0.125
 
-    method = Parameter(1, minimum=0, maximum=1, description="0 mean since the last tick, 1 Kalman filter")
+    method = Parameter(FilterMethod, start=FilterMethod.KALMAN)
     mass = landing.MASS.parameter(1000.0, "of the robot", minimum=1e-3)
     far_sigma = robot.FAR_SIGMA.parameter()
     near_sigma = robot.NEAR_SIGMA.parameter()
@@ -76,7 +75,7 @@ class TranslationFilter(Block):
     )
     innovation_square = sampling.INNOVATION_SQUARE.output(direct=AT_ONCE)
     samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
-    status = SampleStatus.output(direct=AT_ONCE)
+    status = Output(SampleStatus, direct=AT_ONCE)
     covariance = State([0.0] * 4, vector=False, frozen=True, description="of position and velocity, row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
     start_time = sampling.START_TIME.state()
@@ -97,7 +96,7 @@ class TranslationFilter(Block):
         self.last_quaternion = self.quaternion
         self.covariance[3] = self.first_velocity_sigma * self.first_velocity_sigma
         self.take_sample()
-        if self.method == MEAN:
+        if self.method == FilterMethod.MEAN:
             self.put_out_mean(self.start_time)
         self.publish()
 
@@ -129,7 +128,7 @@ class TranslationFilter(Block):
             return
         self.status = SampleStatus.GOOD
         self.samples_taken = self.samples_taken + 1
-        if self.method == MEAN:
+        if self.method == FilterMethod.MEAN:
             self.total = self.total + error
             self.summed = self.summed + 1
         elif self.samples_taken == 1:
@@ -168,18 +167,18 @@ class TranslationFilter(Block):
 
     def publish(self) -> None:
         """Put the standard deviations on the outputs."""
-        if self.method != MEAN:
+        if self.method != FilterMethod.MEAN:
             self.position_error_sigma = math.sqrt(self.covariance[0])
             self.velocity_error_sigma = math.sqrt(self.covariance[3])
 
     def step(self, t: float, h: float) -> None:
         elapsed = t + h - self.last_time
-        if self.method != MEAN:
+        if self.method != FilterMethod.MEAN:
             self.predict(elapsed)
         self.take_sample()
         if self.translation_count != self.ticks:
             self.ticks = self.translation_count
-            if self.method == MEAN:
+            if self.method == FilterMethod.MEAN:
                 self.put_out_mean(t + h)
         self.last_velocity = self.planned_velocity
         self.last_quaternion = self.quaternion

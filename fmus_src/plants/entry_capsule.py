@@ -4,6 +4,7 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, entry, landing, sampling
+from ..kernel.enumerations import Enumeration, member
 from ..kernel.functions import atan2
 from ..kernel.integrators import runge_kutta_4
 from ..kernel.matrices import inverse
@@ -23,7 +24,6 @@ from ..mathlib.entry.newtonian_cap import cap_tables
 from ..mathlib.entry.standard_atmosphere import Air, air
 from ..mathlib.orbits.attitude import apply_matrix
 from ..mathlib.vectors import Vector3, cross, norm, vector
-from ..ports import Status, outcome
 from ..units import deg
 
 KNOTS = 13
@@ -35,12 +35,12 @@ MACH_NUMBERS = [1.2, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0, 30.0]
 AXIAL, NORMAL = cap_tables(1.1, 2.235, MACH_NUMBERS, [5.0 * k for k in range(KNOTS)])
 
 
-class CapsuleStatus(Status):
+class CapsuleStatus(Enumeration):
     """Whether the tables and the inertia serve."""
 
-    GOOD = outcome("good")
-    BEYOND_TABLES = outcome("beyond the tables")
-    NO_INERTIA = outcome("inertia cannot be inverted")
+    GOOD = member("good")
+    BEYOND_TABLES = member("beyond the tables")
+    NO_INERTIA = member("inertia cannot be inverted")
 
 
 class EntryCapsule(Block):
@@ -115,7 +115,7 @@ class EntryCapsule(Block):
     jet_seconds = body.PULSES.output("time that jets have fired about x, y, z")
     total_jet_seconds = Output(0.0, unit="s", description="their sum: the propellant")
     finished = landing.FINISHED.output("below final_height")
-    status = CapsuleStatus.output()
+    status = Output(CapsuleStatus)
     state = State(EntryState, radius=6471000.0, speed=7620.0)
     inverse_inertia = State([0.0] * 9, columns=3, description="inverse of inertia, 1/(kg m2)")
     axial_curvature = State([0.0] * 130, columns=KNOTS, description="second derivatives of the splines, 1/rad2")

@@ -2,17 +2,17 @@
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports import body, sampling
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.orbits.attitude import AttitudeState
 from ..mathlib.vectors import Vector3, vector
 from ..models.orbital_body import OrbitalBody
-from ..ports import Status, outcome
 
 
-class SpacecraftStatus(Status):
+class SpacecraftStatus(Enumeration):
     """Whether the spacecraft moves."""
 
-    GOOD = outcome("good")
-    NO_INERTIA = outcome("inertia cannot be inverted, nothing moves")
+    GOOD = member("good")
+    NO_INERTIA = member("inertia cannot be inverted, nothing moves")
 
 
 class OrbitalSpacecraft(OrbitalBody):
@@ -38,7 +38,7 @@ class OrbitalSpacecraft(OrbitalBody):
     fired_pulses = body.PULSES.output("the last pulses, with their sign")
     held_torque = body.TORQUE.output("mean_torque over the last step")
     jet_seconds = Output(0.0, unit="s", description="time that jets have fired, summed over the axes: the propellant")
-    status = SpacecraftStatus.output()
+    status = Output(SpacecraftStatus)
     left = State([0.0, 0.0, 0.0], unit="s", frame="body", description="what is left of the pulses, with their sign")
     counted = State(0, description="pulse_count of the last pulses")
 

@@ -16,7 +16,7 @@ class CommandSwitch(Block):
     Ours: docs/systems/landing_mission.md.
     """
 
-    source = landing.SOURCE.input()
+    source = Input(CommandSource)
     engine_on = landing.ENGINE_ON.input()
     plan_number = landing.PLAN_NUMBER.input("of the plan requested from the hover guidance")
     hover_plan = landing.HOVER_PLAN.input()

@@ -2,6 +2,7 @@
 
 from ..block import Block, Input, Parameter, State
 from ..interfaces.ports import landing
+from ..interfaces.ports.landing import HoverStatus, TerminalStatus
 
 CYCLE_TOLERANCE = 1e-6  # of a cycle: communication points carry rounding
 TIME_TOLERANCE = 1e-15  # of the time
@@ -26,11 +27,11 @@ class LandingInputs(Block, interface=True):
         0.0, unit="s", description="of the braking guidance; what it puts out counts only from the braking's start on"
     )
     braking_time_to_go = Input(0.0, unit="s", description="of the braking guidance")
-    braking_status = Input(0, description="of the braking guidance; 2 and more: no solution of its own")
+    braking_status = Input(TerminalStatus, description="of the braking guidance")
     braking_finished = Input(False, description="the braking guidance has ended its flight")
     hover_plan = landing.HOVER_PLAN.input("plan_number that the hover guidance's outputs belong to")
     hover_finished = Input(False, description="the plan of the hover guidance is over")
-    hover_status = Input(0, description="of the hover guidance; 0 good")
+    hover_status = Input(HoverStatus, description="of the hover guidance")
     predicted_propellant = landing.PREDICTED_PROPELLANT.input("propellant that the hover guidance's plan needs")
     probe_contact = landing.PROBE_CONTACT.input()
     ground_contact = landing.GROUND_CONTACT.input()
@@ -48,11 +49,11 @@ class LandingInputs(Block, interface=True):
     sampled_direction = State([0.0, 0.0, 1.0], unit="1", frame="landing site", description="braking_direction then")
     sampled_command_time = State(0.0, unit="s", description="braking_command_time then")
     sampled_time_to_go = State(0.0, unit="s", description="braking_time_to_go then")
-    sampled_braking_status = State(0, description="braking_status then")
+    sampled_braking_status = State(TerminalStatus, description="braking_status then")
     sampled_braking_finished = State(False, description="braking_finished then")
     sampled_plan = State(0, description="hover_plan then")
     sampled_hover_finished = State(False, description="hover_finished then")
-    sampled_hover_status = State(0, description="hover_status then")
+    sampled_hover_status = State(HoverStatus, description="hover_status then")
     sampled_propellant = State(0.0, unit="kg", description="predicted_propellant then")
     sampled_probe_contact = State(False, description="probe_contact then")
     sampled_ground_contact = State(False, description="ground_contact then")

@@ -3,53 +3,56 @@
 from ..block import Output, Parameter, State
 from ..interfaces.ports import landing
 from ..interfaces.ports.landing import CommandSource, HoverMode
+from ..kernel.enumerations import Enumeration, member
 from ..mathlib.vectors import vector
-from ..ports import Status, outcome
 from .landing_inputs import LandingInputs
-
-REFUSED_PHASE = 0
-DEORBIT = 1
-COAST = 2
-BRAKING = 3
-HOVER_1 = 4
-TRANSFER = 5
-HOVER_2 = 6
-APPROACH = 7
-DESCENT = 8
-CONTACT = 9
 
 NEVER = -1.0  # s; the time of what has not happened
 ROUNDING = 1e-6  # s, allowed for in times of communication points
 
 
-class LandingStatus(Status):
+class LandingPhase(Enumeration):
+    """Stages of a landing, in their order."""
+
+    REFUSED = member("refused")
+    DEORBIT = member("deorbit")
+    COAST = member("coast")
+    BRAKING = member("braking")
+    HOVER_1 = member("hover 1")
+    TRANSFER = member("transfer")
+    HOVER_2 = member("hover 2")
+    APPROACH = member("approach")
+    DESCENT = member("descent")
+    CONTACT = member("contact")
+
+
+class LandingStatus(Enumeration):
     """What has gone otherwise than planned."""
 
-    GOOD = outcome("good")
-    SHORTENED = outcome("re-designation shortened")
-    HOVER_GUIDANCE_SAID = outcome("hover guidance said so")
-    TIMEOUT = outcome("timeout")
-    SITE_MOVED = outcome("site moved")
-    DROPPED = outcome("re-designation dropped")
-    CUT_OFF = outcome("cut off without the probe")
-    OUT_OF_PROPELLANT = outcome("out of propellant")
-    BRAKING_FAILED = outcome("braking failed")
-    REFUSED = outcome("refused")
+    GOOD = member("good")
+    SHORTENED = member("re-designation shortened")
+    HOVER_GUIDANCE_SAID = member("hover guidance said so")
+    TIMEOUT = member("timeout")
+    SITE_MOVED = member("site moved")
+    DROPPED = member("re-designation dropped")
+    CUT_OFF = member("cut off without the probe")
+    OUT_OF_PROPELLANT = member("out of propellant")
+    BRAKING_FAILED = member("braking failed")
+    REFUSED = member("refused")
 
 
 class LandingSequence(LandingInputs, interface=True):
     """Phases of a landing, entered one after another, with the command that each of them gives.
 
-    Phases: 1 deorbit, 2 coast, 3 braking, 4 hover 1, 5 transfer, 6 hover 2, 7 approach, 8 descent, 9 contact. They only
-    go on. No output depends directly on an input: what is decided from the inputs of one cycle holds from the next. A
-    status is remembered with its first time, and in `status_flags`; `status` is the largest so far.
+    Phases only go on. No output depends directly on an input: what is decided from the inputs of one cycle holds from
+    the next. A status is remembered with its first time, and in `status_flags`; `status` is the largest so far.
 
     Plans of the hover guidance are requested by a `plan_number`. The guidance answers with the number of the plan that
     its outputs belong to, and until that is the requested one nothing it puts out is acted on.
     Frame: landing site, not rotating; the Moon's centre is moon_radius below the origin.
     """
 
-    start_phase = Parameter(1, description="phase to begin with, 1 to 9")
+    start_phase = Parameter(LandingPhase.DEORBIT, description="phase to begin with, 1 to 9")
     moon_radius = landing.MOON_RADIUS.parameter()
     gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter()
     minimum_thrust = landing.MINIMUM_THRUST.parameter(340.0, "least thrust of the engine")
@@ -59,16 +62,16 @@ class LandingSequence(LandingInputs, interface=True):
     preliminary_altitude = Parameter(2400.0, unit="m", description="altitude of hover 1, to which braking goes")
     final_altitude = Parameter(100.0, unit="m", description="altitude of hover 2, to which the transfer goes")
     cutoff_altitude = Parameter(4.0, unit="m", description="altitude of the hover that the approach goes to")
-    phase = Output(0, minimum=0, maximum=9, description="1 to 9, see the block; 0: refused")
+    phase = Output(LandingPhase)
     braking_active = Output(False, description="the braking guidance is to command")
     hover_active = Output(False, description="the hover guidance is to command")
-    hover_mode = HoverMode.output()
+    hover_mode = Output(HoverMode)
     plan_number = landing.PLAN_NUMBER.output(
         "of the plan requested from the hover guidance; a change requests a new one"
     )
     target_position = landing.POSITION.output("of the hover guidance")
     site = landing.POSITION.output("where to land, on the sphere")
-    source = landing.SOURCE.output("whose command counts: 0 nobody's, 1 own, 2 braking, 3 hover", minimum=0, maximum=3)
+    source = Output(CommandSource, description="whose command counts")
     engine_on = landing.ENGINE_ON.output("the command's thrust is given")
     thrust_acceleration = landing.THRUST_ACCELERATION.output("own command: thrust over mass")
     thrust_direction = landing.DIRECTION.output(
@@ -78,7 +81,7 @@ class LandingSequence(LandingInputs, interface=True):
     command_time = landing.COMMAND_TIME.output("own command: when it was computed")
     burn_duration = landing.BURN_DURATION.output("own command: how long to thrust from command_time on")
     free_flight = landing.FREE_FLIGHT.output("no thrust acts; for navigation")
-    status = LandingStatus.output("largest so far")
+    status = Output(LandingStatus, description="largest so far")
     status_flags = Output(
         0, minimum=0, maximum=511, description="all statuses so far: the sum of 2^(k - 1) over every status k that came"
     )

@@ -3,21 +3,9 @@
 import math
 
 from ..block import Parameter, State
+from ..interfaces.ports.landing import HoverStatus
 from .hover_phases import HoverPhases
-from .landing_sequence import (
-    APPROACH,
-    BRAKING,
-    COAST,
-    CONTACT,
-    DEORBIT,
-    DESCENT,
-    HOVER_1,
-    HOVER_2,
-    REFUSED_PHASE,
-    ROUNDING,
-    TRANSFER,
-    LandingStatus,
-)
+from .landing_sequence import ROUNDING, LandingPhase, LandingStatus
 from .orbit_phases import OrbitPhases, PhaseEnd
 
 LEAST_MARGIN = 0.9  # of the least weight: what the least thrust must stay below
@@ -45,7 +33,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
         self.is_sampled = False  # once more with the first step, when all inputs are known
         self.last_thrust = self.start_time
         if self.is_refused():
-            self.phase = REFUSED_PHASE
+            self.phase = LandingPhase.REFUSED
             self.note(LandingStatus.REFUSED, self.start_time)
             self.finished = True
         else:
@@ -66,7 +54,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             return True
         if not math.isfinite(self.minimum_thrust + self.maximum_thrust + self.preliminary_altitude + self.probe_length):
             return True
-        if self.start_phase < DEORBIT or self.start_phase > CONTACT:
+        if self.start_phase < LandingPhase.DEORBIT or self.start_phase > LandingPhase.CONTACT:
             return True
         weight = self.dry_mass * self.gravitational_parameter / (self.moon_radius * self.moon_radius)
         if self.minimum_thrust >= self.maximum_thrust or self.minimum_thrust >= LEAST_MARGIN * weight:
@@ -77,48 +65,48 @@ class LandingSequencer(OrbitPhases, HoverPhases):
     def enter(self, phase: int, time: float) -> None:
         """Begin a phase, which holds from ``time`` (s)."""
         self.open_phase(phase, time)
-        if phase <= COAST:
+        if phase <= LandingPhase.COAST:
             self.begin_deorbit()
-        elif phase == BRAKING:
+        elif phase == LandingPhase.BRAKING:
             self.begin_braking()
-        elif phase == HOVER_1:
+        elif phase == LandingPhase.HOVER_1:
             self.begin_first_hover()
-        elif phase == TRANSFER:
+        elif phase == LandingPhase.TRANSFER:
             self.begin_transfer(time)
-        elif phase == HOVER_2:
+        elif phase == LandingPhase.HOVER_2:
             self.begin_second_hover()
-        elif phase == APPROACH:
+        elif phase == LandingPhase.APPROACH:
             self.begin_approach(time)
-        elif phase == DESCENT:
+        elif phase == LandingPhase.DESCENT:
             self.begin_descent()
         else:
             self.begin_contact()
 
     def watch(self, ahead: float) -> None:
         """What may be said in any phase."""
-        if self.is_answered() and self.sampled_hover_status != 0:
+        if self.is_answered() and self.sampled_hover_status != HoverStatus.GOOD:
             self.note(LandingStatus.HOVER_GUIDANCE_SAID, ahead)
         if self.sampled_mass <= self.dry_mass:
             self.note(LandingStatus.OUT_OF_PROPELLANT, ahead)
 
     def end_braking(self, how: int, ahead: float) -> None:
         """Go on to hover 1, over the site or where braking has ended."""
-        self.enter(HOVER_1, ahead)
+        self.enter(LandingPhase.HOVER_1, ahead)
         if how == PhaseEnd.ELSEWHERE:
             self.move_site_ahead(ahead)
 
     def go_on(self, t: float, ahead: float) -> None:
         """Let the phase decide, and begin the next one where it is over."""
-        if self.phase == DEORBIT:
+        if self.phase == LandingPhase.DEORBIT:
             said = self.deorbit(t, ahead)
             if said != PhaseEnd.GOES_ON:
-                self.enter(COAST, ahead)
+                self.enter(LandingPhase.COAST, ahead)
                 self.face_back(t)
-        elif self.phase == COAST:
+        elif self.phase == LandingPhase.COAST:
             said = self.coast(t, ahead)
             if said != PhaseEnd.GOES_ON:
-                self.enter(BRAKING, ahead)
-        elif self.phase == BRAKING:
+                self.enter(LandingPhase.BRAKING, ahead)
+        elif self.phase == LandingPhase.BRAKING:
             said = self.brake(t, ahead)
             if said != PhaseEnd.GOES_ON:
                 self.end_braking(said, ahead)
@@ -128,15 +116,15 @@ class LandingSequencer(OrbitPhases, HoverPhases):
     def go_on_below(self, t: float, ahead: float) -> None:
         """The same from hover 1 on."""
         over = False
-        if self.phase == HOVER_1:
+        if self.phase == LandingPhase.HOVER_1:
             over = self.first_hover(t, ahead)
-        elif self.phase == TRANSFER:
+        elif self.phase == LandingPhase.TRANSFER:
             over = self.transfer(ahead)
-        elif self.phase == HOVER_2:
-            over = self.choose(ahead, self.phase_time[HOVER_2 - 1])
-        elif self.phase == APPROACH:
+        elif self.phase == LandingPhase.HOVER_2:
+            over = self.choose(ahead, self.phase_time[LandingPhase.HOVER_2 - 1])
+        elif self.phase == LandingPhase.APPROACH:
             over = self.plan_is_over()
-        elif self.phase == DESCENT:
+        elif self.phase == LandingPhase.DESCENT:
             over = self.descend(ahead)
         if over:
             self.enter(self.phase + 1, ahead)
@@ -159,16 +147,16 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             self.mass_is_known = True
             self.phase_mass[self.phase - 1] = self.sampled_mass
         self.watch(ahead)
-        if self.phase == CONTACT:
+        if self.phase == LandingPhase.CONTACT:
             self.finished = self.sampled_ground_contact
-        elif self.sampled_ground_contact and self.phase < DESCENT:
+        elif self.sampled_ground_contact and self.phase < LandingPhase.DESCENT:
             self.note(LandingStatus.CUT_OFF, ahead)
-            self.enter(CONTACT, ahead)
+            self.enter(LandingPhase.CONTACT, ahead)
         else:
             self.go_on(t, ahead)
-        if self.phase == CONTACT:
+        if self.phase == LandingPhase.CONTACT:
             self.face_up(t)
         if self.engine_on:
             self.last_thrust = ahead + length
         off = ahead - self.last_thrust + ROUNDING >= self.settling_time
-        self.free_flight = self.phase <= BRAKING and not self.engine_on and off
+        self.free_flight = self.phase <= LandingPhase.BRAKING and not self.engine_on and off

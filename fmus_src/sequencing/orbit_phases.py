@@ -3,24 +3,22 @@
 import math
 
 from ..block import Parameter, State
-from ..interfaces.ports.landing import CommandSource
+from ..interfaces.ports.landing import CommandSource, TerminalStatus
+from ..kernel.enumerations import Enumeration, member
 from ..kernel.functions import cos
 from ..mathlib.lunar.gravity import altitude_of, from_centre
 from ..mathlib.orbits.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range, lowest_altitude
 from ..mathlib.vectors import dot, norm
-from ..ports import Status, outcome
 from ..units import deg
-from .landing_sequence import BRAKING, NEVER, ROUNDING, LandingSequence, LandingStatus
-
-NOT_CONVERGED = 2  # status of the braking guidance from which on its command is an old one
+from .landing_sequence import NEVER, ROUNDING, LandingPhase, LandingSequence, LandingStatus
 
 
-class PhaseEnd(Status):
+class PhaseEnd(Enumeration):
     """What deorbit, coast and braking say of themselves."""
 
-    GOES_ON = outcome("goes on")
-    OVER = outcome("over")
-    ELSEWHERE = outcome("over, far from the site")
+    GOES_ON = member("goes on")
+    OVER = member("over")
+    ELSEWHERE = member("over, far from the site")
 
 
 class OrbitPhases(LandingSequence, interface=True):
@@ -160,10 +158,10 @@ class OrbitPhases(LandingSequence, interface=True):
 
     def brake(self, t: float, ahead: float) -> int:
         """Ignite, and look for the end. What the guidance put out before the phase began does not count."""
-        answered = self.sampled_command_time >= self.phase_time[BRAKING - 1] - ROUNDING
+        answered = self.sampled_command_time >= self.phase_time[LandingPhase.BRAKING - 1] - ROUNDING
         if not self.engine_on:
             self.ignite(answered, ahead)
-        if self.sampled_braking_status < NOT_CONVERGED or not answered:
+        if self.sampled_braking_status < TerminalStatus.NOT_CONVERGED or not answered:
             self.unsolved_since = NEVER
         elif self.unsolved_since < 0.0:
             self.unsolved_since = t
@@ -173,7 +171,7 @@ class OrbitPhases(LandingSequence, interface=True):
             self.note(LandingStatus.BRAKING_FAILED, ahead)
             return PhaseEnd.ELSEWHERE if far else PhaseEnd.OVER
         # without a solution from its start on, the guidance says that no time is left
-        counts = self.sampled_braking_status < NOT_CONVERGED or self.sampled_time_to_go > 0.0
+        counts = self.sampled_braking_status < TerminalStatus.NOT_CONVERGED or self.sampled_time_to_go > 0.0
         ending = self.sampled_braking_finished or (counts and self.sampled_time_to_go <= self.handover_time_to_go)
         ending = ending and answered
         if ending and far:

@@ -98,7 +98,7 @@ def test_an_interrupted_flight_has_a_page(flight, tmp_path):
 
 def test_an_own_guidance_from_python(tmp_path, monkeypatch):
     source = """
-from perilune import GOOD, TerminalGuidance, vector
+from perilune import TerminalGuidance, TerminalStatus, vector
 
 
 class Coasting(TerminalGuidance):
@@ -108,7 +108,7 @@ class Coasting(TerminalGuidance):
         self.time_to_go = 10.0
         self.thrust_acceleration = 0.0
         self.thrust_direction = vector(1.0, 0.0, 0.0)
-        self.status = GOOD
+        self.status = TerminalStatus.GOOD
 """
     monkeypatch.chdir(tmp_path)
     (tmp_path / "coasting.py").write_text(source)

@@ -1,6 +1,6 @@
 """Ports: a variable declared from one has the port's unit, frame and bounds, and its own start and description.
 
-Statuses: plain ints in kernels, whose meanings describe the output.
+Enumerations: plain ints in kernels, whose meanings describe the variable.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from perilune.fmus_src.export.judge.subset import check
 from perilune.fmus_src.export.native_fmu import native_sources
 from perilune.fmus_src.interfaces import ports as package
 from perilune.fmus_src.interfaces.ports import body, entry, inertial, landing, robot, sampling
-from perilune.fmus_src.ports import Port, Status, outcome
+from perilune.fmus_src.kernel.enumerations import Enumeration, member
+from perilune.fmus_src.ports import Port
 from perilune.fmus_src.units import deg
 from perilune.fmus_src.variables import DeclarationError, Input, Output, Parameter, State
 
@@ -88,19 +89,27 @@ def test_every_port_is_declared_once_and_used() -> None:
             assert uses > 1, f"{domain.__name__}: {name} is used {uses} times; declare it where it is used"
 
 
-class WinchStatus(Status):
+class WinchStatus(Enumeration):
     """What became of the last demand."""
 
-    GOOD = outcome("good")
-    LIMITED = outcome("force limited, torque held")
+    GOOD = member("good")
+    LIMITED = member("force limited, torque held")
+
+
+class WinchMethod(Enumeration, first=1):
+    """How the winch is driven."""
+
+    DIRECT = member("direct")
+    GEARED = member("geared")
 
 
 class LimitedWinch(Block):
-    """Its status is one of declared outcomes."""
+    """Its status and its method are enumerations."""
 
+    method = Parameter(WinchMethod, start=WinchMethod.GEARED, description="of the drive")
     demanded_force = Input(0.0, unit="N", description="demanded force")
     force = Output(0.0, unit="N", direct=True, description="force")
-    status = WinchStatus.output(direct=True)
+    status = Output(WinchStatus, direct=True)
 
     def step(self, t: float, h: float) -> None:
         self.status = WinchStatus.GOOD
@@ -110,23 +119,31 @@ class LimitedWinch(Block):
             self.status = WinchStatus.LIMITED
 
 
-def test_outcomes_are_plain_ints_and_describe_their_output() -> None:
+def test_members_are_plain_ints_and_describe_their_variable() -> None:
     assert (WinchStatus.GOOD, WinchStatus.LIMITED) == (0, 1)
     assert type(WinchStatus.LIMITED) is int
     status = LimitedWinch.variables["status"]
     assert (status.start, status.minimum, status.maximum) == (0, 0, 1)
     assert status.description == "0 good, 1 force limited, torque held"
     assert status.type_name == "Integer"
+    method = LimitedWinch.variables["method"]
+    assert (method.start, method.minimum, method.maximum) == (2, 1, 2)
+    assert method.description == "of the drive: 1 direct, 2 geared"
+
+
+def test_start_of_an_enumeration_is_one_of_its_numbers() -> None:
+    with pytest.raises(DeclarationError, match="above its maximum 2"):
+        Parameter(WinchMethod, start=3).__set_name__(Block, "method")
 
 
 class MisspeltWinch(LimitedWinch):
-    """Names an outcome that there is not."""
+    """Names a member that there is not."""
 
     def step(self, t: float, h: float) -> None:
         self.status = WinchStatus.UNLIMITED  # type: ignore[attr-defined]
 
 
-def test_outcomes_are_constants_of_the_kernel() -> None:
+def test_members_are_constants_of_the_kernel() -> None:
     assert check(LimitedWinch) == []
     code = native_sources(LimitedWinch, "{0}")["limited_winch.c"].decode()
     assert re.search(r"static const int64_t \w+_LIMITED = 1;", code)

@@ -9,14 +9,14 @@ from perilune.analysis.cli import main
 from tests.support.builders import BLOCKS, component, document, fly, pack, system
 
 GUIDANCE = '''
-from perilune import GOOD, TerminalGuidance
+from perilune import TerminalGuidance, TerminalStatus
 
 
 class StraightUp(TerminalGuidance):
     """Thrusts upwards for ten seconds."""
 
     def solve(self) -> None:
-        self.status = GOOD
+        self.status = TerminalStatus.GOOD
         self.thrust_acceleration = 2.0
         self.time_to_go = 1e6
 '''

@@ -10,17 +10,12 @@ import numpy as np
 from ....fmus_src.mathlib.hover import motion as hover_motion
 from ....fmus_src.mathlib.hover import programme as hover_programme
 from ....fmus_src.mathlib.hover import shape as hover_shape
-from ....fmus_src.mathlib.hover import solution as hover_solution
 from ....fmus_src.mathlib.hover.motion import HoverVehicle
 from ....fmus_src.mathlib.hover.shape import HoverProgramme, HoverShape
+from ....fmus_src.mathlib.hover.solution import PlanKind, propellant_fraction
 from .path import PlannedPath
 from .vehicle import Transfer, Vehicle
 
-KINDS = {
-    hover_solution.VERTICAL: "vertical",
-    hover_solution.WITHOUT_FIRST_BURN: "without first burn",
-    hover_solution.WITH_FIRST_BURN: "with first burn",
-}
 STEP = 0.25  # s, of a path
 DURATIONS = (0.84, 1.22, 27)  # of the best: from, to, how many
 DISTANCES = (1.6, 25)  # of the one that is asked for: to, how many
@@ -47,7 +42,7 @@ class Programme:
 
     @property
     def propellant_fraction(self) -> float:
-        return hover_solution.propellant_fraction(self.programme, _kernel_vehicle(self.vehicle, self.transfer))
+        return propellant_fraction(self.programme, _kernel_vehicle(self.vehicle, self.transfer))
 
     @property
     def threshold(self) -> float | None:
@@ -119,7 +114,9 @@ def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None 
     else:
         place = transfer.distance, -transfer.descent
         kind, programme = hover_programme.programme_of_duration(*place, duration, kernel)
-    return None if kind == hover_solution.NONE else Programme(vehicle, transfer, KINDS[kind], programme)
+    if kind == PlanKind.NONE:
+        return None
+    return Programme(vehicle, transfer, PlanKind.meanings[kind], programme)
 
 
 def over_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:

@@ -10,7 +10,7 @@ from typing import Any
 
 from ...face import HOME_OF
 from ...kernel import vector_types
-from ...ports import Status
+from ...kernel.enumerations import Enumeration
 from ...variables import Input, Parameter, Variable
 from .kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, RecordType, Type, Vector, is_self_attribute
 from .records import RecordTypes
@@ -103,9 +103,9 @@ class ExpressionTypes(RecordTypes):
             return self._constant(node, "math", node.attr, MATH_CONSTANTS[node.attr])
         if module is not None and module is not math:
             return self._constant(node, module.__name__, node.attr, getattr(module, node.attr, None))
-        status = self._status(node.value)
-        if status is not None:
-            return self._constant(node, status.__module__, node.attr, vars(status).get(node.attr))
+        enumeration = self._enumeration(node.value)
+        if enumeration is not None:
+            return self._constant(node, enumeration.__module__, node.attr, vars(enumeration).get(node.attr))
         if not isinstance(node.value, ast.Name) or node.value.id in {*self.bound, *self.function.parameters}:
             holder = self.infer(node.value)
             if isinstance(holder, Vector):
@@ -144,11 +144,11 @@ class ExpressionTypes(RecordTypes):
             return value if isinstance(value, ModuleType) else None
         return None
 
-    def _status(self, node: ast.expr) -> type[Status] | None:
-        """The enumerated outcomes that a name means, if it means some."""
+    def _enumeration(self, node: ast.expr) -> type[Enumeration] | None:
+        """The enumeration that a name means, if it means one."""
         if isinstance(node, ast.Name) and node.id not in {*self.bound, *self.function.parameters}:
             value = find_global(self.function.source.function, node.id)
-            return value if isinstance(value, type) and issubclass(value, Status) else None
+            return value if isinstance(value, type) and issubclass(value, Enumeration) else None
         return None
 
     def _constant(self, node: ast.expr, module: str, name: str, value: Any) -> Type | None:

@@ -1,28 +1,47 @@
 """Landing on the Moon: vectors of the landing-site frame, and the command, mass and Moon of a lander."""
 
-from ...ports import Port, Status, outcome
+from ...kernel.enumerations import Enumeration, member
+from ...ports import Port
 
 UNLIMITED = 1e9  # s; longer than any flight
 
 
-class CommandSource(Status):
+class CommandSource(Enumeration):
     """Whose command counts."""
 
-    NOBODY = outcome("none")
-    OWN = outcome("own")
-    BRAKING = outcome("braking")
-    HOVER = outcome("hover")
+    NOBODY = member("none")
+    OWN = member("own")
+    BRAKING = member("braking")
+    HOVER = member("hover")
 
 
-class HoverMode(Status):
+class HoverMode(Enumeration):
     """What the hover guidance is to do."""
 
-    IDLE = outcome("idle")
-    HOLD = outcome("hold")
-    PROGRAMME = outcome("programme")
-    SLOW = outcome("slow transfer")
-    CAPTURE = outcome("capture")
-    DESCEND = outcome("descend")
+    IDLE = member("idle")
+    HOLD = member("hold")
+    PROGRAMME = member("programme")
+    SLOW = member("slow transfer")
+    CAPTURE = member("capture")
+    DESCEND = member("descend")
+
+
+class TerminalStatus(Enumeration):
+    """What became of the last solution."""
+
+    GOOD = member("good")
+    CLAMPED = member("clamped")
+    NOT_CONVERGED = member("not converged")
+    NO_SOLUTION = member("no solution")
+
+
+class HoverStatus(Enumeration):
+    """What became of the last plan."""
+
+    GOOD = member("good")
+    NO_PROGRAMME = member("no programme, polynomial flown")
+    BEYOND_LIMITS = member("capture breaks a limit")
+    NO_PLAN = member("no plan possible: holds")
 
 
 ACCELERATION = Port([0.0, 0.0, 0.0], unit="m/s2", frame="landing site", description="acceleration")
@@ -71,7 +90,6 @@ PROBE_LENGTH = Port(1.5, unit="m", minimum=0.0, description="altitude at which t
 SCALE_FACTOR_SIGMA = Port(
     3e-4, unit="1", minimum=0.0, description="inertial sensor: scale factor error, 1 sigma per axis, constant"
 )
-SOURCE = Port(CommandSource.NOBODY, description=CommandSource.description())
 SPECIFIC_IMPULSE = Port(319.0, unit="s", minimum=1e-3, description="of the engine")
 THRUST = Port(0.0, unit="N", description="commanded thrust")
 THRUST_ACCELERATION = Port(0.0, unit="m/s2", description="commanded thrust over mass")

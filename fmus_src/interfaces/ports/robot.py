@@ -2,8 +2,9 @@
 
 import math
 
+from ...kernel.enumerations import Enumeration, member
 from ...mathlib.actuators.gyros import ISOTROPIC_ANGLES
-from ...ports import Port, Status, outcome
+from ...ports import Port
 from ...units import deg
 
 LARGEST = 1e100  # a command beyond it counts as not finite; no kernel overflows below it
@@ -32,8 +33,22 @@ TRANSLATION_COUNT = Port(0, description="ticks so far; a change tells a new one"
 TRANSLATION_PERIOD = Port(8.0, unit="s", minimum=1e-3, description="to the next tick")
 
 
-class SampleStatus(Status):
+class FilterMethod(Enumeration):
+    """What estimates an error from samples."""
+
+    MEAN = member("mean")
+    KALMAN = member("Kalman filter")
+
+
+class ControlLaw(Enumeration):
+    """What leads an error to 0."""
+
+    LEAD = member("lead compensator")
+    PROPORTIONAL_DERIVATIVE = member("error and its rate")
+
+
+class SampleStatus(Enumeration):
     """What became of the last sample."""
 
-    GOOD = outcome("good")
-    NOT_FINITE = outcome("last sample not finite and left out")
+    GOOD = member("good")
+    NOT_FINITE = member("last sample not finite and left out")

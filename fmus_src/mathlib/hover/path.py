@@ -9,7 +9,7 @@ import math
 from ...kernel.records import replace
 from .motion import HoverVehicle, end_motion
 from .shape import HoverProgramme, without_programme
-from .solution import VERTICAL, WITH_FIRST_BURN, WITHOUT_FIRST_BURN, propellant_fraction, solve
+from .solution import PlanKind, propellant_fraction, solve
 
 NEAR = 0.01  # of the drop, where the first programme aside ends
 GROWTH = 1.5  # of x from one programme without first burn to the next
@@ -36,7 +36,7 @@ def vertical(y: float, vehicle: HoverVehicle) -> tuple[HoverProgramme, bool]:
     if not end < math.inf:
         return p, False
     p = replace(p, t5=end, last_burn=last_burn, t7=end)
-    p, is_feasible = solve(VERTICAL, p, vehicle, 0.0, y)
+    p, is_feasible = solve(PlanKind.VERTICAL, p, vehicle, 0.0, y)
     return p, is_feasible
 
 
@@ -81,7 +81,7 @@ def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> tuple
         place = -NEAR * y
     p, is_feasible = little_aside(place, vehicle, p)
     if is_feasible:
-        p, is_feasible = solve(WITHOUT_FIRST_BURN, p, vehicle, place, y)
+        p, is_feasible = solve(PlanKind.WITHOUT_FIRST_BURN, p, vehicle, place, y)
     if not is_feasible:
         return p, 0.0
     growth = GROWTH
@@ -90,7 +90,7 @@ def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> tuple
             goal = growth * place
             if goal > x:
                 goal = x
-            trial, is_feasible = solve(WITHOUT_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
+            trial, is_feasible = solve(PlanKind.WITHOUT_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
             if is_feasible:
                 p = trial
                 place = goal
@@ -104,7 +104,7 @@ def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgra
 
     Propellant is over the mass at the start.
     """
-    other, is_feasible = solve(WITH_FIRST_BURN, lengthen(p, end), vehicle, x, y)
+    other, is_feasible = solve(PlanKind.WITH_FIRST_BURN, lengthen(p, end), vehicle, x, y)
     if not is_feasible:
         return other, math.inf
     return other, propellant_fraction(other, vehicle)
@@ -135,11 +135,11 @@ def further(
     A little nearer, where a first burn begins, then longer, then farther.
     """
     place = 0.9 * reached
-    p, is_feasible = solve(WITHOUT_FIRST_BURN, widen(p, math.sqrt(0.9)), vehicle, place, y)
+    p, is_feasible = solve(PlanKind.WITHOUT_FIRST_BURN, widen(p, math.sqrt(0.9)), vehicle, place, y)
     if not is_feasible:
         return p, False
     end = p.t7
-    p, is_feasible = solve(WITH_FIRST_BURN, lengthen(replace(p, width=0.1), 1.01 * end), vehicle, place, y)
+    p, is_feasible = solve(PlanKind.WITH_FIRST_BURN, lengthen(replace(p, width=0.1), 1.01 * end), vehicle, place, y)
     if not is_feasible:
         return p, False
     p, _ = stretch(ROOM * end, place, y, vehicle, p)
@@ -149,7 +149,7 @@ def further(
             goal = growth * place
             if goal > x:
                 goal = x
-            trial, is_feasible = solve(WITH_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
+            trial, is_feasible = solve(PlanKind.WITH_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
             if is_feasible:
                 p = trial
                 place = goal

@@ -10,7 +10,7 @@ from ...kernel.records import replace
 from .motion import HoverVehicle
 from .path import aside, ending, further, stretch, vertical
 from .shape import HoverProgramme, without_programme
-from .solution import NONE, VERTICAL, WITH_FIRST_BURN, WITHOUT_FIRST_BURN, propellant_fraction, solve
+from .solution import PlanKind, propellant_fraction, solve
 
 STRAIGHT = 1.0  # m; nearer to the vertical the vertical programme is flown
 FIRST_WIDTH = 0.05  # s, from which Newton's method finds that of a first burn
@@ -26,26 +26,26 @@ def programme(x: float, y: float, vehicle: HoverVehicle) -> tuple[int, HoverProg
     if is_feasible:
         p, is_feasible = vertical(y, vehicle)
     if not is_feasible:
-        return NONE, without_programme()
+        return PlanKind.NONE, without_programme()
     if x < STRAIGHT:
-        return VERTICAL, p
+        return PlanKind.VERTICAL, p
     p, reached = aside(x, y, vehicle, p)
     if reached >= x:
         trial = replace(p, width=FIRST_WIDTH, t7=p.t7 + 0.2)
-        trial, is_feasible = solve(WITH_FIRST_BURN, trial, vehicle, x, y)
+        trial, is_feasible = solve(PlanKind.WITH_FIRST_BURN, trial, vehicle, x, y)
         if is_feasible:
             gain = propellant_fraction(p, vehicle) - propellant_fraction(trial, vehicle)
             is_feasible = gain > 0.0
         if not is_feasible:
-            return WITHOUT_FIRST_BURN, p
+            return PlanKind.WITHOUT_FIRST_BURN, p
         p = trial
     else:
         is_feasible = reached > 0.0
         if is_feasible:
             p, is_feasible = further(reached, x, y, vehicle, p)
         if not is_feasible:
-            return NONE, without_programme()
-    return WITH_FIRST_BURN, least_propellant(x, y, vehicle, p)
+            return PlanKind.NONE, without_programme()
+    return PlanKind.WITH_FIRST_BURN, least_propellant(x, y, vehicle, p)
 
 
 def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVehicle) -> tuple[int, HoverProgramme]:
@@ -54,16 +54,16 @@ def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVeh
     It has a first burn, but if it is the one without that ends just then.
     """
     kind, p = programme(x, y, vehicle)
-    if kind == NONE or p.t7 == duration:
+    if kind == PlanKind.NONE or p.t7 == duration:
         return kind, p
-    is_feasible = kind != VERTICAL and math.isfinite(duration)
-    if is_feasible and kind == WITHOUT_FIRST_BURN:
+    is_feasible = kind != PlanKind.VERTICAL and math.isfinite(duration)
+    if is_feasible and kind == PlanKind.WITHOUT_FIRST_BURN:
         p = replace(p, width=FIRST_WIDTH)
     if is_feasible:
         p, is_feasible = stretch(duration, x, y, vehicle, p)
     if not is_feasible:
-        return NONE, without_programme()
-    return WITH_FIRST_BURN, p
+        return PlanKind.NONE, without_programme()
+    return PlanKind.WITH_FIRST_BURN, p
 
 
 def possible(x: float, y: float, vehicle: HoverVehicle) -> bool:

@@ -5,20 +5,26 @@ Programmes, shapes and vehicles as in `shape` and `motion`.
 
 import math
 
+from ...kernel.enumerations import Enumeration, member
 from ...kernel.matrices import element, inverse, set_element
 from ..vectors import Vector4, vector
 from .motion import HoverVehicle, end_motion, propellant
 from .shape import HoverProgramme, shape_of
 
-NONE = 0
-VERTICAL = 1
-WITHOUT_FIRST_BURN = 2
-WITH_FIRST_BURN = 3
-
 SETTLED = 1e-9  # of a residual, metres counted in tens
 ITERATIONS = 12
 LEAST_PART = 0.1  # of a step of Newton's
 DIFFERENCE = 1e-6  # s
+
+
+class PlanKind(Enumeration):
+    """What a plan from hover to hover is: none, one of three forms of the programme, or a polynomial of degree 7."""
+
+    NONE = member("none")
+    VERTICAL = member("vertical")
+    WITHOUT_FIRST_BURN = member("without first burn")
+    WITH_FIRST_BURN = member("with first burn")
+    POLYNOMIAL = member("polynomial")
 
 
 def propellant_fraction(p: HoverProgramme, vehicle: HoverVehicle) -> float:
@@ -43,7 +49,7 @@ def residual(p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> tu
 
 def count_free_times(kind: int) -> int:
     """How many times of a programme Newton's method changes: as many as there are conditions."""
-    if kind == VERTICAL:
+    if kind == PlanKind.VERTICAL:
         return 2
     return 4
 
@@ -53,9 +59,9 @@ def change_of(kind: int, free: Vector4) -> HoverProgramme:
 
     Free are tp, then w (WITH_FIRST_BURN) or t7, then t2 and t5. The vertical programme never turns: its t5 is t7.
     """
-    if kind == VERTICAL:
+    if kind == PlanKind.VERTICAL:
         return HoverProgramme(t2=0.0, t5=free[1], width=0.0, last_burn=free[0], t7=free[1])
-    if kind == WITH_FIRST_BURN:
+    if kind == PlanKind.WITH_FIRST_BURN:
         return HoverProgramme(t2=free[2], t5=free[3], width=free[1], last_burn=free[0], t7=0.0)
     return HoverProgramme(t2=free[2], t5=free[3], width=0.0, last_burn=free[0], t7=free[1])
 

@@ -18,13 +18,7 @@ from perilune.fmus_src.kernel.records import replace
 from perilune.fmus_src.mathlib.hover.motion import HoverVehicle, end_motion, motion, propellant, thrust_impulse
 from perilune.fmus_src.mathlib.hover.programme import programme, programme_of_duration
 from perilune.fmus_src.mathlib.hover.shape import HoverProgramme, full_thrust, pitch, shape_of, without_programme
-from perilune.fmus_src.mathlib.hover.solution import (
-    NONE,
-    VERTICAL,
-    WITH_FIRST_BURN,
-    WITHOUT_FIRST_BURN,
-    propellant_fraction,
-)
+from perilune.fmus_src.mathlib.hover.solution import PlanKind, propellant_fraction
 from tests.support.flights.hover_equations import flown, share_of
 from tests.support.lengths import either
 
@@ -42,7 +36,7 @@ def planned(x, y=DROP, vehicle=PAPER, duration=None):
 
 def test_published_case_without_minimising():
     kind, p, mu = planned(1600.0, duration=78.0)
-    assert kind == WITH_FIRST_BURN
+    assert kind == PlanKind.WITH_FIRST_BURN
     assert [p.t2, p.t5, p.last_burn] == pytest.approx([15.0086, 64.7012, 10.9309], abs=0.02)
     assert p.width == pytest.approx(1.6991, abs=0.001)
     assert share_of(p.elements()) == pytest.approx(0.9744, abs=0.001)
@@ -55,7 +49,7 @@ def test_published_case_without_minimising():
 
 def test_best_duration():
     kind, p, mu = planned(1600.0)
-    assert kind == WITH_FIRST_BURN
+    assert kind == PlanKind.WITH_FIRST_BURN
     assert p.elements() == pytest.approx([15.2696, 63.6422, 1.6968, 10.9894, 77.157], abs=0.01)
     assert mu == pytest.approx(0.049514, abs=5e-6)
     for other in (-1.0, -0.1, 0.1, 1.0):
@@ -74,7 +68,7 @@ def test_published_pitch():
 
 def test_control_margins():
     kind, p, mu = planned(1600.0, vehicle=MARGINS)
-    assert kind == WITH_FIRST_BURN
+    assert kind == PlanKind.WITH_FIRST_BURN
     assert p.elements() == pytest.approx([18.430, 64.428, 1.5178, 11.309, 82.186], abs=0.005)
     assert mu == pytest.approx(0.052518, abs=1e-6)
 
@@ -84,20 +78,20 @@ def test_control_margins():
 )
 def test_propellant_over_duration(duration, fraction):
     kind, p, mu = planned(1600.0, duration=duration)
-    assert (kind, p.t7) == (WITH_FIRST_BURN, duration)
+    assert (kind, p.t7) == (PlanKind.WITH_FIRST_BURN, duration)
     assert mu == pytest.approx(fraction, abs=6e-6)
 
 
 @pytest.mark.parametrize(
     ("x", "fraction", "kind"),
     [
-        (0.0, 0.037878, VERTICAL),
-        (200.0, 0.037927, WITHOUT_FIRST_BURN),
-        (500.0, 0.038544, WITHOUT_FIRST_BURN),
-        (600.0, 0.03946, WITH_FIRST_BURN),
-        (800.0, 0.04143, WITH_FIRST_BURN),
-        (1000.0, 0.04344, WITH_FIRST_BURN),
-        (2500.0, 0.05801, WITH_FIRST_BURN),
+        (0.0, 0.037878, PlanKind.VERTICAL),
+        (200.0, 0.037927, PlanKind.WITHOUT_FIRST_BURN),
+        (500.0, 0.038544, PlanKind.WITHOUT_FIRST_BURN),
+        (600.0, 0.03946, PlanKind.WITH_FIRST_BURN),
+        (800.0, 0.04143, PlanKind.WITH_FIRST_BURN),
+        (1000.0, 0.04344, PlanKind.WITH_FIRST_BURN),
+        (2500.0, 0.05801, PlanKind.WITH_FIRST_BURN),
     ],
 )
 def test_propellant_over_distance(x, fraction, kind):
@@ -152,7 +146,7 @@ def test_full_equations_end_where_they_should(x, vehicle, duration):
 def test_low_drops_with_far_sides_stay_above_the_target():
     for x, y in ((600.0, -300.0), (1600.0, -500.0), (50.0, -100.0)):
         kind, p, _ = planned(x, y)
-        assert kind == WITH_FIRST_BURN
+        assert kind == PlanKind.WITH_FIRST_BURN
         assert flown(p.elements(), PAPER)[:4] == pytest.approx([x, 0.0, y, 0.0], abs=1e-6)
         s, room = shape_of(p, PAPER.swing)
         assert room
@@ -211,7 +205,7 @@ def test_straight_down_is_the_rocket_equation():
 
     coast, burn = fsolve(missing, [60.0, 10.0], xtol=1e-13)
     kind, p, mu = planned(0.3)  # so near that it is flown straight down
-    assert kind == VERTICAL
+    assert kind == PlanKind.VERTICAL
     assert p.elements() == pytest.approx([0.0, coast + burn, 0.0, burn, coast + burn], abs=1e-7)
     assert mu == pytest.approx(q * coast + r * burn, abs=1e-10)
 
@@ -226,10 +220,10 @@ def test_random_vehicles_and_targets():
         least = draws.uniform(1.0 / 15.0, 0.1) * thrust
         vehicle = HoverVehicle.of_elements([limit * thrust, least, 300.0 * EARTH, 1.622, swing])
         kind, p, mu = planned(x, y, vehicle)
-        assert kind != NONE, (x, y, vehicle)
+        assert kind != PlanKind.NONE, (x, y, vehicle)
         assert 0.0 < mu < 1.0
         assert end_of(p, vehicle) == pytest.approx([x if x >= 1.0 else 0.0, 0.0, y, 0.0], abs=1e-7)
-        assert kind != WITH_FIRST_BURN or 0.0 < p.width <= p.t2 / math.sqrt(2.0)
+        assert kind != PlanKind.WITH_FIRST_BURN or 0.0 < p.width <= p.t2 / math.sqrt(2.0)
 
 
 @pytest.mark.parametrize(
@@ -250,29 +244,29 @@ def test_random_vehicles_and_targets():
 )
 def test_no_programme(x, y, change):
     vehicle = replace(PAPER, **change)
-    assert planned(x, y, vehicle)[:2] == (NONE, without_programme())
+    assert planned(x, y, vehicle)[:2] == (PlanKind.NONE, without_programme())
 
 
 def test_no_programme_of_that_duration():
-    assert planned(0.0, duration=80.0)[0] == NONE
-    assert planned(1600.0, duration=40.0)[0] == NONE
-    assert planned(1600.0, duration=math.inf)[0] == NONE
+    assert planned(0.0, duration=80.0)[0] == PlanKind.NONE
+    assert planned(1600.0, duration=40.0)[0] == PlanKind.NONE
+    assert planned(1600.0, duration=math.inf)[0] == PlanKind.NONE
 
 
 @pytest.mark.parametrize(("x", "y"), [(3172.0, -898.0), (5544.0, -951.0), (4600.0, -2350.0), (6650.0, -480.0)])
 def test_far_sides_never_thrust_downwards(x, y):
     vehicle = MARGINS
     kind, p, _ = planned(x, y, vehicle)
-    if kind == WITH_FIRST_BURN:
+    if kind == PlanKind.WITH_FIRST_BURN:
         angles = [flown(p.elements(), vehicle, until=t)[5] for t in np.linspace(0.1, 0.999, 25) * p.t7]
         assert min(angles) >= -1e-9
         assert max(angles) <= math.pi + 1e-9
-    assert kind in (WITH_FIRST_BURN, NONE)
+    assert kind in (PlanKind.WITH_FIRST_BURN, PlanKind.NONE)
 
 
 def test_longer_than_the_one_without_first_burn():
     kind, p, mu = planned(400.0, duration=70.0)
-    assert kind == WITH_FIRST_BURN
+    assert kind == PlanKind.WITH_FIRST_BURN
     assert p.t7 == 70.0
     assert mu > planned(400.0)[2]
     assert end_of(p) == pytest.approx([400.0, 0.0, DROP, 0.0], abs=1e-7)

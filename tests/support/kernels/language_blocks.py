@@ -4,9 +4,9 @@ import math
 from math import floor
 
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.kernel.enumerations import Enumeration, member
 from perilune.fmus_src.kernel.functions import asin, exp, log, pow, sin
 from perilune.fmus_src.mathlib.vectors import Vector, Vector3, clip, cross, dot, norm, vector
-from perilune.fmus_src.ports import Status, outcome
 
 TABLE = (0.5, -1.25, 3.0, 8.0)
 WEIGHTS = (3, 1, 2)
@@ -418,29 +418,29 @@ class Faults(Block):
             self.result = math.fmod(1.0, x) + sin(1e308 * 10.0)
 
 
-class Engine(Status):
+class Engine(Enumeration):
     """Of the engine."""
 
-    READY = outcome("cold")
+    READY = member("cold")
 
 
-class Tank(Status):
+class Tank(Enumeration):
     """Of the tank."""
 
-    FULL = outcome("full")
-    READY = outcome("pressurised")
+    FULL = member("full")
+    READY = member("pressurised")
 
 
-class Valve(Status):
+class Valve(Enumeration):
     """Of the valve."""
 
-    SHUT = outcome("shut")
-    OPEN = outcome("open")
-    READY = outcome("checked")
+    SHUT = member("shut")
+    OPEN = member("open")
+    READY = member("checked")
 
 
 class Readiness(Block):
-    """Outcomes of one name and different values."""
+    """Members of one name and different values."""
 
     count = Input(0, description="number that is added")
     engine = Output(0, description="of the engine")

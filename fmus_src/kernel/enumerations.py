@@ -1,0 +1,43 @@
+"""Enumerations: plain ints with names and meanings, for statuses, phases, modes and methods.
+
+    class SteeringStatus(Enumeration):
+        GOOD = member("good")
+        LIMITED = member("rate limited")
+
+`SteeringStatus.LIMITED` is the int 1 in Python and a constant in C. `Output(SteeringStatus)` and the like declare an
+Integer from the first number to the last, described by the meanings.
+"""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+
+def member(meaning: str) -> int:
+    """A member of an `Enumeration`, and what it means."""
+    made: Any = _Member(meaning)
+    return made
+
+
+class _Member:
+    def __init__(self, meaning: str) -> None:
+        self.meaning = meaning
+
+
+class Enumeration:
+    """Values numbered in the order of declaration, from 0 or ``class RendezvousPhase(Enumeration, first=1)``."""
+
+    meanings: ClassVar[dict[int, str]] = {}  # by number
+
+    def __init_subclass__(cls, *, first: int = 0) -> None:
+        members = [(name, value) for name, value in vars(cls).items() if isinstance(value, _Member)]
+        cls.meanings = {}
+        for number, (name, value) in enumerate(members, first):
+            setattr(cls, name, number)
+            cls.meanings[number] = value.meaning
+
+    @classmethod
+    def describe(cls, about: str) -> str:
+        """``about: 0 good, 1 rate limited``; the members alone where ``about`` is empty."""
+        members = ", ".join(f"{number} {meaning}" for number, meaning in cls.meanings.items())
+        return f"{about}: {members}" if about else members
