@@ -141,9 +141,10 @@ class HoverPlan(Block, interface=True):
         y = dot(way, self.up)
         side = way - y * self.up
         x = norm(side)
-        kind, times = programme(x, y, self.vehicle)
+        planned = programme(x, y, self.vehicle)
+        times = planned.programme
         self.set_programme(times)
-        if kind == PlanKind.NONE:
+        if planned.kind == PlanKind.NONE:
             self.plan_transfer(STANDBY_SPEED, STANDBY_ACCELERATION)
             if self.status == HoverStatus.GOOD:
                 self.status = HoverStatus.NO_PROGRAMME
@@ -154,11 +155,12 @@ class HoverPlan(Block, interface=True):
                 k, smallest = smallest_component(self.up)
                 level = add_along(-smallest * self.up, k, 1.0)
                 self.along = level / norm(level)
-            if kind == PlanKind.VERTICAL:
+            if planned.kind == PlanKind.VERTICAL:
                 self.origin = self.goal - y * self.up
-            self.shape, is_feasible = shape_of(times, self.vehicle.swing)
-            if is_feasible:
-                self.plan_kind = kind
+            shaped = shape_of(times, self.vehicle.swing)
+            self.shape = shaped.shape
+            if shaped.exists:
+                self.plan_kind = planned.kind
                 self.duration = times.t7
                 self.predicted_propellant = self.mass * propellant(self.shape, self.vehicle, self.duration)
 
@@ -234,8 +236,8 @@ class HoverPlan(Block, interface=True):
         if self.plan_kind == PlanKind.POLYNOMIAL:
             place = transfer_position(self.transfer, t, self.duration)
             return Translation(position=place, velocity=transfer_velocity(self.transfer, t, self.duration))
-        s, moved = motion(self.shape, self.vehicle, t)
-        if not moved:
+        s = motion(self.shape, self.vehicle, t)
+        if not s.exists:
             return Translation(position=self.goal, velocity=rest)
         place = self.origin + s.x * self.along + s.y * self.up
         return Translation(position=place, velocity=s.x_rate * self.along + s.y_rate * self.up)

@@ -69,16 +69,15 @@ class Programme:
         return self.vehicle.angular_acceleration * self.shape().d
 
     def shape(self) -> HoverShape:
-        shape, _ = hover_shape.shape_of(self.programme, self.vehicle.angular_acceleration)
-        return shape
+        return hover_shape.shape_of(self.programme, self.vehicle.angular_acceleration).shape
 
     def states(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """At times (s): rows of x, x', y, y' (m, m/s), and rows of pitch, its rate (rad, rad/s) and propellant."""
         shape, vehicle = self.shape(), _kernel_vehicle(self.vehicle, self.transfer)
         motion, remainder = np.zeros((time.size, 4)), np.zeros((time.size, 3))
         for index, value in enumerate(map(float, time)):
-            state, _ = hover_motion.motion(shape, vehicle, value)
-            motion[index] = state.elements()
+            state = hover_motion.motion(shape, vehicle, value)
+            motion[index] = state.x, state.x_rate, state.y, state.y_rate
             turn = hover_shape.pitch(shape, self.vehicle.angular_acceleration, value)
             remainder[index] = 0.5 * math.pi + turn.deviation, turn.rate, hover_motion.propellant(shape, vehicle, value)
         return motion, remainder
@@ -110,13 +109,13 @@ def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None 
     """The programme on least propellant, or the one of a given ``duration`` (s); None where there is none."""
     kernel = _kernel_vehicle(vehicle, transfer)
     if duration is None:
-        kind, programme = hover_programme.programme(transfer.distance, -transfer.descent, kernel)
+        planned = hover_programme.programme(transfer.distance, -transfer.descent, kernel)
     else:
         place = transfer.distance, -transfer.descent
-        kind, programme = hover_programme.programme_of_duration(*place, duration, kernel)
-    if kind == PlanKind.NONE:
+        planned = hover_programme.programme_of_duration(*place, duration, kernel)
+    if planned.kind == PlanKind.NONE:
         return None
-    return Programme(vehicle, transfer, PlanKind.meanings[kind], programme)
+    return Programme(vehicle, transfer, PlanKind.meanings[planned.kind], planned.programme)
 
 
 def over_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:

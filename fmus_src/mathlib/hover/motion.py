@@ -30,11 +30,19 @@ class PlaneMotion(Record):
     x_rate = Field(unit="m/s", description="its rate")
     y = Field(unit="m", description="upwards")
     y_rate = Field(unit="m/s", description="its rate")
+    exists = Field(bool, description="whether mass is left and the programme has a shape")
+
+
+class ThrustSpan(Record):
+    """A span of time over which pitch is one parabola and thrust is one value."""
+
+    end = Field(unit="s", description="end of the span")
+    thrust = Field(unit="m/s2", description="thrust over the mass at the start of the programme")
 
 
 def without_motion() -> PlaneMotion:
     """No motion: at the start, at rest."""
-    return PlaneMotion(x=0.0, x_rate=0.0, y=0.0, y_rate=0.0)
+    return PlaneMotion(x=0.0, x_rate=0.0, y=0.0, y_rate=0.0, exists=False)
 
 
 def propellant(s: HoverShape, vehicle: HoverVehicle, t: float) -> float:
@@ -51,8 +59,8 @@ def thrust_impulse(s: HoverShape, vehicle: HoverVehicle, begin: float, end: floa
     return vehicle.exhaust * log(before / after)
 
 
-def motion(s: HoverShape, vehicle: HoverVehicle, until: float) -> tuple[PlaneMotion, bool]:
-    """The motion at the time ``until`` (s), and whether any mass is left then."""
+def motion(s: HoverShape, vehicle: HoverVehicle, until: float) -> PlaneMotion:
+    """The motion at the time ``until`` (s)."""
     x = 0.0
     vx = 0.0
     y = 0.0
@@ -64,15 +72,15 @@ def motion(s: HoverShape, vehicle: HoverVehicle, until: float) -> tuple[PlaneMot
     mass = 1.0
     for _ in range(9):
         if begin < until:
-            end, thrust = interval(s, vehicle, begin, until)
-            segment = pitch_segment(s, vehicle.swing, 0.5 * (begin + end))
-            span = end - begin
-            flow = thrust / vehicle.exhaust
+            ahead = thrust_span(s, vehicle, begin, until)
+            segment = pitch_segment(s, vehicle.swing, 0.5 * (begin + ahead.end))
+            span = ahead.end - begin
+            flow = ahead.thrust / vehicle.exhaust
             if not (mass - flow * span > 0.0 and span < 1e4):
-                return without_motion(), False
+                return without_motion()
             parts = int(span / LONGEST) + 1
             span = span / float(parts)
-            scale = span * thrust
+            scale = span * ahead.thrust
             for _ in range(parts):
                 since_begin = begin - segment.begin
                 left = until - begin
@@ -89,22 +97,21 @@ def motion(s: HoverShape, vehicle: HoverVehicle, until: float) -> tuple[PlaneMot
                     y = y + (left - part) * lift
                 begin = begin + span
                 mass = mass - flow * span
-            begin = end
+            begin = ahead.end
     drop = 0.5 * vehicle.gravity * until * until
-    return PlaneMotion(x=x, x_rate=vx, y=y - drop, y_rate=vy - vehicle.gravity * until), True
+    return PlaneMotion(x=x, x_rate=vx, y=y - drop, y_rate=vy - vehicle.gravity * until, exists=True)
 
 
-def end_motion(p: HoverProgramme, vehicle: HoverVehicle) -> tuple[PlaneMotion, bool]:
-    """The motion at the end of a programme, and whether there is one."""
-    s, room = shape_of(p, vehicle.swing)
-    if not room:
-        return without_motion(), False
-    end, exists = motion(s, vehicle, p.t7)
-    return end, exists
+def end_motion(p: HoverProgramme, vehicle: HoverVehicle) -> PlaneMotion:
+    """The motion at the end of a programme."""
+    planned = shape_of(p, vehicle.swing)
+    if not planned.exists:
+        return without_motion()
+    return motion(planned.shape, vehicle, p.t7)
 
 
-def interval(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float) -> tuple[float, float]:
-    """From ``begin`` (s) on: until when (s) pitch is one parabola and thrust one value, and the thrust (m/s2)."""
+def thrust_span(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float) -> ThrustSpan:
+    """The span from ``begin`` (s) on, which ends at ``until`` (s) at the latest."""
     end = until
     thrust = vehicle.least
     if full_thrust(s, begin):
@@ -117,7 +124,7 @@ def interval(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float) -
     end = earlier(s.first_burn_begin, begin, end)
     end = earlier(s.first_burn_end, begin, end)
     end = earlier(s.last_burn_begin, begin, end)
-    return end, thrust
+    return ThrustSpan(end=end, thrust=thrust)
 
 
 def earlier(time: float, begin: float, end: float) -> float:

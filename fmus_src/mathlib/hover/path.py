@@ -6,10 +6,10 @@ of the transfer. The path is ours.
 
 import math
 
-from ...kernel.records import replace
+from ...kernel.records import Field, Record, replace
 from .motion import HoverVehicle, end_motion
 from .shape import HoverProgramme, without_programme
-from .solution import PlanKind, propellant_fraction, solve
+from .solution import HoverSolution, PlanKind, solve
 
 NEAR = 0.01  # of the drop, where the first programme aside ends
 GROWTH = 1.5  # of x from one programme without first burn to the next
@@ -22,46 +22,54 @@ LARGEST_PATH = 60  # programmes
 TILT = 0.01  # rad, for the response to small tilts
 
 
-def vertical(y: float, vehicle: HoverVehicle) -> tuple[HoverProgramme, bool]:
-    """The programme straight down, and whether there is one."""
-    p = without_programme()
+class ReachedProgramme(Record):
+    """A programme that ends as far aside as could be reached."""
+
+    programme = Field(HoverProgramme, description="the programme")
+    x = Field(unit="m", description="where it ends; 0: it is not feasible")
+
+
+def vertical(y: float, vehicle: HoverVehicle) -> HoverSolution:
+    """The programme straight down."""
+    nothing = HoverSolution(programme=without_programme(), is_feasible=False)
     fall = vehicle.gravity - vehicle.least
     brake = vehicle.full - vehicle.gravity
     scale = fall * (fall + brake)
     if not scale > 0.0:
-        return p, False
+        return nothing
     time = math.sqrt(-2.0 * y * brake / scale)
     last_burn = time * fall / brake
     end = time + last_burn
     if not end < math.inf:
-        return p, False
-    p = replace(p, t5=end, last_burn=last_burn, t7=end)
-    p, is_feasible = solve(PlanKind.VERTICAL, p, vehicle, 0.0, y)
-    return p, is_feasible
+        return nothing
+    start = HoverProgramme(t2=0.0, t5=end, width=0.0, last_burn=last_burn, t7=end)
+    return solve(PlanKind.VERTICAL, start, vehicle, 0.0, y)
 
 
-def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> tuple[HoverProgramme, bool]:
-    """The vertical programme p tilted so that it goes about x (m) aside, and whether it can be.
+def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
+    """The vertical programme p tilted so that it goes about x (m) aside; p where it cannot be.
 
     The deviation is about -u (1 - t/t7) + v t/t7, to which the end answers linearly; u and v follow from x, and
     from rest.
     """
+    upright = HoverSolution(programme=p, is_feasible=False)
     turn = 2.0 * math.sqrt(TILT / vehicle.swing)
-    first, exists = end_motion(replace(p, t2=turn), vehicle)
-    if not exists:
-        return p, False
-    last, exists = end_motion(replace(p, t5=p.t7 - turn), vehicle)
-    if not exists:
-        return p, False
+    first = end_motion(replace(p, t2=turn), vehicle)
+    if not first.exists:
+        return upright
+    last = end_motion(replace(p, t5=p.t7 - turn), vehicle)
+    if not last.exists:
+        return upright
     # u first + v last = (x, 0), in units of TILT
     determinant = first.x * last.x_rate - first.x_rate * last.x
     if determinant == 0.0:
-        return p, False
+        return upright
     u = x * last.x_rate / determinant
     v = -x * first.x_rate / determinant
     if not (u >= 0.0 and v >= 0.0):
-        return p, False
-    return replace(p, t2=turn * math.sqrt(u), t5=p.t7 - turn * math.sqrt(v)), True
+        return upright
+    tilted = replace(p, t2=turn * math.sqrt(u), t5=p.t7 - turn * math.sqrt(v))
+    return HoverSolution(programme=tilted, is_feasible=True)
 
 
 def widen(p: HoverProgramme, factor: float) -> HoverProgramme:
@@ -74,44 +82,39 @@ def lengthen(p: HoverProgramme, end: float) -> HoverProgramme:
     return replace(p, t5=p.t5 + end - p.t7, t7=end)
 
 
-def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> tuple[HoverProgramme, float]:
-    """From the vertical programme p to the one without first burn to x, or as near as there is; and its x (m)."""
+def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> ReachedProgramme:
+    """From the vertical programme p to the one without first burn to x, or as near as there is."""
     place = x
     if place > -NEAR * y:
         place = -NEAR * y
-    p, is_feasible = little_aside(place, vehicle, p)
-    if is_feasible:
-        p, is_feasible = solve(PlanKind.WITHOUT_FIRST_BURN, p, vehicle, place, y)
-    if not is_feasible:
-        return p, 0.0
+    near = little_aside(place, vehicle, p)
+    if near.is_feasible:
+        near = solve(PlanKind.WITHOUT_FIRST_BURN, near.programme, vehicle, place, y)
+    p = near.programme
+    if not near.is_feasible:
+        return ReachedProgramme(programme=p, x=0.0)
     growth = GROWTH
     for _ in range(LARGEST_PATH):
         if place < x and growth > LEAST_GROWTH:
             goal = growth * place
             if goal > x:
                 goal = x
-            trial, is_feasible = solve(PlanKind.WITHOUT_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
-            if is_feasible:
-                p = trial
+            trial = solve(PlanKind.WITHOUT_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
+            if trial.is_feasible:
+                p = trial.programme
                 place = goal
             else:
                 growth = 0.5 * (1.0 + growth)
-    return p, place
+    return ReachedProgramme(programme=p, x=place)
 
 
-def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> tuple[HoverProgramme, float]:
-    """The programme with first burn that ends at ``end`` (s), from p near by; its propellant, infinite if none.
-
-    Propellant is over the mass at the start.
-    """
-    other, is_feasible = solve(PlanKind.WITH_FIRST_BURN, lengthen(p, end), vehicle, x, y)
-    if not is_feasible:
-        return other, math.inf
-    return other, propellant_fraction(other, vehicle)
+def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
+    """The programme with first burn that ends at ``end`` (s), from p near by."""
+    return solve(PlanKind.WITH_FIRST_BURN, lengthen(p, end), vehicle, x, y)
 
 
-def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> tuple[HoverProgramme, bool]:
-    """From p in steps to the programme with first burn that ends at ``end`` (s), or the last; whether it is reached."""
+def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
+    """From p in steps to the programme with first burn that ends at ``end`` (s); the last where that is not reached."""
     part = LARGEST_STRETCH * p.t7
     for _ in range(LARGEST_PATH):
         left = end - p.t7
@@ -119,42 +122,43 @@ def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgr
             ahead = end
             if abs(left) > part:
                 ahead = p.t7 + math.copysign(part, left)
-            trial, value = ending(ahead, x, y, vehicle, p)
-            if value < math.inf:
-                p = trial
+            trial = ending(ahead, x, y, vehicle, p)
+            if trial.is_feasible:
+                p = trial.programme
             else:
                 part = 0.5 * part
-    return p, p.t7 == end
+    return HoverSolution(programme=p, is_feasible=p.t7 == end)
 
 
-def further(
-    reached: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme
-) -> tuple[HoverProgramme, bool]:
-    """From the programme p without first burn to x = reached (m), to one with it to x; whether there is one.
+def further(reached: ReachedProgramme, x: float, y: float, vehicle: HoverVehicle) -> HoverSolution:
+    """From a programme without first burn to one with it to x.
 
     A little nearer, where a first burn begins, then longer, then farther.
     """
-    place = 0.9 * reached
-    p, is_feasible = solve(PlanKind.WITHOUT_FIRST_BURN, widen(p, math.sqrt(0.9)), vehicle, place, y)
-    if not is_feasible:
-        return p, False
+    place = 0.9 * reached.x
+    near = solve(PlanKind.WITHOUT_FIRST_BURN, widen(reached.programme, math.sqrt(0.9)), vehicle, place, y)
+    if not near.is_feasible:
+        return near
+    p = near.programme
     end = p.t7
-    p, is_feasible = solve(PlanKind.WITH_FIRST_BURN, lengthen(replace(p, width=0.1), 1.01 * end), vehicle, place, y)
-    if not is_feasible:
-        return p, False
-    p, _ = stretch(ROOM * end, place, y, vehicle, p)
+    near = ending(1.01 * end, place, y, vehicle, replace(p, width=0.1))
+    if not near.is_feasible:
+        return near
+    longer = stretch(ROOM * end, place, y, vehicle, near.programme)
+    p = longer.programme
     growth = GROWTH_WITH_FIRST_BURN
     for _ in range(LARGEST_PATH):
         if place < x and growth > LEAST_GROWTH:
             goal = growth * place
             if goal > x:
                 goal = x
-            trial, is_feasible = solve(PlanKind.WITH_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
-            if is_feasible:
-                p = trial
+            trial = solve(PlanKind.WITH_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
+            if trial.is_feasible:
+                p = trial.programme
                 place = goal
             else:
-                p, longer = stretch(1.04 * p.t7, place, y, vehicle, p)
-                if not longer:
+                longer = stretch(1.04 * p.t7, place, y, vehicle, p)
+                p = longer.programme
+                if not longer.is_feasible:
                     growth = 0.5 * (1.0 + growth)
-    return p, place >= x
+    return HoverSolution(programme=p, is_feasible=place >= x)

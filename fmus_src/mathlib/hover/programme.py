@@ -6,11 +6,11 @@ plane of the transfer. Source: Huang 2017; the path of the search is ours.
 
 import math
 
-from ...kernel.records import replace
+from ...kernel.records import Field, Record, replace
 from .motion import HoverVehicle
 from .path import aside, ending, further, stretch, vertical
 from .shape import HoverProgramme, without_programme
-from .solution import PlanKind, propellant_fraction, solve
+from .solution import HoverSolution, PlanKind, propellant_fraction, solve
 
 STRAIGHT = 1.0  # m; nearer to the vertical the vertical programme is flown
 FIRST_WIDTH = 0.05  # s, from which Newton's method finds that of a first burn
@@ -19,51 +19,67 @@ TIME_SETTLED = 1e-3  # s, of the best end
 LARGEST_PATH = 60  # programmes
 
 
-def programme(x: float, y: float, vehicle: HoverVehicle) -> tuple[int, HoverProgramme]:
-    """Kind and programme to (x, y) on least propellant; NONE if none was found."""
-    p = without_programme()
-    is_feasible = possible(x, y, vehicle)
-    if is_feasible:
-        p, is_feasible = vertical(y, vehicle)
-    if not is_feasible:
-        return PlanKind.NONE, without_programme()
+class PlannedProgramme(Record):
+    """The result of a search."""
+
+    kind = Field(int, description="which form the programme has: a `PlanKind`")
+    programme = Field(HoverProgramme, description="the programme; all its times are 0 for PlanKind.NONE")
+
+
+class Bracket(Record):
+    """A programme that takes less propellant than those of earlier and of later end, as far as these are feasible."""
+
+    programme = Field(HoverProgramme, description="the programme")
+    before = Field(unit="s", description="end of the one before; of the programme itself where there is none")
+    beyond = Field(unit="s", description="end of the one beyond")
+
+
+def nothing_planned() -> PlannedProgramme:
+    """There is no programme."""
+    return PlannedProgramme(kind=PlanKind.NONE, programme=without_programme())
+
+
+def programme(x: float, y: float, vehicle: HoverVehicle) -> PlannedProgramme:
+    """The programme to (x, y) on least propellant."""
+    if not possible(x, y, vehicle):
+        return nothing_planned()
+    down = vertical(y, vehicle)
+    if not down.is_feasible:
+        return nothing_planned()
     if x < STRAIGHT:
-        return PlanKind.VERTICAL, p
-    p, reached = aside(x, y, vehicle, p)
-    if reached >= x:
-        trial = replace(p, width=FIRST_WIDTH, t7=p.t7 + 0.2)
-        trial, is_feasible = solve(PlanKind.WITH_FIRST_BURN, trial, vehicle, x, y)
-        if is_feasible:
-            gain = propellant_fraction(p, vehicle) - propellant_fraction(trial, vehicle)
-            is_feasible = gain > 0.0
-        if not is_feasible:
-            return PlanKind.WITHOUT_FIRST_BURN, p
-        p = trial
+        return PlannedProgramme(kind=PlanKind.VERTICAL, programme=down.programme)
+    reached = aside(x, y, vehicle, down.programme)
+    if reached.x >= x:
+        p = reached.programme
+        burning = solve(PlanKind.WITH_FIRST_BURN, replace(p, width=FIRST_WIDTH, t7=p.t7 + 0.2), vehicle, x, y)
+        if not propellant_fraction(p, vehicle) - propellant_of(burning, vehicle) > 0.0:
+            return PlannedProgramme(kind=PlanKind.WITHOUT_FIRST_BURN, programme=p)
     else:
-        is_feasible = reached > 0.0
-        if is_feasible:
-            p, is_feasible = further(reached, x, y, vehicle, p)
-        if not is_feasible:
-            return PlanKind.NONE, without_programme()
-    return PlanKind.WITH_FIRST_BURN, least_propellant(x, y, vehicle, p)
+        if not reached.x > 0.0:
+            return nothing_planned()
+        burning = further(reached, x, y, vehicle)
+        if not burning.is_feasible:
+            return nothing_planned()
+    return PlannedProgramme(kind=PlanKind.WITH_FIRST_BURN, programme=least_propellant(x, y, vehicle, burning.programme))
 
 
-def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVehicle) -> tuple[int, HoverProgramme]:
-    """Kind and programme to (x, y) that ends after a given time (s); NONE if none was found.
+def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVehicle) -> PlannedProgramme:
+    """The programme to (x, y) that ends after a given time (s).
 
     It has a first burn, but if it is the one without that ends just then.
     """
-    kind, p = programme(x, y, vehicle)
-    if kind == PlanKind.NONE or p.t7 == duration:
-        return kind, p
-    is_feasible = kind != PlanKind.VERTICAL and math.isfinite(duration)
-    if is_feasible and kind == PlanKind.WITHOUT_FIRST_BURN:
+    best = programme(x, y, vehicle)
+    p = best.programme
+    if best.kind == PlanKind.NONE or p.t7 == duration:
+        return best
+    if best.kind == PlanKind.VERTICAL or not math.isfinite(duration):
+        return nothing_planned()
+    if best.kind == PlanKind.WITHOUT_FIRST_BURN:
         p = replace(p, width=FIRST_WIDTH)
-    if is_feasible:
-        p, is_feasible = stretch(duration, x, y, vehicle, p)
-    if not is_feasible:
-        return PlanKind.NONE, without_programme()
-    return PlanKind.WITH_FIRST_BURN, p
+    timed = stretch(duration, x, y, vehicle, p)
+    if not timed.is_feasible:
+        return nothing_planned()
+    return PlannedProgramme(kind=PlanKind.WITH_FIRST_BURN, programme=timed.programme)
 
 
 def possible(x: float, y: float, vehicle: HoverVehicle) -> bool:
@@ -81,25 +97,38 @@ def is_usable(value: float) -> bool:
     return value > 0.0 and math.isfinite(value)
 
 
+def propellant_of(solution: HoverSolution, vehicle: HoverVehicle) -> float:
+    """Propellant of a programme over the mass at its start; infinite where it is not feasible."""
+    if not solution.is_feasible:
+        return math.inf
+    return propellant_fraction(solution.programme, vehicle)
+
+
 def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverProgramme:
     """From the programme p with first burn to the one whose end takes least propellant: golden section."""
-    p, low, high = descend(1.0, x, y, vehicle, p)
+    later = descend(1.0, x, y, vehicle, p)
+    p = later.programme
+    low = later.before
+    high = later.beyond
     if low == p.t7:
-        p, behind, low = descend(-1.0, x, y, vehicle, p)
-        if behind > p.t7:
-            high = behind
+        earlier = descend(-1.0, x, y, vehicle, p)
+        p = earlier.programme
+        low = earlier.beyond
+        if earlier.before > p.t7:
+            high = earlier.before
     minimum = propellant_fraction(p, vehicle)
     for _ in range(LARGEST_PATH):
         if high - low > TIME_SETTLED:
             end = p.t7 + (1.0 - SECTION) * (high - p.t7)
             if p.t7 - low > high - p.t7:
                 end = p.t7 - (1.0 - SECTION) * (p.t7 - low)
-            trial, value = ending(end, x, y, vehicle, p)
+            trial = ending(end, x, y, vehicle, p)
+            value = propellant_of(trial, vehicle)
             outside = end  # of the new bracket
             if value < minimum:
                 outside = p.t7
                 minimum = value
-                p = trial
+                p = trial.programme
             if outside > p.t7:
                 high = outside
             else:
@@ -107,23 +136,19 @@ def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramm
     return p
 
 
-def descend(
-    way: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme
-) -> tuple[HoverProgramme, float, float]:
-    """Move the end of p by way (s), then by more and more, as long as it takes less propellant.
-
-    Returns the last programme, and the ends (s) before its own, which is that of p where there is none, and after it.
-    """
+def descend(way: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> Bracket:
+    """Move the end of p by way (s), then by more and more, as long as it takes less propellant."""
     minimum = propellant_fraction(p, vehicle)
     before = p.t7
     beyond = p.t7 + way
     for _ in range(LARGEST_PATH):
-        trial, value = ending(beyond, x, y, vehicle, p)
+        trial = ending(beyond, x, y, vehicle, p)
+        value = propellant_of(trial, vehicle)
         if not value < minimum:
-            return p, before, beyond
+            return Bracket(programme=p, before=before, beyond=beyond)
         minimum = value
         before = p.t7
-        p = trial
+        p = trial.programme
         way = 1.6 * way
         beyond = p.t7 + way
-    return p, before, beyond
+    return Bracket(programme=p, before=before, beyond=beyond)

@@ -42,6 +42,13 @@ class HoverShape(Record):
     last = Field(unit="s", frozen=True, description="t7 - t6")
 
 
+class PlannedShape(Record):
+    """The shape of a programme, if it has one."""
+
+    shape = Field(HoverShape, description="the shape; all its times are 0 where there is no room for it")
+    exists = Field(bool, description="whether there is one")
+
+
 class PitchSegment(Record):
     """A parabola that the deviation follows."""
 
@@ -63,9 +70,9 @@ def without_programme() -> HoverProgramme:
     return HoverProgramme(t2=0.0, t5=0.0, width=0.0, last_burn=0.0, t7=0.0)
 
 
-def without_shape() -> HoverShape:
+def without_shape() -> PlannedShape:
     """No shape: all its times are 0."""
-    return HoverShape(
+    shape = HoverShape(
         t1=0.0,
         t2=0.0,
         t3=0.0,
@@ -79,10 +86,11 @@ def without_shape() -> HoverShape:
         d=0.0,
         last=0.0,
     )
+    return PlannedShape(shape=shape, exists=False)
 
 
-def shape_of(p: HoverProgramme, acceleration: float) -> tuple[HoverShape, bool]:
-    """The shape of the programme p at an angular acceleration (rad/s2, > 0), and whether there is one.
+def shape_of(p: HoverProgramme, acceleration: float) -> PlannedShape:
+    """The shape of the programme p at an angular acceleration (rad/s2, > 0).
 
     t3 and t4 bound the stretch of constant rate, d after t2 and before t5, that joins both turns:
     d^2 - (t5 - t2) d + t1^2 + (t7 - t6)^2 = 0. There is none without room for that, where thrust would point down,
@@ -95,20 +103,20 @@ def shape_of(p: HoverProgramme, acceleration: float) -> tuple[HoverShape, bool]:
     room = between * between - 4.0 * (first * first + last * last)
     turns = first >= 0.0 and last >= 0.0 and between > 0.0 and room >= 0.0 and acceleration > 0.0
     if not (turns and width >= 0.0 and p.last_burn >= 0.0 and math.isfinite(p.t7) and room < math.inf):
-        return without_shape(), False
+        return without_shape()
     if acceleration * first * first > STEEPEST or acceleration * last * last > STEEPEST:
-        return without_shape(), False
+        return without_shape()
     d = 2.0 * (first * first + last * last) / (between + math.sqrt(room))
     fraction = 2.0 * first * first - width * width  # 2 k t1^2
     if not fraction >= 0.0:
-        return without_shape(), False
+        return without_shape()
     begin = p.t2 - width
     if width > first:
         begin = math.sqrt(fraction)
     end = p.t2 + width
     if width > d:
         if not d > 0.0:
-            return without_shape(), False
+            return without_shape()
         end = p.t2 + (width * width + d * d) / (2.0 * d)
     s = HoverShape(
         t1=first,
@@ -124,7 +132,7 @@ def shape_of(p: HoverProgramme, acceleration: float) -> tuple[HoverShape, bool]:
         d=d,
         last=last,
     )
-    return s, s.first_burn_end <= s.last_burn_begin
+    return PlannedShape(shape=s, exists=s.first_burn_end <= s.last_burn_begin)
 
 
 def pitch(s: HoverShape, acceleration: float, t: float) -> Pitch:

@@ -7,6 +7,7 @@ import math
 
 from ...kernel.enumerations import Enumeration, member
 from ...kernel.matrices import element, inverse, set_element
+from ...kernel.records import Field, Record
 from ..vectors import Vector4, vector
 from .motion import HoverVehicle, end_motion, propellant
 from .shape import HoverProgramme, shape_of
@@ -27,24 +28,38 @@ class PlanKind(Enumeration):
     POLYNOMIAL = member("polynomial")
 
 
+class HoverSolution(Record):
+    """A programme that was searched for."""
+
+    programme = Field(HoverProgramme, description="the programme; where it is not feasible, one near by")
+    is_feasible = Field(bool, description="whether it ends where it should, at rest")
+
+
+class Residual(Record):
+    """How a programme misses its target."""
+
+    errors = Field(Vector4, description="at the end: y/10 (m), y' (m/s), x/10 (m), x' (m/s)")
+    size = Field(description="their length; infinite without a motion")
+
+
 def propellant_fraction(p: HoverProgramme, vehicle: HoverVehicle) -> float:
     """Propellant of the programme p over the mass at its start; infinite without room for its shape."""
-    s, room = shape_of(p, vehicle.swing)
-    if not room:
+    planned = shape_of(p, vehicle.swing)
+    if not planned.exists:
         return math.inf
-    return propellant(s, vehicle, p.t7)
+    return propellant(planned.shape, vehicle, p.t7)
 
 
-def residual(p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> tuple[Vector4, float]:
-    """Errors at the end, (y/10, y', x/10, x'), and their length, which is infinite without a motion."""
-    end, moved = end_motion(p, vehicle)
-    if not moved:
-        return vector(0.0, 0.0, 0.0, 0.0), math.inf
+def residual(p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> Residual:
+    """How the programme p misses (x, y) (m)."""
+    end = end_motion(p, vehicle)
+    if not end.exists:
+        return Residual(errors=vector(0.0, 0.0, 0.0, 0.0), size=math.inf)
     r = vector(0.1 * (end.y - y), end.y_rate, 0.1 * (end.x - x), end.x_rate)
-    size = r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]
-    if not math.isfinite(size):
-        return r, math.inf
-    return r, math.sqrt(size)
+    square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]
+    if not math.isfinite(square):
+        return Residual(errors=r, size=math.inf)
+    return Residual(errors=r, size=math.sqrt(square))
 
 
 def count_free_times(kind: int) -> int:
@@ -76,15 +91,15 @@ def invert_sensitivities(
         free = [0.0] * 4
         change = DIFFERENCE
         free[j] = change
-        ahead, size = residual(p + change_of(kind, vector(*free)), vehicle, x, y)
-        if not size < math.inf:
+        ahead = residual(p + change_of(kind, vector(*free)), vehicle, x, y)
+        if not ahead.size < math.inf:
             change = -DIFFERENCE
             free[j] = change
-            ahead, size = residual(p + change_of(kind, vector(*free)), vehicle, x, y)
-        if not size < math.inf:
+            ahead = residual(p + change_of(kind, vector(*free)), vehicle, x, y)
+        if not ahead.size < math.inf:
             return False
         for i in range(n):
-            set_element(derivatives, n, i, j, (ahead[i] - r[i]) / change)
+            set_element(derivatives, n, i, j, (ahead.errors[i] - r[i]) / change)
     is_regular = inverse(derivatives, inverted, n)
     return is_regular
 
@@ -99,8 +114,8 @@ def newton_step(kind: int, inverted: list, r: Vector4) -> HoverProgramme:
     return change_of(kind, vector(*free))
 
 
-def solve(kind: int, start: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> tuple[HoverProgramme, bool]:
-    """The programme near ``start`` that ends at (x, y) (m) and at rest, and whether there is one; else the start.
+def solve(kind: int, start: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> HoverSolution:
+    """The programme near ``start`` that ends at (x, y) (m) and at rest; the start where there is none.
 
     Steps are halved until the residual falls; while it falls to a tenth, the sensitivities are kept. Free are t2, t5
     (not VERTICAL), w (WITH_FIRST_BURN), tp, t7 (not WITH_FIRST_BURN).
@@ -108,30 +123,29 @@ def solve(kind: int, start: HoverProgramme, vehicle: HoverVehicle, x: float, y: 
     p = start
     inverted = [0.0] * 16
     known = False
-    r, size = residual(p, vehicle, x, y)
-    if not size < math.inf:
-        return start, False
+    r = residual(p, vehicle, x, y)
+    if not r.size < math.inf:
+        return HoverSolution(programme=start, is_feasible=False)
     for _ in range(ITERATIONS):
-        if size <= SETTLED:
-            return p, True
+        if r.size <= SETTLED:
+            return HoverSolution(programme=p, is_feasible=True)
         fresh = not known
         if fresh:
-            known = invert_sensitivities(kind, p, vehicle, x, y, r, inverted)
+            known = invert_sensitivities(kind, p, vehicle, x, y, r.errors, inverted)
             if not known:
-                return start, False
-        step = newton_step(kind, inverted, r)
+                return HoverSolution(programme=start, is_feasible=False)
+        step = newton_step(kind, inverted, r.errors)
         ahead = p + step
-        r_ahead, size_ahead = residual(ahead, vehicle, x, y)
+        r_ahead = residual(ahead, vehicle, x, y)
         part = 1.0
-        while not size_ahead < size and fresh and part > LEAST_PART:
+        while not r_ahead.size < r.size and fresh and part > LEAST_PART:
             part = 0.5 * part
             ahead = p + part * step
-            r_ahead, size_ahead = residual(ahead, vehicle, x, y)
-        known = size_ahead < 0.1 * size
-        if size_ahead < size:
+            r_ahead = residual(ahead, vehicle, x, y)
+        known = r_ahead.size < 0.1 * r.size
+        if r_ahead.size < r.size:
             p = ahead
             r = r_ahead
-            size = size_ahead
         elif fresh:
-            return start, False
-    return start, False
+            return HoverSolution(programme=start, is_feasible=False)
+    return HoverSolution(programme=start, is_feasible=False)
