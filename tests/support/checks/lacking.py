@@ -1,10 +1,3 @@
 """Blocks that lack a check; the list may only shrink."""
 
-LACKING = (
-    "analytic_guidance",
-    "analytic_exact_guidance",
-    "astar_guidance",
-    "astar_modified_guidance",
-    "astar_robust_guidance",
-    "hover_guidance",
-)
+LACKING = ("astar_guidance", "astar_modified_guidance", "astar_robust_guidance", "hover_guidance")

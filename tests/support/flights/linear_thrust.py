@@ -72,11 +72,16 @@ def astar_roots(position, velocity):
     return positive_roots(sum(((a - 3.0 * b) * (a - 2.0 * b) for a, b in pairs), Polynomial([0.0])), 3)
 
 
-def balance_roots(position, velocity, degree):
-    """Positive roots of |A|^2 T^2 = 4 |B|^2: degree 3, or 2 for the published quadratic."""
+def balance_polynomial(position, velocity, degree):
+    """|A|^2 T^2 - 4 |B|^2, whose fourth power cancels; of degree 3, or 2 for the published quadratic."""
     impulses, misses = polynomials(position, velocity)
     whole = sum((a * a for a in impulses), Polynomial([0.0])) - 4.0 * sum((b * b for b in misses), Polynomial([0.0]))
-    return positive_roots(Polynomial(whole.coef[: degree + 1]), degree)
+    return Polynomial(whole.coef[: degree + 1])
+
+
+def balance_roots(position, velocity, degree):
+    """Positive roots of |A|^2 T^2 = 4 |B|^2."""
+    return positive_roots(balance_polynomial(position, velocity, degree), degree)
 
 
 def modified_time(position, velocity):
