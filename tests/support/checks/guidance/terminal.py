@@ -104,7 +104,7 @@ def fly(times, solutions, direction, last_burn=None):
     }
 
 
-def check_of(truth, flights, law, parameters, last_burn=None, tolerances=None):
+def check_of(truth, flights, law, parameters, last_burn=None):
     """The check of flights, each a list of positions and velocities, with a row of no activity between them.
 
     ``law`` makes a `Solution` of position, velocity and a dictionary that is new in every flight.
@@ -131,12 +131,12 @@ def check_of(truth, flights, law, parameters, last_burn=None, tolerances=None):
     outputs = {name: np.concatenate([record[name] for record in records]) for name in records[0]}
     position, velocity, active = (np.array(rows) for rows in zip(*inputs, strict=True))
     rows = len(active)
-    exact = dict.fromkeys(("command_time", "status", "finished"), (0.0, 0.0))
+    exact = dict.fromkeys(("command_time", "status", "finished", "clamp_count"), (0.0, 0.0))
     return Check(
         truth=truth,
         step=STEP,
         inputs={"position": position, "velocity": velocity, "active": active},
         outputs={name: values[:rows] for name, values in outputs.items()},
-        tolerances=dict.fromkeys(outputs, (1e-12, 1e-12)) | exact | (tolerances or {}),
+        tolerances=dict.fromkeys(outputs, (1e-12, 1e-12)) | exact,
         parameters=parameters,
     )
