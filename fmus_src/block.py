@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import inspect
 import re
+from collections.abc import Iterator
 from typing import Any, ClassVar
 
+from .bundles import Connectors
 from .data_files import DataFiles, data_problem
 from .variables import DeclarationError, Input, Output, Parameter, State, Variable
 
@@ -40,6 +42,7 @@ class Block(DataFiles):
     """
 
     variables: ClassVar[dict[str, Variable]] = {}
+    bundles: ClassVar[dict[str, Connectors]] = {}
     is_interface: ClassVar[bool] = True
     fmu_name: ClassVar[str] = "block"
     python_only: ClassVar[bool] = False
@@ -52,11 +55,18 @@ class Block(DataFiles):
         cls.is_interface = interface
         cls.fmu_name = snake_case(cls.__name__)
         cls.variables = {}
+        cls.bundles = {}
+        for name, bundle in _bundles_of(cls).items():
+            bundle.declare(cls, name)
         for base in reversed(cls.__mro__):
-            for name, value in vars(base).items():
-                if isinstance(value, Variable):
-                    cls._check_redeclared(name, value)
-                    cls.variables[name] = value
+            cls.bundles |= _bundles_of(base)
+            for name, variable in _variables_of(base):
+                cls._check_redeclared(name, variable)
+                cls.variables[name] = variable
+        for name, bundle in cls.bundles.items():
+            if inspect.getattr_static(cls, name) is not bundle:
+                kind = f"a {bundle.bundle.__name__} of what {cls.__name__} derives from"
+                raise DeclarationError(f"{cls.__name__}.{name}: {kind}; give it another name")
         if not (cls.__doc__ or "").strip():
             raise DeclarationError(f"{cls.__name__}: write a docstring: purpose, assumptions, source")
         problem = data_problem(cls.data, cls.python_only)
@@ -123,3 +133,17 @@ class Block(DataFiles):
     def summary(cls) -> str:
         """First line of the docstring."""
         return (cls.__doc__ or "").strip().splitlines()[0]
+
+
+def _bundles_of(owner: type) -> dict[str, Connectors]:
+    """The bundles that a class itself has, by name."""
+    return {name: bundle for name, bundle in vars(owner).items() if isinstance(bundle, Connectors)}
+
+
+def _variables_of(owner: type) -> Iterator[tuple[str, Variable]]:
+    """Name and variable of what a class itself declares, in order, those of a bundle where it is."""
+    bundles = _bundles_of(owner)
+    for name in vars(owner):
+        for each in bundles[name].names.values() if name in bundles else [name]:
+            if isinstance(vars(owner)[each], Variable):
+                yield each, vars(owner)[each]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .variables import Input, Output, Parameter, State
 
@@ -16,6 +16,12 @@ class Port:
     def __init__(self, start: Any, **declaration: Any) -> None:
         self.start = start
         self.declaration = declaration
+
+    if TYPE_CHECKING:  # a bundle in a block has plain values under the names of its ports
+
+        def __get__(self, instance: object, owner: type | None = None) -> Any: ...
+
+        def __set__(self, instance: object, value: Any) -> None: ...
 
     def input(self, description: str | None = None, *, start: Any = None, **changes: Any) -> Input:
         """An input for it."""

@@ -56,12 +56,16 @@ from .fmus_src.actuators.jet_allocation import JetAllocation as JetAllocation
 from .fmus_src.block import (
     Block as Block,
 )
+from .fmus_src.bundles import Bundle as Bundle
+from .fmus_src.bundles import Inputs as Inputs
+from .fmus_src.bundles import Outputs as Outputs
 from .fmus_src.control.entry_control import EntryControl as EntryControl
 from .fmus_src.control.orbital_control import OrbitalControl as OrbitalControl
 from .fmus_src.guidance.terminal_guidance import TerminalGuidance as TerminalGuidance
 from .fmus_src.interfaces.allocation import Allocation as Allocation
 from .fmus_src.interfaces.navigation import Navigation as Navigation
 from .fmus_src.interfaces.ports.landing import TerminalStatus as TerminalStatus
+from .fmus_src.interfaces.ports.landing import ThrustCommand as ThrustCommand
 from .fmus_src.kernel.enumerations import Enumeration as Enumeration
 from .fmus_src.kernel.enumerations import member as member
 from .fmus_src.kernel.functions import (

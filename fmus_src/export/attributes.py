@@ -38,14 +38,24 @@ def _check_method(block_class: type[Block], method: FunctionType) -> None:
     tree = ast.parse(textwrap.dedent("".join(lines)))
     me = next(iter(inspect.signature(method).parameters), "")
     for node in ast.walk(tree):
-        if not (isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == me):
+        if not isinstance(node, ast.Attribute):
             continue
-        if node.attr in block_class.variables or hasattr(block_class, node.attr):
+        where = f"{method.__code__.co_filename}:{first + node.lineno - 1}"
+        if isinstance(node.value, ast.Attribute) and _is_of(me, node.value):
+            bundle = block_class.bundles.get(node.value.attr)
+            if bundle is not None and node.attr not in bundle.names:
+                members = ", ".join(bundle.names)
+                raise UndeclaredError(f"{where}: self.{node.value.attr} has no {node.attr}; it has {members}")
+        if not _is_of(me, node) or node.attr in block_class.variables or hasattr(block_class, node.attr):
             continue
         near = difflib.get_close_matches(node.attr, block_class.variables, n=3)
         remedy = f"did you mean {' or '.join(near)}? Else declare" if near else "declare"
-        place = f"{method.__code__.co_filename}:{first + node.lineno - 1}"
         raise UndeclaredError(
-            f"{place}: self.{node.attr} is not declared in {block_class.__name__}; "
+            f"{where}: self.{node.attr} is not declared in {block_class.__name__}; "
             f"{remedy} it in the class, {node.attr} = State(...), or keep it in a local variable"
         )
+
+
+def _is_of(me: str, node: ast.Attribute) -> bool:
+    """Whether a node is ``me.NAME``."""
+    return isinstance(node.value, ast.Name) and node.value.id == me

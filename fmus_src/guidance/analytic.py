@@ -33,13 +33,13 @@ class AnalyticGuidance(TerminalGuidance):
                 # the published cos(yaw)/p.x is 1/forward, which holds across p.x = 0 too
                 pitch = atan(p.z / forward)
                 pitch_rate = 3.0 / time * (a.z * time - 2.0 * b.z) / forward
-                self.thrust_acceleration = norm(a) / time
+                self.command.thrust_acceleration = norm(a) / time
                 cp = cos(pitch)
                 sp = sin(pitch)
                 cy = cos(yaw)
                 sy = sin(yaw)
-                self.thrust_direction = vector(cp * cy, cp * sy, sp)
-                self.thrust_direction_rate = vector(
+                self.command.thrust_direction = vector(cp * cy, cp * sy, sp)
+                self.command.thrust_direction_rate = vector(
                     -sp * cy * pitch_rate - cp * sy * yaw_rate,
                     -sp * sy * pitch_rate + cp * cy * yaw_rate,
                     cp * pitch_rate,

@@ -29,4 +29,4 @@ class AnalyticExactGuidance(CertainTime):
             a, b = impulse_and_miss(dr, self.velocity, dv, self.gravity, time)
             self.thrust_linearly(a, b, time)
             if not self.least_effort:
-                self.thrust_acceleration = norm(a) / time
+                self.command.thrust_acceleration = norm(a) / time

@@ -51,7 +51,7 @@ class AstarProgramme(TerminalGuidance, interface=True):
         st = sin(theta)
         climb = 6.0 * ay / (time * time) - 12.0 * by / (time * time * time)
         theta_rate = (climb + w * psi_rate * st * spsi) / (w * ct * cpsi)
-        self.thrust_acceleration = w
+        self.command.thrust_acceleration = w
         direction = vector(0.0, 0.0, 0.0)
         span = clip(time, 0.0, self.cycle)
         if (abs(psi_rate) + abs(theta_rate)) * span > 1.0:
@@ -60,15 +60,15 @@ class AstarProgramme(TerminalGuidance, interface=True):
             direction = direction + self.apply_weights(4.0 / 6.0, theta + theta_rate * half, psi + psi_rate * half)
             direction = direction + self.apply_weights(1.0 / 6.0, theta + theta_rate * span, psi + psi_rate * span)
             fraction = norm(direction)
-            self.thrust_acceleration = w * fraction
+            self.command.thrust_acceleration = w * fraction
             if fraction > 0.0:
                 direction = direction / fraction
-            self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
+            self.command.thrust_direction_rate = vector(0.0, 0.0, 0.0)
         else:
             direction = direction + self.apply_weights(1.0, theta, psi)
-            self.thrust_direction_rate = vector(
+            self.command.thrust_direction_rate = vector(
                 -st * cpsi * theta_rate - ct * spsi * psi_rate,
                 cpsi * psi_rate,
                 ct * cpsi * theta_rate - st * spsi * psi_rate,
             )
-        self.thrust_direction = direction
+        self.command.thrust_direction = direction

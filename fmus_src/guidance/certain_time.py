@@ -70,7 +70,9 @@ class CertainTime(TerminalGuidance, interface=True):
 
     def thrust_linearly(self, a: Vector3, b: Vector3, time: float) -> None:
         """Command the mean of a0 + a1 t over the next burn, with A (m/s), B (m) and the time-to-go (s)."""
-        thrust = linear_thrust(a, b, time, self.burn_span(time), self.thrust_direction, self.thrust_direction_rate)
-        self.thrust_acceleration = thrust.size
-        self.thrust_direction = thrust.direction
-        self.thrust_direction_rate = thrust.rate
+        thrust = linear_thrust(
+            a, b, time, self.burn_span(time), self.command.thrust_direction, self.command.thrust_direction_rate
+        )
+        self.command.thrust_acceleration = thrust.size
+        self.command.thrust_direction = thrust.direction
+        self.command.thrust_direction_rate = thrust.rate

@@ -1,8 +1,9 @@
 """Guidance from hover to hover: plans, and the law that tracks them."""
 
 from ..block import Input, Output, Parameter, State
+from ..bundles import Outputs
 from ..interfaces.ports import landing, sampling
-from ..interfaces.ports.landing import UNLIMITED, HoverMode, HoverStatus
+from ..interfaces.ports.landing import UNLIMITED, HoverMode, HoverStatus, ThrustCommand
 from ..kernel.functions import expm1, tan
 from ..mathlib.actuators.lagged_thrust import lagged_thrust
 from ..mathlib.attitude.rotation import TurningDirection
@@ -59,11 +60,7 @@ class HoverGuidance(HoverPlan):
     active = landing.ACTIVE.input()
     mode = Input(HoverMode, start=HoverMode.PROGRAMME, description="a change starts a plan")
     plan_number = landing.PLAN_NUMBER.input()
-    thrust_acceleration = landing.THRUST_ACCELERATION.output(direct=True)
-    thrust_direction = landing.DIRECTION.output("commanded unit vector at command_time", direct=True)
-    thrust_direction_rate = landing.DIRECTION_RATE.output("its derivative, perpendicular to it", direct=True)
-    command_time = landing.COMMAND_TIME.output("when the command was computed", direct=True)
-    burn_duration = landing.BURN_DURATION.output(start=UNLIMITED, direct=True)
+    command = Outputs(ThrustCommand, direct=True, thrust_direction=[0.0, 0.0, 1.0], burn_duration=UNLIMITED)
     time_to_go = landing.TIME_TO_GO.output("time left to the end of the plan", direct=True)
     finished = landing.FINISHED.output("the plan is over", direct=True)
     angular_acceleration_feed = landing.ANGULAR_ACCELERATION.output(
@@ -122,15 +119,15 @@ class HoverGuidance(HoverPlan):
                 self.begin_plan(time)
             self.in_charge = True
             self.follow(time)
-        self.command_time = time
+        self.command.command_time = time
 
     def rest(self, time: float) -> None:
         """No command."""
         if self.in_charge:
             self.drop_plan()
         self.in_charge = False
-        self.thrust_acceleration = 0.0
-        self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
+        self.command.thrust_acceleration = 0.0
+        self.command.thrust_direction_rate = vector(0.0, 0.0, 0.0)
         self.angular_acceleration_feed = vector(0.0, 0.0, 0.0)
         self.commanded_thrust = 0.0
         self.time_to_go = 0.0
@@ -226,9 +223,9 @@ class HoverGuidance(HoverPlan):
         # beyond the end the plan's rate is 0
         self.angular_acceleration_feed = (self.plan_rate(t + self.cycle) - self.plan_rate(t)) / self.cycle
         ahead = self.reference_thrust(t + self.engine_lag, t + self.engine_lag + self.cycle)
-        self.command(planned, ahead, self.frequency(t))
+        self.track(planned, ahead, self.frequency(t))
 
-    def command(self, plan: TurningDirection, planned: float, frequency: float) -> None:
+    def track(self, plan: TurningDirection, planned: float, frequency: float) -> None:
         """The law, from direction and thrust over mass (m/s2) of the plan."""
         direction = plan.direction
         error = self.reference_position - self.position
@@ -250,10 +247,10 @@ class HoverGuidance(HoverPlan):
             wanted = LEAST_THRUST
         leaning = direction + self.tilt
         length = norm(leaning)
-        self.thrust_direction = leaning / length
-        self.thrust_direction_rate = across(plan.rate, self.thrust_direction) / length
-        self.thrust_acceleration = wanted * length / self.thrust_factor
-        demand = self.mass * self.thrust_acceleration
+        self.command.thrust_direction = leaning / length
+        self.command.thrust_direction_rate = across(plan.rate, self.command.thrust_direction) / length
+        self.command.thrust_acceleration = wanted * length / self.thrust_factor
+        demand = self.mass * self.command.thrust_acceleration
         self.commanded_thrust = clip(demand, self.minimum_thrust, self.maximum_thrust)
         if demand != self.commanded_thrust:
             self.saturated = True

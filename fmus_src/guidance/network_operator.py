@@ -45,7 +45,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
 
     def begin(self, time: float) -> None:
         self.final_altitude = altitude_of(self.target_position, self.moon_radius)
-        self.command_time = time
+        self.command.command_time = time
         self.decode_law()
         self.solve()
 
@@ -69,8 +69,8 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
         self.evaluate_law(-atan2(horizontal_speed, vertical_speed), self.altitude, self.final_altitude)
         angle = self.law_angle()
         direction = cos(angle) * up - sin(angle) * self.forward
-        self.thrust_direction = direction / norm(direction)
-        self.thrust_acceleration = self.law_thrust() / self.mass
+        self.command.thrust_direction = direction / norm(direction)
+        self.command.thrust_acceleration = self.law_thrust() / self.mass
         self.estimate_time()
 
     def estimate_time(self) -> None:
@@ -80,8 +80,8 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
         self.time_to_go = 0.0
         if excess > 0.0:
             self.time_to_go = UNLIMITED
-            if self.thrust_acceleration > 0.0:
-                self.time_to_go = -expm1(-excess / exhaust_speed) * exhaust_speed / self.thrust_acceleration
+            if self.command.thrust_acceleration > 0.0:
+                self.time_to_go = -expm1(-excess / exhaust_speed) * exhaust_speed / self.command.thrust_acceleration
 
     def forget(self) -> None:
         self.forward = vector(1.0, 0.0, 0.0)
@@ -90,7 +90,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
         if not self.finished:
             self.solve()
             if self.status == TerminalStatus.GOOD:
-                self.command_time = t + h
+                self.command.command_time = t + h
                 slow = norm(self.velocity) < self.handover_speed
                 low = self.altitude <= self.handover_altitude_high
                 if slow and low and self.altitude >= self.handover_altitude_low:

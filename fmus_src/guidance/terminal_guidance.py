@@ -1,8 +1,9 @@
 """The slot of terminal guidance: bring the vehicle to a position and velocity at time_to_go."""
 
 from ..block import Block, Output, Parameter, State
+from ..bundles import Outputs
 from ..interfaces.ports import landing, sampling
-from ..interfaces.ports.landing import UNLIMITED, TerminalStatus
+from ..interfaces.ports.landing import UNLIMITED, TerminalStatus, ThrustCommand
 from ..kernel.enumerations import Enumeration, member
 from ..mathlib.lunar.gravity import central_gravity
 from ..mathlib.vectors import Vector3, vector
@@ -26,8 +27,8 @@ class TerminalGuidance(Block, interface=True):
     """Terminal guidance in a landing-site frame: thrust command until the target state is met.
 
     Frame: origin at the site, x north, y west, z up; not rotating. A guidance writes `solve`,
-    which sets time_to_go, thrust_acceleration, thrust_direction, its rate and status from
-    position and velocity; this class samples it, ends the flight and times the last burn.
+    which sets time_to_go, status, and thrust and direction of the command from position and
+    velocity; this class samples it, ends the flight and times the last burn.
     A solve that is good with time_to_go <= 0 says that time is up and leaves the command. With
     status not converged or no solution the last command is held and time_to_go counts down.
 
@@ -79,11 +80,7 @@ class TerminalGuidance(Block, interface=True):
     velocity = landing.VELOCITY.input("estimated velocity")
     mass = landing.MASS.input("estimated mass")
     active = landing.ACTIVE.input("false: no command; the first sample at which it is true is the start")
-    thrust_acceleration = landing.THRUST_ACCELERATION.output(direct=True)
-    thrust_direction = landing.DIRECTION.output("commanded unit vector at command_time", direct=True)
-    thrust_direction_rate = landing.DIRECTION_RATE.output("its derivative, perpendicular to it", direct=True)
-    command_time = landing.COMMAND_TIME.output("when the command was computed", direct=True)
-    burn_duration = landing.BURN_DURATION.output(start=UNLIMITED, direct=True)
+    command = Outputs(ThrustCommand, direct=True, thrust_direction=[0.0, 0.0, 1.0], burn_duration=UNLIMITED)
     time_to_go = landing.TIME_TO_GO.output(direct=True)
     status = Output(TerminalStatus, direct=True)
     finished = landing.FINISHED.output(direct=True)
@@ -140,16 +137,16 @@ class TerminalGuidance(Block, interface=True):
 
     def begin(self, time: float) -> None:
         """The first command, at ``time`` (s)."""
-        self.command_time = time
+        self.command.command_time = time
         self.cycle = self.sample_period
         self.expected_time = self.planned_time(0.0)
         self.aim()
         self.judge()
         if self.status >= TerminalStatus.NOT_CONVERGED:
             self.time_to_go = 0.0
-            self.thrust_acceleration = 0.0
+            self.command.thrust_acceleration = 0.0
         elif self.terminal_step == TerminalStep.EXACT and not self.plan_frozen():
-            self.burn_duration = self.time_to_go
+            self.command.burn_duration = self.time_to_go
 
     def judge(self) -> None:
         """Tell time that is up from time that never was."""
@@ -174,9 +171,9 @@ class TerminalGuidance(Block, interface=True):
         self.started = False
         self.finished = False
         self.expected_time = 0.0
-        self.thrust_acceleration = 0.0
-        self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
-        self.burn_duration = UNLIMITED
+        self.command.thrust_acceleration = 0.0
+        self.command.thrust_direction_rate = vector(0.0, 0.0, 0.0)
+        self.command.burn_duration = UNLIMITED
         self.time_to_go = 0.0
         self.status = TerminalStatus.GOOD
         self.forget()
@@ -190,7 +187,7 @@ class TerminalGuidance(Block, interface=True):
             self.cycle = self.sample_period
             if self.cycle <= 0.0:
                 self.cycle = h
-            burn_left = self.command_time + self.burn_duration - t - h
+            burn_left = self.command.command_time + self.command.burn_duration - t - h
             if self.terminal_step == TerminalStep.STOP or not self.started or burn_left > self.hold_time() - self.cycle:
                 self.follow(t + h)
             elif burn_left > self.cycle * ROUNDING:
@@ -208,10 +205,10 @@ class TerminalGuidance(Block, interface=True):
     def finish(self, time: float) -> None:
         """End the flight at ``time`` (s)."""
         self.finished = True
-        self.thrust_acceleration = 0.0
+        self.command.thrust_acceleration = 0.0
         self.time_to_go = 0.0
-        self.burn_duration = 0.0
-        self.command_time = time
+        self.command.burn_duration = 0.0
+        self.command.command_time = time
 
     def follow(self, time: float) -> None:
         """Command for the sample at ``time`` (s), or the end, or the last burn."""
@@ -223,19 +220,19 @@ class TerminalGuidance(Block, interface=True):
             self.time_to_go = left
             if not self.started:
                 self.time_to_go = 0.0
-                self.thrust_acceleration = 0.0
+                self.command.thrust_acceleration = 0.0
         elif self.time_to_go > 0.0:
-            self.command_time = time
+            self.command.command_time = time
         if self.started and not self.plan_frozen():
             self.end(time)
 
     def end(self, time: float) -> None:
         """At ``time`` (s): the last burn where it is due, or the end where less than a cycle is left."""
         if self.terminal_step == TerminalStep.EXACT:
-            self.burn_duration = UNLIMITED
+            self.command.burn_duration = UNLIMITED
             if self.time_to_go <= self.hold_time():
                 # from command_time on, which is earlier where the last command is held
-                self.burn_duration = time - self.command_time + self.time_to_go
+                self.command.burn_duration = time - self.command.command_time + self.time_to_go
         elif self.time_to_go < self.cycle:
             self.finished = True
-            self.thrust_acceleration = 0.0
+            self.command.thrust_acceleration = 0.0

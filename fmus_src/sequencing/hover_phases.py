@@ -131,10 +131,10 @@ class HoverPhases(LandingSequence, interface=True):
     def face_up(self, time: float) -> None:
         """Own command: the local vertical, without thrust."""
         up = vertical_at(self.sampled_position, self.moon_radius)
-        self.thrust_direction = up
-        self.thrust_direction_rate = across(self.sampled_velocity, up) / norm(
+        self.command.thrust_direction = up
+        self.command.thrust_direction_rate = across(self.sampled_velocity, up) / norm(
             from_centre(self.sampled_position, self.moon_radius)
         )
-        self.thrust_acceleration = 0.0
-        self.command_time = time
-        self.burn_duration = 0.0
+        self.command.thrust_acceleration = 0.0
+        self.command.command_time = time
+        self.command.burn_duration = 0.0

@@ -1,8 +1,9 @@
 """What the phases of a landing share: connectors, the order of phases, what is remembered of each, statuses."""
 
 from ..block import Output, Parameter, State
+from ..bundles import Outputs
 from ..interfaces.ports import landing
-from ..interfaces.ports.landing import CommandSource, HoverMode
+from ..interfaces.ports.landing import CommandSource, HoverMode, ThrustCommand
 from ..kernel.enumerations import Enumeration, member
 from ..mathlib.vectors import vector
 from .landing_inputs import LandingInputs
@@ -73,13 +74,7 @@ class LandingSequence(LandingInputs, interface=True):
     site = landing.POSITION.output("where to land, on the sphere")
     source = Output(CommandSource, description="whose command counts")
     engine_on = landing.ENGINE_ON.output("the command's thrust is given")
-    thrust_acceleration = landing.THRUST_ACCELERATION.output("own command: thrust over mass")
-    thrust_direction = landing.DIRECTION.output(
-        "own command: unit vector at command_time; 0: none", start=[0.0, 0.0, 0.0]
-    )
-    thrust_direction_rate = landing.DIRECTION_RATE.output("own command: its derivative")
-    command_time = landing.COMMAND_TIME.output("own command: when it was computed")
-    burn_duration = landing.BURN_DURATION.output("own command: how long to thrust from command_time on")
+    command = Outputs(ThrustCommand, about="own command:")
     free_flight = landing.FREE_FLIGHT.output("no thrust acts; for navigation")
     status = Output(LandingStatus, description="largest so far")
     status_flags = Output(
@@ -123,10 +118,10 @@ class LandingSequence(LandingInputs, interface=True):
         if source != CommandSource.HOVER:
             self.hover_mode = HoverMode.IDLE
         if source != CommandSource.OWN:
-            self.thrust_acceleration = 0.0
-            self.thrust_direction = vector(0.0, 0.0, 0.0)
-            self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
-            self.burn_duration = 0.0
+            self.command.thrust_acceleration = 0.0
+            self.command.thrust_direction = vector(0.0, 0.0, 0.0)
+            self.command.thrust_direction_rate = vector(0.0, 0.0, 0.0)
+            self.command.burn_duration = 0.0
 
     def request_plan(self, mode: int) -> None:
         """Give the command to the hover guidance, with a new plan."""

@@ -70,11 +70,11 @@ class OrbitPhases(LandingSequence, interface=True):
     def face_back(self, time: float) -> None:
         """Own command: against the horizontal velocity, without thrust."""
         turning = against_horizontal(self.sampled_position, self.sampled_velocity, self.moon_radius)
-        self.thrust_direction = turning.direction
-        self.thrust_direction_rate = turning.rate
-        self.thrust_acceleration = 0.0
-        self.command_time = time
-        self.burn_duration = 0.0
+        self.command.thrust_direction = turning.direction
+        self.command.thrust_direction_rate = turning.rate
+        self.command.thrust_acceleration = 0.0
+        self.command.command_time = time
+        self.command.burn_duration = 0.0
 
     def begin_deorbit(self) -> None:
         """Own command; the first step gives its direction."""
@@ -99,10 +99,10 @@ class OrbitPhases(LandingSequence, interface=True):
                 self.engine_on = True
                 burn = burn + ahead - t
             if self.engine_on:
-                self.thrust_acceleration = acceleration
-                self.burn_duration = burn
+                self.command.thrust_acceleration = acceleration
+                self.command.burn_duration = burn
                 self.holding = burn <= self.hold_time
-        if self.engine_on and ahead >= self.command_time + self.burn_duration - ROUNDING:
+        if self.engine_on and ahead >= self.command.command_time + self.command.burn_duration - ROUNDING:
             return PhaseEnd.OVER
         if self.engine_on and ahead - self.ignition_time >= self.deorbit_patience * self.planned_burn:
             self.note(LandingStatus.TIMEOUT, ahead)

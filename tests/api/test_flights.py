@@ -106,8 +106,8 @@ class Coasting(TerminalGuidance):
 
     def solve(self) -> None:
         self.time_to_go = 10.0
-        self.thrust_acceleration = 0.0
-        self.thrust_direction = vector(1.0, 0.0, 0.0)
+        self.command.thrust_acceleration = 0.0
+        self.command.thrust_direction = vector(1.0, 0.0, 0.0)
         self.status = TerminalStatus.GOOD
 """
     monkeypatch.chdir(tmp_path)

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from perilune.fmus_src.block import Block
+from perilune.fmus_src.bundles import Bundle
 from perilune.fmus_src.export.judge.subset import check
 from perilune.fmus_src.export.native_fmu import native_sources
 from perilune.fmus_src.interfaces import ports as package
@@ -75,7 +76,7 @@ def test_bounds_of_the_port_hold_for_a_start_of_ones_own() -> None:
 
 
 def test_every_port_is_declared_once_and_used() -> None:
-    """No two ports of a domain say the same, and every port has at least two users."""
+    """No two ports of a domain say the same, and every port and bundle has at least two users."""
     assert package.__doc__
     source = "\n".join(
         path.read_text(encoding="utf-8") for path in (Path(__file__).parents[2] / "fmus_src").rglob("*.py")
@@ -84,9 +85,15 @@ def test_every_port_is_declared_once_and_used() -> None:
         ports = {name: port for name, port in vars(domain).items() if isinstance(port, Port)}
         said = [(str(port.start), str(port.declaration)) for port in ports.values()]
         assert len(said) == len(set(said)), domain.__name__
-        for name in ports:
-            uses = source.count(f"{domain.__name__.rpartition('.')[2]}.{name}.")
-            assert uses > 1, f"{domain.__name__}: {name} is used {uses} times; declare it where it is used"
+        bundles = [each for each in vars(domain).values() if isinstance(each, type) and issubclass(each, Bundle)]
+        uses = {
+            name: source.count(f"{domain.__name__.rpartition('.')[2]}.{name}.")
+            + sum(port in bundle.ports.values() for bundle in bundles)
+            for name, port in ports.items()
+        }
+        uses |= {each.__name__: source.count(f"puts({each.__name__},") for each in bundles if each is not Bundle}
+        for name, count in uses.items():
+            assert count > 1, f"{domain.__name__}: {name} is used {count} times; declare it where it is used"
 
 
 class WinchStatus(Enumeration):

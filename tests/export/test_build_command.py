@@ -17,7 +17,7 @@ class StraightUp(TerminalGuidance):
 
     def solve(self) -> None:
         self.status = TerminalStatus.GOOD
-        self.thrust_acceleration = 2.0
+        self.command.thrust_acceleration = 2.0
         self.time_to_go = 1e6
 '''
 

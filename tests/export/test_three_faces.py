@@ -1,4 +1,4 @@
-"""Every block of the catalogue, and integrators, in three faces: Python object, pythonfmu FMU, native FMU.
+"""Every block of the catalogue, integrators and bundles, in three faces: Python object, pythonfmu FMU, native FMU.
 
 Given the same random admissible calls through FMI, all variables agree to the last bit after every
 step. The compiled library alone is compared more widely in test_native_equals_python.py.
@@ -22,8 +22,8 @@ from perilune.fmus_src.paths import shipped_fmu
 from perilune.fmus_src.runtime import Component
 from tests.support.kernels import samples
 from tests.support.kernels.comparison import LONGEST_FLIGHT, bits, draw, elements, only_switches
-from tests.support.kernels.integrator_block import Integrators
 from tests.support.kernels.native_instance import CACHE
+from tests.support.kernels.users_blocks import Bundles, Integrators
 from tests.support.lengths import either
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
@@ -83,10 +83,11 @@ def test_three_faces_agree(block: type[Block]) -> None:
     fly_faces(block, files, STEPS if block.fmu_name not in LONG else STEPS // 4)
 
 
-def test_three_faces_of_a_block_with_every_integrator_agree(tmp_path: Path) -> None:
-    files = [build_python_fmu(Integrators, tmp_path / "python.fmu")]
-    files.append(build_native_fmu(Integrators, tmp_path / "native.fmu", platforms=["linux64"], cache=CACHE))
-    fly_faces(Integrators, files, STEPS)
+@pytest.mark.parametrize("block", [Integrators, Bundles])
+def test_three_faces_of_a_users_block_agree(block: type[Block], tmp_path: Path) -> None:
+    files = [build_python_fmu(block, tmp_path / "python.fmu")]
+    files.append(build_native_fmu(block, tmp_path / "native.fmu", platforms=["linux64"], cache=CACHE))
+    fly_faces(block, files, STEPS)
 
 
 def fly_faces(block: type[Block], files: list[Path], wanted: int) -> None:

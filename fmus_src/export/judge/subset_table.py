@@ -335,6 +335,8 @@ field: {kind} has no field {name}
     it has {names}
 field assigned: {name} is a record, whose fields cannot be assigned
     make a new one: {name} = replace({name}, field=value)
+bundle: {name} is a bundle, which is no value
+    write its members, {name}.{member}, or assign it to another of its kind: self.command = self.braking
 derivatives: {name} is given to a function to be called, and changes its arguments or the block
     return what it computes, and assign that where the state is
 part: {part} is no part of two to four of its {size} elements

@@ -9,6 +9,7 @@ from typing import TypeVar
 from ...block import Block
 from ...kernel.records import Record
 from ...kernel.vector_types import VECTORS
+from .bundles import write_out_members
 from .kernel import (
     BOOL,
     FLOAT,
@@ -82,13 +83,16 @@ class _Finder:
             return None
         if key not in self.known:
             self.under_way.append(key)
-            self.known[key] = self._analyse(
-                Function(source, self.kernel.block_class, parameters, self._returns(source, parameters))
-            )
+            self.known[key] = self._analyse(source, parameters)
             self.under_way.pop()
         return self.known[key]
 
-    def _analyse(self, function: Function) -> Function:
+    def _analyse(self, source: Source, parameters: dict[str, Type]) -> Function | None:
+        plain = write_out_members(self.kernel, source)
+        if plain is None:
+            return None
+        function = Function(plain, self.kernel.block_class, parameters, self._returns(source, parameters))
+
         def resolve(callee: FunctionType, owner: type | None, call: ast.Call, types: list[Type]) -> Function | None:
             return self.find(callee, owner, function, call, types)
 

@@ -1,5 +1,6 @@
 """Landing on the Moon: vectors of the landing-site frame, and the command, mass and Moon of a lander."""
 
+from ...bundles import Bundle
 from ...kernel.enumerations import Enumeration, member
 from ...ports import Port
 
@@ -92,7 +93,7 @@ SCALE_FACTOR_SIGMA = Port(
 )
 SPECIFIC_IMPULSE = Port(319.0, unit="s", minimum=1e-3, description="of the engine")
 THRUST = Port(0.0, unit="N", description="commanded thrust")
-THRUST_ACCELERATION = Port(0.0, unit="m/s2", description="commanded thrust over mass")
+THRUST_ACCELERATION = Port(0.0, unit="m/s2", description="thrust over mass")
 THRUST_ANGLE = Port(0.0, unit="rad", description="from the local vertical to the thrust")
 THRUST_LAG = Port(0.0, unit="s", minimum=0.0, description="time constant of thrust; 0: none")
 TILT = Port(0.0, unit="rad", description="angle of the thrust axis from the local vertical")
@@ -104,3 +105,15 @@ VELOCITY_RANDOM_WALK = Port(
 )
 VELOCITY_SIGMA = Port(0.05, unit="m/s", minimum=0.0, description="error of a measured velocity per axis, constant part")
 VERTICAL_SPEED = Port(0.0, unit="m/s", description="velocity along the local vertical, upwards")
+
+
+class ThrustCommand(Bundle):
+    """What a guidance asks of engine and attitude."""
+
+    thrust_acceleration = THRUST_ACCELERATION
+    thrust_direction = Port(
+        [0.0, 0.0, 0.0], unit="1", frame="landing site", description="unit vector at command_time; 0: none"
+    )
+    thrust_direction_rate = DIRECTION_RATE
+    command_time = COMMAND_TIME
+    burn_duration = BURN_DURATION

@@ -19,9 +19,20 @@ from tests.support.kernels import bad_kernels, record_blocks
 
 TEMPLATE = '''import math
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.bundles import Bundle, Inputs, Outputs
 from perilune.fmus_src.kernel.integrators import runge_kutta_4
 from perilune.fmus_src.kernel.records import Field, Record, replace
 from perilune.fmus_src.mathlib.vectors import Vector3, vector
+from perilune.fmus_src.ports import Port
+
+
+class Level(Bundle):
+    height = Port(0.0, description="height")
+    count = Port(0, description="count")
+
+
+class Other(Bundle):
+    height = Port(0.0, description="height")
 
 
 class Motion(Record):
@@ -61,6 +72,9 @@ class Bad(Block):
     given = Input([0.0] * 3, description="given")
     p = Parameter(1.0, description="p")
     y = Output(0.0, description="y")
+    wanted = Inputs(Level, prefix="wanted_")
+    last = Outputs(Level, prefix="last_")
+    other = Outputs(Other, prefix="other_")
     n = State(0, description="n")
     flag = State(False, description="flag")
     v = State([0.0] * 5, description="v")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from inspect import getsourcelines
+
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.judge.subset import check
 from perilune.fmus_src.export.write.translate import translate
@@ -18,6 +20,7 @@ from tests.support.kernels.language_blocks import (
     VectorLanguage,
 )
 from tests.support.kernels.record_blocks import RecordFaults, RecordLanguage
+from tests.support.kernels.users_blocks import Bundles
 
 
 def test_blocks_are_in_the_subset() -> None:
@@ -67,6 +70,16 @@ def test_every_fault_of_records_is_at_the_same_line_and_leaves_the_same_values()
     fly(pair, samples.size(3000))
     lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
     assert len(lines) >= 5, sorted(lines)
+
+
+def test_everything_that_bundles_can_do_is_bitwise_equal_with_its_fault() -> None:
+    pair = Pair(Bundles, samples.generator("bundles"))
+    pair.wild = True
+    rows, _ = fly(pair, samples.size(2000))
+    assert len(set(rows)) > 0.9 * len(rows)
+    divided = f"line {getsourcelines(Bundles.weaken)[1] + 2}: ZeroDivisionError"
+    assert pair.faults
+    assert all(divided in message for message in pair.faults)
 
 
 def test_enumerations_of_one_module_may_name_their_members_alike() -> None:

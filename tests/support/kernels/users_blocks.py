@@ -1,0 +1,105 @@
+"""Blocks as a user writes them: with every integrator, and with bundles of connectors."""
+
+from __future__ import annotations
+
+from perilune import (
+    Block,
+    Bundle,
+    Forcing,
+    Input,
+    Inputs,
+    Outputs,
+    Port,
+    State,
+    Translation,
+    Vector3,
+    cos,
+    exp,
+    norm,
+    runge_kutta_4,
+    runge_kutta_nystrom,
+    simpson,
+    sin,
+    vector,
+)
+
+
+class Integrators(Block):
+    """Two bodies about a centre of attraction, and a third under an acceleration over time."""
+
+    thrust = Input([0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="of the first two bodies")
+    first = State(Translation, description="by Kutta's method")
+    second = State(Translation, description="by Nystrom's method")
+    third = State(Translation, description="by Simpson's rule")
+
+    def initialize(self) -> None:
+        circle = Translation(position=vector(1.0, 0.0, 0.0), velocity=vector(0.0, 1.0, 0.0))
+        self.first = circle
+        self.second = circle
+        self.third = circle
+
+    def gravity(self, position: Vector3) -> Vector3:
+        """Attraction (m/s2) of the centre, 1 at 1 m."""
+        distance = norm(position)
+        return -position / (distance * distance * distance)
+
+    def derivatives(self, t: float, s: Translation, thrust: Vector3) -> Translation:
+        """Rates."""
+        return Translation(position=s.velocity, velocity=self.gravity(s.position) + cos(t) * thrust)
+
+    def acceleration(self, t: float) -> Vector3:
+        """Of the third body (m/s2)."""
+        return vector(-cos(t), -sin(t), exp(-t))
+
+    def step(self, t: float, h: float) -> None:
+        self.first = runge_kutta_4(self.derivatives, t, self.first, h, self.thrust)
+        forcing = Forcing(
+            start=cos(t) * self.thrust, middle=cos(t + 0.5 * h) * self.thrust, end=cos(t + h) * self.thrust
+        )
+        self.second = runge_kutta_nystrom(self.gravity, self.second, forcing, h)
+        self.third = simpson(self.acceleration, t, self.third, h)
+
+
+class EngineCommand(Bundle):
+    """What an engine is to do."""
+
+    thrust = Port(0.0, unit="N", description="thrust")
+    direction = Port([0.0, 0.0, 1.0], unit="1", frame="body", description="of thrust")
+    number = Port(0, description="of the command")
+    engine_on = Port(True, description="thrust is given")
+
+
+class Bundles(Block):
+    """Members read and assigned in every place that a variable can have; divides by an input that may be 0."""
+
+    choice = Input(0, minimum=0, maximum=9, description="which to pass on")
+    factor = Input(2.0, unit="1", description="divisor of thrust")
+    first = Inputs(EngineCommand)
+    second = Inputs(EngineCommand, prefix="second_", about="of the second source:", thrust=2.5)
+    command = Outputs(EngineCommand, prefix="commanded_", direct=True)
+    last = Outputs(EngineCommand, prefix="last_", engine_on=False)
+
+    def initialize(self) -> None:
+        self.command = self.first
+
+    def weaken(self, thrust: float) -> tuple[float, float]:
+        """A thrust over the factor (N), and how long the second direction is."""
+        return thrust / self.factor, norm(self.second.direction)
+
+    def step(self, t: float, h: float) -> None:
+        self.last = self.command
+        if self.choice < 2:
+            self.command = self.second
+        elif self.choice < 4:
+            self.command = self.first
+            self.command.thrust, length = self.weaken(self.first.thrust)
+            self.command.direction = self.first.direction + length * self.second.direction
+        elif self.choice < 6:
+            self.command.number = self.second.number // 2 + self.first.number % 7
+            self.command.thrust += self.second.direction[self.second.number % 3]
+        elif self.choice < 8:
+            self.command.direction = vector(self.first.direction.y, self.second.thrust, self.factor)
+            self.command.engine_on = self.first.engine_on and not self.second.engine_on
+        else:
+            self.commanded_thrust = self.thrust + self.second_thrust  # the variables by their own names
+            self.last.thrust = self.command.thrust
