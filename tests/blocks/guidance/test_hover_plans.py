@@ -54,13 +54,13 @@ def test_the_reference_is_the_programme_in_space(t):
     gravity = np.mean([MU / np.sum((r - centre) ** 2) for r in (start, target)])
     limits = [0.9 * 4707.192 / MASS, 0.1 * 4707.192 / MASS]
     vehicle = HoverVehicle.of_elements([*limits, EXHAUST, gravity, math.radians(0.7)])
-    x, vx, y, vy, _, pitch, rate = flown(block.programme, vehicle, until=t)
+    x, vx, y, vy, _, pitch, rate = flown(block.programme, vehicle.elements(), until=t)
     assert block.reference_position == pytest.approx(start + x * along + y * up, abs=1e-5)
     assert block.reference_velocity == pytest.approx(vx * along + vy * up, abs=1e-6)
     turning = block.plan_direction(t)
     assert turning.direction == pytest.approx(math.cos(pitch) * along + math.sin(pitch) * up, abs=1e-8)
     assert turning.rate == pytest.approx(rate * (-math.sin(pitch) * along + math.cos(pitch) * up), abs=1e-8)
-    end = flown(block.programme, vehicle)
+    end = flown(block.programme, vehicle.elements())
     assert [end[0], end[2]] == pytest.approx([np.linalg.norm(side), way @ up], abs=1e-5)
 
 

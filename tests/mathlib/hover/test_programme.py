@@ -138,7 +138,7 @@ def test_wrong_digit_of_the_paper():
 )
 def test_full_equations_end_where_they_should(x, vehicle, duration):
     _, p, mu = planned(x, vehicle=vehicle, duration=duration)
-    end = flown(p.elements(), vehicle)
+    end = flown(p.elements(), vehicle.elements())
     assert end[:4] == pytest.approx([x, 0.0, DROP, 0.0], abs=1e-6)
     assert end[4] == pytest.approx(mu, abs=1e-9)
     assert end[5:] == pytest.approx([0.5 * math.pi, 0.0], abs=1e-9)
@@ -148,7 +148,7 @@ def test_low_drops_with_far_sides_stay_above_the_target():
     for x, y in ((600.0, -300.0), (1600.0, -500.0), (50.0, -100.0)):
         kind, p, _ = planned(x, y)
         assert kind == PlanKind.WITH_FIRST_BURN
-        assert flown(p.elements(), PAPER)[:4] == pytest.approx([x, 0.0, y, 0.0], abs=1e-6)
+        assert flown(p.elements(), PAPER.elements())[:4] == pytest.approx([x, 0.0, y, 0.0], abs=1e-6)
         planned_shape = shape_of(p, PAPER.swing)
         assert planned_shape.exists
         s = planned_shape.shape
@@ -176,7 +176,7 @@ def test_motion_pitch_and_propellant_on_the_way(t):
         0.5 * math.pi + turn.deviation,
         turn.rate,
     ]
-    assert actual == pytest.approx(flown(p.elements(), PAPER, until=t), abs=1e-7)
+    assert actual == pytest.approx(flown(p.elements(), PAPER.elements(), until=t), abs=1e-7)
 
 
 def test_impulse_is_the_integral_of_thrust_over_mass():
@@ -270,7 +270,7 @@ def test_far_sides_never_thrust_downwards(x, y):
     vehicle = MARGINS
     kind, p, _ = planned(x, y, vehicle)
     if kind == PlanKind.WITH_FIRST_BURN:
-        angles = [flown(p.elements(), vehicle, until=t)[5] for t in np.linspace(0.1, 0.999, 25) * p.t7]
+        angles = [flown(p.elements(), vehicle.elements(), until=t)[5] for t in np.linspace(0.1, 0.999, 25) * p.t7]
         assert min(angles) >= -1e-9
         assert max(angles) <= math.pi + 1e-9
     assert kind in (PlanKind.WITH_FIRST_BURN, PlanKind.NONE)

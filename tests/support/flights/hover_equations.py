@@ -16,9 +16,10 @@ def flown(p, vehicle, until=None):
     """State x, x', y, y', propellant fraction, pitch and its rate under the programme p at a time, by default its end.
 
     Pitch is a state, driven by the switched angular acceleration; the first burn is where pitch is below its share of
-    the largest deviation. ``vehicle`` is a `mathlib.hover.motion.HoverVehicle`.
+    the largest deviation. ``vehicle``: full and least thrust over the mass at the start (m/s2), exhaust speed (m/s),
+    gravity (m/s2), angular acceleration (rad/s2).
     """
-    full, minimum, exhaust, gravity, acceleration = vehicle.elements()
+    full, minimum, exhaust, gravity, acceleration = vehicle
     t2, t5, _, tp, t7 = p
     t1, t6 = 0.5 * t2, 0.5 * (t5 + t7)
     # the rates gained by both turns are equal: (t3 - t2) = (t5 - t4) = d, and the angles add up to 0

@@ -1,0 +1,124 @@
+"""Plans to a hover in space: how they are made, and what holds once they are over."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tests.support.checks.guidance.hover.programme import (
+    POLYNOMIAL,
+    UNPLANNED,
+    VERTICAL,
+    WITH_FIRST_BURN,
+    WITHOUT_FIRST_BURN,
+    Programme,
+    least_propellant,
+    solve,
+)
+from tests.support.checks.guidance.hover.transfer import Transfer, capture, slow_transfer
+from tests.support.checks.guidance.hover.vehicle import (
+    EXHAUST,
+    MAXIMUM,
+    PLANNED_MAXIMUM,
+    PLANNED_MINIMUM,
+    SLOW,
+    STANDBY,
+    SWING,
+    vertical,
+    weight,
+)
+from tests.support.flights.hover_equations import flown
+
+IDLE, HOLD, PROGRAMME, SLOWLY, CAPTURE, DESCEND = range(6)  # modes
+GOOD, NO_PROGRAMME, BEYOND_LIMITS, NO_PLAN = range(4)
+# Of the free times of a programme, and of the one without first burn from which the search for it begins.
+GUESSES = {
+    VERTICAL: (6.0, 18.0),
+    WITHOUT_FIRST_BURN: (2.5, 16.5, 5.5, 18.5),
+    WITH_FIRST_BURN: (4.5, 14.0, 0.2, 6.7),
+}
+FROM = {WITH_FIRST_BURN: (5.5, 12.9, 8.5, 16.8)}
+
+
+@dataclass
+class Plan:
+    """Where a flight holds in the end, and the way there."""
+
+    goal: np.ndarray
+    up: np.ndarray
+    status: int = GOOD
+    kind: int = UNPLANNED
+    path: Programme | Transfer | None = None
+    duration: float = 0.0
+    propellant: float = 0.0
+    times: tuple = (0.0,) * 5
+
+    def motion(self, t):
+        return self.path.motion(t) if t < self.duration else (self.goal, np.zeros(3))
+
+    def direction(self, t):
+        return self.path.direction(t) if t < self.duration else (self.up, np.zeros(3))
+
+    def angular_rate(self, t):
+        return np.cross(*self.direction(t))
+
+    def mean_thrust(self, begin, span, gravity):
+        """Over mass (m/s2); gravity (m/s2) from the end on."""
+        left = min(max(self.duration - begin, 0.0), span)
+        impulse = self.path.impulse(begin, begin + left) if left > 0.0 else 0.0
+        return (impulse + gravity * (span - left)) / span
+
+
+def plan_transfer(plan, transfer, mass):
+    impulse, excess = transfer.expense(mass)
+    plan.kind, plan.path, plan.duration = POLYNOMIAL, transfer, transfer.duration
+    plan.propellant = mass * (1.0 - np.exp(-impulse / EXHAUST))
+    return excess
+
+
+def plan_programme(plan, seen, gravity, kind):
+    """In the plane of start and target, on the target's vertical."""
+    up, way = plan.up, plan.goal - seen.position
+    y = way @ up
+    side = way - y * up
+    x = np.linalg.norm(side)
+    vehicle = PLANNED_MAXIMUM * MAXIMUM / seen.mass, PLANNED_MINIMUM * MAXIMUM / seen.mass, EXHAUST, gravity, SWING
+    assert (kind == VERTICAL) == (x < 1.0)
+    origin = seen.position + (side if kind == VERTICAL else 0.0)
+    form = min(kind, WITHOUT_FIRST_BURN)
+    times = solve(form, FROM.get(kind, GUESSES[kind]), vehicle, x, y)
+    if kind == WITH_FIRST_BURN:
+        without, times = times, least_propellant(times, GUESSES[kind], vehicle, x, y)
+        assert flown(times, vehicle)[4] < flown(without, vehicle)[4]
+    plan.kind, plan.times, plan.duration = kind, times, times[4]
+    plan.path = Programme(times, vehicle, origin, side / x, up)
+    plan.propellant = seen.mass * flown(times, vehicle)[4]
+
+
+def capture_start(seen, elapsed, lift):
+    """Position and three derivatives, from the thrust measured, or with the engine off that of the weight."""
+    force = np.linalg.norm(seen.velocity_increment) / elapsed
+    low, high = np.array([PLANNED_MINIMUM, PLANNED_MAXIMUM]) * MAXIMUM / seen.mass
+    if force < 0.5 * low:
+        force = np.clip(lift @ seen.attitude, low, high)
+    jerk = force * np.cross(seen.angular_rate, seen.attitude) + force**2 / EXHAUST * seen.attitude
+    return seen.position, seen.velocity, force * seen.attitude - lift, jerk
+
+
+def make_plan(seen, elapsed, kind):
+    """The plan of what the block sees; ``kind``: the form of a programme, declared with the flight."""
+    plan = Plan(seen.target_position, vertical(seen.target_position))
+    gravity = 0.5 * (weight(seen.position) + weight(seen.target_position))
+    lift = gravity * plan.up
+    if seen.mass * gravity >= MAXIMUM:
+        plan.goal, plan.status = seen.position, NO_PLAN
+    elif seen.mode == PROGRAMME and plan.up @ (plan.goal - seen.position) < 0.0:
+        plan_programme(plan, seen, gravity, kind)
+    elif seen.mode in (PROGRAMME, SLOWLY):
+        plan.status = NO_PROGRAMME if seen.mode == PROGRAMME else GOOD
+        limits = STANDBY if seen.mode == PROGRAMME else SLOW
+        plan_transfer(plan, slow_transfer(seen.position, plan.goal, plan.up, lift, limits), seen.mass)
+    elif seen.mode == CAPTURE:
+        start = capture_start(seen, elapsed, lift)
+        excess = plan_transfer(plan, capture(start, plan.goal, lift, seen.mass), seen.mass)
+        plan.status = BEYOND_LIMITS if excess > 0.0 else GOOD
+    return plan

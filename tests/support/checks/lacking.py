@@ -1,3 +1,0 @@
-"""Blocks that lack a check; the list may only shrink."""
-
-LACKING = ("hover_guidance",)
