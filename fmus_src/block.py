@@ -11,11 +11,12 @@ import re
 from collections.abc import Iterator
 from typing import Any, ClassVar
 
-from .bundles import Connectors
+from .bundles import Connectors, Inputs, Outputs
 from .data_files import DataFiles, data_problem
 from .variables import DeclarationError, Input, Output, Parameter, State, Variable
 
-__all__ = ["Block", "Input", "Output", "Parameter", "State"]  # what the file of a block takes from here
+# What the file of a block takes from here.
+__all__ = ["Block", "Input", "Inputs", "Output", "Outputs", "Parameter", "State"]
 
 
 def snake_case(name: str) -> str:

@@ -2,7 +2,7 @@
 
 import math
 
-from ..block import Block, Output, Parameter
+from ..block import Block, Inputs, Output, Parameter
 from ..interfaces.ports import body, entry, sampling
 from ..kernel.enumerations import Enumeration, member
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
@@ -38,9 +38,7 @@ class EntryControl(Block, interface=True):
     measured_bank = entry.BANK.input()
     measured_angular_velocity = body.ANGULAR_VELOCITY.input()
     target_bank = entry.TARGET_BANK.input("target of the programme", start=0.0)
-    reference_bank = entry.REFERENCE_BANK.input(start=0.0)
-    reference_bank_rate = entry.REFERENCE_BANK_RATE.input()
-    reference_bank_acceleration = entry.REFERENCE_BANK_ACCELERATION.input()
+    reference = Inputs(entry.BankReference, prefix="reference_", bank=0.0)
     error_limit = entry.ERROR_LIMIT.input("largest error of bank to act on")
     dynamic_pressure = entry.DYNAMIC_PRESSURE.input("for regulators that are told", start=1000.0)
     torque_command = body.TORQUE.output("torque wanted over the tick", direct=True)
@@ -56,7 +54,7 @@ class EntryControl(Block, interface=True):
 
     def bank_error(self) -> float:
         """Measured bank less the reference (rad), within error_limit."""
-        return clip(self.wrap_angle(self.measured_bank - self.reference_bank), -self.error_limit, self.error_limit)
+        return clip(self.wrap_angle(self.measured_bank - self.reference.bank), -self.error_limit, self.error_limit)
 
     def beyond(self, demand: float, level: float) -> float:
         """A demand, 0 within the dead zone of a level (N m)."""
@@ -66,8 +64,8 @@ class EntryControl(Block, interface=True):
 
     def command(self) -> None:
         """Set torque_command and status."""
-        bank = math.isfinite(self.measured_bank) and math.isfinite(self.reference_bank)
-        lead = math.isfinite(self.reference_bank_rate) and math.isfinite(self.reference_bank_acceleration)
+        bank = math.isfinite(self.measured_bank) and math.isfinite(self.reference.bank)
+        lead = math.isfinite(self.reference.bank_rate) and math.isfinite(self.reference.bank_acceleration)
         reported = math.isfinite(self.dynamic_pressure) and math.isfinite(self.error_limit)
         if not (bank and lead and reported and is_finite(self.measured_angular_velocity)):
             self.status = EntryControlStatus.NOT_FINITE

@@ -39,8 +39,8 @@ class OutputFeedback(EntryControl):
     def regulate(self) -> Vector3:
         c0 = cos(self.trim_attack)
         s0 = sin(self.trim_attack)
-        wx = self.measured_angular_velocity.x - self.reference_bank_rate * c0
-        wy = self.measured_angular_velocity.y + self.reference_bank_rate * s0
+        wx = self.measured_angular_velocity.x - self.reference.bank_rate * c0
+        wy = self.measured_angular_velocity.y + self.reference.bank_rate * s0
         errors = vector(self.bank_error(), wx, wy)
         k = 0
         fraction = 0.0
@@ -51,7 +51,7 @@ class OutputFeedback(EntryControl):
             fraction = log(p / self.pressures[k]) / log(self.pressures[k + 1] / self.pressures[k])
         if fraction > 1.0:
             fraction = 1.0
-        feed = apply_matrix(self.inertia, self.reference_bank_acceleration * vector(c0, -s0, 0.0))
+        feed = apply_matrix(self.inertia, self.reference.bank_acceleration * vector(c0, -s0, 0.0))
         x = dot(self.gain_row(2 * k, fraction), errors) + feed.x
         y = dot(self.gain_row(2 * k + 1, fraction), errors) + feed.y
         return vector(x, y, -self.pitch_damping * self.measured_angular_velocity.z)

@@ -31,8 +31,8 @@ class RobustControl(EntryControl):
         along = w.x * c0 - w.y * s0
         across = w.x * s0 + w.y * c0
         wanted = (
-            self.reference_bank_acceleration
-            - self.bank_damping * (along - self.reference_bank_rate)
+            self.reference.bank_acceleration
+            - self.bank_damping * (along - self.reference.bank_rate)
             - self.bank_stiffness * self.bank_error()
         )
         wanted = clip(wanted, -self.largest_acceleration, self.largest_acceleration)

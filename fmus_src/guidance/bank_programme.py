@@ -2,7 +2,7 @@
 
 import math
 
-from ..block import Block, Output, Parameter, State
+from ..block import Block, Output, Outputs, Parameter, State
 from ..interfaces.ports import entry, sampling
 from ..kernel.enumerations import Enumeration, member
 from ..mathlib.vectors import clip
@@ -41,9 +41,7 @@ class BankProgramme(Block):
     largest_error = Parameter(deg(48.0), unit="rad", minimum=0.0, description="of the limited method")
     sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick; 0: every communication point")
     target_bank = entry.TARGET_BANK.output()
-    reference_bank = entry.REFERENCE_BANK.output()
-    reference_bank_rate = entry.REFERENCE_BANK_RATE.output()
-    reference_bank_acceleration = entry.REFERENCE_BANK_ACCELERATION.output()
+    reference = Outputs(entry.BankReference, prefix="reference_")
     error_limit = entry.ERROR_LIMIT.output()
     time_since_reversal = Output(NEVER, unit="s", description="since the last reversal was commanded; 1e9 before")
     start_time = State(0.0, unit="s", description="start of the flight")
@@ -61,9 +59,9 @@ class BankProgramme(Block):
                 before = self.target_bank
                 self.target_bank = -self.target_bank
                 self.time_since_reversal = time - self.reversal_times[k]
-        self.reference_bank = self.target_bank
-        self.reference_bank_rate = 0.0
-        self.reference_bank_acceleration = 0.0
+        self.reference.bank = self.target_bank
+        self.reference.bank_rate = 0.0
+        self.reference.bank_acceleration = 0.0
         self.error_limit = math.pi
         if self.method == BankMethod.LIMITED:
             self.error_limit = self.largest_error
@@ -81,17 +79,17 @@ class BankProgramme(Block):
         gather = speed / c
         coast_end = way / speed
         if s < gather:
-            self.reference_bank = before + sign * 0.5 * c * s * s
-            self.reference_bank_rate = sign * c * s
-            self.reference_bank_acceleration = sign * c
+            self.reference.bank = before + sign * 0.5 * c * s * s
+            self.reference.bank_rate = sign * c * s
+            self.reference.bank_acceleration = sign * c
         elif s < coast_end:
-            self.reference_bank = before + sign * speed * (s - 0.5 * gather)
-            self.reference_bank_rate = sign * speed
+            self.reference.bank = before + sign * speed * (s - 0.5 * gather)
+            self.reference.bank_rate = sign * speed
         elif s < gather + coast_end:
             left = gather + coast_end - s
-            self.reference_bank = self.target_bank - sign * 0.5 * c * left * left
-            self.reference_bank_rate = sign * c * left
-            self.reference_bank_acceleration = -sign * c
+            self.reference.bank = self.target_bank - sign * 0.5 * c * left * left
+            self.reference.bank_rate = sign * c * left
+            self.reference.bank_acceleration = -sign * c
 
     def step(self, t: float, h: float) -> None:
         self.programme(t + h - self.start_time)

@@ -1,7 +1,6 @@
 """Guidance from hover to hover: plans, and the law that tracks them."""
 
-from ..block import Input, Output, Parameter, State
-from ..bundles import Outputs
+from ..block import Input, Output, Outputs, Parameter, State
 from ..interfaces.ports import landing, sampling
 from ..interfaces.ports.landing import UNLIMITED, HoverMode, HoverStatus, ThrustCommand
 from ..kernel.functions import expm1, tan

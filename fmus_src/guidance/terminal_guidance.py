@@ -1,7 +1,6 @@
 """The slot of terminal guidance: bring the vehicle to a position and velocity at time_to_go."""
 
-from ..block import Block, Output, Parameter, State
-from ..bundles import Outputs
+from ..block import Block, Output, Outputs, Parameter, State
 from ..interfaces.ports import landing, sampling
 from ..interfaces.ports.landing import UNLIMITED, TerminalStatus, ThrustCommand
 from ..kernel.enumerations import Enumeration, member

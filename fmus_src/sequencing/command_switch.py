@@ -1,7 +1,6 @@
 """Passes on the command of the guidance that is in charge."""
 
-from ..block import Block, Input
-from ..bundles import Inputs, Outputs
+from ..block import Block, Input, Inputs, Outputs
 from ..interfaces.ports import landing
 from ..interfaces.ports.landing import CommandSource, ThrustCommand
 from ..mathlib.vectors import vector

@@ -1,7 +1,6 @@
 """What the phases of a landing share: connectors, the order of phases, what is remembered of each, statuses."""
 
-from ..block import Output, Parameter, State
-from ..bundles import Outputs
+from ..block import Output, Outputs, Parameter, State
 from ..interfaces.ports import landing
 from ..interfaces.ports.landing import CommandSource, HoverMode, ThrustCommand
 from ..kernel.enumerations import Enumeration, member

@@ -91,7 +91,11 @@ def test_every_port_is_declared_once_and_used() -> None:
             + sum(port in bundle.ports.values() for bundle in bundles)
             for name, port in ports.items()
         }
-        uses |= {each.__name__: source.count(f"puts({each.__name__},") for each in bundles if each is not Bundle}
+        uses |= {
+            each.__name__: len(re.findall(rf"puts\((\w+\.)?{each.__name__},", source))
+            for each in bundles
+            if each is not Bundle
+        }
         for name, count in uses.items():
             assert count > 1, f"{domain.__name__}: {name} is used {count} times; declare it where it is used"
 

@@ -2,6 +2,7 @@
 
 import math
 
+from ...bundles import Bundle
 from ...ports import Port
 from ...units import deg
 
@@ -10,8 +11,13 @@ DENSITY_FACTOR = Port(1.0, unit="1", description="on the density of the standard
 DYNAMIC_PRESSURE = Port(0.0, unit="Pa", description="of the standard atmosphere at rest")
 ERROR_LIMIT = Port(math.pi, unit="rad", description="largest error of bank that the regulator acts on")
 JET_FACTOR = Port([1.0] * 6, unit="1", description="on the torque of each jet")
-REFERENCE_BANK = Port(deg(60.0), unit="rad", description="bank to be at now")
-REFERENCE_BANK_ACCELERATION = Port(0.0, unit="rad/s2", description="its second derivative")
-REFERENCE_BANK_RATE = Port(0.0, unit="rad/s", description="its rate")
 TARGET_BANK = Port(deg(60.0), unit="rad", description="target")
 WIND = Port([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="of the air over the turning Earth")
+
+
+class BankReference(Bundle):
+    """What bank to follow."""
+
+    bank = Port(deg(60.0), unit="rad", description="bank to be at now")
+    bank_rate = Port(0.0, unit="rad/s", description="its rate")
+    bank_acceleration = Port(0.0, unit="rad/s2", description="its second derivative")
