@@ -28,20 +28,21 @@ ROBOT = {
 }
 # With means as interpolated delays: phase margin and how near (deg), gain margin and how near (dB).
 WINDOWS = {"translation_8s": (44, 2, 12.6, 1), "translation_4s": (45, 2, 13.1, 1), "attitude": (49, 2, 16.5, 1)}
-each_loop = pytest.mark.parametrize("name", either(list(ROBOT), ["translation_4s", "attitude"]))
+STUDIED = either(list(ROBOT), ["translation_4s", "attitude"])
+each_loop = pytest.mark.parametrize("name", STUDIED)
 each_axis = pytest.mark.parametrize("axis", "xyz")
 each_time = pytest.mark.parametrize("time_to_go", either([100, 10], [10]))
 
 
 @pytest.fixture(scope="module")
 def robot(fmus):
-    return perilune.stability("robot_rendezvous", parameters=("paper.ssv",))
+    return perilune.stability("robot_rendezvous", parameters=("paper.ssv",), loops=STUDIED)
 
 
 @pytest.fixture(scope="module")
 def channels(robot):
     """The three channels of each loop."""
-    actual = {name: [loop for loop in robot.loops if loop.loop == name] for name in ROBOT}
+    actual = {name: [loop for loop in robot.loops if loop.loop == name] for name in STUDIED}
     for name, loops in actual.items():
         assert [loop.name for loop in loops] == [f"{name}[{axis}]" for axis in AXES]
     return actual
@@ -149,7 +150,7 @@ def test_robot_axes_at_once_are_no_nearer_to_instability_than_one(robot, name):
     assert joint.disk_margin == pytest.approx(disk_margin(ROBOT[name].transfer_function), rel=1e-4)
 
 
-@pytest.mark.parametrize("name", ["translation_8s", "translation_4s"])
+@pytest.mark.parametrize("name", [name for name in STUDIED if name != "attitude"])
 def test_levels_of_the_jets_make_no_limit_cycle(channels, name):
     """N of a quantiser is 4/pi at most (Gelb and Vander Velde 1968), less than 1/|L| where L is real and negative."""
     assert 4.0 / np.pi < 10.0 ** (ROBOT[name].margins.gain / 20.0)

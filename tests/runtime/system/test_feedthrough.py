@@ -18,10 +18,12 @@ from perilune.analysis.runtime.system.feedthrough import Origin
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import component, connection, document, fly, pack, retouched, system
+from tests.support.lengths import either
 
 RAMP = component("ramp", "ramp", "output y Real m")
 GAIN_ENDS = "input u Real m; output y Real m"
 DELAY = component("delay", "delay", GAIN_ENDS)
+FEWER_FLAVOURS = pytest.mark.parametrize("tiny", either(["python", "native"], ["native"]), indirect=True)
 WIRES = connection("ramp.y", "gain.u") + connection("gain.y", "delay.u")
 
 
@@ -179,6 +181,7 @@ expression = "end > 0"
 """
 
 
+@FEWER_FLAVOURS
 def test_a_campaign_keeps_the_option_and_its_page_says_what_is_assumed(undeclared, tmp_path):
     path, campaign = chain(undeclared), tmp_path / "ends.toml"
     campaign.write_text(CAMPAIGN)
@@ -202,6 +205,10 @@ def test_a_campaign_keeps_the_option_and_its_page_says_what_is_assumed(undeclare
     assert line.startswith("late: assumed: gain: FMU gain")
 
 
+@FEWER_FLAVOURS
+@pytest.mark.parametrize(
+    "undeclared", either([without_dependencies, without_outputs], [without_dependencies]), indirect=True
+)
 @pytest.mark.parametrize(
     ("study", "options"),
     [
