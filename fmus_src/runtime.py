@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from .block import Block, Output, State
+from .kernel.matrix_types import Matrix
 from .kernel.records import Record
 from .kernel.vector_types import vector
 
@@ -16,7 +17,7 @@ SAMPLE_TOLERANCE = 1e-6  # of a sample period
 TIME_TOLERANCE = 1e-15  # of the time
 POINT_TOLERANCE = 1e-3  # of a step: communication points carry the rounding of whoever adds them up
 
-SCALAR, VECTOR, LIST, RECORD = -1, -2, -3, -4  # in place of an element's number: all of a variable
+SCALAR, VECTOR, LIST, RECORD, MATRIX = -1, -2, -3, -4, -5  # in place of an element's number: all of a variable
 Access = tuple[str, int, int, int]  # variable, element or one of the above, place of its values and their end
 
 
@@ -72,6 +73,7 @@ class Component:
             whole = index == 0 and references[position:end] == tuple(range(first, first + variable.size))
             if whole:
                 index = RECORD if variable.record else VECTOR if variable.is_vector else LIST
+                index = MATRIX if variable.shape else index
             else:
                 end = position + 1
             accesses.append((name, index, position, end))
@@ -91,13 +93,13 @@ class Component:
         for name, index, _, _ in self.accesses(references):
             if index == SCALAR:
                 values.append(held[name])
-            elif index in (VECTOR, RECORD):
+            elif index in (VECTOR, RECORD, MATRIX):
                 values += held[name].elements()
             elif index == LIST:
                 values += held[name]
             else:
                 value = held[name]
-                values.append((value.elements() if isinstance(value, Record) else value)[index])
+                values.append((value.elements() if isinstance(value, Record | Matrix) else value)[index])
         return values
 
     def values(self) -> list:
@@ -122,11 +124,13 @@ class Component:
                 held[name] = vector(*values[position:end])
             elif index == RECORD:
                 held[name] = type(held[name]).of_elements(values[position:end])
+            elif index == MATRIX:
+                held[name].rows = Matrix.of_elements(values[position:end], held[name].shape[1]).rows
             elif index == LIST:
                 held[name][:] = values[position:end]
             else:
                 value = held[name]
-                changed = list(value.elements() if isinstance(value, Record) else value)
+                changed = list(value.elements() if isinstance(value, Record | Matrix) else value)
                 changed[index] = values[position]
                 setattr(self.block, name, changed)
 

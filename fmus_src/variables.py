@@ -1,7 +1,7 @@
 """What a block declares: inputs, parameters, states and outputs, each with start, unit, description and bounds.
 
 Values live on the block under the same names: floats, ints and bools; vectors (`kernel.vector_types`) for two to four
-Reals; records; lists for everything else.
+Reals; matrices (`kernel.matrix_types`); records; lists for everything else.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from .kernel.enumerations import Enumeration
+from .kernel.matrix_types import Matrix
 from .kernel.records import Field, Record, count_numbers, flat_fields, replace
 from .kernel.vector_types import VECTORS, vector
 from .units import unit_definition
@@ -33,15 +34,16 @@ class DeclarationError(TypeError):
 class Variable:
     """One declared variable: start value, unit, description, bounds.
 
-    ``declared`` is the start value and fixes type and size: a float, int or bool, or a list of equal ones. Or it is an
-    `Enumeration`, which gives bounds and the end of the description; ``start`` is then its first member or another.
-    ``unit`` is a name that `fmus_src.units` understands; ``minimum``, ``maximum`` and ``nominal`` hold per element;
-    ``frame`` names the frame that a vector's components refer to. ``columns`` makes the list a matrix in row order,
-    whose elements are named by row and column.
+    ``declared`` is the start value and fixes type and size: a float, int or bool, a list of equal ones, or a `Matrix`
+    of floats. Or it is an `Enumeration`, which gives bounds and the end of the description; ``start`` is then its
+    first member or another. ``unit`` is a name that `fmus_src.units` understands; ``minimum``, ``maximum`` and
+    ``nominal`` hold per element; ``frame`` names the frame that a vector's components refer to. A list with ``columns``
+    is that of a matrix in row order, whose elements are named by row and column; a `Matrix` makes one whose elements
+    are numbered through.
 
     Two to four Reals are a vector: a value that is stored as a whole, ``self.velocity = self.velocity + gained``.
-    More of them, Integers, Booleans, what has ``columns`` and what says ``vector=False`` are a list, whose
-    elements are assigned. Either takes any sequence of its size, and copies it.
+    More of them, Integers, Booleans and what says ``vector=False`` are a list, whose elements are assigned. Each takes
+    any sequence of its size, a matrix its rows, too, and copies it.
     """
 
     causality: ClassVar[str]
@@ -66,8 +68,7 @@ class Variable:
             description = declared.describe(description)
             declared = minimum if start is None else start
         self.record: type[Record] | None = type(declared) if isinstance(declared, Record) else None
-        elements = declared.elements() if self.record else declared
-        self.start: Value = list(elements) if is_several(declared) else declared
+        self.start: Value = _flatten(declared) if is_several(declared) else declared
         self.unit = unit
         self.description = description
         self.frame = frame
@@ -75,9 +76,11 @@ class Variable:
         self.maximum = maximum
         self.nominal = nominal
         self.columns = columns
+        width = declared.shape[1] if isinstance(declared, Matrix) else columns
+        self.shape = (self.size // width, width) if width and self.is_array else None  # rows and columns of a matrix
         self.is_vector = (
             vector
-            and columns is None
+            and self.shape is None
             and self.record is None
             and isinstance(self.start, list)
             and self.size in VECTORS
@@ -85,8 +88,11 @@ class Variable:
         )
         self.name = ""
         if self.is_array:
-            storing = _StoresRecord if self.record else _StoresVector if self.is_vector else _StoresList
-            self.__class__ = _that_stores(type(self), storing)  # type: ignore[arg-type]
+            how = (
+                _StoresRecord if self.record else _StoresMatrix if self.shape else _StoresVector if self.is_vector
+                else _StoresList
+            )  # fmt: skip
+            self.__class__ = _that_stores(type(self), how)  # type: ignore[arg-type]
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
@@ -166,14 +172,14 @@ class Variable:
     def with_start(self, start: Any) -> Any:
         """The same variable with another start value, for thin variants of a block."""
         other = copy.copy(self)
-        other.start = list(start) if isinstance(start, list | tuple) else start
+        other.start = _flatten(start) if is_several(start) else start
         return other
 
     def check_start(self, block: Any, values: Any) -> list:
         """The values of any sequence as elements; raises TypeError where their number or type does not fit."""
         where = f"{block.fmu_name}.{self.name}"
         try:
-            elements = list(values)
+            elements = _flatten(values)
         except TypeError:
             elements = []
         if len(elements) != self.size:
@@ -201,6 +207,18 @@ class _StoresRecord(Variable):
             assert self.record is not None
             value = self.record.of_elements(self.check_start(instance, value))
         instance.__dict__[self.name] = value
+
+
+class _StoresMatrix(Variable):
+    """A variable whose matrix is never another: assignment copies the elements."""
+
+    def __set__(self, instance: Any, value: Any) -> None:
+        assert self.shape is not None
+        if value.__class__ is Matrix and value.shape == self.shape:
+            given = value.copy()
+        else:
+            given = Matrix.of_elements(self.check_start(instance, value), self.shape[1])
+        instance.__dict__.setdefault(self.name, given).rows = given.rows
 
 
 class _StoresList(Variable):
@@ -271,7 +289,15 @@ class Output(Variable):
 
 def is_several(start: Any) -> bool:
     """Whether a start value has several elements."""
-    return isinstance(start, list | tuple | Record)
+    return isinstance(start, list | tuple | Record | Matrix)
+
+
+def _flatten(values: Any) -> list:
+    """The elements of a sequence, a record, or a matrix, also where that is given by its rows."""
+    if isinstance(values, Record | Matrix):
+        return list(values.elements())
+    elements = list(values)
+    return [each for row in elements for each in row] if elements and hasattr(elements[0], "__len__") else elements
 
 
 def _about(declared: Variable | Field) -> str:

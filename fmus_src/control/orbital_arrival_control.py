@@ -2,7 +2,6 @@
 
 import math
 
-from ..kernel.matrices import element
 from ..mathlib.orbits.attitude import angle_rates
 from ..mathlib.vectors import vector
 from .orbital_control import OrbitalControl
@@ -43,7 +42,7 @@ class OrbitalArrivalControl(OrbitalControl):
         if beyond > 0.0:
             wanted = led - math.copysign(beyond, error) / left
         change = wanted - rate
-        mobility = element(self.inverse_inertia, 3, k, k)
+        mobility = self.inverse_inertia[k, k]
         worth = WORTHWHILE * abs(wanted)
         minimum = mobility * self.jet_torque[k] * self.shortest_pulse
         if worth < minimum:

@@ -1,8 +1,8 @@
 """Orbital attitude by placed poles."""
 
 from ..block import State
-from ..kernel.matrices import add_diagonal, multiply, row, set_row
-from ..mathlib.orbits.attitude import ANGLES, RATES, apply_matrix, linear_model
+from ..kernel.matrices import diagonal
+from ..mathlib.orbits.attitude import ANGLES, RATES, linear_model
 from ..mathlib.vectors import vector
 from .orbital_control import OrbitalControl
 
@@ -19,27 +19,12 @@ class OrbitalModalControl(OrbitalControl):
     rate_gain = State([0.0] * 9, columns=3, description="torque over angular velocity less the orbit's, N m s, body")
 
     def begin(self) -> None:
-        a = [0.0] * 36
-        a11 = [0.0] * 9
-        n = [0.0] * 9
-        by_angles = [0.0] * 9  # N A11 - S0 N - A21
-        by_rates = [0.0] * 9  # N + S0 - A22
-        linear_model(self.inertia, self.inverse_inertia, self.orbital_rate, a)
-        for i in range(3):
-            set_row(a11, 3, i, 0, row(a, 6, ANGLES + i, ANGLES))
-            set_row(n, 3, i, 0, -row(a11, 3, i, 0))
-        add_diagonal(n, 3, 0, 0, -self.angle_poles)
-        multiply(n, a11, by_angles, 3)
-        for i in range(3):
-            a21 = row(a, 6, RATES + i, ANGLES)
-            a22 = row(a, 6, RATES + i, RATES)
-            set_row(by_angles, 3, i, 0, row(by_angles, 3, i, 0) + self.rate_poles[i] * row(n, 3, i, 0) - a21)
-            set_row(by_rates, 3, i, 0, row(n, 3, i, 0) - a22)
-        add_diagonal(by_rates, 3, 0, 0, -self.rate_poles)
-        multiply(self.inertia, by_angles, self.angle_gain, 3)
-        multiply(self.inertia, by_rates, self.rate_gain, 3)
+        a = linear_model(self.inertia, self.inverse_inertia, self.orbital_rate)
+        s0 = -diagonal(self.rate_poles)
+        n = -a[ANGLES, ANGLES] - diagonal(self.angle_poles)
+        self.angle_gain = self.inertia @ (n @ a[ANGLES, ANGLES] - s0 @ n - a[RATES, ANGLES])
+        self.rate_gain = self.inertia @ (n - a[RATES, RATES] + s0)
 
     def regulate(self, time: float) -> None:
         relative = self.estimated_angular_velocity + vector(0.0, 0.0, self.orbital_rate)
-        by_angles = apply_matrix(self.angle_gain, self.estimated_angles)
-        self.torque_command = by_angles + apply_matrix(self.rate_gain, relative)
+        self.torque_command = self.angle_gain @ self.estimated_angles + self.rate_gain @ relative

@@ -2,8 +2,6 @@
 
 from ..block import Parameter
 from ..kernel.functions import cos, log, sin
-from ..kernel.matrices import row
-from ..mathlib.orbits.attitude import apply_matrix
 from ..mathlib.vectors import Vector3, dot, vector
 from .entry_control import EntryControl
 
@@ -33,8 +31,8 @@ class OutputFeedback(EntryControl):
 
     def gain_row(self, i: int, fraction: float) -> Vector3:
         """Row i of gains, a fraction of the way to that of the next pressure."""
-        low = row(self.gains, 3, i, 0)
-        return low + fraction * (row(self.gains, 3, i + 2, 0) - low)
+        low = self.gains[i, :]
+        return low + fraction * (self.gains[i + 2, :] - low)
 
     def regulate(self) -> Vector3:
         c0 = cos(self.trim_attack)
@@ -51,7 +49,7 @@ class OutputFeedback(EntryControl):
             fraction = log(p / self.pressures[k]) / log(self.pressures[k + 1] / self.pressures[k])
         if fraction > 1.0:
             fraction = 1.0
-        feed = apply_matrix(self.inertia, self.reference.bank_acceleration * vector(c0, -s0, 0.0))
+        feed = self.inertia @ (self.reference.bank_acceleration * vector(c0, -s0, 0.0))
         x = dot(self.gain_row(2 * k, fraction), errors) + feed.x
         y = dot(self.gain_row(2 * k + 1, fraction), errors) + feed.y
         return vector(x, y, -self.pitch_damping * self.measured_angular_velocity.z)

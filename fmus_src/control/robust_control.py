@@ -2,7 +2,6 @@
 
 from ..block import Parameter
 from ..kernel.functions import cos, sin
-from ..mathlib.orbits.attitude import apply_matrix
 from ..mathlib.vectors import Vector3, clip, vector
 from .entry_control import EntryControl
 
@@ -38,4 +37,4 @@ class RobustControl(EntryControl):
         wanted = clip(wanted, -self.largest_acceleration, self.largest_acceleration)
         damped = -self.sideslip_damping * across
         turn = vector(c0 * wanted + s0 * damped, c0 * damped - s0 * wanted, -self.pitch_damping * w.z)
-        return apply_matrix(self.inertia, turn)
+        return self.inertia @ turn

@@ -66,7 +66,7 @@ class NetworkOperatorLaw(Block, interface=True):
     def evaluate_law(self, path_angle: float, altitude: float, final_altitude: float) -> None:
         """The nodes for a path angle (rad) and altitudes (m); the law must be good."""
         for j in range(SOURCES, SIZE):
-            self.nodes[j] = neutral(self.matrix[(SIZE + 1) * j])
+            self.nodes[j] = neutral(self.matrix[j, j])
         self.nodes[0] = math.pi + path_angle
         self.nodes[1] = self.q[0]
         self.nodes[2] = (final_altitude - altitude) / self.reference_altitude

@@ -1,39 +1,41 @@
 """Cubic splines through tabulated values at even steps. Kernel functions.
 
-Several curves lie behind each other in one list, n values each; ``first`` is the place of a curve's first. The second
-derivative is 0 at the last knot, and at the first one it is 0 or, clamped, the slope is.
+Each row of a matrix is a curve of n values. The second derivative is 0 at the last knot, and at the first one it is 0
+or, clamped, the slope is.
 Source: Press, Teukolsky, Vetterling and Flannery 2007, section 3.3.
 """
 
+from ..kernel.matrices import Matrix
 
-def curvatures(values: list, first: int, n: int, step: float, clamped: bool, result: list) -> None:
-    """result[first : first + n] = second derivatives at the knots of one curve, by Thomas's elimination; n <= 20."""
+
+def curvatures(values: Matrix, row: int, n: int, step: float, clamped: bool, result: Matrix) -> None:
+    """result[row, :] = second derivatives at the knots of one curve, by Thomas's elimination; n <= 20."""
     upper = [0.0] * 20
     right = [0.0] * 20
     if clamped:
         upper[0] = 0.5
-        right[0] = 3.0 / (step * step) * (values[first + 1] - values[first])
+        right[0] = 3.0 / (step * step) * (values[row, 1] - values[row, 0])
     for i in range(1, n - 1):
         pivot = 4.0 - upper[i - 1]
-        bend = (values[first + i + 1] - 2.0 * values[first + i] + values[first + i - 1]) / (step * step)
+        bend = (values[row, i + 1] - 2.0 * values[row, i] + values[row, i - 1]) / (step * step)
         upper[i] = 1.0 / pivot
         right[i] = (6.0 * bend - right[i - 1]) / pivot
-    result[first + n - 1] = 0.0
+    result[row, n - 1] = 0.0
     for k in range(1, n):
         i = n - 1 - k
-        result[first + i] = right[i] - upper[i] * result[first + i + 1]
+        result[row, i] = right[i] - upper[i] * result[row, i + 1]
 
 
-def cubic_value(values: list, second: list, first: int, n: int, step: float, x: float) -> float:
+def cubic_value(values: Matrix, second: Matrix, row: int, n: int, step: float, x: float) -> float:
     """A curve at x, counted from its first knot; the end values beyond the ends, the first for what is no number."""
     if not x > 0.0:
-        return values[first]
+        return values[row, 0]
     if x >= step * float(n - 1):
-        return values[first + n - 1]
+        return values[row, n - 1]
     k = int(x / step)
     if k > n - 2:
         k = n - 2
     b = x / step - float(k)
     a = 1.0 - b
-    bend = (a * a * a - a) * second[first + k] + (b * b * b - b) * second[first + k + 1]
-    return a * values[first + k] + b * values[first + k + 1] + step * step / 6.0 * bend
+    bend = (a * a * a - a) * second[row, k] + (b * b * b - b) * second[row, k + 1]
+    return a * values[row, k] + b * values[row, k + 1] + step * step / 6.0 * bend

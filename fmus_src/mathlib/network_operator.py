@@ -24,6 +24,7 @@ Sofronova 2013 (size, sources and the numbers in use). The numbers of maximum an
 import math
 
 from ..kernel.functions import atan, cbrt, cos, exp, expm1, log, log1p, sin, tanh
+from ..kernel.matrices import Matrix
 from .vectors import clip
 
 SIZE = 16
@@ -130,31 +131,30 @@ def neutral(operation: int) -> float:
     return LARGEST
 
 
-def decode(matrix: list, edges: list) -> int:
-    """Fill ``edges`` with the places in ``matrix`` (row order) of its edges and count them.
+def decode(matrix: Matrix, edges: list) -> int:
+    """Fill ``edges`` with the places of a matrix's edges, counted in row order, and count them.
 
     -1 where the matrix is no network operator: an unknown operation, or an entry below the diagonal.
     """
     count = 0
     for row in range(SIZE):
         for column in range(SIZE):
-            place = SIZE * row + column
-            operation = matrix[place]
+            operation = matrix[row, column]
             if row == column:
                 if not is_binary(operation):
                     return -1
             elif operation != 0:
                 if row > column or not is_unary(operation):
                     return -1
-                edges[count] = place
+                edges[count] = SIZE * row + column
                 count = count + 1
     return count
 
 
-def evaluate(matrix: list, edges: list, count: int, exp_saturation: float, nodes: list) -> None:
+def evaluate(matrix: Matrix, edges: list, count: int, exp_saturation: float, nodes: list) -> None:
     """The nodes of a decoded network; in: the sources' values and, elsewhere, the neutral elements."""
     for k in range(count):
         row = edges[k] // SIZE
         column = edges[k] % SIZE
-        value = unary(matrix[edges[k]], nodes[row], exp_saturation)
-        nodes[column] = binary(matrix[(SIZE + 1) * column], nodes[column], value)
+        value = unary(matrix[row, column], nodes[row], exp_saturation)
+        nodes[column] = binary(matrix[column, column], nodes[column], value)

@@ -11,7 +11,7 @@ import math
 
 from ..kernel.elementary.two_doubles import ROUND
 from ..kernel.functions import cos, log
-from ..kernel.matrices import element
+from ..kernel.matrices import Matrix, matrix
 from .vectors import Vector3, vector
 
 M1 = 4294967087.0
@@ -57,19 +57,19 @@ def square(power: list, cube: list, m: float) -> None:
     power[2] = multiply_modulo(d3, cube[2], d2, m)
 
 
-def transform(state: list, offset: int, matrix: list, image: list, m: float) -> None:
-    """image = matrix state[offset : offset + 3] mod m, for a 3x3 matrix in row order."""
+def transform(state: list, offset: int, a: Matrix, image: list, m: float) -> None:
+    """image = a state[offset : offset + 3] mod m, for a 3 x 3 matrix."""
     for i in range(3):
         v = 0.0
         for k in range(3):
-            v = multiply_modulo(element(matrix, 3, i, k), state[offset + k], v, m)
+            v = multiply_modulo(a[i, k], state[offset + k], v, m)
         image[i] = v
 
 
-def jump(state: list, offset: int, matrix: list, cube: list, count: int, m: float) -> None:
-    """state[offset : offset + 3] = matrix^count state mod m, by repeated squaring from the first bit of count on.
+def jump(state: list, offset: int, a: Matrix, cube: list, count: int, m: float) -> None:
+    """state[offset : offset + 3] = a^count state mod m, by repeated squaring from the first bit of count on.
 
-    ``cube`` is t0, t1, t2 of matrix^3 = t0 + t1 matrix + t2 matrix^2 (Cayley and Hamilton), by which every power
+    ``cube`` is t0, t1, t2 of a^3 = t0 + t1 a + t2 a^2 (Cayley and Hamilton), by which every power
     is a polynomial of degree two in it: squaring that takes 12 products, squaring the matrix 27 (for generators over
     bits: Haramoto, Matsumoto, Nishimura, Panneton and L'Ecuyer, INFORMS Journal on Computing 20(3), 2008).
     """
@@ -88,8 +88,8 @@ def jump(state: list, offset: int, matrix: list, cube: list, count: int, m: floa
                 power[0] = multiply_modulo(last, cube[0], 0.0, m)
         once = [0.0] * 3
         twice = [0.0] * 3
-        transform(state, offset, matrix, once, m)
-        transform(once, 0, matrix, twice, m)
+        transform(state, offset, a, once, m)
+        transform(once, 0, a, twice, m)
         for i in range(3):
             v = multiply_modulo(power[0], state[offset + i], 0.0, m)
             v = multiply_modulo(power[1], once[i], v, m)
@@ -104,55 +104,31 @@ def seed_streams(state: list, seed: int, stream: int) -> None:
     for i in range(6):
         state[i] = 12345.0
     # A1^(2^127), A2^(2^127): one stream
-    a1 = [
-        2427906178.0,
-        3580155704.0,
-        949770784.0,
-        226153695.0,
-        1230515664.0,
-        3580155704.0,
-        1988835001.0,
-        986791581.0,
-        1230515664.0,
-    ]
-    a2 = [
-        1464411153.0,
-        277697599.0,
-        1610723613.0,
-        32183930.0,
-        1464411153.0,
-        1022607788.0,
-        2824425944.0,
-        32183930.0,
-        2093834863.0,
-    ]
+    a1 = matrix(
+        [2427906178.0, 3580155704.0, 949770784.0],
+        [226153695.0, 1230515664.0, 3580155704.0],
+        [1988835001.0, 986791581.0, 1230515664.0],
+    )
+    a2 = matrix(
+        [1464411153.0, 277697599.0, 1610723613.0],
+        [32183930.0, 1464411153.0, 1022607788.0],
+        [2824425944.0, 32183930.0, 2093834863.0],
+    )
     a1_cube = [2714382928.0, 888045435.0, 593970419.0]
     a2_cube = [117492272.0, 4204460113.0, 727712726.0]
     jump(state, 0, a1, a1_cube, seed, M1)
     jump(state, 3, a2, a2_cube, seed, M2)
     # A1^(2^76), A2^(2^76): one substream
-    b1 = [
-        82758667.0,
-        1871391091.0,
-        4127413238.0,
-        3672831523.0,
-        69195019.0,
-        1871391091.0,
-        3672091415.0,
-        3528743235.0,
-        69195019.0,
-    ]
-    b2 = [
-        1511326704.0,
-        3759209742.0,
-        1610795712.0,
-        4292754251.0,
-        1511326704.0,
-        3889917532.0,
-        3859662829.0,
-        4292754251.0,
-        3708466080.0,
-    ]
+    b1 = matrix(
+        [82758667.0, 1871391091.0, 4127413238.0],
+        [3672831523.0, 69195019.0, 1871391091.0],
+        [3672091415.0, 3528743235.0, 69195019.0],
+    )
+    b2 = matrix(
+        [1511326704.0, 3759209742.0, 1610795712.0],
+        [4292754251.0, 1511326704.0, 3889917532.0],
+        [3859662829.0, 4292754251.0, 3708466080.0],
+    )
     b1_cube = [179953957.0, 1238372185.0, 221148705.0]
     b2_cube = [1350139077.0, 1707256826.0, 2436175045.0]
     jump(state, 0, b1, b1_cube, stream, M1)

@@ -31,7 +31,7 @@ class OrbitalBody(Block, interface=True):
 
     def weigh(self) -> bool:
         """Set inverse_inertia; whether the matrix of inertia has one."""
-        invertible = inverse(self.inertia, self.inverse_inertia, 3)
+        self.inverse_inertia, invertible = inverse(self.inertia)
         return invertible
 
     def motion(self, s: AttitudeState, torque: Vector3) -> AttitudeState:

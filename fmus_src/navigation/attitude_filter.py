@@ -5,7 +5,7 @@ import math
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, robot, sampling
 from ..interfaces.ports.robot import FilterMethod, SampleStatus
-from ..kernel.matrices import element, set_element
+from ..kernel.matrices import zeros
 from ..mathlib.attitude.quaternion import (
     angle_error,
     difference,
@@ -15,7 +15,7 @@ from ..mathlib.attitude.quaternion import (
     to_body,
     to_rotation_vector,
 )
-from ..mathlib.estimation.tracking import DISTURBANCE, RATE, TRACKED, measure_chain, predict_chain
+from ..mathlib.estimation.tracking import DISTURBANCE, RATE, TRACKED, measure_chain, predict_triple
 from ..mathlib.vectors import cross, dot, is_finite, vector
 
 # Inputs that the outputs depend on at once: all but the jets' torque, which is that of the step just past.
@@ -87,7 +87,7 @@ class AttitudeFilter(Block):
     samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
     status = Output(SampleStatus, direct=AT_ONCE)
     angular_velocity = body.ANGULAR_VELOCITY.state("estimate of the Kalman filter")
-    covariance = State([0.0] * 9, frozen=True, description="of attitude, rate and disturbance, row order, SI")
+    covariance = State(zeros(3, 3), frozen=True, description="of attitude, rate and disturbance, row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
     start_time = sampling.START_TIME.state()
     last_momentum = body.ANGULAR_MOMENTUM.state("gyro_momentum at the last step")
@@ -104,9 +104,8 @@ class AttitudeFilter(Block):
         self.last_momentum = self.gyro_momentum
         self.angular_velocity = self.planned_angular_velocity
         self.quaternion = self.planned_quaternion
-        set_element(self.covariance, 3, RATE, RATE, self.first_rate_sigma * self.first_rate_sigma)
-        disturbance = self.first_disturbance_sigma * self.first_disturbance_sigma
-        set_element(self.covariance, 3, DISTURBANCE, DISTURBANCE, disturbance)
+        self.covariance[RATE, RATE] = self.first_rate_sigma * self.first_rate_sigma
+        self.covariance[DISTURBANCE, DISTURBANCE] = self.first_disturbance_sigma * self.first_disturbance_sigma
         self.take_sample()
         if self.summed > 0:
             self.put_out_mean(self.start_time)
@@ -117,8 +116,7 @@ class AttitudeFilter(Block):
         jump = self.jet_force - self.last_force
         self.last_force = self.jet_force
         scale = 3.0 * self.jet_torque_error / (self.inertia.x + self.inertia.y + self.inertia.z)
-        widened = element(self.covariance, 3, DISTURBANCE, DISTURBANCE) + scale * scale * dot(jump, jump)
-        set_element(self.covariance, 3, DISTURBANCE, DISTURBANCE, widened)
+        self.covariance[DISTURBANCE, DISTURBANCE] += scale * scale * dot(jump, jump)
 
     def predict(self, h: float) -> None:
         """Move estimate and covariance by h (s): the total momentum stays in inertial axes but for the jets."""
@@ -131,7 +129,7 @@ class AttitudeFilter(Block):
         momentum = to_body(turned, momentum + impulse) + impulse
         self.angular_velocity = (momentum - self.gyro_momentum) / self.inertia
         self.widen()
-        predict_chain(self.covariance, self.process_noise, self.disturbance_noise, h, 3)
+        self.covariance = predict_triple(self.covariance, self.process_noise, self.disturbance_noise, h)
 
     def take_sample(self) -> None:
         """Take a new sample in, if it is one."""
@@ -148,23 +146,21 @@ class AttitudeFilter(Block):
             self.summed = self.summed + 1
         elif self.samples_taken == 1:
             self.quaternion = normalise(self.measured_quaternion)
-            set_element(self.covariance, 3, TRACKED, TRACKED, self.attitude_sigma * self.attitude_sigma)
-            for i in range(RATE, DISTURBANCE + 1):
-                set_element(self.covariance, 3, TRACKED, i, 0.0)
-                set_element(self.covariance, 3, i, TRACKED, 0.0)
+            self.covariance[TRACKED, :] = vector(0.0, 0.0, 0.0)
+            self.covariance[:, TRACKED] = vector(0.0, 0.0, 0.0)
+            self.covariance[TRACKED, TRACKED] = self.attitude_sigma * self.attitude_sigma
         else:
             self.correct()
 
     def correct(self) -> None:
         """Take the measured quaternion into the Kalman filter."""
-        gain = [0.0] * 3
         innovation = to_rotation_vector(difference(self.quaternion, self.measured_quaternion))
-        variance = measure_chain(self.covariance, self.attitude_sigma * self.attitude_sigma, gain, 3)
+        gain, self.covariance, variance = measure_chain(self.covariance, self.attitude_sigma * self.attitude_sigma)
         square = innovation * innovation / variance
         self.innovation_square = 0.0 + square.x + square.y + square.z
-        self.angular_velocity = self.angular_velocity + gain[1] * innovation
-        self.disturbance = self.disturbance + gain[2] * innovation
-        turned = from_rotation_vector(gain[0] * innovation)
+        self.angular_velocity = self.angular_velocity + gain[RATE, 0] * innovation
+        self.disturbance = self.disturbance + gain[DISTURBANCE, 0] * innovation
+        turned = from_rotation_vector(gain[TRACKED, 0] * innovation)
         self.quaternion = normalise(multiply(self.quaternion, turned))
 
     def put_out_mean(self, time: float) -> None:
@@ -188,8 +184,8 @@ class AttitudeFilter(Block):
         self.attitude_error = angle_error(self.planned_quaternion, self.quaternion)
         turned = difference(self.planned_quaternion, self.quaternion)
         self.rate_error = self.angular_velocity - to_body(turned, self.planned_angular_velocity)
-        self.attitude_error_sigma = math.sqrt(element(self.covariance, 3, TRACKED, TRACKED))
-        self.rate_error_sigma = math.sqrt(element(self.covariance, 3, RATE, RATE))
+        self.attitude_error_sigma = math.sqrt(self.covariance[TRACKED, TRACKED])
+        self.rate_error_sigma = math.sqrt(self.covariance[RATE, RATE])
 
     def step(self, t: float, h: float) -> None:
         if self.method != FilterMethod.MEAN:

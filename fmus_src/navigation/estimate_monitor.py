@@ -4,7 +4,7 @@ import math
 
 from ..block import Block, Output
 from ..interfaces.ports import landing
-from ..kernel.matrices import element, inverse_quadratic_form, set_element
+from ..kernel.matrices import inverse_quadratic_form, zeros
 from ..mathlib.vectors import vector
 
 
@@ -43,24 +43,23 @@ class EstimateMonitor(Block):
         """Compare the estimate with the truth."""
         position_error = self.estimated_position - self.position
         velocity_error = self.estimated_velocity - self.velocity
-        error = [0.0] * 6
-        for i in range(3):
-            error[i] = position_error[i]
-            error[3 + i] = velocity_error[i]
-        covariance = [0.0] * 36
+        error = zeros(6, 1)
+        error[0:3, 0] = position_error
+        error[3:6, 0] = velocity_error
+        covariance = zeros(6, 6)
         k = 0
         for i in range(6):
             for j in range(i, 6):
-                set_element(covariance, 6, j, i, self.estimate_covariance[k])
+                covariance[j, i] = self.estimate_covariance[k]
                 k = k + 1
         ratio = [0.0] * 6
         for i in range(6):
-            variance = element(covariance, 6, i, i)
+            variance = covariance[i, i]
             if variance > 0.0:
-                ratio[i] = error[i] / math.sqrt(variance)
+                ratio[i] = error[i, 0] / math.sqrt(variance)
         self.position_error_ratio = vector(*ratio[0:3])
         self.velocity_error_ratio = vector(*ratio[3:6])
-        self.normalised_error_square = inverse_quadratic_form(covariance, error, 6)
+        self.normalised_error_square = inverse_quadratic_form(covariance, error)
         if self.normalised_error_square < 0.0:
             self.normalised_error_square = 0.0
 

@@ -5,16 +5,17 @@ import math
 from ..block import Output, Parameter, State
 from ..interfaces.ports import landing, sampling
 from ..kernel.enumerations import Enumeration, member
-from ..kernel.matrices import element
-from ..mathlib.estimation.inertial import STATES, sensor_addition, start_errors
+from ..kernel.matrices import Matrix, block, zeros
+from ..mathlib.estimation.inertial import MOVING, POSITION, STATES, VELOCITY, sensor_addition, start_errors
 from ..mathlib.lunar.gravity import from_centre
 from ..mathlib.vectors import Vector3, norm, vector
 from ..units import deg
 from .inertial_navigation import InertialNavigation
 
-ALTITUDE = 0
-VELOCITY = 1
-POSITION = 2
+SENSOR_ERRORS = block(6, 9)  # of the states
+ALTIMETER = 0
+VELOCIMETER = 1
+CAMERA = 2
 
 
 class FilterStatus(Enumeration):
@@ -91,24 +92,26 @@ class FilteredNavigation(InertialNavigation, interface=True):
     )
     rejected_count = Output(0, direct=True, description="scalars rejected by the gate")
     status = Output(FilterStatus, direct=True)
-    sensor_errors = State([0.0] * 9, description="bias (m/s2), scale factor and misalignment (rad) per axis, estimated")
-    covariance = State([0.0] * 225, frozen=True, description="covariance of the fifteen states, row order, SI")
+    sensor_errors = State(
+        zeros(9, 1), description="bias (m/s2), scale factor and misalignment (rad) per axis, estimated"
+    )
+    covariance = State(zeros(15, 15), frozen=True, description="covariance of the fifteen states, row order, SI")
     rejected_in_a_row = State([0] * 3, description="samples with a scalar rejected: altitude, velocity, position")
 
     def predict(self, h: float) -> None:
         """Predict the covariance h (s) ahead under the specific force."""
 
-    def weigh(self, row: list, ph: list, variance: float) -> float:
-        """Variance of a scalar's innovation; the covariance times the row of 15 in ph."""
+    def weigh(self, row: Matrix, variance: float) -> float:
+        """Variance of the innovation of a scalar, whose derivatives by the states are a row."""
         return 0.0
 
-    def take_in(self, row: list, ph: list, innovation: float, s: float, variance: float, correction: list) -> None:
-        """Update the covariance; correction (15 zeros) = what the innovation adds to the states."""
+    def take_in(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
+        """Update the covariance; what the innovation adds to the states, a column."""
+        return zeros(STATES, 1)
 
     def initialize(self) -> None:
         self.know()
-        start_errors(
-            self.covariance,
+        self.covariance = start_errors(
             self.first_position_sigma,
             self.first_velocity_sigma,
             self.bias_sigma,
@@ -121,9 +124,9 @@ class FilteredNavigation(InertialNavigation, interface=True):
     def compensate(self) -> None:
         """Take the estimated errors of the inertial sensor off the specific force."""
         if not self.free_flight:
-            bias = vector(*self.sensor_errors[0:3])
-            scale_factor = vector(*self.sensor_errors[3:6])
-            rotation = vector(*self.sensor_errors[6:9])
+            bias = self.sensor_errors[0:3, 0]
+            scale_factor = self.sensor_errors[3:6, 0]
+            rotation = self.sensor_errors[6:9, 0]
             self.force = self.force - sensor_addition(bias, scale_factor, rotation, self.force)
 
     def local_gradient(self) -> tuple[Vector3, float]:
@@ -134,21 +137,19 @@ class FilteredNavigation(InertialNavigation, interface=True):
             return up / distance, self.gravitational_parameter / (distance * distance * distance)
         return up, 0.0
 
-    def altitude(self, row: list) -> float:
-        """Estimated altitude (m); row[0:3] = its derivative by position."""
+    def altitude(self, row: Matrix) -> float:
+        """Estimated altitude (m); row = its derivatives by the states."""
         up = from_centre(self.estimated_position, self.moon_radius)
         distance = norm(up)
         if distance > 0.0:
             up = up / distance
-        for i in range(3):
-            row[i] = up[i]
+        row[0, POSITION] = up
         return distance - self.moon_radius
 
-    def consider(self, sensor: int, row: list, innovation: float, sigma: float) -> float:
+    def consider(self, sensor: int, row: Matrix, innovation: float, sigma: float) -> float:
         """Take a scalar in, or reject it; returns its normalised innovation squared."""
         variance = sigma * sigma
-        ph = [0.0] * 15
-        s = self.weigh(row, ph, variance)
+        s = self.weigh(row, variance)
         if not s > 0.0:
             return 0.0  # no error in estimate or sensor: nothing to learn
         square = innovation * innovation / s
@@ -159,15 +160,12 @@ class FilteredNavigation(InertialNavigation, interface=True):
                 self.rejected_count = self.rejected_count + 1
                 return square
             growth = (innovation * innovation - variance) / (s - variance)  # makes it a one-sigma innovation
-            for i in range(225):
-                self.covariance[i] = growth * self.covariance[i]
-            s = self.weigh(row, ph, variance)
-        correction = [0.0] * 15
-        self.take_in(row, ph, innovation, s, variance, correction)
-        self.estimated_position = self.estimated_position + vector(*correction[0:3])
-        self.estimated_velocity = self.estimated_velocity + vector(*correction[3:6])
-        for i in range(9):
-            self.sensor_errors[i] = self.sensor_errors[i] + correction[6 + i]
+            self.covariance = growth * self.covariance
+            s = self.weigh(row, variance)
+        correction = self.take_in(row, innovation, s, variance)
+        self.estimated_position = self.estimated_position + correction[POSITION, 0]
+        self.estimated_velocity = self.estimated_velocity + correction[VELOCITY, 0]
+        self.sensor_errors = self.sensor_errors + correction[SENSOR_ERRORS, :]
         return square
 
     def note(self, sensor: int, rejected_before: int) -> None:
@@ -180,27 +178,27 @@ class FilteredNavigation(InertialNavigation, interface=True):
 
     def measure(self) -> None:
         """Take the new samples in."""
-        radial = [0.0] * 15
+        radial = zeros(1, STATES)
         before = self.rejected_count
         if self.altitude_count != self.altitude_taken:
             self.altitude_taken = self.altitude_count
             altitude = self.altitude(radial)
             sigma = self.altitude_relative_sigma * abs(altitude) + self.altitude_sigma
             innovation = self.measured_altitude - altitude
-            self.altitude_innovation_square = self.consider(ALTITUDE, radial, innovation, sigma)
-            self.note(ALTITUDE, before)
+            self.altitude_innovation_square = self.consider(ALTIMETER, radial, innovation, sigma)
+            self.note(ALTIMETER, before)
         before = self.rejected_count
         if self.velocity_count != self.velocity_taken:
             self.velocity_taken = self.velocity_count
             sigma = self.velocity_relative_sigma * norm(self.estimated_velocity) + self.velocity_sigma
             total = 0.0
             for i in range(3):
-                row = [0.0] * 15
-                row[3 + i] = 1.0
-                square = self.consider(VELOCITY, row, self.measured_velocity[i] - self.estimated_velocity[i], sigma)
+                row = zeros(1, STATES)
+                row[0, 3 + i] = 1.0
+                square = self.consider(VELOCIMETER, row, self.measured_velocity[i] - self.estimated_velocity[i], sigma)
                 total = total + square
             self.velocity_innovation_square = total
-            self.note(VELOCITY, before)
+            self.note(VELOCIMETER, before)
         before = self.rejected_count
         if self.position_count != self.position_taken:
             self.position_taken = self.position_count
@@ -208,33 +206,33 @@ class FilteredNavigation(InertialNavigation, interface=True):
             sigma = self.position_relative_sigma * abs(altitude) + self.position_sigma
             total = 0.0
             for i in range(3):
-                row = [0.0] * 15
-                row[i] = 1.0
-                square = self.consider(POSITION, row, self.measured_position[i] - self.estimated_position[i], sigma)
+                row = zeros(1, STATES)
+                row[0, i] = 1.0
+                square = self.consider(CAMERA, row, self.measured_position[i] - self.estimated_position[i], sigma)
                 total = total + square
             self.position_innovation_square = total
-            self.note(POSITION, before)
+            self.note(CAMERA, before)
 
     def publish(self) -> None:
         """Put sigmas, covariance, bias and status on the outputs."""
         self.status = FilterStatus.GOOD
-        self.estimated_bias = vector(*self.sensor_errors[0:3])
+        self.estimated_bias = self.sensor_errors[0:3, 0]
         for i in range(3):
             if self.rejected_in_a_row[i] >= self.rejection_limit:
                 self.status = FilterStatus.LOCKED_OUT
             elif self.rejected_in_a_row[i] > 0 and self.status == FilterStatus.GOOD:
                 self.status = FilterStatus.REJECTED
         k = 0
-        for i in range(6):
-            for j in range(i, 6):
-                self.estimate_covariance[k] = element(self.covariance, STATES, i, j)
+        for i in range(MOVING):
+            for j in range(i, MOVING):
+                self.estimate_covariance[k] = self.covariance[i, j]
                 k = k + 1
         for i in range(STATES):
-            if not element(self.covariance, STATES, i, i) >= 0.0:
+            if not self.covariance[i, i] >= 0.0:
                 self.status = FilterStatus.NOT_POSITIVE
         sigmas = [0.0] * 6
         for i in range(6):
-            variance = element(self.covariance, STATES, i, i)
+            variance = self.covariance[i, i]
             if variance > 0.0:
                 sigmas[i] = math.sqrt(variance)
         self.position_estimate_sigma = vector(*sigmas[0:3])

@@ -1,7 +1,7 @@
 """What observers of the whole state have in common: one gain for angles and rates."""
 
 from ..block import State
-from ..kernel.matrices import element, set_element
+from ..kernel.matrices import Matrix
 from ..mathlib.orbits.attitude import YAW, AttitudeState, index_of_measured
 from ..mathlib.vectors import Vector3, vector
 from .attitude_observer import AttitudeObserver
@@ -16,12 +16,11 @@ class FullAttitudeObserver(AttitudeObserver, interface=True):
 
     gain = State([0.0] * 30, columns=5, description="of angles and rates (SI) over roll, pitch and rates measured")
 
-    def compose(self, m: list, row: list) -> None:
-        """gain = m (C' + e row): m 6 x 6 by rows, row of five."""
+    def compose(self, m: Matrix, row: list) -> None:
+        """gain = m (C' + e row): m 6 x 6, row of five."""
         for i in range(6):
             for j in range(5):
-                through = element(m, 6, i, index_of_measured(j))
-                set_element(self.gain, 5, i, j, through + element(m, 6, i, YAW) * row[j])
+                self.gain[i, j] = m[i, index_of_measured(j)] + m[i, YAW] * row[j]
 
     def correction(self, s: AttitudeState, roll: float, pitch: float, rates: Vector3) -> AttitudeState:
         """gain (m - C x): what a sample m (roll, pitch, rates) gives to a state x."""
@@ -33,5 +32,5 @@ class FullAttitudeObserver(AttitudeObserver, interface=True):
         change = [0.0] * 6
         for i in range(6):
             for j in range(5):
-                change[i] = change[i] + element(self.gain, 5, i, j) * missing[j]
+                change[i] = change[i] + self.gain[i, j] * missing[j]
         return AttitudeState(angles=vector(*change[0:3]), angular_velocity=vector(*change[3:6]))

@@ -1,7 +1,8 @@
 """Navigation through a Kalman filter."""
 
+from ..kernel.matrices import Matrix
 from ..mathlib.estimation.inertial import predict_errors
-from ..mathlib.estimation.kalman import correct, innovation_variance
+from ..mathlib.estimation.kalman import innovation_variance, take_in
 from .filtered_navigation import FilteredNavigation
 
 
@@ -18,8 +19,9 @@ class KalmanNavigation(FilteredNavigation):
         up, gradient = self.local_gradient()
         predict_errors(self.covariance, self.force, not self.free_flight, walk, drift, up, gradient, h)
 
-    def weigh(self, row: list, ph: list, variance: float) -> float:
-        return innovation_variance(self.covariance, row, ph, variance, 15)
+    def weigh(self, row: Matrix, variance: float) -> float:
+        return innovation_variance(self.covariance, row, variance)
 
-    def take_in(self, row: list, ph: list, innovation: float, s: float, variance: float, correction: list) -> None:
-        correct(correction, self.covariance, row, ph, innovation, s, variance, 15)
+    def take_in(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
+        gain, self.covariance = take_in(self.covariance, row, s, variance)
+        return gain * innovation

@@ -3,6 +3,7 @@
 import numpy as np
 from filterpy.kalman import KalmanFilter
 
+from ..kernel.matrices import Matrix
 from .filtered_navigation import FilteredNavigation
 
 
@@ -19,7 +20,7 @@ class KalmanNavigationFilterpy(FilteredNavigation):
     def filter(self) -> KalmanFilter:
         """A filter with the covariance; all its memory is in declared states."""
         made = KalmanFilter(dim_x=15, dim_z=1)
-        made.P = np.reshape(self.covariance, (15, 15))
+        made.P = np.array(self.covariance)
         return made
 
     def predict(self, h: float) -> None:
@@ -43,14 +44,14 @@ class KalmanNavigationFilterpy(FilteredNavigation):
         made.F[3:6, 0:6] += h * np.hstack([gradient, 0.5 * h * gradient])
         made.Q[6:9, 6:9] = self.bias_random_walk**2 * h * np.eye(3)
         made.predict()
-        self.covariance = made.P.ravel()
+        self.covariance = made.P
 
-    def weigh(self, row: list, ph: list, variance: float) -> float:
-        h = np.array(row)
+    def weigh(self, row: Matrix, variance: float) -> float:
+        (h,) = np.array(row)
         return float(h @ self.filter().P @ h + variance)
 
-    def take_in(self, row: list, ph: list, innovation: float, s: float, variance: float, correction: list) -> None:
+    def take_in(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
         made = self.filter()
-        made.update(np.array([[innovation]]), R=np.array([[variance]]), H=np.array([row]))
-        self.covariance = made.P.ravel()
-        correction[:] = made.x.ravel().tolist()
+        made.update(np.array([[innovation]]), R=np.array([[variance]]), H=np.array(row))
+        self.covariance = made.P
+        return Matrix(made.x.tolist())

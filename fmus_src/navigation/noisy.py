@@ -5,14 +5,14 @@ import math
 from ..block import Parameter, State
 from ..interfaces.navigation import Navigation
 from ..interfaces.ports import landing, sampling
-from ..kernel.matrices import element, identity, set_isotropic
+from ..kernel.matrices import block, identity, zeros
 from ..mathlib.estimation.kalman import predict, update
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import Vector3, vector
 
-# The states of the filter, by the first of each three.
-POSITION = 0
-VELOCITY = 3
+# The states of the filter.
+POSITION = block(0, 3)
+VELOCITY = block(3, 3)
 
 
 class NoisyNavigation(Navigation):
@@ -42,8 +42,8 @@ class NoisyNavigation(Navigation):
         "normalised innovation squared of the last scalar fix", direct=True
     )
     generator = sampling.GENERATOR.state()
-    estimate = State([0.0] * 6, description="position (m) and velocity (m/s), landing-site frame")
-    covariance = State([0.0] * 36, frozen=True, description="covariance of the estimate, row order, m and m/s")
+    estimate = State(zeros(6, 1), description="position (m) and velocity (m/s), landing-site frame")
+    covariance = State(zeros(6, 6), frozen=True, description="covariance of the estimate, row order, m and m/s")
     start_time = sampling.START_TIME.state()
     position_fixes = State(0, description="position fixes taken")
     velocity_fixes = State(0, description="velocity fixes taken")
@@ -52,11 +52,11 @@ class NoisyNavigation(Navigation):
         seed_streams(self.generator, self.seed, self.stream)
         for i in range(3):
             error = normal(self.generator)
-            self.estimate[i] = self.position[i] + self.first_position_sigma * error
+            self.estimate[i, 0] = self.position[i] + self.first_position_sigma * error
             error = normal(self.generator)
-            self.estimate[3 + i] = self.velocity[i] + self.first_velocity_sigma * error
-        set_isotropic(self.covariance, 6, POSITION, POSITION, self.first_position_sigma * self.first_position_sigma)
-        set_isotropic(self.covariance, 6, VELOCITY, VELOCITY, self.first_velocity_sigma * self.first_velocity_sigma)
+            self.estimate[3 + i, 0] = self.velocity[i] + self.first_velocity_sigma * error
+        self.covariance[POSITION, POSITION] = self.first_position_sigma * self.first_position_sigma * identity(3)
+        self.covariance[VELOCITY, VELOCITY] = self.first_velocity_sigma * self.first_velocity_sigma * identity(3)
         if self.position_sigma > 0.0 or self.velocity_sigma > 0.0:
             self.publish()
         else:
@@ -64,47 +64,46 @@ class NoisyNavigation(Navigation):
 
     def move(self, h: float) -> None:
         """Predict the estimate h (s) ahead."""
-        f = [0.0] * 36
-        q = [0.0] * 36
-        identity(f, 6)
-        set_isotropic(f, 6, POSITION, VELOCITY, h)
-        set_isotropic(q, 6, POSITION, POSITION, self.process_noise * h * h * h / 3.0)
-        set_isotropic(q, 6, POSITION, VELOCITY, self.process_noise * h * h / 2.0)
-        set_isotropic(q, 6, VELOCITY, POSITION, self.process_noise * h * h / 2.0)
-        set_isotropic(q, 6, VELOCITY, VELOCITY, self.process_noise * h)
-        predict(self.estimate, self.covariance, f, q, 6)
+        f = identity(6)
+        f[POSITION, VELOCITY] = h * identity(3)
+        q = zeros(6, 6)
+        q[POSITION, POSITION] = self.process_noise * h * h * h / 3.0 * identity(3)
+        q[POSITION, VELOCITY] = self.process_noise * h * h / 2.0 * identity(3)
+        q[VELOCITY, POSITION] = q[POSITION, VELOCITY]
+        q[VELOCITY, VELOCITY] = self.process_noise * h * identity(3)
+        self.estimate = f @ self.estimate
+        self.covariance = predict(self.covariance, f, q)
         force = self.specific_force
         if self.free_flight:
             force = vector(0.0, 0.0, 0.0)
         acceleration = vector(force.x, force.y, force.z - self.gravity)
-        for i in range(3):
-            self.estimate[i] = self.estimate[i] + 0.5 * acceleration[i] * h * h
-            self.estimate[3 + i] = self.estimate[3 + i] + acceleration[i] * h
+        self.estimate[POSITION, 0] += 0.5 * acceleration * h * h
+        self.estimate[VELOCITY, 0] += acceleration * h
 
     def fix(self, first: int, truth: Vector3, sigma: float) -> None:
         """Measure three states from number ``first`` on, with errors of sigma, and take them in."""
         for i in range(3):
-            row = [0.0] * 6
-            row[first + i] = 1.0
+            row = zeros(1, 6)
+            row[0, first + i] = 1.0
             error = normal(self.generator)
-            self.innovation_square = update(
-                self.estimate, self.covariance, row, sigma * sigma, truth[i] + sigma * error, 6
+            self.estimate, self.covariance, self.innovation_square = update(
+                self.estimate, self.covariance, row, sigma * sigma, truth[i] + sigma * error
             )
         self.sample_count = self.sample_count + 1
 
     def publish(self) -> None:
         """Put estimate and standard deviations on the outputs."""
-        self.estimated_position = vector(*self.estimate[0:3])
-        self.estimated_velocity = vector(*self.estimate[3:6])
+        self.estimated_position = self.estimate[POSITION, 0]
+        self.estimated_velocity = self.estimate[VELOCITY, 0]
         sigmas = [0.0] * 6
         for i in range(6):
-            sigmas[i] = math.sqrt(element(self.covariance, 6, i, i))
+            sigmas[i] = math.sqrt(self.covariance[i, i])
         self.position_estimate_sigma = vector(*sigmas[0:3])
         self.velocity_estimate_sigma = vector(*sigmas[3:6])
         k = 0
         for i in range(6):
             for j in range(i, 6):
-                self.estimate_covariance[k] = element(self.covariance, 6, i, j)
+                self.estimate_covariance[k] = self.covariance[i, j]
                 k = k + 1
 
     def pass_truth(self) -> None:
@@ -119,10 +118,10 @@ class NoisyNavigation(Navigation):
             elapsed = t + h - self.start_time
             if self.position_sigma > 0.0 and elapsed > (self.position_fixes + 1) * self.position_period - 1e-9:
                 self.position_fixes = self.position_fixes + 1
-                self.fix(POSITION, self.position, self.position_sigma)
+                self.fix(0, self.position, self.position_sigma)
             if self.velocity_sigma > 0.0 and elapsed > (self.velocity_fixes + 1) * self.velocity_period - 1e-9:
                 self.velocity_fixes = self.velocity_fixes + 1
-                self.fix(VELOCITY, self.velocity, self.velocity_sigma)
+                self.fix(3, self.velocity, self.velocity_sigma)
             self.publish()
         else:
             self.pass_truth()

@@ -4,15 +4,15 @@ import math
 
 from ..block import Parameter, State
 from ..interfaces.ports import body
-from ..kernel.matrices import element, identity, row, set_element, set_isotropic, set_row
+from ..kernel.matrices import block, identity, zeros
 from ..kernel.records import replace
 from ..mathlib.estimation.kalman import predict, update
-from ..mathlib.orbits.attitude import ANGLES, YAW, angle_rate_derivatives, angle_rates, apply_matrix
+from ..mathlib.orbits.attitude import ANGLES, PITCH, ROLL, YAW, angle_rate_derivatives, angle_rates
 from ..mathlib.vectors import Vector3, vector
 from ..units import deg
 from .attitude_observer import AttitudeObserver, ObserverStatus
 
-BIASES = 3  # after the angles in the covariance
+BIASES = block(3, 3)  # after the angles in the covariance
 
 
 class OrbitalFilter(AttitudeObserver):
@@ -31,28 +31,22 @@ class OrbitalFilter(AttitudeObserver):
     covariance = State([0.0] * 36, columns=6, frozen=True, description="of angles and biases, SI")
 
     def begin(self) -> bool:
-        set_isotropic(self.covariance, 6, ANGLES, ANGLES, self.vertical_sigma * self.vertical_sigma)
-        set_isotropic(self.covariance, 6, BIASES, BIASES, self.gyro_bias_sigma * self.gyro_bias_sigma)
-        set_element(self.covariance, 6, YAW, YAW, self.first_yaw_sigma * self.first_yaw_sigma)
+        self.covariance[ANGLES, ANGLES] = self.vertical_sigma * self.vertical_sigma * identity(3)
+        self.covariance[BIASES, BIASES] = self.gyro_bias_sigma * self.gyro_bias_sigma * identity(3)
+        self.covariance[YAW, YAW] = self.first_yaw_sigma * self.first_yaw_sigma
         return True
 
     def predict_covariance(self, angles: Vector3, w: Vector3) -> None:
         """The covariance a tick ahead, at angles (rad) and rates (rad/s) of its middle."""
         period = self.sample_period
-        by_angles = [0.0] * 9
-        by_rates = [0.0] * 9
-        transition = [0.0] * 36
-        noise = [0.0] * 36
-        unmoved = [0.0] * 6
-        angle_rate_derivatives(angles, w, self.orbital_rate, by_angles, by_rates)
+        by_angles, by_rates = angle_rate_derivatives(angles, w, self.orbital_rate)
+        f = identity(6)  # 1 + T df/dx, with the rates less the biases
+        f[ANGLES, ANGLES] = identity(3) + period * by_angles
+        f[ANGLES, BIASES] = -period * by_rates
         walk = self.gyro_sigma * period
-        identity(transition, 6)
-        for i in range(3):  # F = 1 + T df/dx, with the rates less the biases
-            angles_row = row(transition, 6, i, ANGLES) + period * row(by_angles, 3, i, 0)
-            set_row(transition, 6, i, ANGLES, angles_row)
-            set_row(transition, 6, i, BIASES, -period * row(by_rates, 3, i, 0))
-        set_isotropic(noise, 6, ANGLES, ANGLES, walk * walk)
-        predict(unmoved, self.covariance, transition, noise, 6)
+        q = zeros(6, 6)
+        q[ANGLES, ANGLES] = walk * walk * identity(3)
+        self.covariance = predict(self.covariance, f, q)
 
     def advance(self, w: Vector3) -> None:
         """Angles and covariance a tick ahead, at the mean angular velocity w (rad/s, body)."""
@@ -65,27 +59,28 @@ class OrbitalFilter(AttitudeObserver):
 
     def correct(self) -> None:
         """Take roll and pitch in."""
-        x = [0.0] * 6
-        for k in range(3):
-            x[k] = self.estimate.angles[k]
-            x[3 + k] = self.bias[k]
+        x = zeros(6, 1)
+        x[ANGLES, 0] = self.estimate.angles
+        x[BIASES, 0] = self.bias
         variance = self.vertical_sigma * self.vertical_sigma
-        of_roll = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
-        of_pitch = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
-        update(x, self.covariance, of_roll, variance, self.measured_roll, 6)
-        update(x, self.covariance, of_pitch, variance, self.measured_pitch, 6)
-        self.estimate = replace(self.estimate, angles=vector(*x[0:3]))
-        self.bias = vector(*x[3:6])
+        of_roll = zeros(1, 6)
+        of_roll[0, ROLL] = 1.0
+        of_pitch = zeros(1, 6)
+        of_pitch[0, PITCH] = 1.0
+        x, self.covariance, _ = update(x, self.covariance, of_roll, variance, self.measured_roll)
+        x, self.covariance, _ = update(x, self.covariance, of_pitch, variance, self.measured_pitch)
+        self.estimate = replace(self.estimate, angles=x[ANGLES, 0])
+        self.bias = x[BIASES, 0]
 
     def coning_correction(self) -> Vector3:
         """What the mean of the rates at both ends of a tick misses of its pulses (rad/s, body)."""
         px, py, pz = self.fired_pulses
         period = self.sample_period
         after = vector(period - abs(px), period - abs(py), period - abs(pz))
-        return apply_matrix(self.inverse_inertia, self.jet_torque * self.fired_pulses * after / (2.0 * period))
+        return self.inverse_inertia @ (self.jet_torque * self.fired_pulses * after / (2.0 * period))
 
     def observe(self) -> None:
-        gained = self.sample_period * apply_matrix(self.inverse_inertia, self.mean_torque(self.fired_pulses))
+        gained = self.sample_period * (self.inverse_inertia @ self.mean_torque(self.fired_pulses))
         mean = 0.5 * (self.last_rates + self.measured_angular_velocity)
         self.advance(mean + self.coning_correction() - self.bias)
         self.correct()
@@ -101,7 +96,7 @@ class OrbitalFilter(AttitudeObserver):
     def bound(self) -> None:
         """The filter's yaw is free; put out what it knows of it."""
         self.estimated_gyro_bias = self.bias
-        variance = element(self.covariance, 6, YAW, YAW)
+        variance = self.covariance[YAW, YAW]
         if variance > 0.0:
             self.yaw_sigma = math.sqrt(variance)
         elif self.usable:

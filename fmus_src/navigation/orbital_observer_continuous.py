@@ -1,8 +1,8 @@
 """Orbital attitude by a continuous observer of the whole state."""
 
 from ..block import Parameter
-from ..kernel.matrices import add_isotropic
-from ..mathlib.orbits.attitude import ANGLES, RATES, AttitudeState, linear_model
+from ..kernel.matrices import identity
+from ..mathlib.orbits.attitude import AttitudeState, linear_model
 from ..mathlib.vectors import Vector3
 from .full_attitude_observer import FullAttitudeObserver
 
@@ -19,13 +19,10 @@ class OrbitalObserverContinuous(FullAttitudeObserver):
     split = Parameter(False, description="follow each pulse instead of their mean")
 
     def begin(self) -> bool:
-        a = [0.0] * 36
+        a = linear_model(self.inertia, self.inverse_inertia, self.orbital_rate)
         row = [0.0] * 5
-        linear_model(self.inertia, self.inverse_inertia, self.orbital_rate, a)
-        add_isotropic(a, 6, ANGLES, ANGLES, self.measured_pole)
-        add_isotropic(a, 6, RATES, RATES, self.measured_pole)
         row[0] = -self.yaw_pole / self.orbital_rate
-        self.compose(a, row)
+        self.compose(a + self.measured_pole * identity(6), row)
         return True
 
     def derivatives(self, t: float, s: AttitudeState, torque: Vector3) -> AttitudeState:

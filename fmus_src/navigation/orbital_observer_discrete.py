@@ -2,8 +2,8 @@
 
 from ..block import Parameter
 from ..kernel.functions import exp
-from ..kernel.matrices import add_isotropic, element, exponential
-from ..mathlib.orbits.attitude import ANGLES, RATES, YAW, index_of_measured, linear_model
+from ..kernel.matrices import exponential, identity
+from ..mathlib.orbits.attitude import YAW, index_of_measured, linear_model
 from .full_attitude_observer import FullAttitudeObserver
 
 
@@ -20,28 +20,21 @@ class OrbitalObserverDiscrete(FullAttitudeObserver):
 
     def begin(self) -> bool:
         period = self.sample_period
-        a = [0.0] * 36
-        ahead = [0.0] * 36
-        back = [0.0] * 36
+        a = linear_model(self.inertia, self.inverse_inertia, self.orbital_rate)
+        ahead = exponential(a, period)
+        back = exponential(a, -period)
         row = [0.0] * 5
-        linear_model(self.inertia, self.inverse_inertia, self.orbital_rate, a)
-        exponential(a, period, ahead, 6)
-        exponential(a, -period, back, 6)
         square = 0.0
         for j in range(5):
-            row[j] = element(ahead, 6, index_of_measured(j), YAW)
+            row[j] = ahead[index_of_measured(j), YAW]
             square = square + row[j] * row[j]
         if not square > 0.0:
             return False
-        change = element(ahead, 6, YAW, YAW) - exp(-self.yaw_pole * period)
+        change = ahead[YAW, YAW] - exp(-self.yaw_pole * period)
         for j in range(5):
             row[j] = change * row[j] / square
         forgotten = exp(-self.measured_pole * period)
-        for i in range(36):
-            back[i] = -forgotten * back[i]
-        add_isotropic(back, 6, ANGLES, ANGLES, 1.0)
-        add_isotropic(back, 6, RATES, RATES, 1.0)
-        self.compose(back, row)
+        self.compose(identity(6) - forgotten * back, row)
         return True
 
     def observe(self) -> None:

@@ -5,8 +5,9 @@ import math
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, landing, robot, sampling
 from ..interfaces.ports.robot import FilterMethod, SampleStatus
+from ..kernel.matrices import zeros
 from ..mathlib.attitude.quaternion import normalise, to_reference
-from ..mathlib.estimation.tracking import measure_chain, predict_chain
+from ..mathlib.estimation.tracking import RATE, TRACKED, measure_chain, predict_pair
 from ..mathlib.vectors import Vector3, is_finite, norm, vector
 
 # Inputs that the outputs depend on at once: all but the force, which is that of the step just past.
@@ -76,7 +77,7 @@ class TranslationFilter(Block):
     innovation_square = sampling.INNOVATION_SQUARE.output(direct=AT_ONCE)
     samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
     status = Output(SampleStatus, direct=AT_ONCE)
-    covariance = State([0.0] * 4, vector=False, frozen=True, description="of position and velocity, row order, SI")
+    covariance = State(zeros(2, 2), frozen=True, description="of position and velocity, row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
     start_time = sampling.START_TIME.state()
     last_velocity = inertial.VELOCITY.state("planned_velocity at the last step")
@@ -94,7 +95,7 @@ class TranslationFilter(Block):
         self.ticks = self.translation_count
         self.last_velocity = self.planned_velocity
         self.last_quaternion = self.quaternion
-        self.covariance[3] = self.first_velocity_sigma * self.first_velocity_sigma
+        self.covariance[RATE, RATE] = self.first_velocity_sigma * self.first_velocity_sigma
         self.take_sample()
         if self.method == FilterMethod.MEAN:
             self.put_out_mean(self.start_time)
@@ -112,7 +113,7 @@ class TranslationFilter(Block):
         force = to_reference(middle, self.allocated_force)
         uncertain = self.force_error * norm(force) / self.mass
         density = self.process_noise + uncertain * uncertain * self.force_error_time
-        predict_chain(self.covariance, density, 0.0, h, 2)
+        self.covariance = predict_pair(self.covariance, density, h)
         gained = force / self.mass * h - (self.planned_velocity - self.last_velocity)
         self.position_error = self.position_error + h * (self.velocity_error + 0.5 * gained)
         self.velocity_error = self.velocity_error + gained
@@ -133,23 +134,22 @@ class TranslationFilter(Block):
             self.summed = self.summed + 1
         elif self.samples_taken == 1:
             sigma = self.sigma_now()
-            self.covariance[0] = sigma * sigma
-            self.covariance[1] = 0.0
-            self.covariance[2] = 0.0
+            self.covariance[TRACKED, TRACKED] = sigma * sigma
+            self.covariance[TRACKED, RATE] = 0.0
+            self.covariance[RATE, TRACKED] = 0.0
             self.position_error = error
         else:
             self.correct(error)
 
     def correct(self, error: Vector3) -> None:
         """Take a measured position error (m) into the Kalman filter."""
-        gain = [0.0] * 2
         sigma = self.sigma_now()
-        variance = measure_chain(self.covariance, sigma * sigma, gain, 2)
+        gain, self.covariance, variance = measure_chain(self.covariance, sigma * sigma)
         innovation = error - self.position_error
         square = innovation * innovation / variance
         self.innovation_square = 0.0 + square.x + square.y + square.z
-        self.position_error = self.position_error + gain[0] * innovation
-        self.velocity_error = self.velocity_error + gain[1] * innovation
+        self.position_error = self.position_error + gain[TRACKED, 0] * innovation
+        self.velocity_error = self.velocity_error + gain[RATE, 0] * innovation
 
     def put_out_mean(self, time: float) -> None:
         """Put the mean since the last tick out at ``time`` (s)."""
@@ -168,8 +168,8 @@ class TranslationFilter(Block):
     def publish(self) -> None:
         """Put the standard deviations on the outputs."""
         if self.method != FilterMethod.MEAN:
-            self.position_error_sigma = math.sqrt(self.covariance[0])
-            self.velocity_error_sigma = math.sqrt(self.covariance[3])
+            self.position_error_sigma = math.sqrt(self.covariance[TRACKED, TRACKED])
+            self.velocity_error_sigma = math.sqrt(self.covariance[RATE, RATE])
 
     def step(self, t: float, h: float) -> None:
         elapsed = t + h - self.last_time

@@ -7,7 +7,7 @@ from ..interfaces.ports import body, entry, landing, sampling
 from ..kernel.enumerations import Enumeration, member
 from ..kernel.functions import atan2
 from ..kernel.integrators import runge_kutta_4
-from ..kernel.matrices import inverse
+from ..kernel.matrices import Matrix, inverse
 from ..kernel.records import replace
 from ..mathlib.actuators.pulses import left_after, lengths_of, next_switch_off
 from ..mathlib.cubic_spline import cubic_value, curvatures
@@ -22,7 +22,6 @@ from ..mathlib.entry.motion import (
 )
 from ..mathlib.entry.newtonian_cap import cap_tables
 from ..mathlib.entry.standard_atmosphere import Air, air
-from ..mathlib.orbits.attitude import apply_matrix
 from ..mathlib.vectors import Vector3, cross, norm, vector
 from ..units import deg
 
@@ -124,12 +123,12 @@ class EntryCapsule(Block):
     counted = State(0, description="pulse_count of the last pulses")
 
     def initialize(self) -> None:
-        invertible = inverse(self.inertia, self.inverse_inertia, 3)
+        self.inverse_inertia, invertible = inverse(self.inertia)
         if not invertible:
             self.status = CapsuleStatus.NO_INERTIA
         for k in range(MACHS):
-            curvatures(self.axial_coefficient, KNOTS * k, KNOTS, ANGLE_STEP, True, self.axial_curvature)
-            curvatures(self.normal_coefficient, KNOTS * k, KNOTS, ANGLE_STEP, False, self.normal_curvature)
+            curvatures(self.axial_coefficient, k, KNOTS, ANGLE_STEP, True, self.axial_curvature)
+            curvatures(self.normal_coefficient, k, KNOTS, ANGLE_STEP, False, self.normal_curvature)
         self.state = EntryState(
             radius=self.earth_radius + self.initial_height,
             longitude=self.initial_longitude,
@@ -142,18 +141,20 @@ class EntryCapsule(Block):
         )
         self.publish()
 
-    def coefficient(self, values: list, second: list, mach: float, angle: float) -> float:
+    def coefficient(self, values: Matrix, second: Matrix, mach: float, angle: float) -> float:
         """A coefficient at a Mach number and a spatial angle of attack (rad)."""
         if mach <= self.mach_numbers[0]:
             return cubic_value(values, second, 0, KNOTS, ANGLE_STEP, angle)
         if mach >= self.mach_numbers[MACHS - 1]:
-            return cubic_value(values, second, KNOTS * (MACHS - 1), KNOTS, ANGLE_STEP, angle)
+            return cubic_value(values, second, MACHS - 1, KNOTS, ANGLE_STEP, angle)
         k = 0
-        while k < MACHS - 2 and mach >= self.mach_numbers[k + 1]:
-            k = k + 1
+        for i in range(1, MACHS - 1):
+            if not mach >= self.mach_numbers[i]:
+                break
+            k = i
         fraction = (mach - self.mach_numbers[k]) / (self.mach_numbers[k + 1] - self.mach_numbers[k])
-        below = cubic_value(values, second, KNOTS * k, KNOTS, ANGLE_STEP, angle)
-        above = cubic_value(values, second, KNOTS * (k + 1), KNOTS, ANGLE_STEP, angle)
+        below = cubic_value(values, second, k, KNOTS, ANGLE_STEP, angle)
+        above = cubic_value(values, second, k + 1, KNOTS, ANGLE_STEP, angle)
         return below + fraction * (above - below)
 
     def spatial_angle(self, v: Vector3) -> float:
@@ -197,7 +198,7 @@ class EntryCapsule(Block):
             flight_path_angle=path.flight_path_angle,
             heading=path.heading,
             attitude=attitude_rates(s.attitude, relative),
-            angular_velocity=apply_matrix(self.inverse_inertia, cross(apply_matrix(self.inertia, w), w) + moment),
+            angular_velocity=self.inverse_inertia @ (cross(self.inertia @ w, w) + moment),
         )
 
     def jet(self, positive: int, negative: int, length: float, time: float) -> float:

@@ -1,5 +1,6 @@
 """Matrices of kernels against numpy and rational numbers: within the rounding that the condition number allows."""
 
+import pickle
 from fractions import Fraction
 
 import numpy as np
@@ -7,25 +8,20 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from perilune.fmus_src.block import Block, State
 from perilune.fmus_src.kernel.matrices import (
-    add_diagonal,
-    add_isotropic,
-    add_outer,
+    Matrix,
     add_product,
-    column,
-    element,
+    block,
+    diagonal,
     exponential,
     identity,
     inverse,
     inverse_quadratic_form,
+    matrix,
     mirror,
-    multiply,
-    multiply_vector,
-    row,
-    set_column,
-    set_element,
-    set_isotropic,
-    set_row,
+    outer,
+    zeros,
 )
 from perilune.fmus_src.kernel.vector_types import vector
 
@@ -38,55 +34,129 @@ def random_matrices(seed, n, count=1):
     return np.random.default_rng(seed).normal(size=(count, n, n))
 
 
+def ours(a):
+    return Matrix(a.tolist())
+
+
 @settings(max_examples=50)
-@given(seeds, sizes)
-def test_products(seed, n):
-    a, b = random_matrices(seed, n, 2)
-    product = [0.0] * 36
-    multiply(a.ravel().tolist(), b.ravel().tolist(), product, n)
-    assert product[: n * n] == pytest.approx((a @ b).ravel(), abs=1e-13)
-    one = [7.0] * 36
-    identity(one, n)
-    assert one[: n * n] == np.eye(n).ravel().tolist()
+@given(seeds, st.integers(1, 15), st.integers(1, 15), st.integers(1, 15))
+def test_operators_are_those_of_numpy(seed, n, m, k):
+    generator = np.random.default_rng(seed)
+    a, b, c = generator.normal(size=(n, m)), generator.normal(size=(n, m)), generator.normal(size=(m, k))
+    x, y = ours(a), ours(b)
+    for mine, truth in (
+        (x + y, a + b),
+        (x - y, a - b),
+        (-x, -a),
+        (2.5 * x, 2.5 * a),
+        (x * 2.5, a * 2.5),
+        (x / 3.0, a / 3.0),
+        (x.T, a.T),
+        (x.copy(), a),
+    ):
+        assert np.array_equal(np.array(mine), truth)
+    assert np.array(x @ ours(c)) == pytest.approx(a @ c, abs=1e-13)
+    assert np.array_equal(np.array(np.float64(2.0) * x), 2.0 * a)
+    assert len(x) == n
+    assert x.shape == (n, m)
+    assert (x == y, x == x.copy()) == (False, True)
+
+
+@pytest.mark.parametrize("size", [2, 3, 4])
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 6])
+def test_a_matrix_times_a_vector(n, size):
+    a, v = np.random.default_rng(n).normal(size=(n, size)), vector(*[0.5, -2.0, 3.0, 1.5][:size])
+    product = ours(a) @ v
+    assert np.ravel(product if n in (1, 6) else [*product]) == pytest.approx(a @ [*v], abs=1e-14)
+
+
+def test_sums_run_from_the_first_product():
+    large = matrix([1e16, 1.0, -1e16])
+    assert (large @ matrix([1.0], [1.0], [1.0]))[0, 0] == (1e16 + 1.0) - 1e16
+    assert str((matrix([-0.0]) @ matrix([1.0]))[0, 0]) == "-0.0"
+
+
+@given(seeds, st.integers(5, 15), st.data())
+def test_elements_and_blocks_are_those_of_numpy(seed, n, data):
+    (a,) = random_matrices(seed, n)
+    actual = ours(a)
+    i, j = data.draw(st.integers(0, n - 3)), data.draw(st.integers(0, n - 3))
+    rows, columns = block(i, 3), block(j, 2)
+    assert actual[i, j] == a[i, j]
+    assert tuple(actual[i, columns]) == tuple(a[i, columns])
+    assert tuple(actual[rows, j]) == tuple(a[rows, j])
+    assert np.array_equal(np.array(actual[rows, columns]), a[rows, columns])
+    assert np.array_equal(np.array(actual[i, :]), a[i : i + 1, :])
+    assert np.array_equal(np.array(actual[:, j]), a[:, j : j + 1])
+    actual[j, i] = a[j, i] = 7.0
+    actual[i, columns] = vector(1.0, 2.0)
+    a[i, columns] = 1.0, 2.0
+    actual[rows, j] = vector(4.0, 5.0, 6.0)
+    a[rows, j] = 4.0, 5.0, 6.0
+    actual[rows, columns] += 0.5 * actual[rows, columns]
+    a[rows, columns] += 0.5 * a[rows, columns]
+    actual[:, i] = actual[:, j]
+    a[:, i] = a[:, j]
+    actual[i, :] = 2.0 * actual[i, :]
+    a[i, :] *= 2.0
+    mirror(actual, n - 1)
+    assert np.array_equal(np.array(actual), np.triu(a) + np.triu(a, 1).T)
+
+
+def test_what_does_not_fit_is_refused():
+    with pytest.raises(ValueError, match="unpack"):
+        identity(2) @ identity(3)
+    with pytest.raises(ValueError, match="argument 2 is longer"):
+        identity(2) + identity(3)
+    with pytest.raises(ValueError, match="3 x 3 elements for a block of 2 x 2"):
+        identity(3)[0:2, 0:2] = identity(3)
+    with pytest.raises(TypeError, match="a product of matrices is a @ b"):
+        identity(2) * identity(2)
+    with pytest.raises(IndexError):
+        identity(2)[0, 2]
+
+
+class Filter(Block):
+    """Has matrices."""
+
+    named = State([1.0, 2.0, 3.0, 4.0, 5.0, 6.0], columns=3, description="named by row and column")
+    numbered = State(zeros(2, 2), description="numbered through")
+
+    def step(self, t: float, h: float) -> None:
+        """Nothing."""
+
+
+def test_a_block_copies_its_matrices():
+    first, a = Filter(), identity(2)
+    first.numbered = a
+    held = first.numbered
+    a[0, 1] = 5.0
+    first.numbered = 2.0 * first.numbered
+    assert held is first.numbered
+    assert first.numbered == 2.0 * identity(2)
+    assert Filter().numbered == zeros(2, 2)
+    first.named = np.arange(6.0).reshape(2, 3)
+    assert first.named == matrix([0.0, 1.0, 2.0], [3.0, 4.0, 5.0])
+    assert Filter.variables["named"].element_names()[3] == "named[2,1]"
+    assert Filter.variables["numbered"].element_names()[3] == "numbered[4]"
+    with pytest.raises(TypeError, match="give a list of 4"):
+        first.numbered = identity(3)
+    assert pickle.loads(pickle.dumps(held)) == held
+    assert repr(held) == "matrix([2.0, 0.0], [0.0, 2.0])"
+
+
+def test_what_makes_matrices():
+    v, w = vector(1.0, 2.0, 3.0), vector(4.0, 5.0)
+    assert np.array_equal(np.array(diagonal(v)), np.diag([*v]))
+    assert np.array_equal(np.array(outer(v, w)), np.outer([*v], [*w]))
+    assert np.array_equal(np.array(identity(3)), np.eye(3))
 
 
 @settings(max_examples=50)
 @given(seeds, st.integers(1, 15))
 def test_sums_of_products(seed, n):
     a, b, q = random_matrices(seed, n, 3)
-    x, y = random_matrices(seed, n)[0][0], b[0]
-    total = [0.0] * n * n
-    add_product(a.ravel().tolist(), b.ravel().tolist(), q.ravel().tolist(), total, n)
-    assert total == pytest.approx((q + a @ b.T).ravel(), abs=1e-12)
-    add_outer(total, -0.5, x.tolist(), y.tolist(), n)
-    assert total == pytest.approx((q + a @ b.T - 0.5 * np.outer(x, y)).ravel(), abs=1e-12)
-    transformed = [0.0] * n
-    multiply_vector(a.ravel().tolist(), x.tolist(), transformed, n)
-    assert transformed == pytest.approx(a @ x, abs=1e-13)
-
-
-@given(seeds, st.integers(3, 15), st.data())
-def test_elements_and_blocks_are_those_of_numpy(seed, n, data):
-    (a,) = random_matrices(seed, n)
-    i, j = data.draw(st.integers(0, n - 3)), data.draw(st.integers(0, n - 3))
-    actual = a.ravel().tolist()
-    assert element(actual, n, i, j) == a[i, j]
-    assert tuple(row(actual, n, i, j)) == tuple(a[i, j : j + 3])
-    assert tuple(column(actual, n, i, j)) == tuple(a[i : i + 3, j])
-    set_element(actual, n, j, i, 7.0)
-    a[j, i] = 7.0
-    set_row(actual, n, i, j, vector(1.0, 2.0, 3.0))
-    a[i, j : j + 3] = 1.0, 2.0, 3.0
-    set_column(actual, n, j, i, vector(4.0, 5.0, 6.0))
-    a[j : j + 3, i] = 4.0, 5.0, 6.0
-    add_isotropic(actual, n, i, j, 0.5)
-    a[i : i + 3, j : j + 3] += 0.5 * np.eye(3)
-    add_diagonal(actual, n, j, i, vector(1.0, -2.0, 3.0))
-    a[j : j + 3, i : i + 3] += np.diag([1.0, -2.0, 3.0])
-    set_isotropic(actual, n, j, j, 8.0)
-    np.fill_diagonal(a[j : j + 3, j : j + 3], 8.0)
-    mirror(actual, n, n - 1)
-    assert actual == (np.triu(a) + np.triu(a, 1).T).ravel().tolist()
+    assert np.array(add_product(ours(q), ours(a), ours(b))) == pytest.approx(q + a @ b, abs=1e-12)
 
 
 @given(st.integers(1, 15), seeds)
@@ -94,37 +164,38 @@ def test_elements_and_blocks_are_those_of_numpy(seed, n, data):
 def test_an_inverse_quadratic_form_is_that_of_a_solved_system(n, seed):
     (root,) = random_matrices(seed, n)
     p = root @ root.T + np.eye(n)
-    e = np.random.default_rng(seed).normal(size=n)
-    retained = p.ravel().tolist()
-    assert inverse_quadratic_form(retained, e.tolist(), n) == pytest.approx(e @ np.linalg.solve(p, e), rel=1e-9)
-    assert retained == p.ravel().tolist()
+    e = np.random.default_rng(seed).normal(size=(n, 1))
+    form = inverse_quadratic_form(ours(p), ours(e))
+    assert form == pytest.approx((e.T @ np.linalg.solve(p, e)).item(), rel=1e-9)
 
 
 def test_an_inverse_quadratic_form_says_where_a_matrix_is_not_positive():
-    assert inverse_quadratic_form([1.0, 2.0, 2.0, 1.0], [1.0, 1.0], 2) == -1.0
-    assert inverse_quadratic_form([0.0], [0.0], 1) == -1.0
-    assert inverse_quadratic_form([float("nan")], [0.0], 1) == -1.0
+    assert inverse_quadratic_form(matrix([1.0, 2.0], [2.0, 1.0]), matrix([1.0], [1.0])) == -1.0
+    assert inverse_quadratic_form(matrix([0.0]), matrix([0.0])) == -1.0
+    assert inverse_quadratic_form(matrix([float("nan")]), matrix([0.0])) == -1.0
 
 
 @settings(max_examples=50)
 @given(seeds, sizes)
 def test_inverses(seed, n):
     (a,) = random_matrices(seed, n)
-    actual = [0.0] * 36
-    assert inverse(a.ravel().tolist(), actual, n)
+    actual, invertible = inverse(ours(a))
+    assert invertible
     bound = 50.0 * EPSILON * np.linalg.cond(a) * np.linalg.norm(np.linalg.inv(a))
-    assert np.linalg.norm(np.reshape(actual[: n * n], (n, n)) - np.linalg.inv(a)) < bound
+    assert np.linalg.norm(np.array(actual) - np.linalg.inv(a)) < bound
 
 
-@pytest.mark.parametrize("a", [[1.0, 2.0, 2.0, 4.0], [0.0, 0.0, 0.0, 0.0], [float("nan"), 0.0, 0.0, 1.0]])
+@pytest.mark.parametrize(
+    "a", [matrix([1.0, 2.0], [2.0, 4.0]), zeros(2, 2), matrix([float("nan"), 0.0], [0.0, 1.0])], ids=str
+)
 def test_without_an_inverse(a):
-    assert not inverse(a, [0.0] * 4, 2)
+    assert not inverse(a)[1]
 
 
 def test_rows_are_exchanged_where_a_pivot_is_zero():
-    actual = [0.0] * 9
-    assert inverse([0.0, 0.0, 2.0, 4.0, 0.0, 0.0, 0.0, 8.0, 0.0], actual, 3)
-    assert actual == [0.0, 0.25, 0.0, 0.0, 0.0, 0.125, 0.5, 0.0, 0.0]
+    actual, invertible = inverse(matrix([0.0, 0.0, 2.0], [4.0, 0.0, 0.0], [0.0, 8.0, 0.0]))
+    assert invertible
+    assert actual == matrix([0.0, 0.25, 0.0], [0.0, 0.0, 0.125], [0.5, 0.0, 0.0])
 
 
 def exact_exponential(a):
@@ -145,15 +216,12 @@ def exact_exponential(a):
 @example(1845, 3, 1.0)  # expm of scipy is 2e-12 off
 def test_exponentials(seed, n, t):
     (a,) = random_matrices(seed, n)
-    actual = [0.0] * 36
-    exponential(a.ravel().tolist(), t, actual, n)
     expected = exact_exponential(a * t)
     scale = np.exp(np.linalg.norm(a * t, 2))
-    assert np.abs(np.reshape(actual[: n * n], (n, n)) - expected).max() < 200.0 * EPSILON * scale
+    assert np.abs(np.array(exponential(ours(a), t)) - expected).max() < 200.0 * EPSILON * scale
 
 
 def test_the_exponential_of_a_rotation():
-    actual = [0.0] * 9
-    exponential([0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0], 0.3, actual, 3)
+    actual = exponential(matrix([0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]), 0.3)
     c, s = np.cos(0.3), np.sin(0.3)
-    assert actual == pytest.approx([c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0], abs=1e-15)
+    assert np.array(actual) == pytest.approx(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), abs=1e-15)

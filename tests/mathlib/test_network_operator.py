@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from perilune.fmus_src.kernel.matrices import Matrix
 from perilune.fmus_src.mathlib import network_operator as no
 from tests.support.laws.operations import FORMULAS, LARGE, backwards
 from tests.support.lengths import either
@@ -103,11 +104,11 @@ def a_network(generator, density=0.3):
 
 def evaluated(matrix, sources):
     edges = [0] * no.MAXIMUM_EDGES
-    flat = [int(value) for value in matrix.ravel()]
-    count = no.decode(flat, edges)
+    law = Matrix(matrix.tolist())
+    count = no.decode(law, edges)
     assert count == np.count_nonzero(np.triu(matrix, 1))
-    nodes = [*sources, *(no.neutral(flat[17 * j]) for j in range(len(sources), 16))]
-    no.evaluate(flat, edges, count, LARGE, nodes)
+    nodes = [*sources, *(no.neutral(law[j, j]) for j in range(len(sources), 16))]
+    no.evaluate(law, edges, count, LARGE, nodes)
     return nodes
 
 
@@ -138,11 +139,11 @@ def test_what_is_no_network_operator_is_told(row, column, value):
     """Unknown unary operations, entries below the diagonal, unknown binary operations."""
     matrix = a_network(np.random.default_rng(2))
     edges = [0] * no.MAXIMUM_EDGES
-    assert no.decode([int(entry) for entry in matrix.ravel()], edges) >= 0
+    assert no.decode(Matrix(matrix.tolist()), edges) >= 0
     matrix[row, column] = value
-    assert no.decode([int(entry) for entry in matrix.ravel()], edges) == -1
+    assert no.decode(Matrix(matrix.tolist()), edges) == -1
 
 
 def test_a_full_matrix_fits():
     matrix = np.triu(np.ones((16, 16), int))
-    assert no.decode([int(entry) for entry in matrix.ravel()], [0] * no.MAXIMUM_EDGES) == no.MAXIMUM_EDGES
+    assert no.decode(Matrix(matrix.tolist()), [0] * no.MAXIMUM_EDGES) == no.MAXIMUM_EDGES

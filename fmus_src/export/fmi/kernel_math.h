@@ -83,6 +83,15 @@ static inline double py_divide(Fault *fault, const char *file, int line, double 
     return a / b;
 }
 
+/* What all elements of a matrix are divided by. */
+static inline double py_divisor(Fault *fault, const char *file, int line, double divisor)
+{
+    if (divisor == 0.0) {
+        set_fault(fault, file, line, ZERO_DIVISION);
+    }
+    return divisor;
+}
+
 /* a % b with the sign of b, for b != 0; CPython's float_rem. */
 static inline double float_modulo(double a, double b)
 {

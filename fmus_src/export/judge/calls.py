@@ -21,14 +21,14 @@ from .kernel import (
     Function,
     Kernel,
     KernelCall,
-    List,
     MathCall,
     Scalar,
     Several,
     Type,
-    Vector,
     is_self_attribute,
+    length_of,
 )
+from .matrices import MAKERS
 from .source import find_global, find_method
 from .subset_table import (
     BUILTIN_FUNCTIONS,
@@ -78,6 +78,11 @@ class CallTypes(ExpressionTypes):
         """Resolve a call; the callee for a kernel function, else the type of its value."""
         if self._callee(node.func)[0] is vector:
             return self.make_vector(node)
+        made = self.make_matrix(node, self._callee(node.func)[0])
+        if made is not None or node in self.function.calls:
+            return made
+        if self._callee(node.func)[0] in MAKERS:
+            return None
         record = self._record(node.func)
         if record is not None:
             return self.make_record(node, record)
@@ -185,9 +190,14 @@ class CallTypes(ExpressionTypes):
             return None
         argument = self.function.types[node.args[0]]
         if name == "len":
-            if argument is not None and not isinstance(argument, List | Vector):
+            if argument is not None and length_of(argument) is None:
                 self.report(
-                    node, "argument type", name=name, expected="a list or vector", argument="its argument", got=argument
+                    node,
+                    "argument type",
+                    name=name,
+                    expected="a list, vector or matrix",
+                    argument="its argument",
+                    got=argument,
                 )
             return INT
         if argument is not None and (not isinstance(argument, Scalar) or (name == "abs" and argument is BOOL)):

@@ -19,11 +19,14 @@ from .kernel import (
     Kernel,
     KernelCall,
     List,
+    MakeMatrix,
     MathCall,
+    Matrix,
     Vector,
     is_self_attribute,
     targets_of,
 )
+from .vectors import is_variable
 
 Outcomes = frozenset[tuple[int, object]]  # (line, what ends the call there)
 NO_OUTCOME: Outcomes = frozenset()
@@ -114,7 +117,7 @@ class _Effects:
         """Take in that a variable of the block, or the elements of a list, are assigned."""
         if is_self_attribute(holder):
             self.function.changes_block = True
-        elif isinstance(holder, ast.Name) and isinstance(self.function.parameters.get(holder.id), List):
+        elif isinstance(holder, ast.Name) and isinstance(self.function.parameters.get(holder.id), List | Matrix):
             self.function.changed_lists.add(holder.id)
 
     def _calls(self, node: ast.stmt, whole: ast.expr | None) -> None:
@@ -133,9 +136,24 @@ class _Effects:
             self.function.changes_block |= callee.changes_block
             for name, argument in zip(callee.parameters, part.args, strict=True):
                 if name in callee.changed_lists:
+                    if self._is_also_used(callee, argument, part.args):
+                        self.kernel.report(
+                            self.function.source,
+                            part,
+                            "matrix changed",
+                            name=callee.name,
+                            argument=ast.unparse(argument),
+                        )
                     if is_read_only(self.function, argument):
                         self.kernel.report(self.function.source, argument, "read-only", name=ast.unparse(argument))
                     self._changes(argument)
+
+    def _is_also_used(self, callee: Function, argument: ast.expr, arguments: list[ast.expr]) -> bool:
+        """Whether a matrix that a call changes reaches it another way: Python and C would differ."""
+        if not isinstance(self.function.types[argument], Matrix):
+            return False
+        several = [ast.unparse(each) for each in arguments].count(ast.unparse(argument)) > 1
+        return several or not is_variable(argument) or (is_self_attribute(argument) and callee.takes_block)
 
     def _changes_when_called(self, callee: Function, argument: ast.expr) -> bool:
         """Whether an argument is a function that changes anything where the callee calls it."""
@@ -158,7 +176,8 @@ class _Effects:
         inside = self._in_order(
             operands(node),
             conditional,
-            always=isinstance(self.function.calls.get(node), KernelCall),  # type: ignore[call-overload]
+            always=isinstance(self.function.calls.get(node), KernelCall | MakeMatrix)  # type: ignore[call-overload]
+            or makes_matrix(self.function, node),
         )
         return inside | own_outcome(self.function, node)
 
@@ -175,6 +194,12 @@ class _Effects:
         return frozenset().union(*outcomes)
 
 
+def makes_matrix(function: Function, node: ast.AST) -> bool:
+    """Whether C computes an expression by statements in front of its own."""
+    product = isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult)
+    return product or (isinstance(function.types.get(node), Matrix) and not is_variable(node))  # type: ignore[arg-type, call-overload]
+
+
 def operands(node: ast.expr) -> list[ast.expr]:
     """The operands of an expression in Python's order of evaluation."""
     if isinstance(node, ast.BinOp):
@@ -184,10 +209,12 @@ def operands(node: ast.expr) -> list[ast.expr]:
     if isinstance(node, ast.Compare):
         return [node.left, *node.comparators]
     if isinstance(node, ast.Call):
-        arguments = [argument for argument in node.args if not isinstance(argument, ast.Starred)]
+        rows = [argument.elts if isinstance(argument, ast.List) else [argument] for argument in node.args]
+        arguments = [argument for row in rows for argument in row if not isinstance(argument, ast.Starred)]
         return [*arguments, *(keyword.value for keyword in node.keywords)]
     if isinstance(node, ast.Subscript):
-        return [node.value] if isinstance(node.slice, ast.Slice) else [node.value, node.slice]
+        indices = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+        return [node.value, *(index for index in indices if not isinstance(index, ast.Slice))]
     if isinstance(node, ast.Attribute) and not is_self_attribute(node):
         return [node.value]
     if isinstance(node, ast.Tuple):

@@ -12,8 +12,22 @@ from ...face import HOME_OF
 from ...kernel import vector_types
 from ...kernel.enumerations import Enumeration
 from ...variables import Input, Parameter, Variable
-from .kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, RecordType, Type, Vector, is_self_attribute
-from .records import RecordTypes
+from .kernel import (
+    BOOL,
+    FLOAT,
+    INT,
+    Constant,
+    Function,
+    Kernel,
+    List,
+    Matrix,
+    RecordType,
+    Type,
+    Vector,
+    is_self_attribute,
+    length_of,
+)
+from .matrices import MatrixTypes
 from .source import find_global, origin_of_constant
 from .subset_table import (
     COMPARISONS,
@@ -31,7 +45,7 @@ SCALARS = {float: FLOAT, int: INT, bool: BOOL}
 INT64_MAX = 2**63 - 1
 
 
-class ExpressionTypes(RecordTypes):
+class ExpressionTypes(MatrixTypes):
     """Infers types bottom-up; a type of None means unknown because of a violation already reported."""
 
     def __init__(self, kernel: Kernel, function: Function, bound: set[str]) -> None:
@@ -65,8 +79,7 @@ class ExpressionTypes(RecordTypes):
         if node in self.function.constants:
             return self.function.constants[node].value
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "len":
-            kind = self.function.types[node.args[0]]
-            return kind.size if isinstance(kind, List | Vector) else None
+            return length_of(self.function.types[node.args[0]])
         return None
 
     def infer_condition(self, node: ast.expr) -> None:
@@ -110,6 +123,8 @@ class ExpressionTypes(RecordTypes):
             holder = self.infer(node.value)
             if isinstance(holder, Vector):
                 return self.component(node, holder)
+            if isinstance(holder, Matrix):
+                return self.transpose(node, holder)
             if isinstance(holder, RecordType):
                 return self.field(node, holder)
             if holder is None:
@@ -166,6 +181,8 @@ class ExpressionTypes(RecordTypes):
 
     def infer_subscript(self, node: ast.Subscript) -> Type | None:
         container = self.infer(node.value)
+        if isinstance(container, Matrix):
+            return self.part_of_matrix(node, container)
         if isinstance(node.slice, ast.Slice):
             return self.part_of_vector(node, container)
         if isinstance(node.slice, ast.Tuple):
@@ -198,6 +215,8 @@ class ExpressionTypes(RecordTypes):
             return None
         if isinstance(kinds[0], RecordType) or isinstance(kinds[1], RecordType):
             return self.operate_on_records(node, operator, kinds[0], kinds[1])
+        if isinstance(operator, ast.MatMult) or isinstance(kinds[0], Matrix) or isinstance(kinds[1], Matrix):
+            return self.operate_on_matrices(node, operator, kinds[0], kinds[1])
         if isinstance(kinds[0], Vector) or isinstance(kinds[1], Vector):
             return self.operate_on_vectors(node, operator, kinds[0], kinds[1])
         for operand, kind in zip((left, right), kinds, strict=True):
@@ -218,7 +237,7 @@ class ExpressionTypes(RecordTypes):
             return BOOL
         if isinstance(node.op, ast.USub | ast.UAdd):
             kind = self.infer(node.operand)
-            space = isinstance(kind, Vector) or (isinstance(kind, RecordType) and kind.is_space)
+            space = isinstance(kind, Vector | Matrix) or (isinstance(kind, RecordType) and kind.is_space)
             if kind in (FLOAT, INT) or (space and isinstance(node.op, ast.USub)):
                 return kind
             if kind is not None:
@@ -251,7 +270,7 @@ class ExpressionTypes(RecordTypes):
         left, right = self.infer(node.body), self.infer(node.orelse)
         if left is None or right is None:
             return None
-        if left != right or isinstance(left, List):
+        if left != right or isinstance(left, List | Matrix):
             self.report(node, "branches", left=left, right=right)
             return None
         return left
@@ -262,6 +281,8 @@ def type_of_variable(variable: Variable) -> Type:
     if variable.record is not None:
         return RecordType(variable.record)
     scalar = SCALARS[type(variable.elements[0])]
+    if variable.shape is not None:
+        return Matrix(*variable.shape, scalar)
     if variable.is_vector:
         return Vector(variable.size)
     return List(scalar, variable.size) if variable.is_array else scalar

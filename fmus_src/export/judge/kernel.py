@@ -57,6 +57,19 @@ class Vector:
 
 
 @dataclass(frozen=True)
+class Matrix:
+    """Type of a matrix: a variable of a fixed number of rows and columns, handed on by reference."""
+
+    rows: int
+    columns: int
+    element: Scalar = FLOAT
+
+    def __str__(self) -> str:
+        of = "" if self.element is FLOAT else f" of {self.element}s"
+        return f"matrix of {self.rows} x {self.columns}{of}"
+
+
+@dataclass(frozen=True)
 class RecordType:
     """Type of a record: a value with named fields."""
 
@@ -97,13 +110,13 @@ class Bound:
 class Several:
     """What a function with several return values gives; it can only be assigned to as many targets."""
 
-    parts: tuple[Scalar | Vector | RecordType, ...]
+    parts: tuple[Scalar | Vector | Matrix | RecordType, ...]
 
     def __str__(self) -> str:
         return f"{len(self.parts)} values ({', '.join(map(str, self.parts))})"
 
 
-Value = Scalar | Vector | RecordType
+Value = Scalar | Vector | Matrix | RecordType
 Type = Value | List | Bound
 Returned = Value | Several
 
@@ -136,6 +149,13 @@ class BuiltinCall:
 @dataclass(frozen=True)
 class MakeVector:
     """Call of vector, with the components or with a starred list."""
+
+
+@dataclass(frozen=True)
+class MakeMatrix:
+    """Call of matrix, zeros, identity, add_product, or of a matrix's copy, by the function's name."""
+
+    name: str
 
 
 @dataclass(frozen=True)
@@ -189,15 +209,19 @@ class Function:
     returns: Returned | None
     locals: dict[str, Type] = field(default_factory=dict)
     types: dict[ast.expr, Type | Several | None] = field(default_factory=dict)
-    calls: dict[ast.Call, MathCall | BuiltinCall | MakeVector | MakeRecord | KernelCall] = field(default_factory=dict)
+    calls: dict[ast.Call, MathCall | BuiltinCall | MakeVector | MakeMatrix | MakeRecord | KernelCall] = field(
+        default_factory=dict
+    )
     fields: set[ast.expr] = field(default_factory=set)  # s.speed of a record s
     components: dict[ast.expr, int] = field(default_factory=dict)  # v.y, by number
     parts: dict[ast.expr, range] = field(default_factory=dict)  # v[1:4], by number
+    blocks: dict[ast.expr, tuple[range | None, range | None]] = field(default_factory=dict)  # p[i, 3:6]: None, range
     constants: dict[ast.expr, Constant] = field(default_factory=dict)
     # kernel_ranges
     ranges: dict[str, Interval] = field(default_factory=dict)
     parameter_ranges: dict[str, Interval] = field(default_factory=dict)
     unproven: set[ast.AST] = field(default_factory=set)
+    unproven_indices: set[ast.expr] = field(default_factory=set)  # of a matrix, in subscripts that are unproven
     # kernel_effects
     changed_lists: set[str] = field(default_factory=set)
     changes_block: bool = False
@@ -260,6 +284,13 @@ class Kernel:
         violation = Violation(path, line, text.what.format(**details), text.remedy.format(**details))
         if violation not in self.violations:
             self.violations.append(violation)
+
+
+def length_of(kind: Type | Several | None) -> int | None:
+    """What `len` is of a value of a type."""
+    if isinstance(kind, Matrix):
+        return kind.rows
+    return kind.size if isinstance(kind, List | Vector) else None
 
 
 def is_self_attribute(node: ast.AST) -> bool:

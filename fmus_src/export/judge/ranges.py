@@ -16,9 +16,9 @@ from .kernel import (
     Interval,
     Kernel,
     KernelCall,
-    List,
-    Vector,
+    Matrix,
     is_self_attribute,
+    length_of,
     targets_of,
 )
 from .statements import range_step
@@ -120,8 +120,9 @@ class _Ranges:
         call = self.function.calls.get(node)
         if isinstance(call, BuiltinCall):
             argument = self.function.types[node.args[0]]
-            if call.name == "len" and isinstance(argument, List | Vector):
-                return Interval(argument.size, argument.size)
+            length = length_of(argument)
+            if call.name == "len" and length is not None:
+                return Interval(length, length)
             if argument is INT:
                 inner = self.of(node.args[0])
                 if call.name == "abs":
@@ -135,7 +136,8 @@ class _Ranges:
         function = self.function
         for node, kind in list(function.types.items()):
             if isinstance(node, ast.Subscript) and node not in function.parts:
-                self._judge_index(node)
+                for index, size in indices_of(function, node):
+                    self._judge_index(node, index, size)
             computed = kind is INT and isinstance(node, ast.BinOp | ast.UnaryOp | ast.Call)
             if not function.is_total and computed and not self.without_bounds(node).within(INT64):
                 function.unproven.add(node)
@@ -147,20 +149,14 @@ class _Ranges:
             if isinstance(call, KernelCall):
                 self._pass_on(call.callee, node.args)
 
-    def _judge_index(self, node: ast.Subscript) -> None:
-        container = self.function.types[node.value]
-        assert isinstance(container, List | Vector)
-        interval = self.of(node.slice)
-        if not self.function.is_total and not interval.within(Interval(0, container.size - 1)):
+    def _judge_index(self, node: ast.Subscript, index: ast.expr, size: int) -> None:
+        interval = self.of(index)
+        if not self.function.is_total and not interval.within(Interval(0, size - 1)):
             self.function.unproven.add(node)
-        if interval.high < -container.size or interval.low >= container.size:
+            self.function.unproven_indices.add(index)
+        if interval.high < -size or interval.low >= size:
             self.kernel.report(
-                self.function.source,
-                node,
-                "index",
-                index=ast.unparse(node.slice),
-                name=ast.unparse(node.value),
-                size=container.size,
+                self.function.source, node, "index", index=ast.unparse(index), name=ast.unparse(node.value), size=size
             )
 
     def _judge_mixed(self, node: ast.Compare | ast.BinOp, use: str) -> None:
@@ -180,6 +176,18 @@ class _Ranges:
             if kind is INT:
                 interval = self.of(argument)
                 callee.parameter_ranges[name] = callee.parameter_ranges.get(name, interval).join(interval)
+
+
+def indices_of(function: Function, node: ast.Subscript) -> list[tuple[ast.expr, int]]:
+    """The indices of an element, or of a row or column, with how many there are."""
+    kind = function.types[node.value]
+    if not isinstance(kind, Matrix):
+        size = length_of(kind)
+        assert size is not None
+        return [(node.slice, size)]
+    assert isinstance(node.slice, ast.Tuple)
+    each = zip(node.slice.elts, function.blocks[node], (kind.rows, kind.columns), strict=True)
+    return [(index, size) for index, block, size in each if block is None]
 
 
 def _loops_of_reads(function: Function) -> dict[ast.expr, ast.Call]:

@@ -12,7 +12,9 @@ from .kernel import (
     Function,
     Kernel,
     List,
+    Matrix,
     RecordType,
+    Returned,
     Scalar,
     Several,
     Type,
@@ -21,9 +23,11 @@ from .kernel import (
     is_self_attribute,
 )
 from .subset_table import STATEMENTS
+from .vectors import is_variable
 
 UNUSED = "_"  # a target for what is not wanted of several values
 ANY_VECTOR = Vector(0)  # declared as Vector, its size not known yet
+ANY_MATRIX = Matrix(0, 0)  # declared as Matrix
 
 
 def local_names(node: ast.FunctionDef) -> set[str]:
@@ -88,6 +92,8 @@ class StatementTypes(CallTypes):
                 return
             self.report(node, "list shared" if name in self.bound else "list rebound", name=name)
             return
+        if isinstance(kind, Matrix) and isinstance(target, ast.Name) and is_variable(value):
+            self.report(node, "matrix shared", name=target.id, value=ast.unparse(value))
         self.store(target, kind)
 
     def unpack(self, node: ast.stmt, targets: list[ast.expr], value: ast.expr) -> None:
@@ -121,6 +127,8 @@ class StatementTypes(CallTypes):
             expected = self.function.parameters.get(target.id) or self.function.locals.get(target.id)
             if expected is None and kind is not None:
                 self.function.locals[target.id] = kind
+            if isinstance(expected, Matrix) and target.id in self.function.parameters:
+                self.report(target, "matrix rebound", name=target.id)
         elif self._is_component(target):
             holder = target.value  # type: ignore[attr-defined]
             rule = "field assigned" if isinstance(self.infer(holder), RecordType) else "component assigned"
@@ -213,6 +221,17 @@ class StatementTypes(CallTypes):
         if node.orelse:
             self.report(node, "loop else")
 
+    def _check_returned_matrices(self, node: ast.Return) -> None:
+        """Report a matrix that would have a second name: an argument, a variable of the block, one that is twice."""
+        values = node.value.elts if isinstance(node.value, ast.Tuple) else [node.value]
+        for number, value in enumerate(values):
+            if not isinstance(value, ast.expr) or not isinstance(self.function.types.get(value), Matrix):
+                continue
+            local = isinstance(value, ast.Name) and value.id not in self.function.parameters
+            before = [ast.unparse(each) for each in values[:number] if each is not None]
+            if is_variable(value) and (not local or ast.unparse(value) in before):
+                self.report(node, "matrix shared", name="what it returns", value=ast.unparse(value))
+
     def check_return(self, node: ast.Return) -> None:
         if isinstance(node.value, ast.Tuple):
             kinds = [self.infer(value) for value in node.value.elts]
@@ -226,10 +245,19 @@ class StatementTypes(CallTypes):
             returned = self.infer_several(node.value) if node.value is not None else None
         if node.value is not None and returned is None:
             return
-        if self.function.returns == ANY_VECTOR and isinstance(returned, Vector):
-            self.function.returns = returned  # of the size that it turns out to have
+        self._check_returned_matrices(node)
+        self.function.returns = with_size(self.function.returns, returned)
         if returned != self.function.returns:
             self.report(node, "return value", got=returned, expected=self.function.returns)
+
+
+def with_size(declared: Returned | None, returned: Type | Several | None) -> Returned | None:
+    """What a function is declared to return, with the size that a vector or matrix turns out to have."""
+    if isinstance(declared, Several) and isinstance(returned, Several) and len(declared.parts) == len(returned.parts):
+        return Several(tuple(with_size(*pair) for pair in zip(declared.parts, returned.parts, strict=True)))  # type: ignore[misc]
+    if declared == ANY_VECTOR and isinstance(returned, Vector):
+        return returned
+    return returned if declared == ANY_MATRIX and isinstance(returned, Matrix) else declared
 
 
 def is_list_binding(value: ast.expr) -> bool:

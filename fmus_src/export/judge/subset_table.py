@@ -111,7 +111,9 @@ EXPRESSIONS: tuple[type[ast.expr], ...] = (
     ast.UnaryOp,
 )
 
-OPERATORS: tuple[type[ast.operator], ...] = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv, ast.Mod)
+OPERATORS: tuple[type[ast.operator], ...] = (
+    *(ast.Add, ast.Sub, ast.Mult, ast.Div, ast.MatMult, ast.FloorDiv, ast.Mod),
+)
 COMPARISONS: tuple[type[ast.cmpop], ...] = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
 
 # By the node of `ast`.
@@ -172,8 +174,6 @@ Await: await
     remove it
 Pow: the operator **
     write x * x, or pow(x, y) of perilune
-MatMult: the operator @
-    take dot of perilune for vectors, and sums as for loops
 LShift: a bit operator
     use *, // and % on ints
 RShift: a bit operator
@@ -238,9 +238,9 @@ python only: {name} says python_only
 decorator: {name} has a decorator
     write a plain method, or a function in the module
 signature: {name}: {detail}
-    declare every argument as float, int, bool, Vector3 or list, without defaults
+    declare every argument as float, int, bool, Vector3, Matrix or list, without defaults
 return type: {name}: no return type of the subset
-    declare -> None, float, int, bool, Vector3 or tuple[float, Vector3]; pass a list to be filled
+    declare -> None, float, int, bool, Vector3, Matrix or tuple[float, Vector3]; pass a list to be filled
 missing return: {name}: a path ends without return
     return a value at the end
 return value: returns {got}, declared {expected}
@@ -313,6 +313,22 @@ vector operator: operator {name} of {left} and {right}
     vectors take + - * / with vectors of their size, and * / with numbers; dot(a, b) is the scalar product
 vector size: a vector of {got}
     make it of two, three or four, or use a list
+matrix operator: operator {name} of {left} and {right}
+    matrices take + - with their like, @ with matrices and vectors, * and / by numbers; dot(a, b) is of two vectors
+matrix sizes: a {left} with a {right}
+    use matrices whose rows and columns fit
+matrix size: {name} without a constant size
+    write zeros(6, 6), identity(len(p)), matrix([a, b], [c, d]), or add_product(q, a, b) of sizes that fit
+matrix index: {name} is a matrix and takes two indices
+    write p[i, j], p[i, :] or p[POSITION, VELOCITY] with POSITION = block(0, 3) in the module
+matrix block: {part} is no int and no block inside the matrix
+    write POSITION = block(0, 3) in the module, or constant bounds 0:3
+matrix shared: {name} is a second name of the matrix {value}
+    write {value}.copy()
+matrix rebound: the argument {name} is a matrix and gets another
+    assign its elements, {name}[:, :] = ..., or use a variable of its own
+matrix changed: {name} changes its argument {argument}, which is also used otherwise or is no variable
+    give it a variable that it gets once, or a copy()
 list for vector: a {left} with a {right}
     make the list a vector: vector(*name), vector(*name[0:3])
 list and vector: {name} takes a {expected} for {argument}, got a {got}

@@ -18,8 +18,10 @@ from .kernel import (
     Function,
     Kernel,
     List,
+    Matrix,
     RecordType,
     Returned,
+    Scalar,
     Several,
     Type,
     Value,
@@ -27,10 +29,11 @@ from .kernel import (
     body_of,
 )
 from .source import Source, find_global, find_method, source_of, with_plain_arguments
-from .statements import ANY_VECTOR, StatementTypes
+from .statements import ANY_MATRIX, ANY_VECTOR, StatementTypes
 
 LIST, FUNCTION, ANY = OTHERS = "list", "function", "any value"
 ANNOTATIONS: dict[str, Value | str] = {"float": FLOAT, "int": INT, "bool": BOOL, "Vector": ANY_VECTOR}
+ANNOTATIONS["Matrix"] = ANY_MATRIX
 ANNOTATIONS |= {"list": LIST, "tuple": LIST, "Derivatives": FUNCTION, "Any": ANY}
 ANNOTATIONS |= {kind.__name__: Vector(size) for size, kind in VECTORS.items()}
 
@@ -124,7 +127,8 @@ class _Finder:
         for argument, given in zip(names, types, strict=True):
             declared = _annotation(source, argument.annotation)
             if declared is None:
-                detail = f"argument {argument.arg} is none of float, int, bool, Vector3 (or 2, 4), list, tuple, record"
+                known = "float, int, bool, Vector3 (or 2, 4), Matrix, list, tuple, record"
+                detail = f"argument {argument.arg} is none of {known}"
                 self.kernel.report(source, argument, "signature", name=source.name, detail=detail)
                 return None
             if not _fits(given, declared):
@@ -133,7 +137,7 @@ class _Finder:
                     *place,
                     "list and vector" if mixed else "argument type",
                     name=source.name,
-                    expected="vector" if declared == ANY_VECTOR else declared,
+                    expected={ANY_VECTOR: "vector", ANY_MATRIX: "matrix"}.get(declared, declared),
                     argument=argument.arg,
                     got=given,
                 )
@@ -153,7 +157,7 @@ class _Finder:
         if isinstance(annotation, ast.Subscript) and ast.unparse(annotation.value) == "tuple":
             several = annotation.slice.elts if isinstance(annotation.slice, ast.Tuple) else [annotation.slice]
             parts = [_annotation(source, part) for part in several]
-            if len(parts) > 1 and all(isinstance(part, Value) and part != ANY_VECTOR for part in parts):
+            if len(parts) > 1 and all(isinstance(part, Value) for part in parts):
                 return Several(tuple(parts))  # type: ignore[arg-type]
             returned = None
         else:
@@ -171,7 +175,9 @@ def _fits(given: Type, declared: Value | str) -> bool:
     if declared == FUNCTION:
         return isinstance(given, Bound)
     if declared == ANY:
-        return isinstance(given, Value)
+        return isinstance(given, Scalar | Vector | RecordType)
+    if declared == ANY_MATRIX:
+        return isinstance(given, Matrix)
     return given == declared or (declared == ANY_VECTOR and isinstance(given, Vector))
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
-from ..judge.effects import own_outcome
+from ..judge.effects import makes_matrix, own_outcome
 from ..judge.kernel import (
     FLOAT,
     INT,
@@ -17,13 +18,18 @@ from ..judge.kernel import (
     MakeRecord,
     MakeVector,
     MathCall,
+    Matrix,
     RecordType,
     Scalar,
     Several,
     Vector,
     is_self_attribute,
+    length_of,
 )
 from .names import C_TYPES, Names, c_type, identifier, literal
+
+if TYPE_CHECKING:
+    from .matrices import MatrixWriter
 
 OR, AND, EQUALITY, RELATION, SUM, PRODUCT, UNARY, ATOM = range(8)  # C's precedence; 0 binds least
 CONDITIONAL = -1
@@ -57,9 +63,13 @@ class ExpressionWriter:
         self.function = function
         self.names = names
         self.hoist = hoist
+        self.matrices: MatrixWriter
 
     def write(self, node: ast.expr, outer: int = CONDITIONAL) -> str:
         """C text of an expression, in parentheses where the operator around it binds tighter."""
+        if makes_matrix(self.function, node) and not isinstance(self.function.calls.get(node), KernelCall):  # type: ignore[call-overload]
+            text, precedence = self.matrices.write(node)
+            return f"({text})" if precedence < outer else text
         text, precedence = getattr(self, f"write_{type(node).__name__.lower()}")(node)
         if node in self.function.hoisted:
             return self.hoist(node, text)
@@ -85,6 +95,8 @@ class ExpressionWriter:
         return literal(node.value), ATOM  # type: ignore[arg-type]
 
     def write_name(self, node: ast.Name) -> tuple[str, int]:
+        if isinstance(self.function.types.get(node), Matrix) and node.id in self.function.parameters:
+            return f"(*{identifier(node.id)})", ATOM
         constant = self.function.constants.get(node)
         return (self.names.constants[constant] if constant else identifier(node.id)), ATOM
 
@@ -98,6 +110,8 @@ class ExpressionWriter:
         return self.names.constants[self.function.constants[node]], ATOM
 
     def write_subscript(self, node: ast.Subscript) -> tuple[str, int]:
+        if node in self.function.blocks:
+            return self.matrices.write_part(node), ATOM
         if node in self.function.parts:
             return self.vector(self.elements(node)), ATOM
         return f"{self.write(node.value, ATOM)}{self.place(node)}", ATOM
@@ -245,6 +259,7 @@ class ExpressionWriter:
             if own_outcome(self.function, node):
                 return self.write_checked(node, f"py_{call.name}", *arguments)
             return self.call(EXACT.get(call.name, call.name), *arguments), ATOM
+        assert isinstance(call, BuiltinCall)
         return self._builtin(node, call)
 
     def _kernel_call(self, node: ast.Call, callee: Function) -> str:
@@ -252,7 +267,16 @@ class ExpressionWriter:
         if callee.can_fault:
             arguments.append("fault")
         passed = [each for each in node.args if not isinstance(self.function.types[each], Bound)]
-        return self.call(self.names.functions[callee], *arguments, *[self.write(argument) for argument in passed])
+        return self.call(self.names.functions[callee], *arguments, *[self._argument(argument) for argument in passed])
+
+    def _argument(self, node: ast.expr) -> str:
+        """An argument; a matrix by its address."""
+        text = self.write(node)
+        if not isinstance(self.function.types[node], Matrix):
+            return text
+        if isinstance(self.function.calls.get(node), KernelCall) and not text.isidentifier():  # type: ignore[call-overload]
+            text = self.hoist(node, text)
+        return text[2:-1] if text.startswith("(*") else f"&{text}"
 
     def _make_record(self, node: ast.Call, kind: RecordType) -> str:
         """A record of all its fields, or one with some of another's."""
@@ -265,8 +289,7 @@ class ExpressionWriter:
         argument = node.args[0]
         kind = self.function.types[argument]
         if call.name == "len":
-            assert isinstance(kind, List | Vector)
-            return str(kind.size), ATOM
+            return str(length_of(kind)), ATOM  # type: ignore[arg-type]
         if call.name == "abs":
             if kind is FLOAT:
                 return self.call("fabs", self.write(argument)), ATOM

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from ..judge.kernel import Bound, Function, RecordType, Several, Vector, body_of
+from ..judge.kernel import Bound, Function, Matrix, RecordType, Several, Vector, body_of
 from ..judge.source import label
 from .names import Names, c_type, declaration, identifier
 from .statements import StatementWriter
@@ -24,7 +24,7 @@ def signature(function: Function, name: str, block_type: str) -> str:
     returned = c_type(function.returns) if function.returns else "void"
     passed = [*function.parameters.values(), function.returns]
     # vectors that are not inlined go through memory
-    hint = "inline " if any(isinstance(kind, Vector | RecordType | Several) for kind in passed) else ""
+    hint = "inline " if any(isinstance(kind, Vector | Matrix | RecordType | Several) for kind in passed) else ""
     return f"static {hint}{returned} {name}({', '.join(arguments) or 'void'})"
 
 

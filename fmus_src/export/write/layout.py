@@ -13,7 +13,7 @@ MEMBER_COLUMN = 44  # where the descriptions of struct members stand
 INDENT = "    "
 NO_BREAK = "\x00"
 TYPE_AND_NAME = re.compile(
-    r"\b(const|double|int64_t|bool|Vector2|Vector3|Vector4|Fault|return) "
+    r"\b(const|double|int64_t|bool|Vector2|Vector3|Vector4|Matrix\d+x\d+|Fault|return) "
 )  # stay on one line with what follows
 
 

@@ -20,10 +20,11 @@ from ..judge.kernel import (
     Function,
     Kernel,
     List,
+    Matrix,
     RecordType,
-    Scalar,
     Several,
     Type,
+    Value,
     Vector,
 )
 
@@ -113,6 +114,8 @@ def _distinction(kind: Type) -> str:
         return kind.function.__name__
     if isinstance(kind, RecordType):
         return kind.record.__name__
+    if isinstance(kind, Matrix):
+        return f"{kind.rows}x{kind.columns}"
     return str(kind.size) if isinstance(kind, List | Vector) else ""
 
 
@@ -149,21 +152,25 @@ def literal(value: float | int | bool) -> str:
     return repr(value)
 
 
-def c_type(kind: Scalar | Vector | RecordType | Several) -> str:
+def c_type(kind: Value | Several) -> str:
     """``double``, ``Vector3``, ``Motion``; ``DoubleVector3`` for a float and a vector."""
     if isinstance(kind, RecordType):
         return f"{kind.record.__name__}Record"
+    if isinstance(kind, Matrix):
+        return f"{'' if kind.element is FLOAT else kind.element.name.title()}Matrix{kind.rows}x{kind.columns}"
     if isinstance(kind, Several):
         return "".join(name[0].upper() + name[1:] for name in (c_type(part).removesuffix("_t") for part in kind.parts))
     return VECTORS[kind.size].__name__ if isinstance(kind, Vector) else C_TYPES[kind]
 
 
 def declaration(kind: Type, name: str, constant: bool = False) -> str:
-    """``double x`` for a scalar, ``const double *x`` for a list argument that is not changed."""
+    """``double x`` for a scalar, ``const double *x`` for a list or matrix argument that is not changed."""
     if isinstance(kind, List):
         qualifier = "const " if constant else ""
         return f"{qualifier}{C_TYPES[kind.element]} *{name}"
     assert not isinstance(kind, Bound)  # which has no value
+    if isinstance(kind, Matrix):
+        return f"{'const ' if constant else ''}{c_type(kind)} *{name}"
     return f"{c_type(kind)} {name}"
 
 
@@ -172,7 +179,7 @@ def member(variable: Variable, position: int) -> str:
     name = identifier(variable.name)
     if variable.record is not None:
         return f"{name}.{_field_path(variable.record, position)}"
-    if variable.is_vector:
+    if variable.is_vector or variable.shape:
         return f"{name}.x[{position}]"
     return f"{name}[{position}]" if variable.is_array else name
 

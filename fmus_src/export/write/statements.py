@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ast
 
-from ..judge.kernel import KernelCall, List, Several
+from ..judge.effects import makes_matrix
+from ..judge.kernel import KernelCall, List, Matrix, Several
 from ..judge.statements import is_list_binding, range_step
 from .names import identifier
 from .placement import list_assigned
@@ -68,6 +69,11 @@ class StatementWriter(FunctionWriter):
             assert isinstance(target, ast.Name)
             self.bind_list(node, target.id, value)
             return
+        makes = makes_matrix(self.function, value) and not isinstance(self.function.calls.get(value), KernelCall)  # type: ignore[call-overload]
+        whole = makes and isinstance(self.function.types[value], Matrix)
+        if whole or self.function.blocks.get(target, (None, None)) != (None, None):
+            self.matrices.assign(node, target, value)
+            return
         text = self.expressions.write(value)
         if isinstance(target, ast.Name):
             left = self.declare(target.id) if self.placement.declares(node, target.id) else identifier(target.id)
@@ -103,9 +109,14 @@ class StatementWriter(FunctionWriter):
     def _store(self, target: ast.expr, text: str) -> None:
         if isinstance(target, ast.Subscript) and self.can_fault(target):
             place = self.fresh("place")
-            self.add(f"const int64_t {place} = {self.expressions.index(target)};")
+            is_matrix = target in self.function.blocks
+            index = self.matrices.place(target) if is_matrix else self.expressions.index(target)
+            self.add(f"const int64_t {place} = {index};")
             self.check()
-            self.add(f"{self.expressions.write(target.value)}{self.expressions.place(target, place)} = {text};")
+            if is_matrix:
+                self.add(f"{self.matrices.holder(target.value)}[{place}] = {text};")
+            else:
+                self.add(f"{self.expressions.write(target.value)}{self.expressions.place(target, place)} = {text};")
         else:
             self.add(f"{self.expressions.write(target)} = {text};")
 
@@ -181,10 +192,15 @@ class StatementWriter(FunctionWriter):
         """Whether an if statement needs no declaration or check in front of it."""
         declares = node in self.placement.before
         hoists = any(part in self.function.hoisted for part in ast.walk(node.test))
-        return not (declares or hoists or self.can_fault(node.test))
+        return not (declares or hoists or self.can_fault(node.test) or self._makes_matrices(node.test))
+
+    def _makes_matrices(self, test: ast.expr) -> bool:
+        """Whether a condition needs statements in front of it."""
+        return any(makes_matrix(self.function, part) for part in ast.walk(test))
 
     def write_while(self, node: ast.While) -> None:
-        if self.can_fault(node.test) or any(part in self.function.hoisted for part in ast.walk(node.test)):
+        hoists = any(part in self.function.hoisted for part in ast.walk(node.test))
+        if hoists or self.can_fault(node.test) or self._makes_matrices(node.test):
             self.lines.open("for (;;) {", self.line)
             goes_on = self._condition(node.test, "goes_on")
             self.add(f"if (!({goes_on})) break;")

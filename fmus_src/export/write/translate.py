@@ -13,7 +13,7 @@ from ...kernel.records import Record
 from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
 from ...variables import Variable
 from ..judge.expressions import SCALARS, type_of_variable
-from ..judge.kernel import FLOAT, INT, Function, Kernel, List, Several, Vector
+from ..judge.kernel import FLOAT, INT, Function, Kernel, List, Matrix, Several, Vector
 from ..judge.source import label
 from ..judge.subset import analyse_kernel
 from .functions import write_function
@@ -54,6 +54,7 @@ def translate(block_class: type[Block], guid: str) -> str:
             summary=comment(block_class.summary()),
             file=label(Path(inspect.getfile(block_class))),
         ),
+        *_matrices(kernel),
         *write_records(kernel),
         _struct(block_class, type_name),
         *_constants(names),
@@ -66,6 +67,21 @@ def translate(block_class: type[Block], guid: str) -> str:
     return "\n".join(parts)
 
 
+def _matrices(kernel: Kernel) -> list[str]:
+    """A struct for each size of matrix."""
+    kinds = {type_of_variable(variable) for variable in kernel.block_class.variables.values()}
+    for function in kernel.functions:
+        kinds |= {*function.parameters.values(), *function.locals.values(), *function.types.values()}  # type: ignore[arg-type]
+    lines = Lines()
+    for kind in sorted({kind for kind in kinds if isinstance(kind, Matrix)}, key=c_type):
+        size = kind.rows * kind.columns
+        lines.open(f"typedef struct {c_type(kind)} {{")
+        lines.add(f"{C_TYPES[kind.element]} x[{size}];")
+        lines.close(f"}} {c_type(kind)};")
+        lines.text.append("")
+    return ["\n".join(lines.text)] if lines.text else []
+
+
 def _struct(block_class: type[Block], type_name: str) -> str:
     """One member per variable, with causality, unit, frame and description."""
     lines = Lines()
@@ -75,6 +91,8 @@ def _struct(block_class: type[Block], type_name: str) -> str:
         kind = type_of_variable(variable)
         if isinstance(kind, List):
             text = f"{C_TYPES[kind.element]} {identifier(name)}[{kind.size}]"
+        elif isinstance(kind, Matrix):
+            text = f"{c_type(kind)} {identifier(name)}"
         else:
             text = declaration(kind, identifier(name))
         lines.member(f"{text};", _about(variable))
@@ -171,7 +189,7 @@ def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
         if variable.record is not None:
             values = _initialise(variable.record.of_elements(variable.elements))
         elif variable.is_array:
-            values = f"{{{{{values}}}}}" if variable.is_vector else f"{{{values}}}"
+            values = f"{{{{{values}}}}}" if variable.is_vector or variable.shape else f"{{{values}}}"
         starts.add(f".{identifier(name)} = {values},")
         kind, role = KINDS[type(variable.elements[0])], ROLES[variable.causality]
         for position, element_name in enumerate(variable.element_names()):

@@ -5,10 +5,11 @@ from __future__ import annotations
 import ast
 
 from ..judge.effects import own_outcome
-from ..judge.kernel import BOOL, FLOAT, INT, Function, List, Scalar, Several, Value, Vector
+from ..judge.kernel import BOOL, FLOAT, INT, Function, List, Matrix, Scalar, Several, Value, Vector
 from ..judge.source import comments_of
 from .expressions import ExpressionWriter
 from .layout import Lines
+from .matrices import MatrixWriter
 from .names import C_TYPES, Names, c_type, identifier
 from .placement import Placement
 
@@ -22,6 +23,7 @@ class FunctionWriter:
         self.function = function
         self.names = names
         self.expressions = ExpressionWriter(function, names, self.hoist)
+        self.matrices = self.expressions.matrices = MatrixWriter(self)
         self.placement = Placement(function)
         self.lines = Lines()
         self.comments = comments_of(function.source.path)
@@ -50,7 +52,7 @@ class FunctionWriter:
         if isinstance(returns, Scalar):
             value = f" {ZERO[returns]}"
         elif returns is not None:
-            value = f" ({c_type(returns)}){'{{0.0}}' if isinstance(returns, Vector) else '{0}'}"
+            value = f" ({c_type(returns)}){'{{0.0}}' if isinstance(returns, Vector | Matrix) else '{0}'}"
         self.lines.add(f"if (fault->what) return{value};")
 
     def keep(self, node: ast.expr, text: str, name: str) -> str:

@@ -3,17 +3,18 @@
 Frame: landing site (z up); the Moon's centre is ``radius`` below the origin.
 """
 
-from ...kernel.matrices import add_isotropic, column, mirror, row, set_column, set_isotropic, set_row
+from ...kernel.matrices import Matrix, block, identity, mirror, zeros
 from ..lunar.gravity import central_gravity, gravity_difference
 from ..vectors import Vector3, vector
 
-# The states of a covariance: errors of position and velocity, and of the inertial sensor, by the first of each three.
+# The states of a covariance: errors of position and velocity, and of the inertial sensor.
 STATES = 15
-POSITION = 0
-VELOCITY = 3
-BIAS = 6
-SCALE_FACTOR = 9
-ROTATION = 12
+MOVING = 6  # which of them are position and velocity
+POSITION = block(0, 3)
+VELOCITY = block(3, 3)
+BIAS = block(6, 3)
+SCALE_FACTOR = block(9, 3)
+ROTATION = block(12, 3)
 
 
 def dead_reckon(
@@ -50,19 +51,21 @@ def propagate(
     return position + h * (velocity - 0.5 * h * a), velocity - h * a
 
 
-def start_errors(p: list, position: float, velocity: float, bias: float, scale_factor: float, rotation: float) -> None:
-    """Diagonal of the covariance P from standard deviations of the states, each the same for three."""
-    set_isotropic(p, STATES, POSITION, POSITION, position * position)
-    set_isotropic(p, STATES, VELOCITY, VELOCITY, velocity * velocity)
-    set_isotropic(p, STATES, BIAS, BIAS, bias * bias)
-    set_isotropic(p, STATES, SCALE_FACTOR, SCALE_FACTOR, scale_factor * scale_factor)
-    set_isotropic(p, STATES, ROTATION, ROTATION, rotation * rotation)
+def start_errors(position: float, velocity: float, bias: float, scale_factor: float, rotation: float) -> Matrix:
+    """Covariance P (15 x 15) from standard deviations of the states, each the same for three."""
+    p = zeros(STATES, STATES)
+    p[POSITION, POSITION] = position * position * identity(3)
+    p[VELOCITY, VELOCITY] = velocity * velocity * identity(3)
+    p[BIAS, BIAS] = bias * bias * identity(3)
+    p[SCALE_FACTOR, SCALE_FACTOR] = scale_factor * scale_factor * identity(3)
+    p[ROTATION, ROTATION] = rotation * rotation * identity(3)
+    return p
 
 
 def predict_errors(
-    p: list, f: Vector3, sensing: bool, walk: float, drift: float, up: Vector3, gradient: float, h: float
+    p: Matrix, f: Vector3, sensing: bool, walk: float, drift: float, up: Vector3, gradient: float, h: float
 ) -> None:
-    """Covariance P (15 x 15, row order) of inertial navigation h (s) ahead under the specific force f (m/s2).
+    """Covariance P (15 x 15) of inertial navigation h (s) ahead under the specific force f (m/s2).
 
     States: position, velocity, and what the inertial sensor adds to the specific force: bias b,
     scale factors k and a small rotation w, b + diag(k) f + w x f, constant but for a random walk of b of density
@@ -73,33 +76,25 @@ def predict_errors(
 
     P = F P F' + Q, where F is `propagate`, applied to each column of P and then to the rows that are not yet F P F'.
     """
-    added = vector(0.0, 0.0, 0.0)
+    a = vector(0.0, 0.0, 0.0)
     for j in range(STATES):  # F P
         if sensing:
-            bias = column(p, STATES, BIAS, j)
-            scale_factor = column(p, STATES, SCALE_FACTOR, j)
-            added = sensor_addition(bias, scale_factor, column(p, STATES, ROTATION, j), f)
-        position = column(p, STATES, POSITION, j)
-        velocity = column(p, STATES, VELOCITY, j)
-        position, velocity = propagate(position, velocity, added, up, gradient, h)
-        set_column(p, STATES, POSITION, j, position)
-        set_column(p, STATES, VELOCITY, j, velocity)
-    for i in range(BIAS):  # (F P) F'; the rest by symmetry
+            a = sensor_addition(p[BIAS, j], p[SCALE_FACTOR, j], p[ROTATION, j], f)
+        position, velocity = propagate(p[POSITION, j], p[VELOCITY, j], a, up, gradient, h)
+        p[POSITION, j] = position
+        p[VELOCITY, j] = velocity
+    for i in range(MOVING):  # (F P) F'; the rest by symmetry
         if sensing:
-            bias = row(p, STATES, i, BIAS)
-            scale_factor = row(p, STATES, i, SCALE_FACTOR)
-            added = sensor_addition(bias, scale_factor, row(p, STATES, i, ROTATION), f)
-        position = row(p, STATES, i, POSITION)
-        velocity = row(p, STATES, i, VELOCITY)
-        position, velocity = propagate(position, velocity, added, up, gradient, h)
-        set_row(p, STATES, i, POSITION, position)
-        set_row(p, STATES, i, VELOCITY, velocity)
+            a = sensor_addition(p[i, BIAS], p[i, SCALE_FACTOR], p[i, ROTATION], f)
+        position, velocity = propagate(p[i, POSITION], p[i, VELOCITY], a, up, gradient, h)
+        p[i, POSITION] = position
+        p[i, VELOCITY] = velocity
     if sensing:
         # an increment's error moves position by half a step times itself
         half = 0.5 * h
-        add_isotropic(p, STATES, POSITION, POSITION, walk * h * half * half)
-        add_isotropic(p, STATES, POSITION, VELOCITY, walk * h * half)
-        add_isotropic(p, STATES, VELOCITY, POSITION, walk * h * half)
-        add_isotropic(p, STATES, VELOCITY, VELOCITY, walk * h)
-    add_isotropic(p, STATES, BIAS, BIAS, drift * h)
-    mirror(p, STATES, BIAS)
+        p[POSITION, POSITION] += walk * h * half * half * identity(3)
+        p[POSITION, VELOCITY] += walk * h * half * identity(3)
+        p[VELOCITY, POSITION] += walk * h * half * identity(3)
+        p[VELOCITY, VELOCITY] += walk * h * identity(3)
+    p[BIAS, BIAS] += drift * h * identity(3)
+    mirror(p, MOVING)

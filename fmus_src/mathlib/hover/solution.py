@@ -6,7 +6,7 @@ Programmes, shapes and vehicles as in `shape` and `motion`.
 import math
 
 from ...kernel.enumerations import Enumeration, member
-from ...kernel.matrices import element, inverse, set_element
+from ...kernel.matrices import Matrix, identity, inverse
 from ...kernel.records import Field, Record
 from ..vectors import Vector4, vector
 from .motion import HoverVehicle, end_motion, propellant
@@ -82,11 +82,11 @@ def change_of(kind: int, free: Vector4) -> HoverProgramme:
 
 
 def invert_sensitivities(
-    kind: int, p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float, r: Vector4, inverted: list
-) -> bool:
-    """inverted[16] = derivatives of the free times by the residual, from differences to r at p; whether there are."""
+    kind: int, p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float, r: Vector4
+) -> tuple[Matrix, bool]:
+    """Derivatives of the free times by the residual, 4 x 4, from differences to r at p; whether there are."""
     n = count_free_times(kind)
-    derivatives = [0.0] * 16
+    derivatives = identity(4)
     for j in range(n):
         free = [0.0] * 4
         change = DIFFERENCE
@@ -97,20 +97,19 @@ def invert_sensitivities(
             free[j] = change
             ahead = residual(p + change_of(kind, vector(*free)), vehicle, x, y)
         if not ahead.size < math.inf:
-            return False
+            return derivatives, False
         for i in range(n):
-            set_element(derivatives, n, i, j, (ahead.errors[i] - r[i]) / change)
-    is_regular = inverse(derivatives, inverted, n)
-    return is_regular
+            derivatives[i, j] = (ahead.errors[i] - r[i]) / change
+    return inverse(derivatives)
 
 
-def newton_step(kind: int, inverted: list, r: Vector4) -> HoverProgramme:
+def newton_step(kind: int, inverted: Matrix, r: Vector4) -> HoverProgramme:
     """The change of a programme that Newton's method makes where its residual is r."""
     n = count_free_times(kind)
     free = [0.0] * 4
     for i in range(n):
         for j in range(n):
-            free[i] = free[i] - element(inverted, n, i, j) * r[j]
+            free[i] = free[i] - inverted[i, j] * r[j]
     return change_of(kind, vector(*free))
 
 
@@ -121,7 +120,7 @@ def solve(kind: int, start: HoverProgramme, vehicle: HoverVehicle, x: float, y: 
     (not VERTICAL), w (WITH_FIRST_BURN), tp, t7 (not WITH_FIRST_BURN).
     """
     p = start
-    inverted = [0.0] * 16
+    inverted = identity(4)
     known = False
     r = residual(p, vehicle, x, y)
     if not r.size < math.inf:
@@ -131,7 +130,7 @@ def solve(kind: int, start: HoverProgramme, vehicle: HoverVehicle, x: float, y: 
             return HoverSolution(programme=p, is_feasible=True)
         fresh = not known
         if fresh:
-            known = invert_sensitivities(kind, p, vehicle, x, y, r.errors, inverted)
+            inverted, known = invert_sensitivities(kind, p, vehicle, x, y, r.errors)
             if not known:
                 return HoverSolution(programme=start, is_feasible=False)
         step = newton_step(kind, inverted, r.errors)

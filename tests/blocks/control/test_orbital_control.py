@@ -55,10 +55,8 @@ def test_angles_and_their_lack_decay_as_placed(angle_poles, rate_poles, seed):
     block = regulator(
         OrbitalModalControl, inertia=inertia.ravel().tolist(), angle_poles=angle_poles, rate_poles=rate_poles
     )
-    a = [0.0] * 36
-    linear_model(block.inertia, block.inverse_inertia, ORBITAL_RATE, a)
-    a = np.reshape(a, (6, 6))
-    gain = np.hstack([np.reshape(block.angle_gain, (3, 3)), np.reshape(block.rate_gain, (3, 3))])
+    a = np.array(linear_model(block.inertia, block.inverse_inertia, ORBITAL_RATE))
+    gain = np.hstack([np.array(block.angle_gain), np.array(block.rate_gain)])
     closed = a + np.vstack([np.zeros((3, 3)), np.linalg.inv(inertia)]) @ gain
     lack = closed[:3] + np.hstack([np.diag(angle_poles), np.zeros((3, 3))])
     assert lack @ closed == pytest.approx(-np.diag(rate_poles) @ lack, abs=1e-9)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
+from perilune.fmus_src.kernel.matrices import Matrix
 from perilune.fmus_src.kernel.records import replace
 from perilune.fmus_src.mathlib.orbits.attitude import linear_model
 from perilune.fmus_src.plants.orbital_spacecraft import OrbitalSpacecraft
@@ -23,9 +24,7 @@ YAW_AFTER_TEN = [-0.00697647, -0.00707183, 0.00266202, 0.02316316, 0.04026581, 0
 
 
 def model(inertia=INERTIA):
-    a = [0.0] * 36
-    linear_model(inertia.ravel().tolist(), np.linalg.inv(inertia).ravel().tolist(), ORBITAL_RATE, a)
-    return np.reshape(a, (6, 6))
+    return np.array(linear_model(Matrix(inertia.tolist()), Matrix(np.linalg.inv(inertia).tolist()), ORBITAL_RATE))
 
 
 def moving_sample(k):

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from perilune.analysis.design.laws.expression_tree import expression_tree, nodes_of
 from perilune.analysis.design.laws.formula import formula, formula_text
 from perilune.analysis.design.laws.law import Law, find_law, read_law
+from perilune.fmus_src.kernel.matrices import Matrix
 from perilune.fmus_src.mathlib import network_operator
 from tests.support.laws.evaluation import evaluate_tree
 from tests.support.laws.networks import SOURCES, depends, matrices, random_matrix
@@ -150,12 +151,12 @@ def test_what_is_printed_is_what_is_evaluated():
 
 def node_values(law, theta, d):
     """All nodes that the outputs depend on, by the kernel."""
-    flat = [entry for row in law.matrix for entry in row]
+    matrix = Matrix([list(row) for row in law.matrix])
     edges = [0] * network_operator.MAXIMUM_EDGES
-    count = network_operator.decode(flat, edges)
+    count = network_operator.decode(matrix, edges)
     nodes = [math.pi + theta, law.q[0], d, law.q[1], theta, law.q[2]]
     nodes += [network_operator.neutral(law.matrix[node][node]) for node in range(SOURCES, 16)]
-    network_operator.evaluate(flat, edges, count, 1e8, nodes)
+    network_operator.evaluate(matrix, edges, count, 1e8, nodes)
     reach = depends(law.matrix)[:, 14:].any(axis=1)
     reach[14:] = True
     return [value for value, used in zip(nodes, reach, strict=True) if used]

@@ -24,6 +24,7 @@ from perilune.analysis.design.synthesis.variations import (
     prune,
     random_variation,
 )
+from perilune.fmus_src.kernel.matrices import Matrix
 from perilune.fmus_src.mathlib import network_operator
 from tests.support.laws.networks import SIZE, SOURCES, depends, matrices
 
@@ -116,11 +117,11 @@ def test_a_matrix_without_room_for_a_kind_can_still_be_varied():
 
 def kernel_outputs(matrix, sources, exp_saturation=1e8):
     """z15 and z16 by the kernel functions of the blocks."""
-    flat = [entry for row in matrix for entry in row]
+    rows = Matrix([list(row) for row in matrix])
     edges = [0] * network_operator.MAXIMUM_EDGES
-    count = network_operator.decode(flat, edges)
+    count = network_operator.decode(rows, edges)
     nodes = [*sources, *(network_operator.neutral(matrix[node][node]) for node in range(SOURCES, SIZE))]
-    network_operator.evaluate(flat, edges, count, exp_saturation, nodes)
+    network_operator.evaluate(rows, edges, count, exp_saturation, nodes)
     return nodes[14], nodes[15]
 
 

@@ -21,6 +21,7 @@ TEMPLATE = '''import math
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
 from perilune.fmus_src.bundles import Bundle, Inputs, Outputs
 from perilune.fmus_src.kernel.integrators import runge_kutta_4
+from perilune.fmus_src.kernel.matrices import Matrix, zeros
 from perilune.fmus_src.kernel.records import Field, Record, replace
 from perilune.fmus_src.mathlib.vectors import Vector3, vector
 from perilune.fmus_src.ports import Port
@@ -56,6 +57,10 @@ def norm_of(values: list) -> float:
     return values[0]
 
 
+def swap(a: Matrix, b: Matrix) -> None:
+    a[0, 1] = b[1, 0]
+
+
 def two() -> tuple[Vector3, float]:
     return vector(1.0, 2.0, 3.0), 1.0
 
@@ -80,6 +85,7 @@ class Bad(Block):
     v = State([0.0] * 5, description="v")
     w = State([0.0] * 3, description="w")
     pair = State([0.0] * 2, description="pair")
+    m = State([0.0] * 6, columns=3, description="m")
 
     def bump(self) -> float:
         self.n = self.n + 1

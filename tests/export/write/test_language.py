@@ -19,6 +19,7 @@ from tests.support.kernels.language_blocks import (
     VectorFaults,
     VectorLanguage,
 )
+from tests.support.kernels.matrix_blocks import MatrixFaults, MatrixLanguage
 from tests.support.kernels.record_blocks import RecordFaults, RecordLanguage
 from tests.support.kernels.users_blocks import Bundles
 
@@ -28,6 +29,8 @@ def test_blocks_are_in_the_subset() -> None:
     assert check(Faults) == []
     assert check(VectorLanguage) == []
     assert check(VectorFaults) == []
+    assert check(MatrixLanguage) == []
+    assert check(MatrixFaults) == []
     assert check(RecordLanguage) == []
     assert check(RecordFaults) == []
 
@@ -52,6 +55,26 @@ def test_vectors_of_any_floats_are_bitwise_equal() -> None:
 
 def test_every_fault_of_vectors_is_at_the_same_line_and_leaves_the_same_values() -> None:
     pair = Pair(VectorFaults, samples.generator("vector faults"))
+    pair.wild = True
+    fly(pair, samples.size(3000))
+    lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
+    assert len(lines) >= 9, sorted(lines)
+
+
+def test_everything_that_matrices_can_do_is_bitwise_equal() -> None:
+    pair = Pair(MatrixLanguage, samples.generator("matrices"))
+    rows, _ = fly(pair, samples.size(2000))
+    assert len(set(rows)) > 0.9 * len(rows)
+
+
+def test_matrices_of_any_floats_are_bitwise_equal() -> None:
+    pair = Pair(MatrixLanguage, samples.generator("wild matrices"))
+    pair.wild = True
+    fly(pair, samples.size(1000))
+
+
+def test_every_fault_of_matrices_is_at_the_same_line_and_leaves_the_same_values() -> None:
+    pair = Pair(MatrixFaults, samples.generator("matrix faults"))
     pair.wild = True
     fly(pair, samples.size(3000))
     lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
@@ -92,6 +115,13 @@ def test_generated_integrators_are_readable() -> None:
     assert "MotionRecord k2 = record_language_derivatives(self, " in text
     assert "} MotionRecord;" in text
     assert text.count("/* runge_kutta_4 (fmus_src/kernel/integrators.py:") == 3  # for a record, a vector, a float
+
+
+def test_generated_matrices_are_readable() -> None:
+    text = translate(MatrixLanguage, "{guid}")
+    assert "typedef struct Matrix6x6 {" in text
+    assert "p_1.x[6 * i + j] = p->x[6 * i + j] - k.x[i] * ph.x[j];" in text
+    assert "static inline Matrix3x3 matrices_outer(const" not in text
 
 
 def test_generated_vectors_are_readable() -> None:

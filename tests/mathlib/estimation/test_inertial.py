@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
+from perilune.fmus_src.kernel.matrices import Matrix
 from perilune.fmus_src.mathlib.estimation.inertial import dead_reckon, predict_errors, sensor_addition
 from perilune.fmus_src.mathlib.vectors import vector
 
@@ -90,9 +91,9 @@ def test_covariance_moves_as_with_full_matrices(sensing, gradient, seed):
     transition[3:6, 0:6] += h * pull
     expected = transition @ p @ transition.T + walk * h * noise @ noise.T
     expected[6:9, 6:9] += drift * h * np.eye(3)
-    actual = p.ravel().tolist()
+    actual = Matrix(p.tolist())
     predict_errors(actual, vector(*f), sensing, walk, drift, vector(*up), gradient, h)
-    assert np.reshape(actual, (15, 15)) == pytest.approx(expected, abs=1e-12 * abs(expected).max())
+    assert np.array(actual) == pytest.approx(expected, abs=1e-12 * abs(expected).max())
 
 
 def test_a_gradient_of_gravity_moves_errors_as_the_motion_itself_does():
@@ -115,10 +116,10 @@ def test_a_gradient_of_gravity_moves_errors_as_the_motion_itself_does():
     first = np.diag([100.0**2] * 3 + [0.1**2] * 3)
     p = np.zeros((15, 15))
     p[:6, :6] = first
-    actual = p.ravel().tolist()
+    actual = Matrix(p.tolist())
     for k in range(3500):
         angle = rate * (k + 0.5)
         up = vector(np.sin(angle), 0.0, np.cos(angle))
         predict_errors(actual, vector(0.0, 0.0, 0.0), False, 1.0, 0.0, up, rate**2, 1.0)
     expected = transition @ first @ transition.T
-    assert np.reshape(actual, (15, 15))[:6, :6] == pytest.approx(expected, abs=1e-4 * abs(expected).max())
+    assert np.array(actual)[:6, :6] == pytest.approx(expected, abs=1e-4 * abs(expected).max())

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from perilune.fmus_src.kernel.matrices import Matrix
 from perilune.fmus_src.mathlib.orbits.attitude import (
     angle_rate_derivatives,
     angle_rates,
@@ -25,9 +26,7 @@ triples = st.tuples(angle, angle, angle), st.tuples(rate, rate, rate)
 
 
 def model(inertia):
-    a = [0.0] * 36
-    linear_model(inertia.ravel().tolist(), np.linalg.inv(inertia).ravel().tolist(), ORBITAL_RATE, a)
-    return np.reshape(a, (6, 6))
+    return np.array(linear_model(Matrix(inertia.tolist()), Matrix(np.linalg.inv(inertia).tolist()), ORBITAL_RATE))
 
 
 @settings(max_examples=50)
@@ -35,10 +34,10 @@ def model(inertia):
 def test_up_and_acceleration(angles, w):
     up = radial_direction(vector(*angles))
     assert [*up] == pytest.approx(body_from_orbital(angles)[:, 1], abs=1e-15)
-    inverse = np.linalg.inv(INERTIA).ravel().tolist()
+    inverse = Matrix(np.linalg.inv(INERTIA).tolist())
     torque = (3.0, -2.0, 1.0)
     actual = angular_acceleration(
-        vector(*angles), vector(*w), vector(*torque), INERTIA.ravel().tolist(), inverse, ORBITAL_RATE
+        vector(*angles), vector(*w), vector(*torque), Matrix(INERTIA.tolist()), inverse, ORBITAL_RATE
     )
     assert [*actual] == pytest.approx(acceleration(body_from_orbital(angles), np.array(w), torque), abs=1e-15)
 
@@ -46,26 +45,25 @@ def test_up_and_acceleration(angles, w):
 @settings(max_examples=50)
 @given(*triples)
 def test_derivatives_of_the_rates_are_those_of_differences(angles, w):
-    by_angles, by_rates = [0.0] * 9, [0.0] * 9
-    angle_rate_derivatives(vector(*angles), vector(*w), ORBITAL_RATE, by_angles, by_rates)
+    by_angles, by_rates = angle_rate_derivatives(vector(*angles), vector(*w), ORBITAL_RATE)
     h = 1e-5
     for k in range(3):
         step = np.eye(3)[k] * h
         moved = [angle_rates(vector(*(angles + s * step)), vector(*w), ORBITAL_RATE) for s in (1.0, -1.0)]
         driven = [angle_rates(vector(*angles), vector(*(w + s * step)), ORBITAL_RATE) for s in (1.0, -1.0)]
-        assert by_angles[k::3] == pytest.approx((np.array([*moved[0]]) - [*moved[1]]) / (2.0 * h), abs=1e-8)
-        assert by_rates[k::3] == pytest.approx((np.array([*driven[0]]) - [*driven[1]]) / (2.0 * h), abs=1e-9)
+        assert [*by_angles[:, k]] == pytest.approx((np.array([*moved[0]]) - [*moved[1]]) / (2.0 * h), abs=1e-8)
+        assert [*by_rates[:, k]] == pytest.approx((np.array([*driven[0]]) - [*driven[1]]) / (2.0 * h), abs=1e-9)
 
 
 def test_the_linear_model_is_the_derivative_of_the_motion():
     wanted = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -ORBITAL_RATE])
-    inverse = np.linalg.inv(INERTIA).ravel().tolist()
+    inverse = Matrix(np.linalg.inv(INERTIA).tolist())
 
     def motion(x):
         a, w = vector(*x[:3]), vector(*x[3:])
         turning = angle_rates(a, w, ORBITAL_RATE)
         return np.array(
-            [*turning, *angular_acceleration(a, w, 0.0 * w, INERTIA.ravel().tolist(), inverse, ORBITAL_RATE)]
+            [*turning, *angular_acceleration(a, w, 0.0 * w, Matrix(INERTIA.tolist()), inverse, ORBITAL_RATE)]
         )
 
     h = 1e-4

@@ -39,6 +39,13 @@ STEPS = {
     "several values": "self.y = two()  # here",
     "vector sizes": "self.w = self.w + self.pair  # here",
     "vector operator": "self.w = self.w + 1.0  # here",
+    "matrix operator": "self.m = self.m + 1.0  # here",
+    "matrix sizes": "self.m = self.m + self.m.T  # here",
+    "matrix size": "a = zeros(self.k, 2)  # here",
+    "matrix index": "self.y = self.m[0]  # here",
+    "matrix block": "self.w = self.m[0 : self.k, 0]  # here",
+    "matrix shared": "a = self.m  # here",
+    "matrix changed": "swap(self.m, self.m)  # here",
     "vector size": "self.w = vector(1.0, 2.0, 3.0, 4.0, 5.0)  # here",
     "list for vector": "self.w = self.w + self.v  # here",
     "list and vector": "helper_of_vectors(self.v)  # here",
@@ -59,6 +66,7 @@ STEPS = {
 
 # Whole methods or functions, and how step calls them, by rule.
 FUNCTIONS = {
+    "matrix rebound": ("def double(a: Matrix) -> None:\n    a = 2.0 * a  # here", "double(self.m)"),
     "decorator": (
         "def same(f):\n    return f\n\n\n@same\ndef f(a: float) -> float:  # here\n    return a",
         "self.y = f(self.x)",
@@ -98,7 +106,6 @@ SYNTAX = {
     "NamedExpr": "self.y = (a := 1.0)  # here",
     "Yield": "a = yield  # here",
     "Pow": "self.y = self.x ** 2.0  # here",
-    "MatMult": "self.y = self.x @ self.x  # here",
     "LShift": "self.n = self.k << 1  # here",
     "RShift": "self.n = self.k >> 1  # here",
     "BitAnd": "self.n = self.k & 1  # here",

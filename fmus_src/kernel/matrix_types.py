@@ -1,0 +1,200 @@
+"""Matrices of fixed size: what `f @ p` or `p.T` makes is new; a variable's elements and blocks can be assigned.
+
+    POSITION, VELOCITY = block(0, 3), block(3, 3)
+    p = zeros(6, 6)
+    p[POSITION, VELOCITY] = h * identity(3)
+    p = f @ p @ f.T + q
+
+`+`, `-` of equal sizes, `@` with a matrix or a vector, `*` and `/` by a number, `-a`, `a.T`. `p[i, j]` is a number; an
+index and a block, or a slice, give a vector of two to four, or a matrix of one row or column of more; two blocks give a
+matrix. `len(p)` is the number of rows. Sums of a product run from left to right from the first product.
+
+No matrix has two names: `b = a` is refused in kernels, `b = a.copy()` and `self.p = a` copy. A function is given the
+matrix itself, as it is a list, and may change its elements. In C a matrix is a struct, and operators are loops.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from itertools import chain
+from typing import Any
+
+from .vector_types import VECTORS, Vector, vector
+
+
+class Matrix:
+    """Floats, or ints, in rows of one length."""
+
+    __slots__ = ("rows",)
+    __array_ufunc__ = None  # a number of numpy's times a matrix is ours
+    __hash__ = None  # type: ignore[assignment]
+
+    def __init__(self, rows: list[list]) -> None:
+        self.rows = rows
+
+    @classmethod
+    def of_elements(cls, elements: Sequence, columns: int) -> Matrix:
+        """The matrix with these elements in row order."""
+        return cls([list(elements[k : k + columns]) for k in range(0, len(elements), columns)])
+
+    def elements(self) -> tuple:
+        """All elements in row order."""
+        return tuple(chain.from_iterable(self.rows))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return len(self.rows), len(self.rows[0])
+
+    @property
+    def T(self) -> Matrix:  # noqa: N802
+        """The transposed matrix."""
+        return Matrix([list(column) for column in zip(*self.rows, strict=True)])
+
+    def copy(self) -> Matrix:
+        """A matrix with the same elements."""
+        return Matrix([row[:] for row in self.rows])
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __getitem__(self, key: tuple[Any, Any]) -> Any:
+        i, j = key
+        rows = self.rows[i]
+        if i.__class__ is not slice:
+            part = rows[j]
+            return _narrow(part, True) if j.__class__ is slice else part
+        if j.__class__ is not slice:
+            return _narrow([row[j] for row in rows], False)
+        return Matrix([row[j] for row in rows])
+
+    def __setitem__(self, key: tuple[Any, Any], value: Any) -> None:
+        i, j = key
+        across = j.__class__ is slice
+        if i.__class__ is slice:
+            rows = self.rows[i]
+        elif across:
+            rows = [self.rows[i]]
+        else:
+            self.rows[i][j] = value
+            return
+        if value.__class__ is Matrix:
+            parts = value.rows
+        else:
+            parts = [list(value)] if i.__class__ is not slice else [[element] for element in value]
+        width = len(rows[0][j]) if across else 1
+        if len(parts) != len(rows) or len(parts[0]) != width:
+            raise ValueError(f"{len(parts)} x {len(parts[0])} elements for a block of {len(rows)} x {width}")
+        for row, part in zip(rows, parts, strict=True):
+            row[j] = part if across else part[0]
+
+    def __add__(self, other: Matrix) -> Matrix:
+        if other.__class__ is not Matrix:
+            return NotImplemented
+        pairs = zip(self.rows, other.rows, strict=True)
+        return Matrix([[x + y for x, y in zip(a, b, strict=True)] for a, b in pairs])
+
+    def __sub__(self, other: Matrix) -> Matrix:
+        if other.__class__ is not Matrix:
+            return NotImplemented
+        pairs = zip(self.rows, other.rows, strict=True)
+        return Matrix([[x - y for x, y in zip(a, b, strict=True)] for a, b in pairs])
+
+    def __neg__(self) -> Matrix:
+        return Matrix([[-x for x in row] for row in self.rows])
+
+    def __mul__(self, factor: float) -> Matrix:
+        if isinstance(factor, Matrix | Vector):
+            raise TypeError("a product of matrices is a @ b")
+        return Matrix([[x * factor for x in row] for row in self.rows])
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: float) -> Matrix:
+        return Matrix([[x / divisor for x in row] for row in self.rows])
+
+    def __matmul__(self, other: Matrix | Vector) -> Any:
+        rows = self.rows
+        if other.__class__ is Matrix:
+            columns = list(zip(*other.rows, strict=True))  # type: ignore[union-attr]
+            return Matrix(_sums(len(columns[0]))(rows, columns))
+        if not isinstance(other, Vector):
+            return NotImplemented
+        elements = other.elements()
+        return _narrow(_sums_of_one(len(elements))(rows, elements), False)
+
+    def __eq__(self, other: object) -> bool:
+        return self.rows == other.rows if isinstance(other, Matrix) else NotImplemented
+
+    def __repr__(self) -> str:
+        return f"matrix({', '.join(map(repr, self.rows))})"
+
+    def __reduce__(self) -> tuple:
+        return Matrix, (self.rows,)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
+        import numpy as np  # kernels do without
+
+        return np.array(self.rows, dtype)
+
+
+def matrix(*rows: list) -> Matrix:
+    """The matrix of some rows: ``matrix([1.0, h], [0.0, 1.0])``."""
+    return Matrix([[float(element) for element in row] for row in rows])
+
+
+def zeros(rows: int, columns: int) -> Matrix:
+    """The matrix of 0."""
+    return Matrix([[0.0] * columns for _ in range(rows)])
+
+
+def identity(n: int) -> Matrix:
+    """The square matrix with 1 on its diagonal and 0 elsewhere."""
+    return Matrix([[1.0 if i == j else 0.0 for j in range(n)] for i in range(n)])
+
+
+def add_product(q: Matrix, a: Matrix, b: Matrix) -> Matrix:
+    """q + a @ b, each sum starting from q's element."""
+    columns = list(zip(*b.rows, strict=True))
+    return Matrix(_sums_from(len(columns[0]))(q.rows, a.rows, columns))
+
+
+def block(first: int, size: int) -> slice:
+    """Some rows or columns, as a constant of a module: ``POSITION = block(0, 3)``, then ``p[POSITION, VELOCITY]``."""
+    return slice(first, first + size)
+
+
+def _narrow(elements: list, across: bool) -> Any:
+    """A part of a row or column."""
+    if len(elements) in VECTORS:
+        return vector(*elements)
+    return Matrix([elements] if across else [[element] for element in elements])
+
+
+@cache
+def _sums(inner: int) -> Callable[[list[list], list[tuple]], list[list]]:
+    """What multiplies rows with columns of so many elements, its sums written out."""
+    a, b = (", ".join(f"{name}{k}" for k in range(inner)) for name in "ab")
+    return eval(f"lambda rows, columns: [[{_terms(inner)} for {b}, in columns] for {a}, in rows]")
+
+
+@cache
+def _sums_of_one(inner: int) -> Callable[[list[list], tuple], list]:
+    """What multiplies rows with one column."""
+    a, b = (", ".join(f"{name}{k}" for k in range(inner)) for name in "ab")
+    namespace: dict[str, Any] = {}
+    exec(f"def multiply(rows, column):\n {b}, = column\n return [{_terms(inner)} for {a}, in rows]", namespace)
+    return namespace["multiply"]
+
+
+@cache
+def _sums_from(inner: int) -> Callable[[list[list], list[list], list[tuple]], list[list]]:
+    """What multiplies rows with columns, each sum starting from another matrix's element."""
+    a, b = (", ".join(f"{name}{k}" for k in range(inner)) for name in "ab")
+    inside = f"[q + {_terms(inner)} for q, ({b},) in zip(starts, columns)]"
+    return eval(f"lambda q, rows, columns: [{inside} for starts, ({a},) in zip(q, rows)]")
+
+
+def _terms(inner: int) -> str:
+    return " + ".join(f"a{k} * b{k}" for k in range(inner))
