@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cache
 from itertools import chain
+from operator import add, sub
 from typing import Any
 
 from .vector_types import VECTORS, Vector, vector
@@ -61,45 +62,50 @@ class Matrix:
 
     def __getitem__(self, key: tuple[Any, Any]) -> Any:
         i, j = key
-        rows = self.rows[i]
         if i.__class__ is not slice:
-            part = rows[j]
+            part = self.rows[i][j]
             return _narrow(part, True) if j.__class__ is slice else part
-        if j.__class__ is not slice:
-            return _narrow([row[j] for row in rows], False)
-        return Matrix([row[j] for row in rows])
+        rows = self.rows[i]
+        if j.__class__ is slice:
+            return Matrix([row[j] for row in rows])
+        if len(rows) == 3:  # three quarters of the time of a Kalman filter's prediction
+            first, second, third = rows
+            return vector(first[j], second[j], third[j])
+        return _narrow([row[j] for row in rows], False)
 
     def __setitem__(self, key: tuple[Any, Any], value: Any) -> None:
         i, j = key
-        across = j.__class__ is slice
-        if i.__class__ is slice:
-            rows = self.rows[i]
-        elif across:
-            rows = [self.rows[i]]
-        else:
-            self.rows[i][j] = value
+        if i.__class__ is not slice:
+            if j.__class__ is not slice:
+                self.rows[i][j] = value
+                return
+            (part,) = value.rows if value.__class__ is Matrix else (value.elements(),)
+            row = self.rows[i]
+            _check_size(len(part), len(row[j]))
+            row[j] = part
             return
-        if value.__class__ is Matrix:
-            parts = value.rows
-        else:
-            parts = [list(value)] if i.__class__ is not slice else [[element] for element in value]
-        width = len(rows[0][j]) if across else 1
-        if len(parts) != len(rows) or len(parts[0]) != width:
-            raise ValueError(f"{len(parts)} x {len(parts[0])} elements for a block of {len(rows)} x {width}")
-        for row, part in zip(rows, parts, strict=True):
-            row[j] = part if across else part[0]
+        rows = self.rows[i]
+        if j.__class__ is slice:
+            _check_size((len(value), len(value.rows[0])), (len(rows), len(rows[0][j])))
+            for row, part in zip(rows, value.rows, strict=True):
+                row[j] = part
+            return
+        elements = [element for (element,) in value.rows] if value.__class__ is Matrix else value.elements()
+        _check_size(len(elements), len(rows))
+        for row, element in zip(rows, elements, strict=True):
+            row[j] = element
 
     def __add__(self, other: Matrix) -> Matrix:
         if other.__class__ is not Matrix:
             return NotImplemented
-        pairs = zip(self.rows, other.rows, strict=True)
-        return Matrix([[x + y for x, y in zip(a, b, strict=True)] for a, b in pairs])
+        _check_size(other.shape, self.shape)
+        return Matrix([[*map(add, a, b)] for a, b in zip(self.rows, other.rows, strict=True)])
 
     def __sub__(self, other: Matrix) -> Matrix:
         if other.__class__ is not Matrix:
             return NotImplemented
-        pairs = zip(self.rows, other.rows, strict=True)
-        return Matrix([[x - y for x, y in zip(a, b, strict=True)] for a, b in pairs])
+        _check_size(other.shape, self.shape)
+        return Matrix([[*map(sub, a, b)] for a, b in zip(self.rows, other.rows, strict=True)])
 
     def __neg__(self) -> Matrix:
         return Matrix([[-x for x in row] for row in self.rows])
@@ -163,6 +169,11 @@ def add_product(q: Matrix, a: Matrix, b: Matrix) -> Matrix:
 def block(first: int, size: int) -> slice:
     """Some rows or columns, as a constant of a module: ``POSITION = block(0, 3)``, then ``p[POSITION, VELOCITY]``."""
     return slice(first, first + size)
+
+
+def _check_size(given: Any, wanted: Any) -> None:
+    if given != wanted:
+        raise ValueError(f"elements for a matrix or block of size {wanted}: their size is {given}")
 
 
 def _narrow(elements: list, across: bool) -> Any:

@@ -106,9 +106,9 @@ def test_elements_and_blocks_are_those_of_numpy(seed, n, data):
 def test_what_does_not_fit_is_refused():
     with pytest.raises(ValueError, match="unpack"):
         identity(2) @ identity(3)
-    with pytest.raises(ValueError, match="argument 2 is longer"):
+    with pytest.raises(ValueError, match=r"size \(2, 2\): their size is \(3, 3\)"):
         identity(2) + identity(3)
-    with pytest.raises(ValueError, match="3 x 3 elements for a block of 2 x 2"):
+    with pytest.raises(ValueError, match=r"size \(2, 2\): their size is \(3, 3\)"):
         identity(3)[0:2, 0:2] = identity(3)
     with pytest.raises(TypeError, match="a product of matrices is a @ b"):
         identity(2) * identity(2)

@@ -91,10 +91,11 @@ def predict_errors(
         p[i, VELOCITY] = velocity
     if sensing:
         # an increment's error moves position by half a step times itself
-        half = 0.5 * h
-        p[POSITION, POSITION] += walk * h * half * half * identity(3)
-        p[POSITION, VELOCITY] += walk * h * half * identity(3)
-        p[VELOCITY, POSITION] += walk * h * half * identity(3)
-        p[VELOCITY, VELOCITY] += walk * h * identity(3)
+        of_velocity = walk * h * identity(3)
+        of_both = 0.5 * h * of_velocity
+        p[POSITION, POSITION] += 0.5 * h * of_both
+        p[POSITION, VELOCITY] += of_both
+        p[VELOCITY, POSITION] += of_both
+        p[VELOCITY, VELOCITY] += of_velocity
     p[BIAS, BIAS] += drift * h * identity(3)
     mirror(p, MOVING)
