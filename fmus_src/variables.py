@@ -297,7 +297,8 @@ def _flatten(values: Any) -> list:
     if isinstance(values, Record | Matrix):
         return list(values.elements())
     elements = list(values)
-    return [each for row in elements for each in row] if elements and hasattr(elements[0], "__len__") else elements
+    has_rows = bool(elements) and hasattr(elements[0], "__len__") and not isinstance(elements[0], str)
+    return [each for row in elements for each in row] if has_rows else elements
 
 
 def _about(declared: Variable | Field) -> str:

@@ -119,8 +119,8 @@ def test_covariance_is_that_of_least_squares_over_all_samples():
     for k, block in plain(KalmanNavigation, seen, **NO_FIRST_ERRORS, velocity_random_walk=0.0):
         if k == 0:  # a start without errors that is not known to have none
             for i in range(3):
-                block.covariance[16 * i] = 100.0**2
-                block.covariance[16 * (i + 3)] = 0.5**2
+                block.covariance[i, i] = 100.0**2
+                block.covariance[i + 3, i + 3] = 0.5**2
     gained = np.vstack([np.zeros(3), np.cumsum(increments(), axis=0)])
     to_velocity = np.zeros((STEPS + 1, 3, 15))
     to_velocity[:, :, 3:6] = np.eye(3)

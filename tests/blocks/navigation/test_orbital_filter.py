@@ -73,9 +73,9 @@ def test_without_samples_it_knows_less_and_less():
     run = Run("orbital_filter", still, **NOISY)
     for _ in range(500):
         run.step(still)
-    sigmas = [math.sqrt(run.block.covariance[0])]
+    sigmas = [math.sqrt(run.block.covariance[0, 0])]
     for _ in range(100):
         run.step(still, new=False)
-        sigmas.append(math.sqrt(run.block.covariance[0]))
+        sigmas.append(math.sqrt(run.block.covariance[0, 0]))
     assert np.all(np.diff(sigmas) > 0.0)
     assert run.block.status == 1
