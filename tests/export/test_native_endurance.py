@@ -10,7 +10,7 @@ import pytest
 
 from perilune.fmus_src.block import Block, Input
 from perilune.fmus_src.catalogue import catalogue
-from tests.support.kernels import samples
+from tests.support import samples
 from tests.support.kernels.comparison import draw, elements
 from tests.support.kernels.native_instance import OK, NativeInstance
 from tests.support.lengths import either

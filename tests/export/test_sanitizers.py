@@ -14,8 +14,7 @@ import pytest
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.native_fmu import native_sources
-from tests.support import kernels
-from tests.support.kernels import samples
+from tests.support import kernels, samples
 from tests.support.kernels.native_instance import GUID
 from tests.support.lengths import LONG
 

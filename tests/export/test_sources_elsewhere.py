@@ -17,7 +17,7 @@ from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
-from tests.support.kernels import samples
+from tests.support import samples
 from tests.support.kernels.comparison import Pair, fly
 from tests.support.kernels.native_instance import CACHE, LOGGER, Callbacks, NativeInstance, opened
 from tests.support.lengths import LONG, either

@@ -20,7 +20,7 @@ from perilune.fmus_src.export.native_fmu import build_native_fmu
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.paths import shipped_fmu
 from perilune.fmus_src.runtime import Component
-from tests.support.kernels import samples
+from tests.support import samples
 from tests.support.kernels.comparison import LONGEST_FLIGHT, bits, draw, elements, only_switches
 from tests.support.kernels.native_instance import CACHE
 from tests.support.kernels.users_blocks import Bundles, Integrators

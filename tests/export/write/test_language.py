@@ -7,7 +7,7 @@ from inspect import getsourcelines
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.judge.subset import check
 from perilune.fmus_src.export.write.translate import translate
-from tests.support.kernels import samples
+from tests.support import samples
 from tests.support.kernels.comparison import Pair, fly
 from tests.support.kernels.language_blocks import (
     Engine,

@@ -15,7 +15,7 @@ import pytest
 from perilune.fmus_src.export.compilers import CompilerMissing
 from perilune.fmus_src.export.judge.subset_table import MATH_FUNCTIONS
 from perilune.fmus_src.export.native_fmu import C_FILES
-from tests.support.kernels import samples
+from tests.support import samples
 from tests.support.kernels.native_instance import load
 
 SAMPLES = samples.size(20000)

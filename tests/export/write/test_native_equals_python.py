@@ -9,7 +9,7 @@ import pytest
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
-from tests.support.kernels import samples
+from tests.support import samples
 from tests.support.kernels.comparison import Pair, fly, only_switches
 from tests.support.lengths import either
 
