@@ -88,17 +88,17 @@ class Component:
 
     def read(self, references: list[int]) -> list:
         """Values at the given value references, as they are."""
-        held = self.block.__dict__
+        attributes = self.block.__dict__
         values: list = []
         for name, index, _, _ in self.accesses(references):
             if index == SCALAR:
-                values.append(held[name])
+                values.append(attributes[name])
             elif index in (VECTOR, RECORD, MATRIX):
-                values += held[name].elements()
+                values += attributes[name].elements()
             elif index == LIST:
-                values += held[name]
+                values += attributes[name]
             else:
-                value = held[name]
+                value = attributes[name]
                 values.append((value.elements() if isinstance(value, Record | Matrix) else value)[index])
         return values
 
@@ -116,20 +116,20 @@ class Component:
         """Put values, which have their variables' types, where the value references say."""
         if len(references) != len(values):
             raise ValueError(f"{len(values)} values for {len(references)} value references")
-        held = self.block.__dict__
+        attributes = self.block.__dict__
         for name, index, position, end in self.accesses(references):
             if index == SCALAR:
-                held[name] = values[position]
+                attributes[name] = values[position]
             elif index == VECTOR:
-                held[name] = vector(*values[position:end])
+                attributes[name] = vector(*values[position:end])
             elif index == RECORD:
-                held[name] = type(held[name]).of_elements(values[position:end])
+                attributes[name] = type(attributes[name]).of_elements(values[position:end])
             elif index == MATRIX:
-                held[name].rows = Matrix.of_elements(values[position:end], held[name].shape[1]).rows
+                attributes[name].rows = Matrix.of_elements(values[position:end], attributes[name].shape[1]).rows
             elif index == LIST:
-                held[name][:] = values[position:end]
+                attributes[name][:] = values[position:end]
             else:
-                value = held[name]
+                value = attributes[name]
                 changed = list(value.elements() if isinstance(value, Record | Matrix) else value)
                 changed[index] = values[position]
                 setattr(self.block, name, changed)

@@ -212,13 +212,13 @@ class _StoresRecord(Variable):
 class _StoresMatrix(Variable):
     """A variable whose matrix is never another: assignment copies the elements."""
 
-    def __set__(self, instance: Any, value: Any) -> None:
+    def __set__(self, instance: Any, new: Any) -> None:
         assert self.shape is not None
-        if value.__class__ is Matrix and value.shape == self.shape:
-            given = value.copy()
+        if new.__class__ is Matrix and new.shape == self.shape:
+            new = new.copy()
         else:
-            given = Matrix.of_elements(self.check_start(instance, value), self.shape[1])
-        instance.__dict__.setdefault(self.name, given).rows = given.rows
+            new = Matrix.of_elements(self.check_start(instance, new), self.shape[1])
+        instance.__dict__.setdefault(self.name, new).rows = new.rows
 
 
 class _StoresList(Variable):

@@ -73,24 +73,24 @@ class Matrix:
             return vector(first[j], second[j], third[j])
         return _narrow([row[j] for row in rows], False)
 
-    def __setitem__(self, key: tuple[Any, Any], value: Any) -> None:
+    def __setitem__(self, key: tuple[Any, Any], right: Any) -> None:
         i, j = key
         if i.__class__ is not slice:
             if j.__class__ is not slice:
-                self.rows[i][j] = value
+                self.rows[i][j] = right
                 return
-            (part,) = value.rows if value.__class__ is Matrix else (value.elements(),)
+            (part,) = right.rows if right.__class__ is Matrix else (right.elements(),)
             row = self.rows[i]
             _check_size(len(part), len(row[j]))
             row[j] = part
             return
         rows = self.rows[i]
         if j.__class__ is slice:
-            _check_size((len(value), len(value.rows[0])), (len(rows), len(rows[0][j])))
-            for row, part in zip(rows, value.rows, strict=True):
+            _check_size((len(right), len(right.rows[0])), (len(rows), len(rows[0][j])))
+            for row, part in zip(rows, right.rows, strict=True):
                 row[j] = part
             return
-        elements = [element for (element,) in value.rows] if value.__class__ is Matrix else value.elements()
+        elements = [element for (element,) in right.rows] if right.__class__ is Matrix else right.elements()
         _check_size(len(elements), len(rows))
         for row, element in zip(rows, elements, strict=True):
             row[j] = element

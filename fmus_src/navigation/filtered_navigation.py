@@ -6,7 +6,7 @@ from ..block import Output, Parameter, State
 from ..interfaces.ports import landing, sampling
 from ..kernel.enumerations import Enumeration, member
 from ..kernel.matrices import Matrix, block, zeros
-from ..mathlib.estimation.inertial import MOVING, POSITION, STATES, VELOCITY, sensor_addition, start_errors
+from ..mathlib.estimation.inertial import MOTION_STATES, POSITION, STATES, VELOCITY, sensor_addition, start_errors
 from ..mathlib.lunar.gravity import from_centre
 from ..mathlib.vectors import Vector3, norm, vector
 from ..units import deg
@@ -223,8 +223,8 @@ class FilteredNavigation(InertialNavigation, interface=True):
             elif self.rejected_in_a_row[i] > 0 and self.status == FilterStatus.GOOD:
                 self.status = FilterStatus.REJECTED
         k = 0
-        for i in range(MOVING):
-            for j in range(i, MOVING):
+        for i in range(MOTION_STATES):
+            for j in range(i, MOTION_STATES):
                 self.estimate_covariance[k] = self.covariance[i, j]
                 k = k + 1
         for i in range(STATES):

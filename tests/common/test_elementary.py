@@ -10,7 +10,7 @@ import pytest
 
 from perilune.analysis.common.elementary import FEW, FUNCTIONS, Elementary, elementary
 from tests.kernel.arguments import DRAWS, edges, samples
-from tests.support.samples import generator
+from tests.support.lengths import generator
 
 COUNT = 1000
 SAME_ARGUMENTS = {"hypot": "atan2", "normal_distribution": "expm1", "normal_quantile": "asin"}

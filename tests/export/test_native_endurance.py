@@ -10,7 +10,7 @@ import pytest
 
 from perilune.fmus_src.block import Block, Input
 from perilune.fmus_src.catalogue import catalogue
-from tests.support import samples
+from tests.support import lengths
 from tests.support.kernels.comparison import draw, elements
 from tests.support.kernels.native_instance import OK, NativeInstance
 from tests.support.lengths import either
@@ -25,7 +25,7 @@ FLAT = 1_000_000
 
 def flight(instance: NativeInstance, block: type[Block], key: str, steps: int) -> list[bytes]:
     """The complete states at the start and after each step of a flight whose inputs ``key`` determines."""
-    random = samples.generator(f"{block.fmu_name} {key}")
+    random = lengths.generator(f"{block.fmu_name} {key}")
     inputs = [n for n, (variable, _) in enumerate(elements(block)) if isinstance(variable, Input)]
     h = block.default_step
     instance.enter()

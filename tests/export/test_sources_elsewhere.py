@@ -17,13 +17,13 @@ from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
-from tests.support import samples
+from tests.support import lengths
 from tests.support.kernels.comparison import Pair, fly
 from tests.support.kernels.native_instance import CACHE, LOGGER, Callbacks, NativeInstance, opened
 from tests.support.lengths import LONG, either
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
-STEPS = samples.size(200)
+STEPS = lengths.size(200)
 # The flags of docs/use_elsewhere.md; bits do not depend on the optimisation level.
 FLAGS = ["-std=c99", "-ffp-contract=off", "-fno-tree-vectorize", "-fPIC", "-shared"]
 COMPILERS = {
@@ -74,7 +74,7 @@ def test_compiled_from_its_own_sources_it_has_the_bits_of_python(
     library = tmp_path / "own.so"
     subprocess.run([*COMPILERS[compiler], *FLAGS, "-o", library, *main, "-lm"], cwd=fmu / "sources", check=True)
     native = NativeInstance(block, guid=description.guid, dll=opened(library))
-    pair = Pair(block, samples.generator(f"{block.fmu_name} {compiler}"), native)
+    pair = Pair(block, lengths.generator(f"{block.fmu_name} {compiler}"), native)
     rows, _ = fly(pair, STEPS)
     assert len(rows) == STEPS
     native.free()

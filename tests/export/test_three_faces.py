@@ -20,14 +20,14 @@ from perilune.fmus_src.export.native_fmu import build_native_fmu
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.paths import shipped_fmu
 from perilune.fmus_src.runtime import Component
-from tests.support import samples
+from tests.support import lengths
 from tests.support.kernels.comparison import LONGEST_FLIGHT, bits, draw, elements, only_switches
 from tests.support.kernels.native_instance import CACHE
 from tests.support.kernels.users_blocks import Bundles, Integrators
 from tests.support.lengths import either
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
-STEPS = samples.size(1000)
+STEPS = lengths.size(1000)
 # Two divide a step into hundreds where their drawn time constants are short, the third plans at most steps.
 LONG = ("attitude_moon_lander", "spherical_moon_lander", "hover_guidance")
 TYPES = ("Real", "Integer", "Boolean")
@@ -94,7 +94,7 @@ def fly_faces(block: type[Block], files: list[Path], wanted: int) -> None:
     """Compare a block's Python object and FMUs after each of as many steps."""
     instances = [instantiate(load_fmu(file.read_bytes(), str(file)), block.fmu_name) for file in files]
     faces = [Face(block, instance) for instance in instances]
-    random = samples.generator(f"{block.fmu_name} faces")
+    random = lengths.generator(f"{block.fmu_name} faces")
     rows: set[bytes] = set()
     steps = 0
     while steps < wanted:

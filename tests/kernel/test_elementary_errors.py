@@ -16,7 +16,7 @@ from mpmath import mp
 from perilune.fmus_src.face import HOMES
 from perilune.fmus_src.kernel import functions
 from tests.kernel.arguments import DRAWS, edges, samples
-from tests.support.samples import generator
+from tests.support.lengths import generator
 
 COUNT = int(os.environ.get("PERILUNE_ELEMENTARY_SAMPLES", "10000"))
 LARGEST, MEDIAN, CORRECTLY_ROUNDED = 1.0, 0.3, 0.8

@@ -129,10 +129,10 @@ class Filter(Block):
 def test_a_block_copies_its_matrices():
     first, a = Filter(), identity(2)
     first.numbered = a
-    held = first.numbered
+    numbered = first.numbered
     a[0, 1] = 5.0
     first.numbered = 2.0 * first.numbered
-    assert held is first.numbered
+    assert numbered is first.numbered
     assert first.numbered == 2.0 * identity(2)
     assert Filter().numbered == zeros(2, 2)
     first.named = np.arange(6.0).reshape(2, 3)
@@ -141,8 +141,8 @@ def test_a_block_copies_its_matrices():
     assert Filter.variables["numbered"].element_names()[3] == "numbered[4]"
     with pytest.raises(TypeError, match="give a list of 4"):
         first.numbered = identity(3)
-    assert pickle.loads(pickle.dumps(held)) == held
-    assert repr(held) == "matrix([2.0, 0.0], [0.0, 2.0])"
+    assert pickle.loads(pickle.dumps(numbered)) == numbered
+    assert repr(numbered) == "matrix([2.0, 0.0], [0.0, 2.0])"
 
 
 def test_what_makes_matrices():

@@ -12,7 +12,7 @@ from mpmath import mp, mpf
 from perilune.fmus_src.kernel.elementary.normal_distribution import normal_distribution, normal_quantile
 from perilune.fmus_src.kernel.elementary.roots import hypot
 from tests.kernel.test_elementary_errors import error
-from tests.support.samples import generator
+from tests.support.lengths import generator
 
 COUNT = 2000
 LARGEST = 6.0  # units in the last place

@@ -1,6 +1,10 @@
-"""How much the long checks do: all of it under `make long`, a part of it under `make test`."""
+"""How much the long checks do: all of it under `make long`, a part of it under `make test`.
+
+Sample size and seed of randomised tests are from the environment.
+"""
 
 import os
+import random
 from typing import TypeVar
 
 LONG = os.environ.get("PERILUNE_LONG") == "1"
@@ -10,3 +14,18 @@ Value = TypeVar("Value")
 def either(long: Value, short: Value) -> Value:
     """``long`` under `make long`, else ``short``."""
     return long if LONG else short
+
+
+# Times the usual number of samples.
+FACTOR = float(os.environ.get("PERILUNE_TEST_SAMPLES", either("1", "0.3")))
+SEED = int(os.environ.get("PERILUNE_TEST_SEED", "20240607"))
+
+
+def size(usual: int) -> int:
+    """How many samples to take where ``usual`` is the number without a factor."""
+    return max(1, int(FACTOR * usual))
+
+
+def generator(name: str) -> random.Random:
+    """A generator of its own per test."""
+    return random.Random(f"{SEED} {name}")

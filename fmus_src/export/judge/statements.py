@@ -223,14 +223,14 @@ class StatementTypes(CallTypes):
 
     def _check_returned_matrices(self, node: ast.Return) -> None:
         """Report a matrix that would have a second name: an argument, a variable of the block, one that is twice."""
-        values = node.value.elts if isinstance(node.value, ast.Tuple) else [node.value]
-        for number, value in enumerate(values):
-            if not isinstance(value, ast.expr) or not isinstance(self.function.types.get(value), Matrix):
+        results = node.value.elts if isinstance(node.value, ast.Tuple) else [node.value]
+        for number, result in enumerate(results):
+            if not isinstance(result, ast.expr) or not isinstance(self.function.types.get(result), Matrix):
                 continue
-            local = isinstance(value, ast.Name) and value.id not in self.function.parameters
-            before = [ast.unparse(each) for each in values[:number] if each is not None]
-            if is_variable(value) and (not local or ast.unparse(value) in before):
-                self.report(node, "matrix shared", name="what it returns", value=ast.unparse(value))
+            local = isinstance(result, ast.Name) and result.id not in self.function.parameters
+            before = [ast.unparse(each) for each in results[:number] if each is not None]
+            if is_variable(result) and (not local or ast.unparse(result) in before):
+                self.report(node, "matrix shared", name="what it returns", value=ast.unparse(result))
 
     def check_return(self, node: ast.Return) -> None:
         if isinstance(node.value, ast.Tuple):

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from ...block import Block
 from .effects import find_effects
+from .expressions import type_of_variable
 from .flow import FlowCheck
-from .kernel import Kernel, Violation
+from .kernel import Kernel, RecordType, Several, Violation
 from .ranges import find_ranges
-from .record_types import check_record_names
 from .typed import typecheck
 
-__all__ = ["SubsetError", "Violation", "analyse_kernel", "check"]
+__all__ = ["SubsetError", "Violation", "analyse_kernel", "check", "records_of"]
 
 
 class SubsetError(ValueError):
@@ -41,6 +41,26 @@ def analyse_kernel(block_class: type[Block]) -> Kernel:
     return kernel
 
 
+def records_of(kernel: Kernel) -> list[RecordType]:
+    """The records that a kernel has, each after those of its fields; each becomes a struct of C under its name."""
+    ordered: dict[RecordType, None] = {}
+
+    def add(kind: object) -> None:
+        for part in kind.parts if isinstance(kind, Several) else [kind]:
+            if isinstance(part, RecordType) and part not in ordered:
+                for name in part.record.fields:
+                    add(part.field(name))
+                ordered[part] = None
+
+    for variable in kernel.block_class.variables.values():  # a state may be one that no function reads
+        add(type_of_variable(variable))
+    for function in kernel.functions:
+        for kind in (*function.parameters.values(), *function.locals.values(), *function.types.values()):
+            add(kind)
+        add(function.returns)
+    return list(ordered)
+
+
 def _analyse(block_class: type[Block]) -> Kernel:
     kernel = Kernel(block_class)
     if block_class.python_only:
@@ -49,8 +69,19 @@ def _analyse(block_class: type[Block]) -> Kernel:
     kernel = typecheck(block_class)
     for function in kernel.functions:
         FlowCheck(kernel, function).check()
-    check_record_names(kernel)
+    _check_record_names(kernel)
     if not kernel.violations:  # later analyses build on types
         find_ranges(kernel)
         find_effects(kernel)
     return kernel
+
+
+def _check_record_names(kernel: Kernel) -> None:
+    """Report records of one name, of which C would see one."""
+    named: dict[str, type] = {}
+    for kind in records_of(kernel):
+        record = kind.record
+        other = named.setdefault(record.__name__, record)
+        if other is not record:
+            pair = [f"{one.__module__}.{one.__qualname__}" for one in (other, record)]
+            kernel.report_block("record names", first=pair[0], second=pair[1])

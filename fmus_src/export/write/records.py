@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..judge.kernel import FLOAT, Kernel, RecordType, Vector
-from ..judge.record_types import records_of
+from ..judge.subset import records_of
 from .layout import Lines
 from .names import c_type, declaration, identifier
 

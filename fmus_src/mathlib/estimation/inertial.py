@@ -9,7 +9,7 @@ from ..vectors import Vector3, vector
 
 # The states of a covariance: errors of position and velocity, and of the inertial sensor.
 STATES = 15
-MOVING = 6  # which of them are position and velocity
+MOTION_STATES = 6  # which of them are position and velocity
 POSITION = block(0, 3)
 VELOCITY = block(3, 3)
 BIAS = block(6, 3)
@@ -83,7 +83,7 @@ def predict_errors(
         position, velocity = propagate(p[POSITION, j], p[VELOCITY, j], a, up, gradient, h)
         p[POSITION, j] = position
         p[VELOCITY, j] = velocity
-    for i in range(MOVING):  # (F P) F'; the rest by symmetry
+    for i in range(MOTION_STATES):  # (F P) F'; the rest by symmetry
         if sensing:
             a = sensor_addition(p[i, BIAS], p[i, SCALE_FACTOR], p[i, ROTATION], f)
         position, velocity = propagate(p[i, POSITION], p[i, VELOCITY], a, up, gradient, h)
@@ -98,4 +98,4 @@ def predict_errors(
         p[VELOCITY, POSITION] += of_both
         p[VELOCITY, VELOCITY] += of_velocity
     p[BIAS, BIAS] += drift * h * identity(3)
-    mirror(p, MOVING)
+    mirror(p, MOTION_STATES)

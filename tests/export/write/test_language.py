@@ -7,7 +7,7 @@ from inspect import getsourcelines
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.judge.subset import check
 from perilune.fmus_src.export.write.translate import translate
-from tests.support import samples
+from tests.support import lengths
 from tests.support.kernels.comparison import Pair, fly
 from tests.support.kernels.language_blocks import (
     Engine,
@@ -36,69 +36,69 @@ def test_blocks_are_in_the_subset() -> None:
 
 
 def test_every_construct_is_bitwise_equal() -> None:
-    pair = Pair(Language, samples.generator("language"))
-    rows, _ = fly(pair, samples.size(2000))
+    pair = Pair(Language, lengths.generator("language"))
+    rows, _ = fly(pair, lengths.size(2000))
     assert len(set(rows)) > 0.9 * len(rows)
 
 
 def test_everything_that_vectors_can_do_is_bitwise_equal() -> None:
-    pair = Pair(VectorLanguage, samples.generator("vectors"))
-    rows, _ = fly(pair, samples.size(2000))
+    pair = Pair(VectorLanguage, lengths.generator("vectors"))
+    rows, _ = fly(pair, lengths.size(2000))
     assert len(set(rows)) > 0.9 * len(rows)
 
 
 def test_vectors_of_any_floats_are_bitwise_equal() -> None:
-    pair = Pair(VectorLanguage, samples.generator("wild vectors"))
+    pair = Pair(VectorLanguage, lengths.generator("wild vectors"))
     pair.wild = True
-    fly(pair, samples.size(2000))
+    fly(pair, lengths.size(2000))
 
 
 def test_every_fault_of_vectors_is_at_the_same_line_and_leaves_the_same_values() -> None:
-    pair = Pair(VectorFaults, samples.generator("vector faults"))
+    pair = Pair(VectorFaults, lengths.generator("vector faults"))
     pair.wild = True
-    fly(pair, samples.size(3000))
+    fly(pair, lengths.size(3000))
     lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
     assert len(lines) >= 9, sorted(lines)
 
 
 def test_everything_that_matrices_can_do_is_bitwise_equal() -> None:
-    pair = Pair(MatrixLanguage, samples.generator("matrices"))
-    rows, _ = fly(pair, samples.size(2000))
+    pair = Pair(MatrixLanguage, lengths.generator("matrices"))
+    rows, _ = fly(pair, lengths.size(2000))
     assert len(set(rows)) > 0.9 * len(rows)
 
 
 def test_matrices_of_any_floats_are_bitwise_equal() -> None:
-    pair = Pair(MatrixLanguage, samples.generator("wild matrices"))
+    pair = Pair(MatrixLanguage, lengths.generator("wild matrices"))
     pair.wild = True
-    fly(pair, samples.size(1000))
+    fly(pair, lengths.size(1000))
 
 
 def test_every_fault_of_matrices_is_at_the_same_line_and_leaves_the_same_values() -> None:
-    pair = Pair(MatrixFaults, samples.generator("matrix faults"))
+    pair = Pair(MatrixFaults, lengths.generator("matrix faults"))
     pair.wild = True
-    fly(pair, samples.size(3000))
+    fly(pair, lengths.size(3000))
     lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
     assert len(lines) >= 9, sorted(lines)
 
 
 def test_everything_that_records_can_do_is_bitwise_equal() -> None:
-    pair = Pair(RecordLanguage, samples.generator("records"))
-    rows, _ = fly(pair, samples.size(2000))
+    pair = Pair(RecordLanguage, lengths.generator("records"))
+    rows, _ = fly(pair, lengths.size(2000))
     assert len(set(rows)) > 0.9 * len(rows)
 
 
 def test_every_fault_of_records_is_at_the_same_line_and_leaves_the_same_values() -> None:
-    pair = Pair(RecordFaults, samples.generator("record faults"))
+    pair = Pair(RecordFaults, lengths.generator("record faults"))
     pair.wild = True
-    fly(pair, samples.size(3000))
+    fly(pair, lengths.size(3000))
     lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
     assert len(lines) >= 5, sorted(lines)
 
 
 def test_everything_that_bundles_can_do_is_bitwise_equal_with_its_fault() -> None:
-    pair = Pair(Bundles, samples.generator("bundles"))
+    pair = Pair(Bundles, lengths.generator("bundles"))
     pair.wild = True
-    rows, _ = fly(pair, samples.size(2000))
+    rows, _ = fly(pair, lengths.size(2000))
     assert len(set(rows)) > 0.9 * len(rows)
     divided = f"line {getsourcelines(Bundles.weaken)[1] + 2}: ZeroDivisionError"
     assert pair.faults
@@ -107,7 +107,7 @@ def test_everything_that_bundles_can_do_is_bitwise_equal_with_its_fault() -> Non
 
 def test_enumerations_of_one_module_may_name_their_members_alike() -> None:
     assert [Engine.READY, Tank.READY, Valve.READY] == [0, 1, 2]
-    fly(Pair(Readiness, samples.generator("statuses")), samples.size(200))
+    fly(Pair(Readiness, lengths.generator("statuses")), lengths.size(200))
 
 
 def test_generated_integrators_are_readable() -> None:
@@ -133,9 +133,9 @@ def test_generated_vectors_are_readable() -> None:
 
 
 def test_every_fault_is_at_the_same_line_and_leaves_the_same_values() -> None:
-    pair = Pair(Faults, samples.generator("faults"))
+    pair = Pair(Faults, lengths.generator("faults"))
     pair.wild = True
-    fly(pair, samples.size(4000))
+    fly(pair, lengths.size(4000))
     lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
     assert len(lines) >= 24, sorted(lines)
 

@@ -15,10 +15,10 @@ import pytest
 from perilune.fmus_src.export.compilers import CompilerMissing
 from perilune.fmus_src.export.judge.subset_table import MATH_FUNCTIONS
 from perilune.fmus_src.export.native_fmu import C_FILES
-from tests.support import samples
+from tests.support import lengths
 from tests.support.kernels.native_instance import load
 
-SAMPLES = samples.size(20000)
+SAMPLES = lengths.size(20000)
 INT64 = 2**63
 EDGES = [0.0, 5e-324, 2.2250738585072014e-308, 1e-20, 0.5, 1.0, 1.0 - 2**-53, 1.0 + 2**-52, 1.5, 2.0, 3.0, 710.0, 1e22]
 EDGES += [math.pi / 2, math.pi, 1e15, 2.0**52, 2.0**53, 2.0**63, 1.7976931348623157e308, math.inf]
@@ -147,7 +147,7 @@ def c_results(name: str, portable: bool, columns: list[list]) -> list[Result]:
 @pytest.mark.parametrize("portable", [False, True], ids=["system", "zig"])
 @pytest.mark.parametrize("name", CASES)
 def test_c_has_cpythons_bits_and_errors(name: str, portable: bool) -> None:
-    random = samples.generator(name)
+    random = lengths.generator(name)
     _, kinds, _, function = CASES[name]
     sampled = [(floats if kind == "float" else ints)(random, SAMPLES) for kind in kinds]
     if len(kinds) == 2:  # every edge with every edge too

@@ -9,17 +9,17 @@ import pytest
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
-from tests.support import samples
+from tests.support import lengths
 from tests.support.kernels.comparison import Pair, fly, only_switches
 from tests.support.lengths import either
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
-STEPS = samples.size(400)  # beside the 1000 of test_three_faces.py
+STEPS = lengths.size(400)  # beside the 1000 of test_three_faces.py
 
 
 @pytest.mark.parametrize("block", BLOCKS[:: either(1, 3)], ids=lambda block: block.fmu_name)
 def test_bitwise_equal_over_random_inputs(block: type[Block]) -> None:
-    pair = Pair(block, samples.generator(block.fmu_name))
+    pair = Pair(block, lengths.generator(block.fmu_name))
     rows, flights = fly(pair, STEPS)
     pair.native.free()
     assert only_switches(block) or len(set(rows)) > 0.3 * STEPS, (
@@ -30,7 +30,7 @@ def test_bitwise_equal_over_random_inputs(block: type[Block]) -> None:
 
 @pytest.mark.parametrize("block", BLOCKS[either(0, 1) :: either(1, 3)], ids=lambda block: block.fmu_name)
 def test_faults_equal_over_wild_inputs(block: type[Block]) -> None:
-    pair = Pair(block, samples.generator(f"{block.fmu_name} wild"))
+    pair = Pair(block, lengths.generator(f"{block.fmu_name} wild"))
     pair.wild = True
-    fly(pair, samples.size(200))
+    fly(pair, lengths.size(200))
     pair.native.free()

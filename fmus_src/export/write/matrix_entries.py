@@ -1,0 +1,213 @@
+"""The elements of a matrix expression as C text, after the statements that they need.
+
+What an element would need more than once, products and what calls return, is computed before, in a matrix of its own.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from ..judge.effects import own_outcome
+from ..judge.kernel import KernelCall, MakeMatrix, Matrix, Vector
+from ..judge.ranges import indices_of
+from ..judge.vectors import is_variable
+from .expressions import ATOM, CONDITIONAL, PRODUCT, SUM, UNARY
+from .matrix_plan import MatrixPlan, is_matmul, terms_of
+
+if TYPE_CHECKING:
+    from .writer import FunctionWriter
+
+Index = int | str
+Entry = Callable[[Index, Index], tuple[str, int]]  # of row and column: text and precedence
+
+
+class MatrixEntries:
+    """Writes the elements of the matrices of one function."""
+
+    def __init__(self, out: FunctionWriter) -> None:
+        self.out = out
+        self.function = out.function
+        self.plan = MatrixPlan(out.function)
+
+    def materialise(self, node: ast.expr) -> str:
+        """The name of a matrix of its own that holds an expression."""
+        raise NotImplementedError
+
+    def prepare(self, node: ast.expr) -> Entry:
+        """The elements of a matrix, or of a vector as its column, after the statements that they need."""
+        kind = self.function.types[node]
+        if isinstance(kind, Vector) and not is_matmul(node):
+            text = self.out.expressions.write(node)
+            text = text if text.isidentifier() else self.out.keep(node, text, "part")
+            return lambda i, j: (f"{text}.x[{i}]", ATOM)
+        if is_variable(node):
+            assert isinstance(kind, Matrix)
+            return entry_of(self.holder(node), kind.columns)
+        if isinstance(node, ast.Attribute):
+            inner = self.prepare(node.value)
+            return lambda i, j: inner(j, i)
+        if isinstance(node, ast.UnaryOp):
+            operand = self.prepare(node.operand)
+            return lambda i, j: (f"-{paren(operand(i, j), ATOM)}", UNARY)
+        if isinstance(node, ast.Subscript):
+            return self.block(node)
+        if isinstance(node, ast.Call):
+            return self._call(node)
+        assert isinstance(node, ast.BinOp)
+        return self._product(node) if is_matmul(node) else self._elementwise(node)
+
+    def holder(self, node: ast.expr) -> str:
+        """What is indexed to mean an element: ``p->x``, ``self->covariance.x``."""
+        text = self.out.expressions.write(node, ATOM)
+        return f"{text[2:-1]}->x" if text.startswith("(*") else f"{text}.x"
+
+    def place(self, node: ast.Subscript) -> str:
+        """The place of ``p[i, j]`` in row order."""
+        kind = self.function.types[node.value]
+        assert isinstance(kind, Matrix)
+        row, column = (self._index(node, *each) for each in indices_of(self.function, node))
+        return str(place_of(row, column, kind.columns))
+
+    def _index(self, node: ast.Subscript, index: ast.expr, size: int) -> Index:
+        """An index, checked where it was not proven."""
+        text = self.out.expressions.write(index, SUM)
+        if index in self.function.unproven_indices:
+            return self.out.expressions.write_checked(node, "py_index", text, str(size))[0]
+        return int(text) if text.isdigit() else text
+
+    def block(self, node: ast.Subscript) -> Entry:
+        """The elements of a block, row or column."""
+        inner = self.prepare(node.value)
+        indices = iter(indices_of(self.function, node))
+        starts: list[Index] = []
+        for block in self.function.blocks[node]:
+            start: Index = block.start if block else self._index(node, *next(indices))
+            if isinstance(start, str) and not start.isidentifier():
+                name = self.out.fresh("index")
+                self.out.add(f"const int64_t {name} = {start};")
+                if start.startswith("py_index"):
+                    self.out.check()
+                start = name
+            starts.append(start)
+        return lambda i, j: inner(plus(starts[0], i), plus(starts[1], j))
+
+    def _call(self, node: ast.Call) -> Entry:
+        kind, call = self.function.types[node], self.function.calls[node]
+        assert isinstance(kind, Matrix)
+        write = self.out.expressions.write
+        if isinstance(call, KernelCall):
+            text = write(node)
+            name = text if text.isidentifier() else self.out.keep(node, text, "part")
+            return entry_of(f"{name}.x", kind.columns)
+        assert isinstance(call, MakeMatrix)
+        if call.name == "add_product":
+            return self._product(node)
+        if call.name == "copy":
+            assert isinstance(node.func, ast.Attribute)
+            return self.prepare(node.func.value)
+        if call.name == "matrix":
+            return entry_of(f"{self.materialise(node)}.x", kind.columns)
+        if call.name == "zeros":
+            return lambda i, j: ("0.0", ATOM)
+        return lambda i, j: (
+            ("1.0" if i == j else "0.0", ATOM)
+            if isinstance(i, int) and isinstance(j, int)
+            else (f"{i} == {j} ? 1.0 : 0.0", CONDITIONAL)
+        )
+
+    def _elementwise(self, node: ast.BinOp) -> Entry:
+        """``+`` and ``-`` of matrices, ``*`` and ``/`` with a number."""
+        if isinstance(node.op, ast.Add | ast.Sub):
+            left, right = self.prepare(node.left), self.prepare(node.right)
+            sign = "+" if isinstance(node.op, ast.Add) else "-"
+            return lambda i, j: (f"{paren(left(i, j), SUM)} {sign} {paren(right(i, j), SUM + 1)}", SUM)
+        if isinstance(node.op, ast.Div):
+            left, divisor = self.prepare(node.left), self._scalar(node.right, node)
+            return lambda i, j: (f"{paren(left(i, j), PRODUCT)} / {divisor}", PRODUCT)
+        number, holder = node.left, node.right
+        if isinstance(self.function.types[number], Matrix):
+            holder, number = number, holder
+            entry, factor = self.prepare(holder), self._scalar(number)
+        else:
+            factor, entry = self._scalar(number), self.prepare(holder)
+        return lambda i, j: (f"{factor} * {paren(entry(i, j), PRODUCT + 1)}", PRODUCT)
+
+    def _scalar(self, node: ast.expr, division: ast.BinOp | None = None) -> str:
+        """A number that all elements are multiplied with, or divided by."""
+        text = self.out.expressions.write_as_float(node, ATOM)
+        if division is not None and own_outcome(self.function, division):
+            text = self.out.expressions.write_checked(division, "py_divisor", text)[0]
+        elif text.isidentifier() or isinstance(node, ast.Constant):
+            return text
+        name = self.out.fresh("divisor" if division else "factor")
+        self.out.add(f"const double {name} = {text};")
+        if text.startswith("py_divisor") or self.out.can_fault(node):
+            self.out.check()
+        return name
+
+    def _product(self, node: ast.expr) -> Entry:
+        """``a @ b``, whose sums run from the first product on, or ``add_product(q, a, b)``."""
+        if self.plan.is_long(node):
+            kind = self.function.types[node]
+            assert isinstance(kind, Matrix)
+            return entry_of(f"{self.materialise(node)}.x", kind.columns)
+        start, row, column = self.factors(node)
+        inner = self.plan.inner(node)
+
+        def entry(i: Index, j: Index) -> tuple[str, int]:
+            terms = [times(row(i, k), column(k, j)) for k in range(inner)]
+            terms = [paren(start(i, j), SUM), *terms] if start else terms
+            return " + ".join(terms), SUM if len(terms) > 1 else PRODUCT
+
+        return entry
+
+    def factors(self, node: ast.expr) -> tuple[Entry | None, Entry, Entry]:
+        """Elements of what a product is added to, and of both factors.
+
+        Factors are in a matrix of their own where an element is used more than once and takes computing.
+        """
+        parts = terms_of(node)
+        kind, right = self.function.types[parts[-2]], self.function.types[parts[-1]]
+        assert isinstance(kind, Matrix)
+        once = (isinstance(right, Vector) or right.columns == 1, kind.rows == 1)  # type: ignore[union-attr]
+        start = self.prepare(parts[0]) if len(parts) == 3 else None
+        entries = []
+        for factor, single in zip(parts[-2:], once, strict=True):
+            kind = self.function.types[factor]
+            if single or self.plan.is_cheap(factor) or not isinstance(kind, Matrix):
+                entries.append(self.prepare(factor))
+            else:
+                entries.append(entry_of(f"{self.materialise(factor)}.x", kind.columns))
+        return start, entries[0], entries[1]
+
+
+def entry_of(holder: str, columns: int) -> Entry:
+    """The elements of what is stored in row order."""
+    return lambda i, j: (f"{holder}[{place_of(i, j, columns)}]", ATOM)
+
+
+def place_of(i: Index, j: Index, columns: int) -> Index:
+    """Where an element is in row order."""
+    if columns == 1:
+        return plus(i, j)
+    if isinstance(i, int):
+        return plus(columns * i, j)
+    return plus(f"{columns} * {f'({i})' if ' ' in i else i}", j)
+
+
+def plus(a: Index, b: Index) -> Index:
+    if isinstance(a, int) and isinstance(b, int):
+        return a + b
+    return b if a == 0 else a if b == 0 else f"{a} + {b}"
+
+
+def paren(entry: tuple[str, int], outer: int) -> str:
+    """The text of an element, in parentheses where the operator around it binds tighter."""
+    text, precedence = entry
+    return f"({text})" if precedence < outer else text
+
+
+def times(a: tuple[str, int], b: tuple[str, int]) -> str:
+    return f"{paren(a, PRODUCT)} * {paren(b, PRODUCT + 1)}"

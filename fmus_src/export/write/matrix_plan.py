@@ -1,0 +1,85 @@
+"""How an expression of matrices is written in C: written out, in loops, or computed before in a matrix of its own."""
+
+from __future__ import annotations
+
+import ast
+
+from ..judge.kernel import Function, KernelCall, MakeMatrix, Matrix
+from ..judge.vectors import is_variable
+
+FEW = 16  # elements that are written out,
+FEW_TERMS = 64  # if they have no more terms of sums together
+SHORT = 4  # terms of a sum that is one expression
+
+
+class MatrixPlan:
+    """What the expressions of one function ask for."""
+
+    def __init__(self, function: Function) -> None:
+        self.function = function
+
+    def inner(self, node: ast.expr) -> int:
+        """How many products a sum of a product has."""
+        left = self.function.types[terms_of(node)[-2]]
+        assert isinstance(left, Matrix)
+        return left.columns
+
+    def _is_product(self, node: ast.AST) -> bool:
+        """Whether an expression is a product, or one that is added to something."""
+        call = self.function.calls.get(node) if isinstance(node, ast.Call) else None
+        return is_matmul(node) or (isinstance(call, MakeMatrix) and call.name == "add_product")
+
+    def is_long(self, node: ast.expr) -> bool:
+        """Whether sums of a product take a loop."""
+        return self._is_product(node) and self.inner(node) > SHORT
+
+    def is_cheap(self, node: ast.expr) -> bool:
+        """Whether an element is read, not computed."""
+        if isinstance(node, ast.Attribute | ast.Subscript) and not is_variable(node):
+            return self.is_cheap(node.value)
+        return is_variable(node) or isinstance(self.function.calls.get(node), KernelCall)  # type: ignore[call-overload]
+
+    def is_small(self, node: ast.expr) -> bool:
+        """Whether a matrix is written out."""
+        kind = self.function.types[node]
+        assert isinstance(kind, Matrix)
+        if isinstance(node, ast.Call) and any(isinstance(row, ast.List) for row in node.args):
+            return True
+        if self.is_long(node):
+            return False
+        terms = [self.inner(part) for part in ast.walk(node) if isinstance(part, ast.expr) and self._is_product(part)]
+        size = kind.rows * kind.columns
+        return size <= FEW and size * max([1, *(count for count in terms if count <= SHORT)]) <= FEW_TERMS
+
+    def is_disturbed(self, node: ast.expr, target: str, variable: str) -> bool:
+        """Whether an element of a value reads the variable elsewhere than at the element that is assigned.
+
+        An argument may be the block's matrix that is assigned.
+        """
+        if ast.unparse(node) == target or (self._is_argument(node) and target == variable):
+            return False
+        if isinstance(node, ast.BinOp) and not is_matmul(node):
+            matrices = [each for each in (node.left, node.right) if isinstance(self.function.types[each], Matrix)]
+            return any(self.is_disturbed(each, target, variable) for each in matrices)
+        if isinstance(node, ast.UnaryOp):
+            return self.is_disturbed(node.operand, target, variable)
+        parts = [part for part in ast.walk(node) if isinstance(part, ast.Name | ast.Attribute)]
+        aliases = variable.startswith("self.") and any(map(self._is_argument, parts))
+        return aliases or variable in map(ast.unparse, parts)
+
+    def _is_argument(self, node: ast.expr) -> bool:
+        """Whether an expression is a matrix that the function was given."""
+        name = node.id if isinstance(node, ast.Name) else ""
+        return isinstance(self.function.parameters.get(name), Matrix)
+
+
+def is_matmul(node: ast.AST) -> bool:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult)
+
+
+def terms_of(node: ast.expr) -> list[ast.expr]:
+    """The factors of a product, after what it may be added to."""
+    if isinstance(node, ast.Call):
+        return node.args
+    assert isinstance(node, ast.BinOp)
+    return [node.left, node.right]
