@@ -22,6 +22,7 @@ HOMES = {
         *("log", "log2", "log10", "log1p", "pow", "sinh", "cosh", "tanh", "cbrt", "fmod"),
     ),
     "kernel.integrators": ("Forcing", "Translation", "runge_kutta_4", "runge_kutta_nystrom", "simpson"),
+    "kernel.matrices": ("Matrix", "block", "identity", "matrix", "zeros"),
     "kernel.records": ("Field", "Record", "replace"),
     "mathlib.vectors": ("Vector", "Vector2", "Vector3", "Vector4", "cross", "dot", "norm", "vector"),
     "navigation.attitude_observer": ("AttitudeObserver",),

@@ -143,6 +143,21 @@ from .fmus_src.kernel.integrators import (
 from .fmus_src.kernel.integrators import (
     simpson as simpson,
 )
+from .fmus_src.kernel.matrices import (
+    Matrix as Matrix,
+)
+from .fmus_src.kernel.matrices import (
+    block as block,
+)
+from .fmus_src.kernel.matrices import (
+    identity as identity,
+)
+from .fmus_src.kernel.matrices import (
+    matrix as matrix,
+)
+from .fmus_src.kernel.matrices import (
+    zeros as zeros,
+)
 from .fmus_src.kernel.records import (
     Field as Field,
 )

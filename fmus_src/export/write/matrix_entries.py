@@ -68,7 +68,7 @@ class MatrixEntries:
         kind = self.function.types[node.value]
         assert isinstance(kind, Matrix)
         row, column = (self._index(node, *each) for each in indices_of(self.function, node))
-        return str(place_of(row, column, kind.columns))
+        return str(row_order_index(row, column, kind.columns))
 
     def _index(self, node: ast.Subscript, index: ast.expr, size: int) -> Index:
         """An index, checked where it was not proven."""
@@ -168,13 +168,13 @@ class MatrixEntries:
 
         Factors are in a matrix of their own where an element is used more than once and takes computing.
         """
-        parts = terms_of(node)
-        kind, right = self.function.types[parts[-2]], self.function.types[parts[-1]]
+        *addend, first, second = terms_of(node)
+        kind, right = self.function.types[first], self.function.types[second]
         assert isinstance(kind, Matrix)
-        once = (isinstance(right, Vector) or right.columns == 1, kind.rows == 1)  # type: ignore[union-attr]
-        start = self.prepare(parts[0]) if len(parts) == 3 else None
+        start = self.prepare(addend[0]) if addend else None
+        is_column = isinstance(right, Vector) or right.columns == 1  # type: ignore[union-attr]
         entries = []
-        for factor, single in zip(parts[-2:], once, strict=True):
+        for factor, single in ((first, is_column), (second, kind.rows == 1)):
             kind = self.function.types[factor]
             if single or self.plan.is_cheap(factor) or not isinstance(kind, Matrix):
                 entries.append(self.prepare(factor))
@@ -185,10 +185,10 @@ class MatrixEntries:
 
 def entry_of(holder: str, columns: int) -> Entry:
     """The elements of what is stored in row order."""
-    return lambda i, j: (f"{holder}[{place_of(i, j, columns)}]", ATOM)
+    return lambda i, j: (f"{holder}[{row_order_index(i, j, columns)}]", ATOM)
 
 
-def place_of(i: Index, j: Index, columns: int) -> Index:
+def row_order_index(i: Index, j: Index, columns: int) -> Index:
     """Where an element is in row order."""
     if columns == 1:
         return plus(i, j)

@@ -63,9 +63,9 @@ class MatrixPlan:
             return any(self.is_disturbed(each, target, variable) for each in matrices)
         if isinstance(node, ast.UnaryOp):
             return self.is_disturbed(node.operand, target, variable)
-        parts = [part for part in ast.walk(node) if isinstance(part, ast.Name | ast.Attribute)]
-        aliases = variable.startswith("self.") and any(map(self._is_argument, parts))
-        return aliases or variable in map(ast.unparse, parts)
+        names = [each for each in ast.walk(node) if isinstance(each, ast.Name | ast.Attribute)]
+        aliases = variable.startswith("self.") and any(map(self._is_argument, names))
+        return aliases or variable in map(ast.unparse, names)
 
     def _is_argument(self, node: ast.expr) -> bool:
         """Whether an expression is a matrix that the function was given."""

@@ -46,7 +46,7 @@ def test_stored_parameter_sets_are_what_the_table_gives():
 def test_the_default_of_the_block_is_direct1(gains):
     values = gain_parameters("direct1", gains["direct1"])
     block = OutputFeedback()
-    assert [*block.pressures, *block.gains] == list(values.values())
+    assert [*block.pressures, *block.gains.elements()] == list(values.values())
 
 
 def test_moments_of_the_air():

@@ -92,7 +92,7 @@ def test_update_never_adds_variance_in_any_direction(n, seed):
 
 
 @pytest.mark.parametrize("n", [1, 6, 15])
-def test_an_update_in_two_parts_is_the_update(n):
+def test_an_update_in_two_steps_is_the_update(n):
     generator = np.random.default_rng(300 + n)
     x, p, _, _ = random_system(generator, n)
     h = generator.normal(size=n)
