@@ -14,7 +14,7 @@ import pytest
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.native_fmu import native_sources
-from tests.support import kernels, samples
+from tests.support import kernels, lengths
 from tests.support.kernels.native_instance import GUID
 from tests.support.lengths import LONG
 
@@ -22,7 +22,7 @@ DRIVER = Path(kernels.__file__).with_name("sanitize_fmu.c")
 # Those with the most lists, random numbers, searches and vectors between them.
 DENSE = ("kalman_navigation", "jet_allocation_least_propellant", "free_flying_robot")
 BLOCKS = [block for block in catalogue().values() if not block.python_only and (LONG or block.fmu_name in DENSE)]
-STEPS = samples.size(200)
+STEPS = lengths.size(200)
 # Kernels divide and convert through checked helpers, so these two, allowed by IEEE 754 or left out of
 # `undefined`, would be faults of the translation.
 UNDEFINED = "undefined,float-divide-by-zero,float-cast-overflow"

@@ -64,8 +64,8 @@ class MatrixWriter(MatrixEntries):
             entry = entry_of(f"{self.materialise(expression)}.x", kind.columns)
         else:
             entry = self.prepare(expression)
-        place = self.block(target)
-        self._each(kind, self.plan.is_small(expression), lambda i, j: [f"{place(i, j)[0]} = {entry(i, j)[0]};"])
+        stored = self.block(target)
+        self._each(kind, self.plan.is_small(expression), lambda i, j: [f"{stored(i, j)[0]} = {entry(i, j)[0]};"])
 
     def materialise(self, node: ast.expr) -> str:
         """The name of a matrix of its own that holds an expression."""
