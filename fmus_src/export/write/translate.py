@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -45,10 +46,17 @@ def translate(block_class: type[Block], guid: str) -> str:
 
     Raises `SubsetError` where the block is outside the subset of Python.
     """
+    before, after = _around_tables(block_class)
+    return "\n".join((*before, _tables(block_class, block_type_name(block_class.__name__), guid), *after))
+
+
+@cache  # an FMU is translated twice, without its GUID, which is a hash of that, and with it
+def _around_tables(block_class: type[Block]) -> tuple[list[str], list[str]]:
+    """What stands before and after the tables, the one place where the GUID stands."""
     kernel = analyse_kernel(block_class)
     names = names_of(kernel)
     type_name = block_type_name(block_class.__name__)
-    parts = [
+    before = [
         HEADER.format(
             name=block_class.fmu_name,
             summary=comment(block_class.summary()),
@@ -60,11 +68,8 @@ def translate(block_class: type[Block], guid: str) -> str:
         *_constants(names),
         *_several(kernel),
         *_functions(kernel, names, type_name),
-        _tables(block_class, type_name, guid),
-        _entry_points(kernel, names),
-        '#include "fmi2_wrapper.c"\n',
     ]
-    return "\n".join(parts)
+    return before, [_entry_points(kernel, names), '#include "fmi2_wrapper.c"\n']
 
 
 def _matrices(kernel: Kernel) -> list[str]:
