@@ -2,7 +2,7 @@
 
 import math
 
-from ..mathlib.orbits.attitude import angle_rates
+from ..mathlib.orbits.attitude import angle_rates, evaluate_angles
 from ..mathlib.vectors import vector
 from .orbital_control import OrbitalControl
 
@@ -53,7 +53,7 @@ class OrbitalArrivalControl(OrbitalControl):
 
     def regulate(self, time: float) -> None:
         yaw, led = self.lead_yaw(time)
-        rates = angle_rates(self.estimated_angles, self.estimated_angular_velocity, self.orbital_rate)
+        rates = angle_rates(evaluate_angles(self.estimated_angles), self.estimated_angular_velocity, self.orbital_rate)
         x = self.torque_about(0, self.estimated_angles.x, 0.0, rates.x, time)
         y = self.torque_about(1, self.estimated_angles.y - yaw, led, rates.y, time)
         z = self.torque_about(2, self.estimated_angles.z, 0.0, rates.z, time)

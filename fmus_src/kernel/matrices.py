@@ -30,10 +30,10 @@ def outer(v: Vector, w: Vector) -> Matrix:
     return a
 
 
-def mirror(a: Matrix, rows: int) -> None:
-    """Below the diagonal of a square matrix, the first columns = the first rows above it."""
-    for i in range(rows):
-        for j in range(i + 1, len(a)):
+def mirror(a: Matrix, size: int) -> None:
+    """Below the diagonal of the first ``size`` rows and columns, what stands above it."""
+    for i in range(size):
+        for j in range(i + 1, size):
             a[j, i] = a[i, j]
 
 
@@ -43,23 +43,24 @@ def inverse_quadratic_form(p: Matrix, e: Matrix) -> float:
     ``e`` is a column, ``p`` a symmetric matrix, of which the lower triangle is read.
     Source: Golub and Van Loan 2013, section 4.1.2.
     """
-    lower = zeros(len(p), len(p))  # below the diagonal; d on it
-    y = zeros(len(p), 1)
+    lower = zeros(len(p), len(p))
+    d = [0.0] * len(p)
+    y = [0.0] * len(p)
     total = 0.0
     for i in range(len(p)):
-        y[i, 0] = e[i, 0]
+        y[i] = e[i, 0]
         for j in range(i + 1):
             rest = p[i, j]
             for k in range(j):
-                rest = rest - lower[i, k] * lower[j, k] * lower[k, k]
+                rest = rest - lower[i, k] * lower[j, k] * d[k]
             if j < i:
-                lower[i, j] = rest / lower[j, j]
-                y[i, 0] = y[i, 0] - lower[i, j] * y[j, 0]
+                lower[i, j] = rest / d[j]
+                y[i] = y[i] - lower[i, j] * y[j]
             else:
                 if not rest > 0.0:
                     return -1.0
-                lower[i, i] = rest
-        total = total + y[i, 0] * y[i, 0] / lower[i, i]
+                d[i] = rest
+        total = total + y[i] * y[i] / d[i]
     return total
 
 

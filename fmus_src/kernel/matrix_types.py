@@ -19,9 +19,9 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from itertools import chain
 from operator import add, sub
-from typing import Any
+from typing import Any, NoReturn
 
-from .vector_types import VECTORS, Vector, vector
+from .vector_types import VECTORS, Vector, Vector3, vector
 
 
 class Matrix:
@@ -64,13 +64,13 @@ class Matrix:
         i, j = key
         if i.__class__ is not slice:
             part = self.rows[i][j]
-            return _narrow(part, True) if j.__class__ is slice else part
+            return part if j.__class__ is not slice else _of_three(*part) if len(part) == 3 else _narrow(part, True)
         rows = self.rows[i]
         if j.__class__ is slice:
             return Matrix([row[j] for row in rows])
-        if len(rows) == 3:  # three quarters of the time of a Kalman filter's prediction
+        if len(rows) == 3:
             first, second, third = rows
-            return vector(first[j], second[j], third[j])
+            return _of_three(first[j], second[j], third[j])
         return _narrow([row[j] for row in rows], False)
 
     def __setitem__(self, key: tuple[Any, Any], right: Any) -> None:
@@ -81,31 +81,43 @@ class Matrix:
                 return
             (part,) = right.rows if right.__class__ is Matrix else (right.elements(),)
             row = self.rows[i]
-            _check_size(len(part), len(row[j]))
+            if len(part) != len(row[j]):
+                _refuse_size(len(part), len(row[j]))
             row[j] = part
             return
         rows = self.rows[i]
         if j.__class__ is slice:
-            _check_size((len(right), len(right.rows[0])), (len(rows), len(rows[0][j])))
-            for row, part in zip(rows, right.rows, strict=True):
+            others = right.rows
+            if len(others) != len(rows) or len(others[0]) != len(rows[0][j]):
+                _refuse_size(right.shape, (len(rows), len(rows[0][j])))
+            for row, part in zip(rows, others, strict=True):
                 row[j] = part
             return
+        if right.__class__ is Vector3 and len(rows) == 3:
+            first, second, third = rows
+            first[j], second[j], third[j] = right.x, right.y, right.z
+            return
         elements = [element for (element,) in right.rows] if right.__class__ is Matrix else right.elements()
-        _check_size(len(elements), len(rows))
+        if len(elements) != len(rows):
+            _refuse_size(len(elements), len(rows))
         for row, element in zip(rows, elements, strict=True):
             row[j] = element
 
     def __add__(self, other: Matrix) -> Matrix:
         if other.__class__ is not Matrix:
             return NotImplemented
-        _check_size(other.shape, self.shape)
-        return Matrix([[*map(add, a, b)] for a, b in zip(self.rows, other.rows, strict=True)])
+        rows, others = self.rows, other.rows
+        if len(rows) != len(others) or len(rows[0]) != len(others[0]):
+            _refuse_size(other.shape, self.shape)
+        return Matrix([[*map(add, a, b)] for a, b in zip(rows, others, strict=True)])
 
     def __sub__(self, other: Matrix) -> Matrix:
         if other.__class__ is not Matrix:
             return NotImplemented
-        _check_size(other.shape, self.shape)
-        return Matrix([[*map(sub, a, b)] for a, b in zip(self.rows, other.rows, strict=True)])
+        rows, others = self.rows, other.rows
+        if len(rows) != len(others) or len(rows[0]) != len(others[0]):
+            _refuse_size(other.shape, self.shape)
+        return Matrix([[*map(sub, a, b)] for a, b in zip(rows, others, strict=True)])
 
     def __neg__(self) -> Matrix:
         return Matrix([[-x for x in row] for row in self.rows])
@@ -125,6 +137,10 @@ class Matrix:
         if other.__class__ is Matrix:
             columns = list(zip(*other.rows, strict=True))  # type: ignore[union-attr]
             return Matrix(_sums(len(columns[0]))(rows, columns))
+        if other.__class__ is Vector3 and len(rows) == 3:
+            x, y, z = other.x, other.y, other.z  # type: ignore[union-attr]
+            first, second, third = [a * x + b * y + c * z for a, b, c in rows]
+            return _of_three(first, second, third)
         if not isinstance(other, Vector):
             return NotImplemented
         elements = other.elements()
@@ -171,9 +187,17 @@ def block(first: int, size: int) -> slice:
     return slice(first, first + size)
 
 
-def _check_size(given: Any, wanted: Any) -> None:
-    if given != wanted:
-        raise ValueError(f"elements for a matrix or block of size {wanted}: their size is {given}")
+def _refuse_size(given: Any, wanted: Any) -> NoReturn:
+    raise ValueError(f"elements for a matrix or block of size {wanted}: their size is {given}")
+
+
+def _of_three(x: float, y: float, z: float) -> Vector3:
+    """`vector` without its choice of a size: columns of three are most of the time of filters and of rigid bodies."""
+    made = Vector3()
+    made.x = x
+    made.y = y
+    made.z = z
+    return made
 
 
 def _narrow(elements: list, across: bool) -> Any:

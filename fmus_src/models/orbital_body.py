@@ -6,7 +6,7 @@ from ..block import Block, Parameter, State
 from ..interfaces.ports import body
 from ..kernel.integrators import runge_kutta_4
 from ..kernel.matrices import inverse
-from ..mathlib.orbits.attitude import AttitudeState, angle_rates, angular_acceleration
+from ..mathlib.orbits.attitude import AttitudeState, angle_rates, angular_acceleration, evaluate_angles
 from ..mathlib.vectors import Vector3, vector
 
 STEP_ROUNDING = 1e-9  # of a longest step, by which a step may exceed it
@@ -36,12 +36,11 @@ class OrbitalBody(Block, interface=True):
 
     def motion(self, s: AttitudeState, torque: Vector3) -> AttitudeState:
         """Rates of the attitude under a torque (N m, body): docs/systems/orbital_attitude.md, motion."""
+        a = evaluate_angles(s.angles)
         w = s.angular_velocity
         return AttitudeState(
-            angles=angle_rates(s.angles, w, self.orbital_rate),
-            angular_velocity=angular_acceleration(
-                s.angles, w, torque, self.inertia, self.inverse_inertia, self.orbital_rate
-            ),
+            angles=angle_rates(a, w, self.orbital_rate),
+            angular_velocity=angular_acceleration(a, w, torque, self.inertia, self.inverse_inertia, self.orbital_rate),
         )
 
     def derivatives(self, t: float, s: AttitudeState, torque: Vector3) -> AttitudeState:

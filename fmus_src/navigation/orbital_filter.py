@@ -7,7 +7,7 @@ from ..interfaces.ports import body
 from ..kernel.matrices import block, identity, zeros
 from ..kernel.records import replace
 from ..mathlib.estimation.kalman import predict, update
-from ..mathlib.orbits.attitude import ANGLES, PITCH, ROLL, YAW, angle_rate_derivatives, angle_rates
+from ..mathlib.orbits.attitude import ANGLES, PITCH, ROLL, YAW, angle_rate_derivatives, angle_rates, evaluate_angles
 from ..mathlib.vectors import Vector3, vector
 from ..units import deg
 from .attitude_observer import AttitudeObserver, ObserverStatus
@@ -39,7 +39,7 @@ class OrbitalFilter(AttitudeObserver):
     def predict_covariance(self, angles: Vector3, w: Vector3) -> None:
         """The covariance a tick ahead, at angles (rad) and rates (rad/s) of its middle."""
         period = self.sample_period
-        by_angles, by_rates = angle_rate_derivatives(angles, w, self.orbital_rate)
+        by_angles, by_rates = angle_rate_derivatives(evaluate_angles(angles), w, self.orbital_rate)
         f = identity(6)  # 1 + T df/dx, with the rates less the biases
         f[ANGLES, ANGLES] = identity(3) + period * by_angles
         f[ANGLES, BIASES] = -period * by_rates
@@ -52,9 +52,9 @@ class OrbitalFilter(AttitudeObserver):
         """Angles and covariance a tick ahead, at the mean angular velocity w (rad/s, body)."""
         half = 0.5 * self.sample_period
         angles = self.estimate.angles
-        middle = angles + half * angle_rates(angles, w, self.orbital_rate)
+        middle = angles + half * angle_rates(evaluate_angles(angles), w, self.orbital_rate)
         self.predict_covariance(middle, w)
-        turned = angles + self.sample_period * angle_rates(middle, w, self.orbital_rate)
+        turned = angles + self.sample_period * angle_rates(evaluate_angles(middle), w, self.orbital_rate)
         self.estimate = replace(self.estimate, angles=turned)
 
     def correct(self) -> None:

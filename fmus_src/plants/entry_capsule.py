@@ -16,6 +16,7 @@ from ..mathlib.entry.motion import (
     attitude_rates,
     body_axes,
     earth_forces,
+    evaluate_path,
     in_body,
     path_rate,
     velocity_axes_rate,
@@ -176,6 +177,7 @@ class EntryCapsule(Block):
 
     def derivatives(self, t: float, s: EntryState, torque: Vector3) -> EntryState:
         """Rates of the state under a torque of the jets (N m, body): docs/systems/entry_attitude.md, motion."""
+        functions = evaluate_path(s)
         axes = body_axes(s.attitude)
         v = in_body(axes, vector(s.speed, 0.0, 0.0) - self.wind)
         standard = air(s.radius - self.earth_radius)
@@ -187,9 +189,9 @@ class EntryCapsule(Block):
         w = s.angular_velocity
         moment = cross(self.pressure_arm, force) + damping * w + torque
         acceleration = (force.x * axes.x + force.y * axes.y + force.z * axes.z) / self.mass
-        acceleration = acceleration + earth_forces(s, self.gravitational_parameter, self.earth_rate)
-        path = path_rate(s, acceleration)
-        relative = w - in_body(axes, velocity_axes_rate(s, path, self.earth_rate))
+        acceleration = acceleration + earth_forces(s, functions, self.gravitational_parameter, self.earth_rate)
+        path = path_rate(s, functions, acceleration)
+        relative = w - in_body(axes, velocity_axes_rate(s, functions, path, self.earth_rate))
         return EntryState(
             radius=path.radius,
             longitude=path.longitude,

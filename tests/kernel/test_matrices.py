@@ -99,7 +99,7 @@ def test_elements_and_blocks_are_those_of_numpy(seed, n, data):
     a[:, i] = a[:, j]
     actual[i, :] = 2.0 * actual[i, :]
     a[i, :] *= 2.0
-    mirror(actual, n - 1)
+    mirror(actual, n)
     assert np.array_equal(np.array(actual), np.triu(a) + np.triu(a, 1).T)
 
 

@@ -46,7 +46,7 @@ def translate(block_class: type[Block], guid: str) -> str:
 
     Raises `SubsetError` where the block is outside the subset of Python.
     """
-    before, after = _around_tables(block_class)
+    before, after = _around_tables(block_class)  # type: ignore[arg-type]
     return "\n".join((*before, _tables(block_class, block_type_name(block_class.__name__), guid), *after))
 
 

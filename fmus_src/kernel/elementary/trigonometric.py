@@ -85,7 +85,11 @@ def tan(x: float) -> float:
         return x
     if x - x != 0.0:
         return math.nan
-    n, r, tail = reduce_angle(x)
+    n = 0
+    r = x
+    tail = 0.0
+    if abs(x) > QUARTER_PI:
+        n, r, tail = reduce_angle(x)
     z = r * r
     z_tail = product_error(r, r, z)
     w = z * z

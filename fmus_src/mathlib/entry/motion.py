@@ -42,6 +42,18 @@ class PathRate(Record):
     heading = Field(unit="rad/s")
 
 
+class PathFunctions(Record):
+    """Sines, cosines and tangents of flight path angle, heading and latitude."""
+
+    sin_path = Field(unit="1")
+    cos_path = Field(unit="1")
+    sin_heading = Field(unit="1")
+    cos_heading = Field(unit="1")
+    sin_latitude = Field(unit="1")
+    cos_latitude = Field(unit="1")
+    tan_latitude = Field(unit="1")
+
+
 def body_axes(attitude: Vector3) -> BodyAxes:
     """The body's axes."""
     sg = sin(attitude.x)
@@ -60,56 +72,55 @@ def in_body(axes: BodyAxes, v: Vector3) -> Vector3:
     return vector(dot(axes.x, v), dot(axes.y, v), dot(axes.z, v))
 
 
-def earth_forces(s: EntryState, gravitational_parameter: float, earth_rate: float) -> Vector3:
+def evaluate_path(s: EntryState) -> PathFunctions:
+    """Functions of the angles of a state, which the rates below share."""
+    return PathFunctions(
+        sin_path=sin(s.flight_path_angle),
+        cos_path=cos(s.flight_path_angle),
+        sin_heading=sin(s.heading),
+        cos_heading=cos(s.heading),
+        sin_latitude=sin(s.latitude),
+        cos_latitude=cos(s.latitude),
+        tan_latitude=tan(s.latitude),
+    )
+
+
+def earth_forces(s: EntryState, a: PathFunctions, gravitational_parameter: float, earth_rate: float) -> Vector3:
     """Gravity and the terms of the Earth's rotation (m/s2, velocity axes)."""
-    sin_path = sin(s.flight_path_angle)
-    cos_path = cos(s.flight_path_angle)
-    sin_heading = sin(s.heading)
-    cos_heading = cos(s.heading)
-    sin_latitude = sin(s.latitude)
-    cos_latitude = cos(s.latitude)
     gravity = gravitational_parameter / (s.radius * s.radius)
     coriolis = 2.0 * s.speed * earth_rate
-    transport = earth_rate * earth_rate * s.radius * cos_latitude
+    transport = earth_rate * earth_rate * s.radius * a.cos_latitude
     return vector(
-        -gravity * sin_path + transport * (cos_latitude * sin_path - sin_latitude * cos_path * sin_heading),
-        -gravity * cos_path
-        + coriolis * cos_latitude * cos_heading
-        + transport * (cos_latitude * cos_path + sin_latitude * sin_path * sin_heading),
-        coriolis * (cos_path * sin_latitude - sin_path * cos_latitude * sin_heading)
-        + transport * sin_latitude * cos_heading,
+        -gravity * a.sin_path + transport * (a.cos_latitude * a.sin_path - a.sin_latitude * a.cos_path * a.sin_heading),
+        -gravity * a.cos_path
+        + coriolis * a.cos_latitude * a.cos_heading
+        + transport * (a.cos_latitude * a.cos_path + a.sin_latitude * a.sin_path * a.sin_heading),
+        coriolis * (a.cos_path * a.sin_latitude - a.sin_path * a.cos_latitude * a.sin_heading)
+        + transport * a.sin_latitude * a.cos_heading,
     )
 
 
-def path_rate(s: EntryState, acceleration: Vector3) -> PathRate:
+def path_rate(s: EntryState, a: PathFunctions, acceleration: Vector3) -> PathRate:
     """How place and velocity change under an acceleration (m/s2, velocity axes)."""
-    cos_path = cos(s.flight_path_angle)
-    cos_heading = cos(s.heading)
-    over = s.speed * cos_path / s.radius
+    over = s.speed * a.cos_path / s.radius
     return PathRate(
-        radius=s.speed * sin(s.flight_path_angle),
-        longitude=over * cos_heading / cos(s.latitude),
-        latitude=over * sin(s.heading),
+        radius=s.speed * a.sin_path,
+        longitude=over * a.cos_heading / a.cos_latitude,
+        latitude=over * a.sin_heading,
         speed=acceleration.x,
         flight_path_angle=over + acceleration.y / s.speed,
-        heading=-over * cos_heading * tan(s.latitude) - acceleration.z / (s.speed * cos_path),
+        heading=-over * a.cos_heading * a.tan_latitude - acceleration.z / (s.speed * a.cos_path),
     )
 
 
-def velocity_axes_rate(s: EntryState, rate: PathRate, earth_rate: float) -> Vector3:
+def velocity_axes_rate(s: EntryState, a: PathFunctions, rate: PathRate, earth_rate: float) -> Vector3:
     """Absolute angular velocity (rad/s) of the velocity axes, in themselves."""
-    sin_path = sin(s.flight_path_angle)
-    cos_path = cos(s.flight_path_angle)
-    sin_heading = sin(s.heading)
-    cos_heading = cos(s.heading)
-    sin_latitude = sin(s.latitude)
-    cos_latitude = cos(s.latitude)
-    over = s.speed * cos_path / s.radius
-    u = rate.heading + over * cos_heading * tan(s.latitude)
+    over = s.speed * a.cos_path / s.radius
+    u = rate.heading + over * a.cos_heading * a.tan_latitude
     return vector(
-        sin_path * u + earth_rate * (sin_path * sin_latitude + cos_path * cos_latitude * sin_heading),
-        cos_path * u + earth_rate * (cos_path * sin_latitude - sin_path * cos_latitude * sin_heading),
-        rate.flight_path_angle - over - earth_rate * cos_latitude * cos_heading,
+        a.sin_path * u + earth_rate * (a.sin_path * a.sin_latitude + a.cos_path * a.cos_latitude * a.sin_heading),
+        a.cos_path * u + earth_rate * (a.cos_path * a.sin_latitude - a.sin_path * a.cos_latitude * a.sin_heading),
+        rate.flight_path_angle - over - earth_rate * a.cos_latitude * a.cos_heading,
     )
 
 

@@ -15,6 +15,8 @@ VELOCITY = block(3, 3)
 BIAS = block(6, 3)
 SCALE_FACTOR = block(9, 3)
 ROTATION = block(12, 3)
+MOTION = block(0, 6)
+SENSOR = block(6, 9)
 
 
 def dead_reckon(
@@ -98,4 +100,5 @@ def predict_errors(
         p[VELOCITY, POSITION] += of_both
         p[VELOCITY, VELOCITY] += of_velocity
     p[BIAS, BIAS] += drift * h * identity(3)
+    p[SENSOR, MOTION] = p[MOTION, SENSOR].T
     mirror(p, MOTION_STATES)

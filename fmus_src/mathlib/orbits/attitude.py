@@ -33,61 +33,73 @@ def index_of_measured(j: int) -> int:
     return j + 1
 
 
-def radial_direction(angles: Vector3) -> Vector3:
-    """The orbital frame's y axis, radially up, in body axes; angles in rad."""
-    cos_pitch = cos(angles.z)
-    return vector(sin(angles.z), cos(angles.x) * cos_pitch, -sin(angles.x) * cos_pitch)
+class AngleFunctions(Record):
+    """Sines, cosines and tangents of roll, yaw and pitch."""
+
+    sin_roll = Field(unit="1")
+    cos_roll = Field(unit="1")
+    sin_yaw = Field(unit="1")
+    cos_yaw = Field(unit="1")
+    sin_pitch = Field(unit="1")
+    cos_pitch = Field(unit="1")
+    tan_pitch = Field(unit="1")
 
 
-def angle_rates(angles: Vector3, w: Vector3, w0: float) -> Vector3:
-    """Rates (rad/s) of angles (rad) at the angular velocity w (rad/s, body) and the orbital rate w0 (rad/s)."""
-    sin_roll = sin(angles.x)
-    cos_roll = cos(angles.x)
-    sin_yaw = sin(angles.y)
-    cos_pitch = cos(angles.z)
-    tan_pitch = tan(angles.z)
-    q = w.y * cos_roll - w.z * sin_roll
-    r = w.y * sin_roll + w.z * cos_roll
-    return vector(
-        w.x - tan_pitch * q - w0 * sin_yaw / cos_pitch,
-        q / cos_pitch + w0 * sin_yaw * tan_pitch,
-        r + w0 * cos(angles.y),
+def evaluate_angles(angles: Vector3) -> AngleFunctions:
+    """Functions of the angles (rad), which all below share."""
+    return AngleFunctions(
+        sin_roll=sin(angles.x),
+        cos_roll=cos(angles.x),
+        sin_yaw=sin(angles.y),
+        cos_yaw=cos(angles.y),
+        sin_pitch=sin(angles.z),
+        cos_pitch=cos(angles.z),
+        tan_pitch=tan(angles.z),
     )
 
 
-def angle_rate_derivatives(angles: Vector3, w: Vector3, w0: float) -> tuple[Matrix, Matrix]:
+def radial_direction(a: AngleFunctions) -> Vector3:
+    """The orbital frame's y axis, radially up, in body axes."""
+    return vector(a.sin_pitch, a.cos_roll * a.cos_pitch, -a.sin_roll * a.cos_pitch)
+
+
+def angle_rates(a: AngleFunctions, w: Vector3, w0: float) -> Vector3:
+    """Rates (rad/s) of the angles at the angular velocity w (rad/s, body) and the orbital rate w0 (rad/s)."""
+    q = w.y * a.cos_roll - w.z * a.sin_roll
+    r = w.y * a.sin_roll + w.z * a.cos_roll
+    return vector(
+        w.x - a.tan_pitch * q - w0 * a.sin_yaw / a.cos_pitch,
+        q / a.cos_pitch + w0 * a.sin_yaw * a.tan_pitch,
+        r + w0 * a.cos_yaw,
+    )
+
+
+def angle_rate_derivatives(a: AngleFunctions, w: Vector3, w0: float) -> tuple[Matrix, Matrix]:
     """Derivatives of angle_rates by the angles and by w, 3 x 3."""
-    sin_roll = sin(angles.x)
-    cos_roll = cos(angles.x)
-    sin_yaw = sin(angles.y)
-    cos_yaw = cos(angles.y)
-    sin_pitch = sin(angles.z)
-    cos_pitch = cos(angles.z)
-    tan_pitch = tan(angles.z)
-    q = w.y * cos_roll - w.z * sin_roll
-    r = w.y * sin_roll + w.z * cos_roll
-    square = cos_pitch * cos_pitch
+    q = w.y * a.cos_roll - w.z * a.sin_roll
+    r = w.y * a.sin_roll + w.z * a.cos_roll
+    square = a.cos_pitch * a.cos_pitch
     by_angles = matrix(
-        [tan_pitch * r, -w0 * cos_yaw / cos_pitch, -(q + w0 * sin_yaw * sin_pitch) / square],
-        [-r / cos_pitch, w0 * cos_yaw * tan_pitch, (q * sin_pitch + w0 * sin_yaw) / square],
-        [q, -w0 * sin_yaw, 0.0],
+        [a.tan_pitch * r, -w0 * a.cos_yaw / a.cos_pitch, -(q + w0 * a.sin_yaw * a.sin_pitch) / square],
+        [-r / a.cos_pitch, w0 * a.cos_yaw * a.tan_pitch, (q * a.sin_pitch + w0 * a.sin_yaw) / square],
+        [q, -w0 * a.sin_yaw, 0.0],
     )
     by_rates = matrix(
-        [1.0, -tan_pitch * cos_roll, tan_pitch * sin_roll],
-        [0.0, cos_roll / cos_pitch, -sin_roll / cos_pitch],
-        [0.0, sin_roll, cos_roll],
+        [1.0, -a.tan_pitch * a.cos_roll, a.tan_pitch * a.sin_roll],
+        [0.0, a.cos_roll / a.cos_pitch, -a.sin_roll / a.cos_pitch],
+        [0.0, a.sin_roll, a.cos_roll],
     )
     return by_angles, by_rates
 
 
 def angular_acceleration(
-    angles: Vector3, w: Vector3, torque: Vector3, inertia: Matrix, inverse_inertia: Matrix, w0: float
+    a: AngleFunctions, w: Vector3, torque: Vector3, inertia: Matrix, inverse_inertia: Matrix, w0: float
 ) -> Vector3:
     """w' (rad/s2, body) of a rigid body under the gravity gradient and a torque (N m, body).
 
     J w' = 3 w0^2 j x (J j) + (J w) x w + torque, j radially up; inertia J (kg m2) and its inverse.
     """
-    j = radial_direction(angles)
+    j = radial_direction(a)
     return inverse_inertia @ (3.0 * w0 * w0 * cross(j, inertia @ j) + cross(inertia @ w, w) + torque)
 
 

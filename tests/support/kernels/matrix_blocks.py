@@ -114,7 +114,7 @@ class MatrixLanguage(Block):
         self.y[4] = square
         self.p = self.p @ f.T @ f / 1.5 + 0.1 * identity(6)
         self.p = 0.25 * self.p.T + 0.25 * self.p
-        mirror(self.p, 5)
+        mirror(self.p, 6)
         self.y[5] = inverse_quadratic_form(self.p, self.estimate) + (row @ self.p @ row.T)[0, 0]
         self.wide = 0.5 * self.wide + self.estimate[0:2, :] @ row[:, 0:5] - self.p[0:2, 1:]
         self.wide[1, :] = self.wide[0, :] + self.wide[1, :]
