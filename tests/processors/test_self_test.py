@@ -171,6 +171,7 @@ def test_subnormal_numbers_flushed_to_zero_are_refused(fmu: Path, tmp_path: Path
         assert logged(fmu, refusing, fmu) == [["accepted"], [FLUSHED, REFUSED], [FLUSHED, REFUSED]]
 
 
+@pytest.mark.slow  # zig builds the C library of aarch64 first, for a minute
 @pytest.mark.skipif(importlib.util.find_spec("ziglang") is None, reason="ziglang is not installed")
 def test_on_aarch64_compilers_fuse_by_default(tmp_path: Path) -> None:
     if QEMU is None:
