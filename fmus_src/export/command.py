@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections import deque
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -14,6 +13,7 @@ from typing import TypeVar
 from tqdm import tqdm
 
 from ..catalogue import catalogue
+from ..own_digests import list_own
 from ..paths import BUILD, FLAVOURS, SYSTEMS
 from .compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
 from .native_fmu import build_native_fmu
@@ -63,17 +63,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _build(flavour: str, output: Path, platforms: Sequence[str], portable: bool) -> int:
     """Build the FMUs of one flavour; returns how many. Blocks that need Python have no native form."""
     folder, blocks = output / "fmus" / flavour, catalogue()
-    if flavour == "python":
-        for name, block in _progress(blocks.items(), "python FMUs", len(blocks)):
-            build_python_fmu(block, folder / f"{name}.fmu")
-        return len(blocks)
+    names = [name for name, block in blocks.items() if flavour == "python" or not block.python_only]
 
-    def build(name: str) -> None:
-        build_native_fmu(blocks[name], folder / f"{name}.fmu", platforms=platforms, portable=portable)
+    def build(name: str) -> Path:
+        path = folder / f"{name}.fmu"
+        if flavour == "python":
+            return build_python_fmu(blocks[name], path)
+        return build_native_fmu(blocks[name], path, platforms=platforms, portable=portable)
 
-    names = [name for name, block in blocks.items() if not block.python_only]
-    with ThreadPoolExecutor(os.cpu_count()) as pool:  # most of the time compilers run, each a process
-        deque(_progress(pool.map(build, names), "native FMUs", len(names)), maxlen=0)
+    threads = 1 if flavour == "python" else os.cpu_count()  # of native FMUs compilers take the time, each a process
+    with ThreadPoolExecutor(threads) as pool:
+        list_own(folder, list(_progress(pool.map(build, names), f"{flavour} FMUs", len(names))))
     return len(names)
 
 

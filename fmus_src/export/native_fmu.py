@@ -10,6 +10,7 @@ import fmpy
 
 from ..block import Block
 from ..checks import check_files
+from ..own_digests import note_own
 from ..paths import CACHE
 from .archive import content_guid, write_zip
 from .compilers import PLATFORMS, build_library
@@ -70,6 +71,7 @@ def build_native_fmu(
         library = build_library(sources, f"{name}.c", platform, cache, portable=portable)
         files[f"binaries/{platform}/{name}{PLATFORMS[platform].extension}"] = library
     write_zip(path, files | check_files(block_class))
+    note_own(path)
     return path
 
 

@@ -11,6 +11,7 @@ from pythonfmu import FmuBuilder
 
 from ..block import Block
 from ..checks import check_files
+from ..own_digests import note_own
 from .archive import content_guid, read_zip, write_zip
 from .attributes import check_attributes
 from .closure import Closure, closure_of
@@ -59,6 +60,7 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
         block_class, guid=guid, generation_tool=tool, needs_execution_tool=True
     )
     write_zip(path, files | check_files(block_class))
+    note_own(path)
     return path
 
 

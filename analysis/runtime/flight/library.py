@@ -47,7 +47,7 @@ class Library:
             )
         functions = [getattr(self._slave.dll, name) for name in FUNCTION_NAMES]
         self.addresses = [ctypes.cast(function, ctypes.c_void_p).value or 0 for function in functions]
-        self.place = _place(self._slave.dll)
+        self.place = _place(self._slave.dll) if fmu.is_own else None
         self.users = 0
 
     def slave(self, instance_name: str) -> fmi2.FMU2Slave:

@@ -19,6 +19,7 @@ from fmpy import read_model_description
 from fmpy.model_description import ModelDescription, ScalarVariable, ValidationError
 from lxml import etree
 
+from ....fmus_src.own_digests import is_own
 from ...common.errors import InputError
 from ..ssp.archive import open_zip
 from ..ssp.conversions import Unit, units_of_fmu
@@ -39,16 +40,12 @@ class Fmu:
     folder: Path  # unpacked; removed with the object
     variables: dict[str, ScalarVariable] = field(default_factory=dict)
     units: dict[str, Unit] = field(default_factory=dict)
+    is_own: bool = False  # built by Perilune, whose reset and whose errors leave nothing behind
     flaws: list[str] = field(default_factory=list)  # rules of FMI that its description breaks, though it is readable
 
     @property
     def name(self) -> str:
         return self.description.modelName
-
-    @property
-    def is_own(self) -> bool:
-        """Whether it was built by Perilune, whose reset and whose errors leave nothing behind."""
-        return (self.description.generationTool or "").startswith("Perilune ")
 
     @property
     def is_alone(self) -> bool:
@@ -107,7 +104,8 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
         remedy = "take its native flavour" if runs_python else "compile the FMU's sources for it"
         raise InputError(label, binary, "no binary for this platform", remedy)
     folder = Path(tempfile.mkdtemp(prefix="perilune_"))
-    fmu = Fmu(label, hashlib.sha256(data).hexdigest(), description, folder, flaws=list(flaws))
+    digest = hashlib.sha256(data).hexdigest()
+    fmu = Fmu(label, digest, description, folder, is_own=is_own(digest), flaws=list(flaws))
     # Others' may reach for any of their files: FMPy's remoting starts a server of binaries/win32 from binaries/win64.
     read_here = (DESCRIPTION, f"binaries/{fmpy.platform}/", "resources/")
     archive.extractall(folder, [name for name in archive.namelist() if name.startswith(read_here) or not fmu.is_own])

@@ -3,6 +3,7 @@
 Truth: the FMU's own archive.
 """
 
+import hashlib
 import zipfile
 
 import fmpy
@@ -10,6 +11,8 @@ import pytest
 
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.fmu import load_fmu
+from perilune.fmus_src.own_digests import SUMS, note_own
+from perilune.fmus_src.paths import shipped_fmu
 from tests.support.builders import retouched, write_zip
 
 
@@ -32,7 +35,9 @@ def large(tiny, tmp_path):
     """The ramp with files for another platform, sources, documents, and files for no purpose that FMI knows."""
     more = ("binaries/win32/ramp.dll", "binaries/common.txt", "sources/ramp.c", "documentation/index.html", "extra/x")
     files = contents(tiny / "ramp.fmu") | {name: name.encode() for name in (*more, "resources/deep/table.csv")}
-    return write_zip(tmp_path / "large.fmu", files)
+    path = write_zip(tmp_path / "large.fmu", files)
+    note_own(path)
+    return path
 
 
 def test_of_our_own_what_a_flight_here_reads(large):
@@ -44,10 +49,22 @@ def test_of_our_own_what_a_flight_here_reads(large):
 
 
 def test_of_others_everything(large, tmp_path):
-    foreign = retouched(large, tmp_path / "foreign.fmu", lambda text: text.replace('"Perilune ', '"Another '))
+    """Whatever it says of itself: the same with another description, still of our generationTool."""
+    foreign = retouched(large, tmp_path / "foreign.fmu", lambda text: text.replace("description=", " description="))
     fmu = load(foreign)
+    assert fmu.description.generationTool.startswith("Perilune ")
     assert not fmu.is_own
     assert unpacked(fmu) == contents(foreign)
+
+
+@pytest.mark.parametrize("flavour", ["native", "python"])
+def test_what_was_built_is_our_own(flavour):
+    """The list beside the built FMUs is what sha256sum writes."""
+    folder = shipped_fmu("", flavour).parent
+    listed = dict(reversed(line.split("  ")) for line in (folder / SUMS).read_text().splitlines())
+    for path in sorted(folder.glob("*.fmu")):
+        assert listed[path.name] == hashlib.sha256(path.read_bytes()).hexdigest()
+        assert load(path).is_own
 
 
 def test_a_second_one_has_a_folder_of_its_own(tiny):
