@@ -80,7 +80,9 @@ class RendezvousGuidance(Block):
     status = Output(RendezvousStatus)
     start_time = State(0.0, unit="s", description="start of the flight")
     acceleration = State([0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="of phase 1")
-    splines = State([0.0] * 21, unit="m", frame="inertial", description="coefficients of phase 3, axis by axis")
+    splines = State(
+        [0.0] * 21, columns=7, unit="m", frame="inertial", description="coefficients of phase 3, an axis in each row"
+    )
     turn_axis = State([0.0, 0.0, 0.0], unit="1", description="of the turn, the same in inertial and body axes")
     turn_polynomial = State([0.0] * 7, unit="rad", description="coefficients of the angle of the turn")
     place = State([0.0, 0.0, 0.0], unit="m", frame="inertial", description="where to be at arrival_time")
@@ -116,7 +118,7 @@ class RendezvousGuidance(Block):
         for i in range(3):
             spline(begin[i], coasting[i], self.place[i], self.target_velocity[i], approach, self.spline_degree, c)
             for k in range(7):
-                self.splines[7 * i + k] = c[k]
+                self.splines[i, k] = c[k]
 
     def motion(self, time: float) -> Translation:
         """Planned motion."""
@@ -141,7 +143,7 @@ class RendezvousGuidance(Block):
         c = [0.0] * 7
         for i in range(3):
             for k in range(7):
-                c[k] = self.splines[7 * i + k]
+                c[k] = self.splines[i, k]
             position[i] = spline_value(c, s)
             velocity[i] = spline_rate(c, s, duration)
         return Translation(position=vector(*position), velocity=vector(*velocity))
