@@ -1,12 +1,13 @@
 """Which FMUs are Perilune's own: known by the SHA-256 of their files, never by what they say of themselves.
 
 The lists have the format of sha256sum. `build_fmus.py` writes one into each folder that it builds, which the wheel
-ships; whatever is built on this machine is noted in the cache folder besides. All other FMUs are foreign code.
+ships; a list in the cache folder has whatever was built on this machine. All other FMUs are foreign code.
 """
 
 from __future__ import annotations
 
 import hashlib
+import zipfile
 from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
@@ -19,28 +20,50 @@ NOTED = CACHE / SUMS
 LISTS = (NOTED, *(shipped_fmu("", flavour).with_name(SUMS) for flavour in FLAVOURS))
 
 
+def digest_of(path: Path) -> str:
+    """SHA-256 of a file, in hexadecimal digits."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
 def is_own(digest: str) -> bool:
     """Whether the FMU with this SHA-256 is one that Perilune built."""
     return any(digest in _digests_in(path, *_version(path)) for path in LISTS)
 
 
+def has_foreign(path: Path) -> bool:
+    """Whether a file, or a folder with its subfolders, has FMUs that Perilune has not built; False where unreadable."""
+    try:
+        if path.suffix == ".fmu":
+            return not is_own(digest_of(path))
+        if path.is_dir():
+            return any(has_foreign(fmu) for fmu in path.glob("*/*.fmu"))
+        if path.suffix == ".ssp":
+            with zipfile.ZipFile(path) as archive:
+                fmus = [name for name in archive.namelist() if name.endswith(".fmu")]
+                return not all(is_own(hashlib.sha256(archive.read(name)).hexdigest()) for name in fmus)
+    except (OSError, zipfile.BadZipFile):
+        pass
+    return False
+
+
 def note_own(path: Path) -> None:
     """Add the FMU that was just built at ``path`` to the list of this machine."""
-    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    digest = digest_of(path)
     if not is_own(digest):
         NOTED.parent.mkdir(parents=True, exist_ok=True)
-        with NOTED.open("a", encoding="utf-8", newline="\n") as file:  # one write: processes may build side by side
+        # One write, since several processes may build at once.
+        with NOTED.open("a", encoding="utf-8", newline="\n") as file:
             file.write(f"{digest}  {path.name}\n")
 
 
 def list_own(folder: Path, paths: Iterable[Path]) -> None:
     """Write the list of the FMUs that were just built in a folder, in place of the one before."""
-    lines = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n" for path in sorted(paths)]
+    lines = [f"{digest_of(path)}  {path.name}\n" for path in sorted(paths)]
     write_atomically(folder / SUMS, "".join(lines).encode())
 
 
 def _version(path: Path) -> tuple[int, int]:
-    """What changes with a file's content; of one that is not there, nothing."""
+    """Time of change (ns) and size (bytes) of a list, by which a new version is recognised; 0, 0 without the file."""
     try:
         stat = path.stat()
     except FileNotFoundError:

@@ -71,7 +71,8 @@ def _build(flavour: str, output: Path, platforms: Sequence[str], portable: bool)
             return build_python_fmu(blocks[name], path)
         return build_native_fmu(blocks[name], path, platforms=platforms, portable=portable)
 
-    threads = 1 if flavour == "python" else os.cpu_count()  # of native FMUs compilers take the time, each a process
+    # Native FMUs take their time in compilers, each a process; pythonfmu's builder changes sys.path meanwhile.
+    threads = 1 if flavour == "python" else os.cpu_count()
     with ThreadPoolExecutor(threads) as pool:
         list_own(folder, list(_progress(pool.map(build, names), f"{flavour} FMUs", len(names))))
     return len(names)

@@ -5,12 +5,13 @@ Files are named from the folder of sources.json, whatever machine it lies on; FM
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
+
+from ..own_digests import digest_of
 
 NAME = "sources.json"
 
@@ -22,10 +23,10 @@ def record_source(folder: Path, source: Path, fmus: Sequence[Path], others: Iter
     except ValueError:  # on another drive, to which no way leads from here
         return
     known = _read(folder)
-    built_of = {"source": place, "sha256": _digest(source)}
-    digests = {_relative(other, folder): _digest(other) for other in others}
+    built_of = {"source": place, "sha256": digest_of(source)}
+    digests = {_relative(other, folder): digest_of(other) for other in others}
     for fmu in fmus:
-        known[_relative(fmu, folder)] = {"fmu": _digest(fmu), **built_of, "others": digests}
+        known[_relative(fmu, folder)] = {"fmu": digest_of(fmu), **built_of, "others": digests}
     (folder / NAME).write_text(json.dumps(dict(sorted(known.items())), indent=1) + "\n", encoding="utf-8")
 
 
@@ -34,7 +35,7 @@ def remove_outdated(folder: Path, source: Path, fmu: Path) -> None:
     entry = _read(folder).get(_relative(fmu, folder))
     if entry is None or not fmu.is_file():
         return
-    if _digest(fmu) == entry["fmu"] and entry["source"] == _relative(source, folder):
+    if digest_of(fmu) == entry["fmu"] and entry["source"] == _relative(source, folder):
         fmu.unlink()
 
 
@@ -45,12 +46,12 @@ def find_changed_source(fmu: Path) -> tuple[Path, Path] | None:
     """
     folder = fmu.resolve().parents[1]
     entry = _read(folder).get(f"{fmu.resolve().parent.name}/{fmu.name}")
-    if entry is None or not fmu.is_file() or _digest(fmu) != entry["fmu"]:
+    if entry is None or not fmu.is_file() or digest_of(fmu) != entry["fmu"]:
         return None
     source = Path(os.path.normpath(folder / entry["source"]))
     for name, digest in {entry["source"]: entry["sha256"], **entry.get("others", {})}.items():
         file = Path(os.path.normpath(folder / name))
-        if file.is_file() and _digest(file) != digest:
+        if file.is_file() and digest_of(file) != digest:
             return file, source
     return None
 
@@ -64,7 +65,3 @@ def _read(folder: Path) -> dict[str, Any]:
         return json.loads((folder / NAME).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-
-
-def _digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()

@@ -5,6 +5,7 @@ Truth: the same flights in the checkout; macholib and the formats' magic numbers
 
 from __future__ import annotations
 
+import hashlib
 import io
 import json
 import math
@@ -53,9 +54,17 @@ def test_one_new_name_of_moderate_size(installed):
     assert {name for name in names if name.endswith(".fmu")} == {f"perilune/build/fmus/native/{n}.fmu" for n in native}
 
 
+def test_its_fmus_are_listed_as_its_own(installed):
+    """In the format of sha256sum, by which an installation recognises them."""
+    with zipfile.ZipFile(installed.wheel) as wheel:
+        fmus = sorted(name for name in wheel.namelist() if name.endswith(".fmu"))
+        sums = [f"{hashlib.sha256(wheel.read(name)).hexdigest()}  {name.rpartition('/')[2]}\n" for name in fmus]
+        assert wheel.read("perilune/build/fmus/native/SHA256SUMS").decode() == "".join(sums)
+
+
 def test_every_native_fmu_has_its_libraries(installed, tmp_path):
     """By structure: the macOS libraries hold both processors, signed on arm64, with the functions of FMI."""
-    for path in sorted((installed.site / "perilune" / "build" / "fmus" / "native").iterdir()):
+    for path in sorted((installed.site / "perilune" / "build" / "fmus" / "native").glob("*.fmu")):
         with zipfile.ZipFile(path) as fmu:
             assert fmu.testzip() is None
             for platform, extension in (("linux64", "so"), ("win64", "dll")):
