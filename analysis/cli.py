@@ -82,6 +82,7 @@ class _Version(argparse.Action):
 def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
     """Call the function of a verb with what a command line gives, and present its result."""
     arguments, options, files = read_parsed(verb, parsed)
+    importlib.import_module(".verbs.early_server", __package__).start_early(verb, arguments, options)
     result = importlib.import_module(".verbs.result", __package__)
     result.check_files(verb, options, files)
     result.report_state_of_fmus(verb, arguments, options)

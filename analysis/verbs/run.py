@@ -18,10 +18,10 @@ from ..reports.figures.reading import read_figures
 from ..reports.run_report import key_values, write_run_report
 from ..reports.time_histories import signal_plot
 from ..reports.trajectory import trajectory_plot
+from ..runtime.apart.opening import open_simulation
 from ..runtime.flight import results
 from ..runtime.flight.instance import Log
 from ..runtime.flight.interruptible import StuckError, fly
-from ..runtime.flight.simulation import Simulation
 from ..runtime.system.fault import Fault, faults_of
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
@@ -137,7 +137,10 @@ def simulate(system: FilePath, **options: Unpack[RunOptions]) -> Result:
     )
     figures, faults, level = tuple(read_figures(prepared)), faults_of(options["faults"]), options["log"]
     log = None if level is None else Log(level)
-    with chdir(Path.cwd()), Simulation(prepared, faults=faults, log=log) as simulation:  # an FMU may change the folder
+    with (
+        chdir(Path.cwd()),
+        open_simulation(prepared, faults=faults, log=log) as simulation,
+    ):  # an FMU may change the folder
         requirements = read_requirements(options["require"], [*simulation.signal_names, "time"])
         try:
             flight = fly(simulation, options["timeout"])

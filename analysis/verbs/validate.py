@@ -16,7 +16,7 @@ from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
 from ..design.trajectories.stored_bound import MissingBound, find_bound
 from ..reports.figures.reading import read_figures
-from ..runtime.flight.reset_check import reset_verdict
+from ..runtime.apart.resets import find_verdict
 from ..runtime.ssp.archive import DEFAULT_VARIANT, open_system
 from ..runtime.ssp.parameter_sets import read_parameter_file
 from ..runtime.system.fmu import Fmu, load_fmu
@@ -106,7 +106,7 @@ def _check(path: str, options: System) -> FileCheck:
             else:
                 notes += violations
             notes += prepare_system(path, options, {path: fmu}).remarks
-            notes += _reset_notes(fmu, path)
+            notes += _reset_notes(fmu, path, options)
         elif path.endswith(".ssv"):
             read_parameter_file(_read(path), path)
         elif path.endswith(".json"):
@@ -135,13 +135,13 @@ def _check_system(path: str, options: System) -> list[str]:
         notes += [*prepared.retired, *prepared.network.notes]
         notes += [f"{connection}: read one step late" for connection in prepared.schedule.late]
         for component, fmu in prepared.network.fmus.items():
-            notes += _reset_notes(fmu, component)
+            notes += _reset_notes(fmu, component, options)
     return notes
 
 
-def _reset_notes(fmu: Fmu, name: str) -> list[str]:
+def _reset_notes(fmu: Fmu, name: str, options: System) -> list[str]:
     """A note on an FMU whose reset fails: it is tried, unless it is our own."""
-    verdict = reset_verdict(fmu)
+    verdict = find_verdict(fmu, options)
     if verdict.resets:
         return []
     return [f"{name}: instantiated anew for every simulation, as its reset fails: {verdict.reason}"]

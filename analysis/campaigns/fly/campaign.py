@@ -112,7 +112,7 @@ def open_campaign(
         return Campaign(plan, plan, systems, manifest, None)
     folder = output.absolute()  # FMUs may change the working folder
     manifest = (resume_folder if resume else begin)(folder, manifest, contents, plan)
-    flown = restore(folder, manifest, plan.watch.log)
+    flown = restore(folder, manifest, plan.watch.log, in_process=plan.options.in_process)
     plan = replace(plan, known_draws=flown.draws)  # read from the folder, and not in memory
     return Campaign(plan, flown, systems, manifest, folder, output)
 

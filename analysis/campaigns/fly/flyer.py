@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import nullcontext
 from typing import NamedTuple
 
+from ...runtime.apart.opening import flies_here, open_simulation
+from ...runtime.apart.simulation import ApartSimulation
+from ...runtime.flight.base_simulation import BaseSimulation
 from ...runtime.flight.instance import Log
 from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
 from ...runtime.flight.library import LOADING
-from ...runtime.flight.results import Flight, Result
-from ...runtime.flight.simulation import Simulation
+from ...runtime.flight.results import CRASHED, LOST, Flight, Result
 from ...runtime.ssp.parameter_sets import ParameterValue
 from ..spec.checks import VariantNames, variant_names
 from ..spec.plan import BatchPlan, DrawnTrials
 from ..trials import Trials
-from .crash_report import LastWords
 from .evaluation import Judge
 
 AROUND = 4096  # trials whose draws are read together
@@ -34,31 +34,33 @@ class TrialResult(NamedTuple):
 class Flyer:
     """Holds the simulations of a plan's variants; made once per worker, not shared between threads.
 
-    With ``words`` a step that does not return ends the process; trials of which that is known are not flown.
+    ``apart``: all fly in children, also what may fly here.
     """
 
-    def __init__(self, plan: BatchPlan, words: LastWords | None = None) -> None:
+    def __init__(self, plan: BatchPlan, *, apart: bool = False) -> None:
         self.plan = plan
-        self._words = words
+        self._apart = apart
         self._drawn: DrawnTrials | None = None
         self.variants = {variant.name: variant for variant in plan.campaign.variants()}
-        self._ready: dict[str, tuple[Simulation, VariantNames]] = {}
+        self._ready: dict[str, tuple[BaseSimulation, VariantNames]] = {}
         self._logs: dict[str, Log] = {}
         self.halted = False
 
-    def simulation(self, variant: str) -> tuple[Simulation, VariantNames]:
+    def simulation(self, variant: str) -> tuple[BaseSimulation, VariantNames]:
         """The simulation of a variant, made at its first use."""
         if variant not in self._ready:
             with LOADING:
                 prepared = self.plan.prepare(self.variants[variant])
-                if prepared.is_alone:
+                if prepared.is_alone and not self._apart and flies_here(prepared):
                     self.close()  # other variants may hold the one instance that the process can have
                 names = variant_names(self.plan, prepared)
                 everything = self.plan.campaign.record.traces != "none"
                 wanted = None if everything else {*names.signals, *names.statuses}
                 faults = self.plan.list_faults()
                 log = self._log_of(variant)
-                simulation = Simulation(prepared, varied=names.varied, wanted=wanted, faults=faults, log=log)
+                simulation = open_simulation(
+                    prepared, apart=self._apart, varied=names.varied, wanted=wanted, faults=faults, log=log
+                )
                 self._ready[variant] = simulation, names
         return self._ready[variant]
 
@@ -92,6 +94,11 @@ class Flyer:
         for simulation, _ in list(self._ready.values()):
             simulation.interrupt()
 
+    def give_up(self) -> None:
+        """End what flies in another thread and has not reached a communication point, where it can be ended."""
+        for simulation, _ in list(self._ready.values()):
+            simulation.give_up("was interrupted")
+
     def fly(self, variant: str, trials: range) -> Trials:
         """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
         judge = self._judge(variant)
@@ -117,7 +124,7 @@ class Flyer:
         names = variant_names(self.plan, prepared)
         faults, log = self.plan.list_faults(), self._log_of(variant)
         sampled = self.values_for(trial)
-        with Simulation(prepared, varied=names.varied, faults=faults, log=log) as simulation:
+        with open_simulation(prepared, apart=self._apart, varied=names.varied, faults=faults, log=log) as simulation:
             simulation.set_faults(sampled.faults_of(trial))
             simulation.set(sampled.parameters(prepared, trial))
             result = fly(simulation, self.plan.watch.timeout)
@@ -136,19 +143,23 @@ class Flyer:
         sampled = self.values_for(trial)
         simulation.set_faults(sampled.faults_of(trial))
         parameters = {**sampled.parameters(simulation.prepared, trial), **(overlay or {})}
-        words = self._words if sampled.campaign is self.plan.campaign and overlay is None else None
-        if words is not None and (variant, trial) in words.hung:
-            return nothing_flown(simulation, words.hung[variant, trial])
-        if words is not None:
-            simulation.unlock()  # compiled before its clock runs
         try:
-            with words.of(variant, trial) if words is not None else nullcontext():
-                return run(simulation, parameters, self.plan.watch.timeout)
+            flight = run(simulation, parameters, self.plan.watch.timeout)
+            if self._is_to_be_repeated(simulation, flight):
+                flight = run(simulation, parameters, self.plan.watch.timeout)
+            return flight
         except StuckError as error:  # what it flew with is lost: the next trial flies with instances of its own
-            if words is not None:
-                words.say(variant, trial, str(error))
             del self._ready[variant]
             return nothing_flown(simulation, str(error))
+
+    def _is_to_be_repeated(self, simulation: BaseSimulation, flight: Flight) -> bool:
+        """Whether a flight that lost its process flies once more, in a fresh one: who dies has not always done it.
+
+        An earlier flight may have harmed the process, and someone else may have killed it.
+        """
+        if flight.status not in LOST or self.halted or not isinstance(simulation, ApartSimulation):
+            return False
+        return flight.status == CRASHED or simulation.flights > 1
 
     def close(self) -> None:
         for simulation, _ in self._ready.values():

@@ -14,7 +14,8 @@ import pyarrow
 import pyarrow.parquet
 
 from ....fmus_src.kernel.functions import VERSION
-from ...runtime.flight.reset_check import ResetVerdict, reset_verdict, store_verdict
+from ...runtime.apart.resets import find_verdict
+from ...runtime.flight.reset_check import ResetVerdict, store_verdict
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.system.fault import parse_fault
 from ...runtime.system.options import SystemOptions, Watch
@@ -29,7 +30,8 @@ from .manifest import CONTENTS, CampaignDocument, Manifest, SourceDocument, cont
 from .shards.draws import read_draws
 from .shards.numbering import shard_size
 
-NOT_ASKED = ("places", "folder")  # of the options: where values are written, and where paths are meant from
+# Of the options: where values are written, where paths are meant from, and what only who flies may decide.
+NOT_ASKED = ("places", "folder", "in_process")
 
 
 def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Manifest, dict[str, bytes]]:
@@ -96,7 +98,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
             variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
             for variant, prepared in systems.items()
         },
-        resets={digest: asdict(reset_verdict(fmu)) for digest, fmu in fmus.items() if not fmu.is_own},
+        resets={digest: asdict(find_verdict(fmu, plan.options)) for digest, fmu in fmus.items() if not fmu.is_own},
         until_decided=plan.until_decided,
         seed=campaign.seed,
         trials=campaign.trials,
@@ -120,11 +122,13 @@ def _table(columns: Mapping[str, np.ndarray]) -> bytes:
     return bytes(sink.getvalue())
 
 
-def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: Path | None = None) -> BatchPlan:
+def restore(
+    folder: Path, manifest: Manifest, log: str | None = None, *, draws: Path | None = None, in_process: bool = False
+) -> BatchPlan:
     """The plan of a campaign's folder, with the draws that are stored there. Raises InputError.
 
     ``log`` is the level of the FMUs' messages, which changes no result; ``draws`` is the folder of the table of draws
-    where that is another.
+    where that is another; ``in_process`` is as in `SystemOptions`.
     """
     contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
     source = _restore_source(contents, manifest.campaign)
@@ -148,7 +152,7 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: 
     plan = BatchPlan(
         manifest.system["label"],
         campaign,
-        SystemOptions(**options, folder=str(contents)),
+        SystemOptions(**options, folder=str(contents), in_process=in_process),
         source.sha256,
         faults=tuple(parse_fault(text) for text in manifest.faults),
         series=series,

@@ -25,6 +25,7 @@ STATUS = {
     codes.TOO_LONG: "failed",
 }
 TERMINATED = "terminated"  # an FMU asked for the end
+FLIGHT_STATUSES = {*STATUS.values(), TERMINATED}
 ENTER = FUNCTION_NAMES.index("fmi2EnterInitializationMode")
 SETTERS = (codes.PARAMETERS, codes.WHOLE_PARAMETERS, codes.TEXT_PARAMETERS)
 READ_BACKS = (codes.READ_BACK, codes.WHOLE_READ_BACK, codes.TEXT_READ_BACK)

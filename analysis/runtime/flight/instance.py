@@ -17,6 +17,7 @@ from ...common.errors import InputError
 from ..system.fmu import Fmu
 from ..system.options import LOG_LEVELS, SAID_FROM
 from .library import LOADING, Library, acquire, release
+from .recorder import FlightRecorder
 
 STATUSES = ("OK", "warning", "discard", "error", "fatal", "pending")
 
@@ -29,34 +30,39 @@ def status_word(status: int) -> str:
 class Log:
     """Writes the messages of a simulation's FMUs as they come, those of a ``level`` of `LOG_LEVELS` and graver.
 
-    ``place`` is put before each line: in a batch the trial.
+    ``place`` is put before each line: in a batch the trial. ``emit`` is given the lines instead of standard error.
     """
 
-    def __init__(self, level: str) -> None:
+    def __init__(self, level: str, emit: Callable[[str], None] | None = None) -> None:
         self.level = level
         self.place = ""
-        self._clock: tuple[np.ndarray, float, float] | None = None
+        self.emit = self.write_line if emit is None else emit
+        self._clock: tuple[FlightRecorder, float, float] | None = None
 
     @property
     def everything(self) -> bool:
         """Whether FMUs are asked for all of their categories."""
         return self.level == LOG_LEVELS[-1]
 
-    def follow(self, outcome: np.ndarray, start: float, step: float) -> None:
-        """Take the time (s) from the loop's `Buffers.outcome`, whose communication points are ``step`` apart."""
-        self._clock = outcome, start, step
+    def follow(self, recorder: FlightRecorder, start: float, step: float) -> None:
+        """Take the time (s) from a flight whose communication points are ``step`` apart."""
+        self._clock = recorder, start, step
 
     def write(self, component: str, status: int, category: str, message: str) -> None:
         """One message, on one line: what an FMU breaks into several is put together with bars."""
         if not 0 <= status < len(STATUSES) or status >= SAID_FROM[self.level]:
             time = ""
             if self._clock is not None:
-                outcome, start, step = self._clock
-                time = f"t = {start + int(outcome[4]) * step:.9g} s: "
+                recorder, start, step = self._clock
+                time = f"t = {start + recorder.point * step:.9g} s: "
             text = " | ".join(" ".join(line.split()) for line in message.splitlines() if line.strip())
             label = f" ({category})" if category else ""
-            sys.stderr.write(f"log: {self.place}{time}{component}: {status_word(status)}{label}: {text}\n")
-            sys.stderr.flush()
+            self.emit(f"{time}{component}: {status_word(status)}{label}: {text}")
+
+    def write_line(self, line: str) -> None:
+        """A message in words, to standard error."""
+        sys.stderr.write(f"log: {self.place}{line}\n")
+        sys.stderr.flush()
 
 
 PLACED = {"Boolean": 0, "Real": 1, "Integer": 2}  # FMI types as `perilune_place` numbers them

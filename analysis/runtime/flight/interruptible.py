@@ -12,8 +12,10 @@ from typing import TypeVar
 import numpy as np
 
 from ..ssp.parameter_sets import ParameterValue
-from .results import TIMED_OUT, Flight, Result
-from .simulation import Simulation
+from ..system.prepared import PreparedSystem
+from .base_simulation import BaseSimulation
+from .recorder import FlightRecorder
+from .results import HUNG, TIMED_OUT, Flight, Result
 
 T = TypeVar("T")
 Flown = TypeVar("Flown", bound=Flight)
@@ -24,28 +26,29 @@ class StuckError(TimeoutError):
     """A step of an FMU that does not return; the flight's thread and instances are lost. The message says when."""
 
 
-def fly(simulation: Simulation, timeout: float | None = None) -> Result:
+def fly(simulation: BaseSimulation, timeout: float | None = None) -> Result:
     """One flight. Ctrl-C ends it at its next communication point: what was flown comes back, ``interrupted``.
 
     So does a ``timeout`` (s of the wall clock): ``timed_out``. Raises KeyboardInterrupt or StuckError where no point is
     reached within PATIENCE: a step of an FMU cannot be cut.
     """
-    return wait(partial(_within, simulation, timeout, simulation.fly), simulation.interrupt)
+    work = partial(_within, simulation, timeout, simulation.fly)
+    return wait(work, simulation.interrupt, partial(simulation.give_up, "was interrupted"))
 
 
-def run(simulation: Simulation, values: Mapping[str, ParameterValue], timeout: float | None = None) -> Flight:
+def run(simulation: BaseSimulation, values: Mapping[str, ParameterValue], timeout: float | None = None) -> Flight:
     """A flight of a batch, likewise, in a thread in which Ctrl-C is not heard."""
     return _within(simulation, timeout, partial(simulation.run, values))
 
 
-def nothing_flown(simulation: Simulation, message: str) -> Flight:
+def nothing_flown(simulation: BaseSimulation, message: str) -> Flight:
     """The flight of a step that did not return: its rows are lost with it."""
     nothing = np.empty(0)
     types = {name: simulation.layout.types[name] for name in simulation.signal_names}
-    return Flight(nothing, dict.fromkeys(types, nothing), types, TIMED_OUT, message)
+    return Flight(nothing, dict.fromkeys(types, nothing), types, HUNG, message)
 
 
-def _within(simulation: Simulation, timeout: float | None, work: Callable[[], Flown]) -> Flown:
+def _within(simulation: BaseSimulation, timeout: float | None, work: Callable[[], Flown]) -> Flown:
     """A flight with so many seconds; what it takes to compile the loop is not among them."""
     if timeout is None:
         return work()
@@ -58,12 +61,11 @@ def _within(simulation: Simulation, timeout: float | None, work: Callable[[], Fl
     try:
         flight = future.result(timeout=PATIENCE)
     except TimeoutError:
-        point = int(simulation.buffers.outcome[4])
-        stepped = f"the last to step was {list(simulation.instances)[int(simulation.buffers.outcome[1])]}"
-        where = f"on the way to t = {_point(simulation):g} s, {stepped}" if point else "in the initialisation"
-        raise StuckError(
-            f"an FMU did not return {PATIENCE:g} s after its time limit of {timeout:g} s, {where}"
-        ) from None
+        late = f"did not return {PATIENCE:g} s after its time limit of {timeout:g} s"
+        if not simulation.give_up(late):
+            where = progress_text(simulation.prepared, simulation.recorder)
+            raise StuckError(f"an FMU {late}, {where}") from None
+        flight = future.result()
     simulation.interrupt(False)  # the next flight is not to end at once
     if flight.status != "interrupted":
         return flight  # the last point was reached in the meantime
@@ -71,13 +73,21 @@ def _within(simulation: Simulation, timeout: float | None, work: Callable[[], Fl
     return replace(flight, status=TIMED_OUT, message=message)
 
 
-def _point(simulation: Simulation) -> float:
+def _point(simulation: BaseSimulation) -> float:
     """The time (s) of the communication point that is being computed, or of the last one."""
-    return simulation.prepared.start + int(simulation.buffers.outcome[4]) * simulation.prepared.step
+    return simulation.prepared.start + simulation.recorder.point * simulation.prepared.step
 
 
-def wait(work: Callable[[], T], interrupt: Callable[[], None]) -> T:
-    """What ``work`` gives, done in a thread; Ctrl-C calls ``interrupt`` and waits a while for the rest.
+def progress_text(prepared: PreparedSystem, recorder: FlightRecorder) -> str:
+    """Where a flight is, in words: the communication point under way, and who was the last to step."""
+    if not recorder.point:
+        return "in the initialisation"
+    time = prepared.start + recorder.point * prepared.step
+    return f"on the way to t = {time:g} s, the last to step was {list(prepared.network.fmus)[recorder.subject]}"
+
+
+def wait(work: Callable[[], T], interrupt: Callable[[], None], give_up: Callable[[], object]) -> T:
+    """What ``work`` gives, done in a thread; Ctrl-C calls ``interrupt``, waits a while for the rest, and gives up.
 
     Elsewhere than in the main thread, which alone hears of it, the work is done at once.
     """
@@ -92,6 +102,7 @@ def wait(work: Callable[[], T], interrupt: Callable[[], None]) -> T:
         try:
             return future.result(timeout=PATIENCE)
         except TimeoutError:
+            give_up()
             raise KeyboardInterrupt from None
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,22 +12,15 @@ from lxml import etree
 
 from ...common.errors import InputError
 from ..system.fmu import Fmu
+from ..system.prepared import PreparedSystem
+from .base_memory import BaseMemory, Cell
+from .compiled import arrays
 from .instance import Instance
-from .simulation import Simulation
+from .program import Layout
 
 STATE_ANNOTATION = "org.perilune.state"  # in modelDescription.xml of FMUs that tell how they serialise their memory
 HEADER_WORDS = 6
 REMEMBERED = ("local", "output", "input")
-
-
-@dataclass(frozen=True)
-class Cell:
-    """One real number that the system remembers: an FMU's variable, or the last value of a connector."""
-
-    name: str
-    unit: str | None
-    component: str | None  # None: an exchanged value
-    place: int  # value reference, or slot
 
 
 @dataclass
@@ -63,20 +56,21 @@ class Piece:
         return self._values
 
 
-class Memory:
-    """The memory of a simulation's FMUs and connectors as real numbers, ``cells``; nothing else is remembered.
+class Memory(BaseMemory[Snapshot]):
+    """The memory of a simulation in this process.
 
-    Whole numbers, and what FMUs name as frozen (random number generators, covariances), are saved and put back, but
-    are no cells.
     Raises InputError where an FMU does not tell how it serialises its memory.
     """
 
-    def __init__(self, simulation: Simulation) -> None:
-        self.simulation = simulation
+    def __init__(
+        self, prepared: PreparedSystem, layout: Layout, instances: Mapping[str, Instance], buffers: arrays.Buffers
+    ) -> None:
+        self._instances = instances
+        self._buffers = buffers
         self.cells: list[Cell] = []
         self._write: dict[str, Callable[[bytes, int, float], bytes]] = {}
         self._pieces: list[Piece] = []
-        for component, instance in simulation.instances.items():
+        for component, instance in instances.items():
             encoding, frozen = _layout(instance.fmu, component)
             self._write[component] = ENCODINGS[encoding]
             mine = [
@@ -92,34 +86,34 @@ class Memory:
             ]
             self._pieces.append(Piece(instance, np.array([item.valueReference for item in mine], dtype=np.uint32)))
         # Followers' outputs that others read a step late are remembered by the exchange only.
-        followers = set(simulation.prepared.schedule.followers)
+        followers = set(prepared.schedule.followers)
         self._slots: list[int] = []
-        for name, slot in simulation.layout.slots.items():
-            node = simulation.prepared.network.nodes.get(name)
-            real = simulation.layout.types[name] == "Real"
+        for name, slot in layout.slots.items():
+            node = prepared.network.nodes.get(name)
+            real = layout.types[name] == "Real"
             if node is not None and node.kind == "output" and node.component in followers and real:
-                self.cells.append(Cell(f"{name} as exchanged", simulation.layout.units[name], None, slot))
+                self.cells.append(Cell(f"{name} as exchanged", layout.units[name], None, slot))
                 self._slots.append(slot)
 
     def read(self) -> np.ndarray:
         """The values of all cells now."""
         parts = [piece.read() for piece in self._pieces]
-        return np.concatenate([*parts, self.simulation.buffers.values[self._slots]])
+        return np.concatenate([*parts, self._buffers.values[self._slots]])
 
     def take(self, point: int) -> Snapshot:
         """Save everything at communication point ``point``; `release` it in the end."""
         states, serialized = {}, {}
-        for component, instance in self.simulation.instances.items():
+        for component, instance in self._instances.items():
             states[component] = instance.slave.getFMUstate()
             serialized[component] = instance.slave.serializeFMUstate(states[component])
-        buffers = self.simulation.buffers
+        buffers = self._buffers
         return Snapshot(point, states, serialized, buffers.values.copy(), buffers.whole.copy(), buffers.frozen.copy())
 
     def put_back(self, snapshot: Snapshot, cell: Cell | None = None, value: float = 0.0) -> None:
         """Everything as it was, but for one cell's value."""
-        for component, instance in self.simulation.instances.items():
+        for component, instance in self._instances.items():
             instance.slave.setFMUstate(snapshot.states[component])
-        buffers = self.simulation.buffers
+        buffers = self._buffers
         buffers.values[:] = snapshot.values
         buffers.whole[:] = snapshot.whole
         buffers.frozen[:] = snapshot.frozen
@@ -128,7 +122,7 @@ class Memory:
         if cell.component is None:
             buffers.values[cell.place] = value
             return
-        slave = self.simulation.instances[cell.component].slave
+        slave = self._instances[cell.component].slave
         changed = self._write[cell.component](snapshot.serialized[cell.component], cell.place, value)
         state = slave.deSerializeFMUstate(changed)
         slave.setFMUstate(state)
@@ -137,7 +131,7 @@ class Memory:
     def release(self, snapshot: Snapshot) -> None:
         """Free what `take` saved."""
         for component, state in snapshot.states.items():
-            self.simulation.instances[component].slave.freeFMUstate(state)
+            self._instances[component].slave.freeFMUstate(state)
 
 
 def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:

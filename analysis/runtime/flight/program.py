@@ -83,9 +83,14 @@ def build_program(
     return *builder.program(prepared, instances), builder.layout()
 
 
-def layout_of(network: Network, settings: Settings) -> Layout:
-    """Where everything of a flight that records all signals will lie: which signals there are, before one flies."""
-    return _Builder(network, settings, None, ()).layout()
+def layout_of(
+    network: Network,
+    settings: Settings,
+    wanted: Collection[str] | None = None,
+    injections: Sequence[Injection] = (),
+) -> Layout:
+    """Where everything of a flight will lie, before one flies; arguments as of `build_program`."""
+    return _Builder(network, settings, wanted, injections).layout()
 
 
 class _Builder:

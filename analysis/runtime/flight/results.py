@@ -29,8 +29,14 @@ from ..system.prepared import PreparedSystem
 from .parameters import Parameters
 
 TIMED_OUT = "timed_out"
+CRASHED, HUNG, OUT_OF_MEMORY = LOST = "crashed", "hung", "out_of_memory"  # with the process, or the thread, of a flight
 COMPLETE = ("finished", "stop_time", "terminated")
-ENDINGS = {"finished": "completed", "stop_time": "stop time reached", TIMED_OUT: "timed out"}  # where words differ
+ENDINGS = {
+    "finished": "completed",
+    "stop_time": "stop time reached",
+    TIMED_OUT: "timed out",
+    OUT_OF_MEMORY: "out of memory",
+}  # where words differ
 
 
 def require_pandas() -> None:
@@ -45,8 +51,9 @@ class Flight:
 
     ``status`` is ``finished`` (the system's own end), ``stop_time``, ``terminated`` (an FMU asked for the end, at a
     time of its own), ``nonfinite`` (a component gave NaN or infinity), ``failed`` (an FMU reported an error, or did
-    not take a parameter), ``interrupted`` (by Ctrl-C) or ``timed_out`` (it took longer than it may); ``message``
-    explains the last five. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
+    not take a parameter), ``interrupted`` (by Ctrl-C), ``timed_out`` (it took longer than it may), ``crashed`` (an FMU
+    ended its process), ``hung`` (a call of an FMU did not return) or ``out_of_memory``; ``message`` explains the last
+    eight. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
     """
 
     time: np.ndarray

@@ -42,8 +42,10 @@ class SystemOptions(Layer):
     None takes native FMUs where they are built. ``open_inputs``: what becomes of inputs that the SSD declares and
     nothing drives, ``start`` keeps the FMU's start values. ``strict``: FMUs whose descriptions break rules of FMI are
     refused and not only remarked upon. ``feedthrough`` are components whose outputs depend directly on all inputs,
-    ``no_feedthrough`` those whose outputs depend directly on none. ``folder`` is what relative paths are meant from:
-    an FMU may change the process's working folder once it is loaded.
+    ``no_feedthrough`` those whose outputs depend directly on none. ``in_process``: FMUs of others are loaded into this
+    process, too, and not into one of their own, whose limits are ``call_timeout`` (s), of one call of an FMU, and
+    ``memory`` (GB). ``folder`` is what relative paths are meant from: an FMU may change the process's working folder
+    once it is loaded.
     """
 
     step: float | None = None
@@ -56,6 +58,9 @@ class SystemOptions(Layer):
     open_inputs: str = "refuse"
     feedthrough: tuple[str, ...] = ()
     no_feedthrough: tuple[str, ...] = ()
+    in_process: bool = field(default=False, compare=False)
+    call_timeout: float = field(default=300.0, compare=False)
+    memory: float = field(default=4.0, compare=False)
     folder: str = field(default_factory=os.getcwd, compare=False, repr=False)
 
     def among(self, **layers: Layer) -> SystemOptions:

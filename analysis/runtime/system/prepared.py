@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import chdir, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from ....fmus_src.export.available import fmu_file, fmu_flavours
 from ....fmus_src.paths import FLAVOURS
 from ...common.errors import InputError, suggestion
 from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, open_system, parameters_asked, use_asked
-from ..ssp.description import Component
+from ..ssp.description import Component, System
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
 from .alone import describe_alone
@@ -57,6 +57,18 @@ class PreparedSystem:
     def assumptions(self) -> list[str]:
         """What was assumed since an FMU does not declare it, each in a line that names the component and its FMU."""
         return self.schedule.feedthrough.notes(self.network, self.algorithm)
+
+    @property
+    def is_own(self) -> bool:
+        """Whether Perilune built all of its FMUs; others are code of strangers."""
+        return all(fmu.is_own for fmu in self.network.fmus.values())
+
+    def of_flights(self) -> PreparedSystem:
+        """What flights take of it, and another process can be sent: without documents, and readers of files."""
+        description = self.network.description
+        root = System(description.system.name, {}, [], description.system.line)
+        network = replace(self.network, description=replace(description, system=root, annotations={}), systems={})
+        return replace(self, network=network, options=SystemOptions(folder=self.options.folder), elsewhere={})
 
     @property
     def is_native(self) -> bool:

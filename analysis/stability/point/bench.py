@@ -10,9 +10,9 @@ from fractions import Fraction
 import numpy as np
 
 from ...common.errors import InputError, suggestion
-from ...runtime.flight.memory import Cell, Memory
+from ...runtime.apart.opening import open_simulation
+from ...runtime.flight.base_memory import Cell
 from ...runtime.flight.results import COMPLETE
-from ...runtime.flight.simulation import Simulation
 from ...runtime.ssp.parameter_sets import ParameterValue
 from ...runtime.system.prepared import PreparedSystem
 from ..request.channels import Channel
@@ -50,7 +50,7 @@ class Bench:
                 known = suggestion(point.signal, prepared.network.nodes)
                 raise InputError(prepared.network.file, f"point {point.name}", f"no signal {point.signal}", known)
             wanted.add(point.signal)
-        self.simulation = Simulation(prepared, varied=varied, wanted=wanted, excited=self.connectors)
+        self.simulation = open_simulation(prepared, varied=varied, wanted=wanted, excited=self.connectors)
         self.period = self._hyperperiod()
         self.origin = self._origin()
 
@@ -143,7 +143,7 @@ class OperatingPoint:
 
     def __init__(self, bench: Bench) -> None:
         self.bench = bench
-        self.memory = Memory(bench.simulation)
+        self.memory = bench.simulation.memory()
         self.sizes: dict[str, float] = {}
         largest = np.zeros(len(self.memory.cells))
         last = -1

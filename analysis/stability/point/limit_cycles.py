@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from ...common.errors import InputError
+from ...runtime.apart.opening import open_simulation
 from ...runtime.flight.results import COMPLETE
-from ...runtime.flight.simulation import Simulation
 from ...runtime.system.options import Layer
 from ...runtime.system.prepared import PreparedSystem
 from ..loops.curves import Response
@@ -77,7 +77,7 @@ def _simulate(prepared: PreparedSystem, channel: Channel, integrated: bool) -> t
 
     ``integrated``: of its integral over time, less the ramp that a constant disturbance leaves in it.
     """
-    with Simulation(prepared, wanted=channel.recorded) as simulation:
+    with open_simulation(prepared, wanted=channel.recorded) as simulation:
         flight = simulation.fly()
         if flight.status not in COMPLETE or flight.time.size < FEWEST:
             return None

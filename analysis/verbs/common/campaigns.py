@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from ...campaigns.draws.given import ALL, GivenDraws
+from ...campaigns.fly.cluster.tasks import WorkersDiedError
 from ...campaigns.fly.manifest import FILE as MANIFEST
-from ...campaigns.fly.workers import WorkersDiedError
 from ...campaigns.replay_command import campaign_command, replay_command
 from ...campaigns.spec.plan import BatchPlan, read_plan
 from ...campaigns.spec.sweeps import part_sweeps

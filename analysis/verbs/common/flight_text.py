@@ -15,6 +15,9 @@ REMEDIES = {
     "nonfinite": "see what drives it with `output`",
     "interrupted": "what was flown until then is in the files",
     "timed_out": "what was flown until then is in the files; give it longer, or see what takes so long with `log`",
+    "crashed": "what was flown until then is in the files; see what the FMU logs with `log`",
+    "hung": "what was flown until then is in the files; see what the FMU logs with `log`",
+    "out_of_memory": "what was flown until then is in the files; give it more with `memory`",
 }
 FINISHED = "finished"  # the root output that ends a run
 

@@ -8,6 +8,8 @@ from typing import Annotated, Any, Literal, TypedDict
 from ...runtime.system.fault import Fault
 from .option import NONE, FilePath, Option, SetValue, StructuredArray
 
+InProcess = Annotated[bool, Option("trust foreign FMUs: load them into this process, not into one of their own", False)]
+
 
 class SystemOptions(TypedDict, total=False):
     """System options"""
@@ -50,6 +52,21 @@ class SystemOptions(TypedDict, total=False):
     ]
     no_feedthrough: Annotated[
         Sequence[str], Option("treat a component as without direct feedthrough", (), metavar="COMPONENT")
+    ]
+    in_process: InProcess
+    call_timeout: Annotated[
+        float,
+        Option(
+            "wall-clock limit of one call of a foreign FMU, loading and instantiation included",
+            300.0,
+            unit="s",
+            metavar="SECONDS",
+            above=0.0,
+        ),
+    ]
+    memory: Annotated[
+        float,
+        Option("memory that a process of foreign FMUs may take", 4.0, unit="GB", metavar="SIZE", above=0.0),
     ]
 
 

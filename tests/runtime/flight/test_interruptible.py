@@ -46,10 +46,10 @@ def test_work_that_does_not_end_is_given_up(monkeypatch):
         never.wait(10.0)
 
     with interrupted_when(started.is_set), pytest.raises(KeyboardInterrupt):
-        wait(work, lambda: None)
+        wait(work, lambda: None, lambda: None)
     never.set()
 
 
 def test_errors_come_through():
     with pytest.raises(ZeroDivisionError):
-        wait(lambda: 1 / 0, lambda: None)
+        wait(lambda: 1 / 0, lambda: None, lambda: None)

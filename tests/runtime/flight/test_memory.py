@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.runtime.flight.memory import Memory
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
@@ -44,7 +43,7 @@ def fly(simulation, first, last):
 
 def saved(simulation):
     """The memory at SAVED, and what it was saved as."""
-    memory = Memory(simulation)
+    memory = simulation.memory()
     fly(simulation, -1, SAVED)
     return memory, memory.take(SAVED)
 
@@ -84,7 +83,7 @@ def test_put_back_it_flies_on_as_it_did(simulation):
 
 
 def test_cells_are_all_real_numbers_but_parameters_and_random_generators(simulation):
-    memory = Memory(simulation)
+    memory = simulation.memory()
     names = [cell.name for cell in memory.cells]
     assert len(set(names)) == len(names)
     of_noise = [name for name in names if name.startswith("noise.") and "exchanged" not in name]
@@ -167,7 +166,7 @@ def test_an_fmu_that_does_not_tell_is_refused_by_name(exact_fmus, tmp_path, chan
         Simulation(prepare_system(path, options)) as simulation,
         pytest.raises(InputError, match=r"silent\.fmu.*plant.*does not tell how it serialises its memory") as caught,
     ):
-        Memory(simulation)
+        simulation.memory()
     assert "\n" not in str(caught.value)
 
 

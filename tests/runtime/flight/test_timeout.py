@@ -109,20 +109,14 @@ def test_a_batch_goes_on(hanging, tmp_path, workers, pause):
     late = plan.draws.columns["Hanging.pause"] > 0.0
     assert 0 < late.sum() < late.size
     trials = run_batch(plan, workers=workers).trials["default"]
-    assert trials.statuses == ["timed_out" if value else "stop_time" for value in late]
+    assert trials.statuses == ["hung" if value else "stop_time" for value in late]
     assert np.array_equal(trials.success, ~late)
     assert np.array_equal(trials.metrics["last"][~late], np.ones(late.size)[~late])
     assert set(trials.messages) == set(np.flatnonzero(late))
     assert all("time limit of 0.5 s" in text for text in trials.messages.values())
 
 
-STUCK = {
-    "Hanging": "an FMU did not return 1.5 s after its time limit of 0.5 s, on the way to t = 0.75 s, the last",
-    "Holding": "an FMU kept Python's lock 3 s after its time limit of 0.5 s",
-}
-
-
-@pytest.mark.parametrize("name", either(list(STUCK), ["Holding"]))
+@pytest.mark.parametrize("name", either(["Hanging", "Holding"], ["Holding"]))
 def test_a_process_ends_with_a_step_that_hangs(tmp_path, name):
     """Also where the step keeps the lock, so that no thread of the process could end it; its neighbours fly again."""
     fmu = build_lone_fmu(name, tmp_path, 'stopTime="1" stepSize="0.25"')
@@ -131,10 +125,11 @@ def test_a_process_ends_with_a_step_that_hangs(tmp_path, name):
     plan = read_plan(fmu, str(tmp_path / "c.toml"), options, watch=Watch(timeout=0.5))
     late = plan.draws.columns[f"{name}.pause"] > 0.0
     trials = run_batch(plan, workers=2, engine="processes").trials["default"]
-    assert trials.statuses == ["timed_out" if value else "stop_time" for value in late]
+    assert trials.statuses == ["hung" if value else "stop_time" for value in late]
     assert np.array_equal(trials.success, ~late)
     assert set(trials.messages) == set(np.flatnonzero(late))
-    assert all(text.startswith(STUCK[name]) for text in trials.messages.values())
+    stuck = f"{name}: on the way to t = 0.75 s: did not return 1.5 s after its time limit of 0.5 s"
+    assert all(text == stuck for text in trials.messages.values())
 
 
 def test_the_command_says_so(hanging, tmp_path, capsys):
@@ -163,8 +158,8 @@ def test_a_hanging_step_does_not_keep_the_process(hanging, tmp_path):
     done = subprocess.run([*command, "--output", str(output)], capture_output=True, text=True, timeout=300, check=False)
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
-    assert "the last to step was Hanging; nothing is written" in done.stderr
-    assert not output.exists()
+    assert "Hanging: on the way to t = 0.75 s: did not return 1.5 s after" in done.stderr
+    assert [row.split(",")[0] for row in output.read_text().splitlines()] == ["time", "0", "0.25", "0.5"]
 
 
 @pytest.mark.parametrize("timeout", [0.0, -1.0, float("nan"), float("inf")])

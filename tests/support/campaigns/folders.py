@@ -11,6 +11,8 @@ from pathlib import Path
 import psutil
 import pyarrow.parquet
 
+SERVER = "apart.server import main"  # what the command line of a flight server, and of its children, has
+
 
 def bytes_of(folder):
     """SHA-256 of every file that a campaign left, by name."""
@@ -32,7 +34,7 @@ def workers_of(process):
             line = " ".join(child.cmdline())
         except psutil.Error:  # it has just ended
             continue
-        if "--process-name LokyProcess" in line:
+        if SERVER in line and child.ppid() != process.pid:  # forked by the server, which is a child itself
             collected.append(child.pid)
     return collected
 

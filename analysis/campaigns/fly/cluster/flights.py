@@ -14,10 +14,9 @@ from ....runtime.flight.interruptible import PATIENCE
 from ...trials import Trials
 from ..campaign import Campaign
 from ..shards.flights import Parts
-from ..workers import WorkersDiedError
 from . import work
 from .sent import make_sent
-from .tasks import Again, Portions, Task
+from .tasks import Again, Portions, Task, WorkersDiedError
 
 WAITING = 2  # tasks for each thread: one flies, one is there when it is done
 LOOK_UP = 1.0  # s, between looks at which workers are there

@@ -7,12 +7,16 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ..shards.numbering import Numbering
-from ..workers import MOST_DEATHS
 
+MOST_DEATHS = 3  # of workers with one trial, before it is held to end them
 FIRST = 4  # trials of a task as long as nobody knows how long one takes
 LONGEST, SHORTEST = 3.0, 0.5  # s of a task: little to lose with a worker, and long beside the 10 ms that sending costs
 QUICKEST = 1e-6  # s of a trial, below which a clock says nothing
 ROUNDS = 2  # tasks that each thread is to get at least of what is left, so that all end together
+
+
+class WorkersDiedError(RuntimeError):
+    """Workers end one after the other, before they have done anything, or none is left."""
 
 
 @dataclass(frozen=True)

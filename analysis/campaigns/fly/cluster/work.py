@@ -8,14 +8,13 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from ....common.atomic import write_atomically
 from ...spec.plan import BatchPlan
 from ...trials import Trials
-from ..crash_report import LastWords
 from ..flyer import Flyer
 from ..manifest import CONTENTS, store_contents
 from ..plan_manifest import restore
@@ -26,7 +25,6 @@ from .tasks import Piece
 FOLDER = "perilune"  # within the worker's own, which dask removes
 MOST_HELD = 3  # campaigns whose simulations are kept for the next task
 _looking = threading.Lock()
-_one_flight = threading.Lock()  # of FMUs that do not fly in threads
 _held: dict[str, _Held] = {}  # by key, the last used one last
 
 
@@ -36,13 +34,9 @@ class HaltedError(RuntimeError):
 
 @dataclass
 class _Held:
-    """A campaign that this process flies: its plan, and a flyer for each thread that has flown it at once.
-
-    ``words`` are there where trials have a limit on their time, and one of them flies at a time.
-    """
+    """A campaign that this process flies: its plan, and a flyer for each thread that has flown it at once."""
 
     plan: BatchPlan
-    words: LastWords | None
     idle: list[Flyer] = field(default_factory=list)
     busy: list[Flyer] = field(default_factory=list)
 
@@ -58,7 +52,7 @@ def fly(sent: Sent, task: Sequence[Piece]) -> list[tuple[Trials, float]]:
     refuse_others(sent.identity, identity(), worker.address)
     folder = Path(worker.local_directory).absolute() / FOLDER
     simulated = []
-    with nullcontext() if sent.threads else _one_flight, _flyer(sent, folder) as flyer:
+    with _flyer(sent, folder) as flyer:
         for piece in task:
             flyer.simulation(piece.variant)
             began = time.perf_counter()
@@ -83,9 +77,7 @@ def _flyer(sent: Sent, folder: Path) -> Iterator[Flyer]:
     """A flyer that no other thread has."""
     with _looking:
         held = _campaign(sent, folder)
-        if held.words is not None:
-            held.words.look()
-        flyer = held.idle.pop() if held.idle else Flyer(held.plan, held.words)
+        flyer = held.idle.pop() if held.idle else Flyer(held.plan, apart=sent.apart)
         held.busy.append(flyer)
     try:
         yield flyer
@@ -109,11 +101,8 @@ def _campaign(sent: Sent, folder: Path) -> _Held:
         write_atomically(own / DRAWS, sent.draws)
     plan = restore(folder, sent.manifest, sent.log, draws=own)
     free = [key for key, held in _held.items() if not held.busy]
-    for key in free[: max(0, len(free) + 1 - MOST_HELD)] if sent.threads else free:
+    for key in free[: max(0, len(free) + 1 - MOST_HELD)]:
         for flyer in _held.pop(key).idle:
             flyer.close()
-    timeout = plan.watch.timeout
-    place = folder.parent.parent / f"{FOLDER}_{sent.key}"  # that of all workers of this machine, and of those to come
-    words = None if sent.threads or timeout is None else LastWords(place, timeout)
-    _held[sent.key] = _Held(plan, words)
+    _held[sent.key] = _Held(plan)
     return _held[sent.key]

@@ -82,3 +82,54 @@ class Buffers(NamedTuple):
     # flight the component that steps and the point it steps to
     texts: Texts
     halt: np.ndarray  # int64 [1]; another thread makes it other than 0 to end the flight at its next point
+
+
+def blank() -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray]:
+    """Arguments of the loop, without a system: their types are those of all systems."""
+    real, whole, text, place, byte = np.float64, np.int32, np.uint64, np.int64, np.uint8
+    row, rows = 0, (0, 0)
+    settings = Settings(np.zeros(row, real), np.zeros(row, whole), np.zeros(row, text))
+    program = Program(
+        instructions=np.zeros(rows, text),
+        reset_end=0,
+        phases=np.zeros(row, place),
+        reference=np.zeros(row, np.uint32),
+        initial=np.zeros(row, real),
+        parameter_reference=np.zeros(row, np.uint32),
+        tolerance=np.zeros(row, real),
+        source=np.zeros(row, place),
+        target=np.zeros(row, place),
+        factor=np.zeros(row, real),
+        offset=np.zeros(row, real),
+        table=np.zeros(rows, place),
+        table_from=np.zeros(row, real),
+        table_to=np.zeros(row, real),
+        finished_slot=0,
+        fault_slot=np.zeros(row, place),
+        fault_kind=np.zeros(row, place),
+        fault_window=np.zeros(rows, real),
+        fault_value=np.zeros(row, real),
+        drive_slot=np.zeros(row, place),
+        drive_table=np.zeros(rows, real),
+    )
+    texts = Texts(
+        np.zeros(row, np.uint32), np.zeros(rows, byte), np.zeros(rows, byte), np.zeros(row, text), np.zeros(row, text)
+    )
+    buffers = Buffers(
+        values=np.zeros(row, real),
+        whole=np.zeros(row, whole),
+        frozen=np.zeros(row, real),
+        read_back=settings,
+        outcome=np.zeros(row, place),
+        texts=texts,
+        halt=np.zeros(row, place),
+    )
+    span = Span(reset=False, start=0.0, step=0.0, stop=0.0, first=0, last=0)
+    return (
+        program,
+        buffers,
+        settings,
+        span,
+        Recording(np.zeros(row, place), 0, np.zeros(rows), np.zeros(row)),
+        np.zeros(rows),
+    )

@@ -18,6 +18,7 @@ import numpy as np
 from numba import typeof
 
 from ....common.compiler import compile_cached
+from . import arrays
 from .beginning import begin
 from .codes import (
     ADDRESS,
@@ -258,3 +259,8 @@ def compile_for(arguments: tuple, *, locked: bool) -> Callable[..., int]:
     Called by itself numba's dispatcher would look at the type of every array in every flight.
     """
     return (fly_locked if locked else fly_unlocked).compile(tuple(typeof(part) for part in arguments))
+
+
+def load(*, locked: bool) -> None:
+    """Have the loop compiled, or read from the cache, before a system is there to fly."""
+    compile_for(arrays.blank(), locked=locked)

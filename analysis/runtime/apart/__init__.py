@@ -1,0 +1,1 @@
+"""Flights in processes of their own: FMUs of others are instantiated there, and never here."""

@@ -1,0 +1,133 @@
+"""What a child does: it instantiates a system, or tries one FMU, and answers until nobody asks any more.
+
+Only here, and in what this calls, are the libraries of FMUs loaded that fly in children.
+"""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Sequence
+from functools import singledispatchmethod
+from typing import Any
+
+from ...common.errors import InputError
+from ..flight.instance import Log
+from ..flight.memory import Memory, Snapshot
+from ..flight.reset_check import ResetVerdict, reset_verdict, store_verdict
+from ..flight.simulation import Simulation
+from ..system.prepared import PreparedSystem
+from . import messages
+from .messages import ResetTrial, SystemFlights, send_answer, send_line, send_numbers
+from .requests import receive_request
+from .shared_recorder import SharedRecorder
+
+
+def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket, memory: Sequence[int]) -> None:
+    """Do a task with a system or an FMU; ``memory`` is the file of the recorder, if there is one."""
+    try:
+        if isinstance(task, ResetTrial):
+            verdict = reset_verdict(subject)
+            send_answer(channel, messages.Verdict(verdict.resets, verdict.reason))
+            return
+        pilot = _Pilot(channel, task, subject, SharedRecorder(memory[0], task.signals, task.rows))
+    except InputError as error:
+        send_answer(channel, _refusal(error))
+        return
+    send_answer(channel, messages.Done())
+    pilot.serve()
+
+
+class _Pilot:
+    """Does what is asked of one simulation."""
+
+    def __init__(
+        self, channel: socket.socket, task: SystemFlights, prepared: PreparedSystem, recorder: SharedRecorder
+    ) -> None:
+        self._channel = channel
+        self._signals = task.signals
+        selection = task.selection
+        self._simulation = Simulation(
+            prepared,
+            varied=selection.varied,
+            wanted=selection.wanted,
+            faults=selection.faults,
+            excited=selection.excited,
+            log=None if task.log is None else Log(task.log, self._write),
+            recorder=recorder,
+        )
+        self._memory: Memory | None = None
+        self._snapshots: dict[int, Snapshot] = {}
+
+    def _write(self, line: str) -> None:
+        send_line(self._channel, line)
+
+    def serve(self) -> None:
+        """Answer requests until there are no more, then free the instances."""
+        while True:
+            try:
+                request, descriptors = receive_request(self._channel)
+            except EOFError:
+                break
+            try:
+                self._answer(request, descriptors)
+            except InputError as error:
+                send_answer(self._channel, _refusal(error))
+        self._simulation.close()
+
+    @singledispatchmethod
+    def _answer(self, request: Any, _descriptors: list[int]) -> None:
+        raise TypeError(f"no request: {request!r}")
+
+    @_answer.register
+    def _(self, request: messages.Fly, _descriptors: list[int]) -> None:
+        simulation = self._simulation
+        simulation.set(request.values)
+        if request.faults is not None:
+            simulation.set_faults(request.faults)
+        flight = simulation.advance(request.first, request.last, request.excitation, every=request.every)
+        send_answer(self._channel, messages.Flown(flight.status, flight.message, flight.time.size))
+
+    @_answer.register
+    def _(self, request: messages.KnownVerdicts, _descriptors: list[int]) -> None:
+        for digest, (resets, reason) in request.verdicts.items():
+            store_verdict(digest, ResetVerdict(resets, reason))
+
+    @_answer.register
+    def _(self, request: messages.NewRecorder, descriptors: list[int]) -> None:
+        self._simulation.record_into(SharedRecorder(descriptors[0], self._signals, request.rows))
+
+    @property
+    def _cells(self) -> Memory:
+        if self._memory is None:
+            self._memory = self._simulation.memory()
+        return self._memory
+
+    @_answer.register
+    def _(self, _request: messages.ListCells, _descriptors: list[int]) -> None:
+        cells = [(cell.name, cell.unit, cell.component, cell.place) for cell in self._cells.cells]
+        send_answer(self._channel, messages.CellList(cells))
+
+    @_answer.register
+    def _(self, _request: messages.ReadCells, _descriptors: list[int]) -> None:
+        send_numbers(self._channel, self._cells.read())
+
+    @_answer.register
+    def _(self, request: messages.TakeSnapshot, _descriptors: list[int]) -> None:
+        number = max(self._snapshots, default=0) + 1
+        self._snapshots[number] = self._cells.take(request.point)
+        send_answer(self._channel, messages.Done(number))
+
+    @_answer.register
+    def _(self, request: messages.PutBack, _descriptors: list[int]) -> None:
+        cell = None if request.cell is None else self._cells.cells[request.cell]
+        self._cells.put_back(self._snapshots[request.snapshot], cell, request.value)
+        send_answer(self._channel, messages.Done())
+
+    @_answer.register
+    def _(self, request: messages.ReleaseSnapshot, _descriptors: list[int]) -> None:
+        self._cells.release(self._snapshots.pop(request.snapshot))
+        send_answer(self._channel, messages.Done())
+
+
+def _refusal(error: InputError) -> messages.Refused:
+    return messages.Refused(error.file, error.element, error.problem, error.remedy)

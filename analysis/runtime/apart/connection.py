@@ -1,0 +1,178 @@
+"""A child that is asked one thing at a time: answers, and what is made of its end."""
+
+from __future__ import annotations
+
+import select
+import signal
+import socket
+import time
+import weakref
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...common.errors import InputError
+from ..flight.results import CRASHED, HUNG, OUT_OF_MEMORY
+from .messages import (
+    ANSWER,
+    LINE,
+    NUMBERS,
+    Kind,
+    Refused,
+    UnreadableError,
+    read_answer,
+    receive_frame,
+)
+from .orders import OUT_OF_MEMORY as TOO_LARGE
+from .orders import Ended
+from .requests import send_request
+from .servers import Child
+
+LOOK = 0.25  # s, between looks at a child that says nothing
+PATIENCE = 1.5  # s that a child has to free its instances
+PIECE = 65536  # bytes
+
+
+class ChildEndedError(Exception):
+    """A child that ended before it had answered: ``status`` of LOST, and ``how`` in words."""
+
+    def __init__(self, status: str, how: str) -> None:
+        super().__init__(status, how)
+        self.status = status
+        self.how = how
+
+
+@dataclass(frozen=True)
+class Stillness:
+    """Whether a child has stood still for too long: ``measure`` gives what changes as long as it goes on."""
+
+    measure: Callable[[], Any]
+    limit: float  # s
+
+
+class Connection:
+    """Not shared between threads, but for `give_up`."""
+
+    def __init__(self, child: Child, write: Callable[[str], None], stillness: Stillness) -> None:
+        self._child = child
+        self._write = write
+        self._stillness = stillness
+        self._given_up = ""
+        self._end = weakref.finalize(self, child.end, kill=True)
+
+    @property
+    def is_open(self) -> bool:
+        return self._end.alive
+
+    def ask(self, request: Any, expected: type[Kind], files: Sequence[int] = ()) -> Kind:
+        """An answer. Raises ChildEndedError, and InputError where the child raised it."""
+        self.tell(request, files)
+        return self.hear(expected)
+
+    def tell(self, request: Any, files: Sequence[int] = ()) -> None:
+        """Send what has no answer, or one that is heard later. Raises ChildEndedError."""
+        try:
+            send_request(self._child.channel, request, files)
+        except OSError:
+            raise self._ended() from None
+
+    def hear(self, expected: type[Kind]) -> Kind:
+        """The answer to what the child was told."""
+        kind, content = self._receive()
+        try:
+            if kind != ANSWER:
+                raise UnreadableError
+            answer = read_answer(content, expected)
+        except UnreadableError:
+            raise self._unreadable() from None
+        if isinstance(answer, Refused):
+            raise InputError(answer.file, answer.element, answer.problem, answer.remedy)
+        return answer
+
+    def ask_numbers(self, request: Any, count: int) -> np.ndarray:
+        """An answer of so many float64."""
+        self.tell(request)
+        kind, content = self._receive()
+        if kind == ANSWER:
+            answer = read_answer(content, Refused)
+            raise InputError(answer.file, answer.element, answer.problem, answer.remedy)
+        if kind != NUMBERS or len(content) != 8 * count:
+            raise self._unreadable()
+        return np.frombuffer(content)
+
+    def give_up(self, why: str) -> None:
+        """End the child, for whoever waits for it in another thread: a call does not return."""
+        self._given_up = why
+        with suppress(OSError):
+            self._child.channel.shutdown(socket.SHUT_RDWR)  # wakes whoever waits
+
+    def close(self, *, kill: bool = False) -> None:
+        """Let the child free its instances, and end; PATIENCE is limited."""
+        if self.is_open:
+            self._finish(kill=kill or not self._is_freed())
+
+    def _is_freed(self) -> bool:
+        """Ask the child to free its instances; whether it has done so, and ended."""
+        channel, deadline = self._child.channel, time.monotonic() + PATIENCE
+        with suppress(OSError, ValueError):
+            channel.shutdown(socket.SHUT_WR)
+            while select.select([channel], [], [], max(0.0, deadline - time.monotonic()))[0]:
+                if not channel.recv(PIECE):
+                    return True
+        return False
+
+    def _finish(self, *, kill: bool) -> Ended | None:
+        """End the child; None where that was done before."""
+        return None if self._end.detach() is None else self._child.end(kill=kill)
+
+    def _receive(self) -> tuple[bytes, bytes]:
+        channel = self._child.channel
+        before, since = self._stillness.measure(), time.monotonic()
+        while True:
+            try:
+                if not select.select([channel], [], [], LOOK)[0]:
+                    now = self._stillness.measure()
+                    if now != before:
+                        before, since = now, time.monotonic()
+                    if time.monotonic() - since > self._stillness.limit:
+                        self._given_up = f"a call did not return for {self._stillness.limit:g} s"
+                    if self._given_up or self._child.is_over:
+                        raise EOFError
+                    continue
+                kind, content = receive_frame(channel)
+            except UnreadableError:
+                raise self._unreadable() from None
+            except (EOFError, OSError, ValueError):
+                raise self._ended() from None
+            if kind != LINE:
+                return kind, content
+            self._write(content.decode(errors="replace"))
+            before, since = self._stillness.measure(), time.monotonic()
+
+    def _unreadable(self) -> ChildEndedError:
+        self._finish(kill=True)
+        return ChildEndedError(CRASHED, "its process sent answers that cannot be read")
+
+    def _ended(self) -> ChildEndedError:
+        ended = self._finish(kill=bool(self._given_up))
+        if self._given_up:
+            return ChildEndedError(HUNG, self._given_up)
+        if ended is None:
+            return ChildEndedError(CRASHED, "its process has ended")
+        if ended.reason == TOO_LARGE:
+            return ChildEndedError(OUT_OF_MEMORY, "its process took more memory than it may")
+        return ChildEndedError(CRASHED, ended.reason or f"its process ended {_in_words(ended.status)}")
+
+
+def _in_words(status: int) -> str:
+    """How a process ended, by its os.waitpid status."""
+    signaled = status & 0x7F
+    if not signaled:
+        return f"with exit status {status >> 8}"
+    try:
+        return f"by {signal.Signals(signaled).name}"
+    except ValueError:
+        return f"by signal {signaled}"

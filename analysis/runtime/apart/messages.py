@@ -1,0 +1,179 @@
+"""What a process and its children tell each other: requests are pickles, answers JSON and numbers within bounds.
+
+A child runs code of others, so nothing that it sends is executed, and nothing is believed to be well-formed.
+"""
+
+from __future__ import annotations
+
+import socket
+import struct
+from dataclasses import dataclass
+from typing import TypeVar
+
+import msgspec
+import numpy as np
+
+from ..flight.selection import Selection
+from ..ssp.parameter_sets import ParameterValue
+from ..system.fault import Fault
+from .requests import receive_bytes
+
+HEADER = struct.Struct("<cI")
+ANSWER, NUMBERS, LINE = b"A", b"N", b"L"
+LONGEST = {ANSWER: 64 << 20, NUMBERS: 1 << 30, LINE: 64 << 10}  # bytes
+
+
+class UnreadableError(Exception):
+    """What a child sent is no answer."""
+
+
+# Tasks of children
+
+
+@dataclass(frozen=True)
+class SystemFlights:
+    """To simulate a system. ``log`` is the level of messages; ``rows`` of ``signals`` are what the recorder holds."""
+
+    selection: Selection
+    log: str | None
+    signals: int
+    rows: int
+
+
+@dataclass(frozen=True)
+class ResetTrial:
+    """To try whether an FMU resets."""
+
+
+# Requests, to a child
+
+
+@dataclass(frozen=True)
+class Fly:
+    """From one communication point to another; new values of varied parameters and faults, if there are."""
+
+    first: int
+    last: int
+    every: int
+    values: dict[str, ParameterValue]
+    faults: tuple[Fault | None, ...] | None
+    excitation: np.ndarray
+
+
+@dataclass(frozen=True)
+class KnownVerdicts:
+    """By SHA-256 of FMUs, whether they reset and why not; has no answer."""
+
+    verdicts: dict[str, tuple[bool, str]]
+
+
+@dataclass(frozen=True)
+class NewRecorder:
+    """Rows go into other memory, whose descriptor comes along; has no answer."""
+
+    rows: int
+
+
+@dataclass(frozen=True)
+class ListCells:
+    """The cells of the system's memory."""
+
+
+@dataclass(frozen=True)
+class ReadCells:
+    """Their values."""
+
+
+@dataclass(frozen=True)
+class TakeSnapshot:
+    point: int
+
+
+@dataclass(frozen=True)
+class PutBack:
+    snapshot: int
+    cell: int | None
+    value: float
+
+
+@dataclass(frozen=True)
+class ReleaseSnapshot:
+    snapshot: int
+
+
+# Answers, from a child
+
+
+class Done(msgspec.Struct, tag=True, forbid_unknown_fields=True):
+    """What was asked for is done; ``number`` names a snapshot."""
+
+    number: int = 0
+
+
+class Flown(msgspec.Struct, tag=True, forbid_unknown_fields=True):
+    status: str
+    message: str
+    rows: int
+
+
+class Refused(msgspec.Struct, tag=True, forbid_unknown_fields=True):
+    """An `InputError`."""
+
+    file: str
+    element: str
+    problem: str
+    remedy: str
+
+
+class CellList(msgspec.Struct, tag=True, forbid_unknown_fields=True):
+    """Names, units, components and places of `memory.Cell`."""
+
+    cells: list[tuple[str, str | None, str | None, int]]
+
+
+class Verdict(msgspec.Struct, tag=True, forbid_unknown_fields=True):
+    """A `ResetVerdict`."""
+
+    resets: bool
+    reason: str
+
+
+Answer = Done | Flown | Refused | CellList | Verdict
+Kind = TypeVar("Kind", bound=msgspec.Struct)
+_decoder = msgspec.json.Decoder(Answer)
+
+
+def send_answer(channel: socket.socket, answer: Answer) -> None:
+    _send(channel, ANSWER, msgspec.json.encode(answer))
+
+
+def send_numbers(channel: socket.socket, values: np.ndarray) -> None:
+    _send(channel, NUMBERS, np.ascontiguousarray(values, dtype=np.float64).tobytes())
+
+
+def send_line(channel: socket.socket, line: str) -> None:
+    """A message of an FMU, which the receiver writes to standard error."""
+    _send(channel, LINE, line.encode(errors="replace")[: LONGEST[LINE]])
+
+
+def _send(channel: socket.socket, kind: bytes, content: bytes) -> None:
+    channel.sendall(HEADER.pack(kind, len(content)) + content)
+
+
+def receive_frame(channel: socket.socket) -> tuple[bytes, bytes]:
+    """Kind and content of what a child sends. Raises UnreadableError and EOFError."""
+    kind, length = HEADER.unpack(receive_bytes(channel, HEADER.size))
+    if length > LONGEST.get(kind, -1):
+        raise UnreadableError
+    return kind, receive_bytes(channel, length)
+
+
+def read_answer(content: bytes, expected: type[Kind]) -> Kind | Refused:
+    """An answer of the expected kind. Raises UnreadableError."""
+    try:
+        answer = _decoder.decode(content)
+    except msgspec.MsgspecError:
+        raise UnreadableError from None
+    if not isinstance(answer, (expected, Refused)):
+        raise UnreadableError
+    return answer

@@ -1,0 +1,58 @@
+"""What a flight server is asked for; it answers to `Look` and `End`. All are pickles: both sides are our own code."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+OUT_OF_MEMORY = "out of memory"  # a reason to be ended
+
+
+@dataclass(frozen=True)
+class Learn:
+    """What children work on, pickled, by a ``key``."""
+
+    key: int
+    content: bytes
+    locked: bool  # whether the loop is to keep Python's lock
+
+
+@dataclass(frozen=True)
+class Forget:
+    """No more children will work on this."""
+
+    key: int
+
+
+@dataclass(frozen=True)
+class Begin:
+    """Fork a child; its channel and its recorder's file come along. ``memory`` (bytes) is what it may take."""
+
+    number: int
+    key: int
+    task: Any  # one of `messages`
+    folder: str
+    memory: int
+
+
+@dataclass(frozen=True)
+class Look:
+    """Tell whether a child has ended: what it has started may hold its channel open."""
+
+    number: int
+
+
+@dataclass(frozen=True)
+class End:
+    """Tell how a child has ended, or ``kill`` it; answered with `Ended`."""
+
+    number: int
+    kill: bool
+
+
+@dataclass(frozen=True)
+class Ended:
+    """``status`` is that of os.waitpid; ``reason`` is why the server has killed it, if it has."""
+
+    status: int
+    reason: str = ""

@@ -1,0 +1,49 @@
+"""How requests travel, to a server and to a child: as pickles behind their lengths, with open files if they have any.
+
+Quick to import: a server is started before anything else is.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import socket
+import struct
+from collections.abc import Sequence
+from typing import Any
+
+LENGTH = struct.Struct("<I")
+MOST_FILES = 2
+
+
+def send_request(channel: socket.socket, request: Any, descriptors: Sequence[int] = ()) -> None:
+    """A request, with open files if it has any. Raises OSError where nobody listens."""
+    content = pickle.dumps(request, pickle.HIGHEST_PROTOCOL)
+    if descriptors:
+        socket.send_fds(channel, [LENGTH.pack(len(content))], list(descriptors))
+    else:
+        channel.sendall(LENGTH.pack(len(content)))
+    channel.sendall(content)
+
+
+def receive_request(channel: socket.socket) -> tuple[Any, list[int]]:
+    """A request and its open files; raises EOFError at the end."""
+    head, descriptors, _, _ = socket.recv_fds(channel, LENGTH.size, MOST_FILES)
+    head += receive_bytes(channel, LENGTH.size - len(head)) if head else b""
+    if not head:
+        raise EOFError
+    for descriptor in descriptors:
+        os.set_inheritable(descriptor, False)
+    return pickle.loads(receive_bytes(channel, *LENGTH.unpack(head))), descriptors
+
+
+def receive_bytes(channel: socket.socket, count: int) -> bytes:
+    """So many bytes; raises EOFError where they end before."""
+    content = bytearray(count)
+    view = memoryview(content)
+    while view:
+        received = channel.recv_into(view)
+        if not received:
+            raise EOFError
+        view = view[received:]
+    return bytes(content)

@@ -1,0 +1,195 @@
+"""The flight server: a process with everything loaded that a flight takes, but FMUs, which forks children to fly.
+
+It is started by `servers`, with a socket to whom it works for, and ends with it; so do its children, and theirs.
+"""
+
+from __future__ import annotations
+
+import gc
+import itertools
+import os
+import pickle
+import resource
+import selectors
+import signal
+import socket
+import sys
+import time
+import traceback
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+from ..flight.compiled import loop
+from . import child
+from .orders import OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
+from .printed import Printed
+from .requests import receive_request, send_request
+from .system_calls import adopt_orphans, child_processes, end_with_parent, resident_memory
+
+LOOK = 0.1  # s, between looks at the children's memory
+GRACE = 0.2  # s that a child has to end after it has closed its channel
+
+
+@dataclass
+class _Child:
+    pid: int
+    printed: Printed
+    memory: int
+    status: int | None = None
+    reason: str = ""
+
+
+class FlightServer:
+    def __init__(self, control: socket.socket) -> None:
+        self._control = control
+        self._subjects: dict[int, Any] = {}
+        self._children: dict[int, _Child] = {}
+        self._selector = selectors.DefaultSelector()
+        self._selector.register(control, selectors.EVENT_READ)
+        self._looked = 0.0
+
+    def serve(self) -> None:
+        """Do what is asked until nobody asks any more."""
+        while True:
+            for key, _ in self._selector.select(LOOK if self._children else None):
+                if key.data is not None:
+                    self._read(key.data)
+                    continue
+                try:
+                    request, descriptors = receive_request(self._control)
+                except (EOFError, OSError):
+                    return
+                self._do(request, descriptors)
+            self._watch()
+
+    def _do(self, request: Learn | Forget | Begin | Look | End, descriptors: list[int]) -> None:
+        if isinstance(request, Learn):
+            self._subjects[request.key] = pickle.loads(request.content)
+            loop.load(locked=request.locked)
+            gc.collect()
+            gc.freeze()
+        elif isinstance(request, Begin):
+            self._begin(request, descriptors)
+        elif isinstance(request, Forget):
+            del self._subjects[request.key]
+        elif isinstance(request, Look):
+            send_request(self._control, self._is_over(self._children[request.number]))
+        else:
+            send_request(self._control, self._end(request))
+
+    def _begin(self, request: Begin, descriptors: list[int]) -> None:
+        read, write = os.pipe()
+        pid = os.fork()
+        if not pid:
+            _work(request, self._subjects[request.key], descriptors, write)
+        for descriptor in (*descriptors, write):
+            os.close(descriptor)
+        os.set_blocking(read, False)
+        printed = Printed(read)
+        self._children[request.number] = _Child(pid, printed, request.memory + resident_memory(os.getpid()))
+        self._selector.register(read, selectors.EVENT_READ, printed)
+
+    def _end(self, request: End) -> Ended:
+        ended = self._children.pop(request.number)
+        deadline = time.monotonic() + (0.0 if request.kill else GRACE)
+        while not self._is_over(ended):
+            if time.monotonic() >= deadline:
+                with suppress(ProcessLookupError):
+                    os.kill(ended.pid, signal.SIGKILL)
+                ended.reason = ended.reason or ("" if request.kill else "it closed its channel")
+                deadline = float("inf")
+            time.sleep(0.0005)
+        self._end_family(ended.pid)
+        self._read(ended.printed)
+        if ended.printed.descriptor in self._selector.get_map():
+            self._selector.unregister(ended.printed.descriptor)
+        ended.printed.close()
+        assert ended.status is not None
+        return Ended(ended.status, ended.reason)
+
+    def _is_over(self, each: _Child) -> bool:
+        if each.status is None:
+            pid, status = os.waitpid(each.pid, os.WNOHANG)
+            if pid:
+                each.status = status
+        return each.status is not None
+
+    def _end_family(self, pid: int) -> None:
+        """Kill what a child has started that outlives it: its group, and who has become a child of ours."""
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(pid, signal.SIGKILL)
+        while True:
+            known = {each.pid for each in self._children.values()}
+            orphans = [other for other in child_processes() if other not in known]
+            if not orphans:
+                return
+            for orphan in orphans:
+                with suppress(ProcessLookupError):
+                    os.kill(orphan, signal.SIGKILL)
+                with suppress(ChildProcessError):
+                    os.waitpid(orphan, 0)
+
+    def _read(self, printed: Printed) -> None:
+        if not printed.is_closed and not printed.read() and printed.descriptor in self._selector.get_map():
+            self._selector.unregister(printed.descriptor)
+
+    def _watch(self) -> None:
+        """End children that take more memory than they may."""
+        if time.monotonic() < self._looked + LOOK:
+            return
+        self._looked = time.monotonic()
+        for each in self._children.values():
+            if each.status is None and not each.reason and resident_memory(each.pid) > each.memory:
+                each.reason = OUT_OF_MEMORY
+                with suppress(ProcessLookupError):
+                    os.kill(each.pid, signal.SIGKILL)
+
+    def close(self) -> None:
+        """End all children."""
+        for number in list(self._children):
+            self._end(End(number, kill=True))
+
+
+def _work(request: Begin, subject: Any, descriptors: list[int], output: int) -> NoReturn:
+    """The life of a child."""
+    status = 70  # of sysexits.h: an error of our own
+    try:
+        parent = os.getppid()
+        end_with_parent()
+        os.setsid()
+        adopt_orphans()
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))  # a crash writes no file
+        os.dup2(output, 1)
+        os.dup2(output, 2)
+        _close_all_but({0, 1, 2, *descriptors})
+        os.chdir(request.folder)
+        if os.getppid() == parent:
+            channel, *memory = descriptors
+            child.work(request.task, subject, socket.socket(fileno=channel), memory)
+            status = 0
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        with suppress(Exception):
+            sys.stdout.flush()
+            sys.stderr.flush()
+        os._exit(status)
+
+
+def _close_all_but(kept: set[int]) -> None:
+    bounds = [*sorted(kept), os.sysconf("SC_OPEN_MAX")]
+    for before, after in itertools.pairwise(bounds):
+        os.closerange(before + 1, after)
+
+
+def main(control: int) -> None:
+    """The process of the server; ``control`` is its end of the socket to whom it works for."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    adopt_orphans()
+    loop.load(locked=False)
+    server = FlightServer(socket.socket(fileno=control))
+    try:
+        server.serve()
+    finally:
+        server.close()

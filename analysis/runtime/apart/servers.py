@@ -1,0 +1,134 @@
+"""The flight server of this process: started when the first flight needs a child, again should it have ended."""
+
+from __future__ import annotations
+
+import itertools
+import pickle
+import socket
+import subprocess
+import sys
+import threading
+import weakref
+from collections import deque
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+from .orders import Begin, End, Ended, Forget, Learn, Look
+from .requests import receive_request, send_request
+
+SERVER_GONE = Ended(0, "the flight server has ended")
+GB = 1e9  # bytes
+_lock = threading.RLock()
+_numbers = itertools.count(1)
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What a child works on, as it is sent, and as it is here: the server has it as long as it is.
+
+    ``locked``: the loop is to keep Python's lock.
+    """
+
+    owner: object
+    content: object
+    locked: bool = False
+
+
+@dataclass(frozen=True)
+class Child:
+    """A process of the server's, and this end of its channel."""
+
+    server: ServerProcess
+    number: int
+    channel: socket.socket
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it has ended, though its channel may still be open."""
+        return bool(self.server.ask(Look(self.number), True))
+
+    def end(self, *, kill: bool) -> Ended:
+        """Close its channel; how it ended, of itself or killed. To be called once."""
+        with suppress(OSError):
+            self.channel.shutdown(socket.SHUT_RDWR)
+        self.channel.close()
+        ended: Ended = self.server.ask(End(self.number, kill), SERVER_GONE)
+        return ended
+
+
+class ServerProcess:
+    """A flight server; it ends with this process."""
+
+    def __init__(self) -> None:
+        self._control, theirs = socket.socketpair()
+        code = f"import sys; sys.path[:] = {sys.path!r}; from {__package__}.server import main; main({theirs.fileno()})"
+        with theirs:
+            subprocess.Popen(
+                [sys.executable, "-c", code],
+                stdin=subprocess.DEVNULL,
+                pass_fds=[theirs.fileno()],
+                start_new_session=True,
+            )
+        self._keys: dict[int, int] = {}  # by identity of what the server has
+        self._forgotten: deque[int] = deque()  # keys of what is gone here, and not told yet
+        self.is_there = True
+
+    def fork(self, subject: Subject, task: Any, *, folder: str, memory: int, files: Sequence[int] = ()) -> Child:
+        """A child that does a task of `messages` in a folder. Raises OSError where the server has ended."""
+        ours, theirs = socket.socketpair()
+        with theirs, _lock:
+            try:
+                key = self._known(subject)
+                number = next(_numbers)
+                send_request(self._control, Begin(number, key, task, folder, memory), [theirs.fileno(), *files])
+            except OSError:
+                ours.close()
+                self.is_there = False
+                raise
+        return Child(self, number, ours)
+
+    def _known(self, subject: Subject) -> int:
+        """The key of what children work on, which the server is sent once."""
+        identity = id(subject.owner)
+        if identity not in self._keys:
+            key = self._keys[identity] = next(_numbers)
+            content = pickle.dumps(subject.content, pickle.HIGHEST_PROTOCOL)
+            send_request(self._control, Learn(key, content, subject.locked))
+            weakref.finalize(subject.owner, self._forget, identity).atexit = False
+        while self._forgotten:
+            send_request(self._control, Forget(self._forgotten.popleft()))
+        return self._keys[identity]
+
+    def _forget(self, identity: int) -> None:
+        """Called by the garbage collector, at any time: also while something else is sent."""
+        self._forgotten.append(self._keys.pop(identity))
+
+    def ask(self, request: Look | End, otherwise: Any) -> Any:
+        """What the server answers; ``otherwise`` where it has ended."""
+        with _lock, suppress(OSError, EOFError):
+            send_request(self._control, request)
+            return receive_request(self._control)[0]
+        self.is_there = False
+        return otherwise
+
+
+_server: ServerProcess | None = None
+
+
+def start_server() -> ServerProcess:
+    """The flight server of this process. It is worth calling early: a server takes some tenths of a second to load."""
+    global _server
+    with _lock:
+        if _server is None or not _server.is_there:
+            _server = ServerProcess()
+        return _server
+
+
+def fork(subject: Subject, task: Any, *, folder: str, memory: int, files: Sequence[int] = ()) -> Child:
+    """A child of the server, which is started again should it have ended; see `ServerProcess.fork`."""
+    try:
+        return start_server().fork(subject, task, folder=folder, memory=memory, files=files)
+    except OSError:
+        return start_server().fork(subject, task, folder=folder, memory=memory, files=files)

@@ -1,0 +1,67 @@
+"""A flight recorder in memory that two processes share: rows survive the process that wrote them."""
+
+from __future__ import annotations
+
+import fcntl
+import mmap
+import os
+import tempfile
+from contextlib import suppress
+
+import numpy as np
+
+from ..flight.recorder import OUTCOME_WORDS, FlightRecorder
+
+WORD = 8  # bytes, of every number here
+HEAD = OUTCOME_WORDS + 3  # words: outcome, halt, phase
+NAME = "perilune_flight"
+
+
+class SharedRecorder(FlightRecorder):
+    """As many rows as it was made for: [head, times, record] in one piece, of which ``descriptor`` is the open file."""
+
+    def __init__(self, descriptor: int, signals: int, rows: int) -> None:
+        memory = mmap.mmap(descriptor, size_of(signals, rows))
+        self.descriptor = descriptor
+        words = np.frombuffer(memory, dtype=np.int64, count=HEAD)
+        numbers = np.frombuffer(memory, dtype=np.float64, offset=HEAD * WORD)
+        super().__init__(
+            record=numbers[rows:].reshape(signals, rows),
+            times=numbers[:rows],
+            outcome=words[:OUTCOME_WORDS],
+            halt=words[OUTCOME_WORDS : OUTCOME_WORDS + 1],
+            phase=words[OUTCOME_WORDS + 1 :],
+        )
+
+    def _allocate(self, signals: int, rows: int) -> None:
+        raise MemoryError  # who shares it has made it large enough
+
+    def close(self) -> None:
+        """Close the file; the rows stay as long as someone has them."""
+        if self.descriptor >= 0:
+            os.close(self.descriptor)
+            self.descriptor = -1
+
+
+def size_of(signals: int, rows: int) -> int:
+    return WORD * (HEAD + rows * (signals + 1))
+
+
+def make_recorder(signals: int, rows: int) -> SharedRecorder:
+    """A recorder that the other process cannot make smaller, which would end who reads it (SIGBUS). Raises OSError."""
+    descriptor = _open()
+    try:
+        os.ftruncate(descriptor, size_of(signals, rows))
+        with suppress(AttributeError, OSError):  # files elsewhere than in Linux's memory cannot be sealed
+            fcntl.fcntl(descriptor, fcntl.F_ADD_SEALS, fcntl.F_SEAL_SHRINK | fcntl.F_SEAL_GROW | fcntl.F_SEAL_SEAL)
+        return SharedRecorder(descriptor, signals, rows)
+    except BaseException:
+        os.close(descriptor)
+        raise
+
+
+def _open() -> int:
+    if hasattr(os, "memfd_create"):
+        return os.memfd_create(NAME, os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
+    with tempfile.TemporaryFile(prefix=NAME) as file:
+        return os.dup(file.fileno())

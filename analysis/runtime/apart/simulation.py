@@ -1,0 +1,212 @@
+"""A simulation in a child: asked as one that is here, with the same bits."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+import numpy as np
+
+from ...common.errors import InputError
+from ..flight.base_simulation import NOTHING, BaseSimulation
+from ..flight.endings import FLIGHT_STATUSES
+from ..flight.instance import Log
+from ..flight.program import layout_of
+from ..flight.recorder import Phase, rows_between
+from ..flight.results import COMPLETE, CRASHED, Flight
+from ..flight.selection import check_replaced
+from ..ssp.parameter_sets import ParameterValue
+from ..system.fault import Fault
+from ..system.prepared import PreparedSystem
+from . import messages
+from .connection import ChildEndedError, Connection, Stillness
+from .memory import ApartMemory
+from .resets import find_verdicts
+from .servers import GB, Subject, fork
+from .shared_recorder import SharedRecorder, make_recorder
+
+SEE_LOG = "see what it logs with `log`"
+
+
+class ApartSimulation(BaseSimulation):
+    """Instances of a system's FMUs in a child of the flight server; arguments as `BaseSimulation`'s.
+
+    A flight whose process ends comes back ``crashed``, ``hung`` or ``out_of_memory``, with its rows. A child flies
+    again and again, but is replaced after a flight that has gone wrong, since an FMU that did may have harmed it.
+    Raises InputError where a child ends otherwise than in flight.
+    """
+
+    recorder: SharedRecorder
+
+    def __init__(
+        self,
+        prepared: PreparedSystem,
+        *,
+        varied: Collection[str] = (),
+        wanted: Collection[str] | None = None,
+        faults: Sequence[Fault] = (),
+        excited: Sequence[str] = (),
+        log: Log | None = None,
+    ) -> None:
+        super().__init__(prepared, varied=varied, wanted=wanted, faults=faults, excited=excited, log=log)
+        injections = self._selection.injections(prepared.step)
+        self.layout = layout_of(prepared.network, self.settings, self._selection.wanted, injections)
+        self.signal_names = self._selection.signal_names(self.layout, prepared.network.file)
+        self._types = {name: self.layout.types[name] for name in self.signal_names}
+        self._values: dict[str, ParameterValue] = {}
+        self._told: dict[str, ParameterValue] = {}  # what the child knows of both
+        self._told_faults: Sequence[Fault | None] | None = None
+        self.recorder = self._make_recorder(rows_between(-1, prepared.steps))
+        self._connection = self._begin()
+        self.flights = 0  # of the child
+
+    def _make_recorder(self, rows: int) -> SharedRecorder:
+        try:
+            return make_recorder(len(self.signal_names), rows)
+        except (MemoryError, ValueError, OverflowError, OSError) as error:
+            problem = f"{rows} rows do not fit into memory"
+            remedy = "give a longer step or an earlier `stop_time`"
+            raise InputError("`step`", f"{self.prepared.step:g}", problem, remedy) from error
+
+    def _begin(self) -> Connection:
+        """A child with everything instantiated. Raises InputError where that does not do."""
+        prepared, recorder = self.prepared, self.recorder
+        recorder.enter(Phase.INSTANTIATION)
+        level = None if self._log is None else self._log.level
+        options = prepared.options
+        child = fork(
+            Subject(prepared, prepared.of_flights(), locked=not prepared.is_native),
+            messages.SystemFlights(self._selection, level, len(self.signal_names), recorder.times.size),
+            folder=options.folder,
+            memory=round(options.memory * GB),
+            files=[recorder.descriptor],
+        )
+        connection = Connection(child, self._write, Stillness(self._progress, options.call_timeout))
+        self.flights, self._told, self._told_faults = 0, {}, None
+        try:
+            connection.hear(messages.Done)
+        except ChildEndedError as error:
+            component = self._component(int(recorder.phase[1]))
+            label = prepared.network.fmus[component].label
+            problem = f"cannot be instantiated: {error.how}"
+            raise InputError(label, component, problem, SEE_LOG) from None
+        return connection
+
+    def _write(self, line: str) -> None:
+        if self._log is not None:
+            self._log.write_line(line)
+
+    def _progress(self) -> bytes:
+        """What changes as long as FMUs return."""
+        return self.recorder.outcome.tobytes() + self.recorder.phase.tobytes()
+
+    def _component(self, number: int) -> str:
+        """A component's name; the number is what a child wrote."""
+        names = list(self.prepared.network.fmus)
+        return names[number] if 0 <= number < len(names) else names[0]
+
+    def set(self, values: Mapping[str, ParameterValue]) -> None:
+        """Give varied parameters other values, from the next start on."""
+        super().set(values)
+        self._values |= values
+
+    def set_faults(self, faults: Sequence[Fault | None]) -> None:
+        """Give faults other values and windows, from the next start on."""
+        check_replaced(self._selection.faults, faults)
+        self._faults = faults
+
+    def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
+        """See `BaseSimulation.advance`."""
+        self._make_ready(first)
+        self._reserve(rows_between(first, last, every))
+        faults = None if self._faults is self._told_faults else tuple(self._faults)
+        values = {name: value for name, value in self._values.items() if self._told.get(name, self) != value}
+        request = messages.Fly(first, last, every, values, faults, excitation)
+        self.flights += first < 0
+        try:
+            flown = self._connection.ask(request, messages.Flown)
+        except ChildEndedError as error:
+            return self._lost(error, first, every)
+        self._told |= values
+        self._told_faults = self._faults
+        if flown.status not in FLIGHT_STATUSES or not 0 <= flown.rows <= self.recorder.times.size:
+            self._connection.close(kill=True)
+            return self._flight(0, CRASHED, "answers that cannot be read")
+        if flown.status not in COMPLETE and not self.prepared.is_own:
+            self._connection.close()
+        return self._flight(flown.rows, flown.status, flown.message)
+
+    def _make_ready(self, first: int) -> None:
+        """Have a child that can fly, and knows whose reset cannot be trusted."""
+        if first >= 0:
+            return
+        if not self._connection.is_open:
+            self.recorder.halt[0] = 0
+            self._connection = self._begin()
+        elif self.flights == 1:
+            verdicts = find_verdicts(self.prepared)
+            self._connection.tell(messages.KnownVerdicts({key: (it.resets, it.reason) for key, it in verdicts.items()}))
+
+    def _reserve(self, rows: int) -> None:
+        if self.recorder.times.size < rows:
+            self.recorder.close()
+            self.recorder = self._make_recorder(rows)
+            self._connection.tell(messages.NewRecorder(rows), [self.recorder.descriptor])
+
+    def _flight(self, rows: int, status: str, message: str) -> Flight:
+        recorder = self.recorder
+        signals = dict(zip(self.signal_names, recorder.record[:, :rows], strict=True))
+        return Flight(recorder.times[:rows], signals, self._types, status, message)
+
+    def _lost(self, error: ChildEndedError, first: int, every: int) -> Flight:
+        """A flight whose process ended, with the rows that it left."""
+        point = self.recorder.point
+        rows = min(max(-(-(point - max(first, -1) - 1) // every), 0), self.recorder.times.size)
+        if self.recorder.phase[0] == Phase.RENEWAL:
+            rows = 0
+        return self._flight(rows, error.status, f"{self._progress_text()}: {error.how}")
+
+    def _progress_text(self) -> str:
+        """What the child was at when it ended."""
+        prepared, recorder = self.prepared, self.recorder
+        if recorder.phase[0] == Phase.RENEWAL:
+            return "before its start, when the FMUs were reset"
+        if recorder.phase[0] == Phase.INSTANTIATION:
+            return f"{self._component(int(recorder.phase[1]))}: while it was instantiated"
+        if not recorder.point:
+            return f"{self._component(recorder.subject)}: in the initialisation"
+        time = prepared.start + recorder.point * prepared.step
+        return f"{self._component(recorder.subject)}: on the way to t = {time:g} s"
+
+    def give_up(self, why: str) -> bool:
+        """End the child of a flight that is under way in another thread, which then comes back ``hung``."""
+        self._connection.give_up(why)
+        return True
+
+    def unlock(self) -> None:
+        """Nothing: a child holds nobody's lock."""
+
+    def memory(self) -> ApartMemory:
+        """What the FMUs remember. Raises InputError where one does not tell how it serialises it."""
+        return ApartMemory(self)
+
+    def ask(self, request: object, expected: type[messages.Kind]) -> messages.Kind:
+        """Something else than a flight. Raises InputError, also where the child ends."""
+        try:
+            return self._connection.ask(request, expected)
+        except ChildEndedError as error:
+            raise self._refusal(error) from None
+
+    def ask_numbers(self, request: object, count: int) -> np.ndarray:
+        """Likewise, for so many float64."""
+        try:
+            return self._connection.ask_numbers(request, count)
+        except ChildEndedError as error:
+            raise self._refusal(error) from None
+
+    def _refusal(self, error: ChildEndedError) -> InputError:
+        return InputError(self.prepared.network.file, "", f"{self._progress_text()}: {error.how}", SEE_LOG)
+
+    def close(self) -> None:
+        """Free the instances, and end the child; at once, where a flight is under way in a thread, given up."""
+        self._connection.close(kill=self.recorder.phase[0] != Phase.IDLE)
+        self.recorder.close()

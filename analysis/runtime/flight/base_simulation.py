@@ -1,0 +1,123 @@
+"""A system that flies again and again, wherever its FMUs are: what all simulations have in common."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any, Self
+
+import numpy as np
+
+from ..ssp.parameter_sets import ParameterValue
+from ..system.fault import Fault
+from ..system.prepared import PreparedSystem
+from .base_memory import BaseMemory
+from .instance import Log
+from .program import Layout
+from .recorder import FlightRecorder
+from .results import Flight, Provenance, Result, provenance_of
+from .selection import Selection
+
+NOTHING = np.zeros((0, 0))  # no excitation
+
+
+class BaseSimulation(ABC):
+    """``varied`` names the parameters (``component.variable``) that `fly` may be given anew; ``wanted`` the signals to
+    record (None: all outputs, connected inputs and system connectors); ``faults`` those that fly unless `set_faults`
+    says otherwise; ``excited`` the connectors that `advance` may add signals to; ``log`` is told what the FMUs say.
+
+    Use it as a context manager: it frees the instances. Not shared between threads, but for `interrupt` and `give_up`.
+    """
+
+    recorder: FlightRecorder
+    layout: Layout
+    signal_names: list[str]
+
+    def __init__(
+        self,
+        prepared: PreparedSystem,
+        *,
+        varied: Collection[str] = (),
+        wanted: Collection[str] | None = None,
+        faults: Sequence[Fault] = (),
+        excited: Sequence[str] = (),
+        log: Log | None = None,
+    ) -> None:
+        self.prepared = prepared
+        self._selection = Selection(
+            tuple(varied), None if wanted is None else tuple(wanted), tuple(faults), tuple(excited)
+        )
+        self._selection.check_faults(prepared.network)
+        self._varied = self._selection.keys(prepared.network)
+        self.settings = self._selection.settings(prepared, self._varied)
+        self._faults: Sequence[Fault | None] = faults
+        self._log = log
+
+    def fly(self, values: Mapping[str, ParameterValue] | None = None, *, every: int = 1) -> Result:
+        """One flight from the start, with ``values`` for varied parameters; every n-th row is kept.
+
+        The arrays of the result are the simulation's own and are overwritten by the next flight.
+        """
+        flight = self.run(values or {}, every=every)
+        return Result(
+            **vars(flight),
+            units={name: self.layout.units[name] for name in self.signal_names},
+            provenance=self.provenance(),
+        )
+
+    def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
+        """The flight alone, for batches; see `fly`."""
+        self.set(values)
+        return self.advance(-1, self.prepared.steps, every=every)
+
+    def set(self, values: Mapping[str, ParameterValue]) -> None:
+        """Give varied parameters other values, from the next start on."""
+        for name, value in values.items():
+            self.layout.parameters[self._varied[name]] = value
+
+    @abstractmethod
+    def set_faults(self, faults: Sequence[Fault | None]) -> None:
+        """Give faults other values and windows, from the next start on.
+
+        There is one for each that the simulation was made with, on its connector and of its kind, or None
+        where that one does not fly.
+        """
+
+    @abstractmethod
+    def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
+        """Fly on from communication point ``first`` to ``last``, as FMUs and buffers are; rows first + 1 to last.
+
+        -1 starts anew, which adds row 0. ``excitation`` [r, e] is added to the excited connectors at the r
+        communication points behind ``first``. ``last`` may lie behind the stop time; every n-th row is kept. Arrays as
+        in `fly`.
+        """
+
+    def interrupt(self, halt: bool = True) -> None:
+        """End the flight that is under way in another thread at its next communication point, and all later ones."""
+        self.recorder.halt[0] = halt
+
+    @abstractmethod
+    def give_up(self, why: str) -> bool:
+        """End a flight in another thread that reaches no communication point; returns whether that can be done."""
+
+    @abstractmethod
+    def unlock(self) -> None:
+        """Let other threads of the interpreter run during a flight, whatever its FMUs do."""
+
+    @abstractmethod
+    def memory(self) -> BaseMemory[Any]:
+        """What the FMUs remember. Raises InputError where one does not tell how it serialises it."""
+
+    def provenance(self) -> Provenance:
+        """Parameter values, hashes, options and version: what the result depends on."""
+        return provenance_of(self.prepared, self.settings, self.layout.parameters, self._faults)
+
+    @abstractmethod
+    def close(self) -> None:
+        """Free the instances."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

@@ -1,0 +1,72 @@
+"""What can be seen of a flight while it flies, and after its process has crashed: rows, and how far it has come."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+import numpy as np
+
+from ...common.errors import InputError
+
+POINT, SUBJECT = 4, 1  # of an outcome, in flight: the communication point under way, the component stepped last
+OUTCOME_WORDS = 6
+
+
+class Phase(IntEnum):
+    """What a simulation does with its FMUs."""
+
+    IDLE = 0
+    INSTANTIATION = 1
+    FLIGHT = 2
+    RENEWAL = 3  # terminated, then reset or instantiated anew
+    END = 4  # terminated, then freed
+
+
+@dataclass
+class FlightRecorder:
+    """``record`` [signals, rows] and ``times`` [rows] (s) of a flight; ``outcome`` is the loop's, see `arrays.Buffers`.
+
+    ``halt`` [1] ends the flight at its next communication point, if someone sets it. ``phase`` [2] is what the
+    simulation does, one of `Phase`, and the component that it does it with.
+    """
+
+    record: np.ndarray = field(default_factory=lambda: np.empty((0, 0)))
+    times: np.ndarray = field(default_factory=lambda: np.empty(0))
+    outcome: np.ndarray = field(default_factory=lambda: np.zeros(OUTCOME_WORDS, dtype=np.int64))
+    halt: np.ndarray = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
+    phase: np.ndarray = field(default_factory=lambda: np.zeros(2, dtype=np.int64))
+
+    def reserve(self, signals: int, rows: int, step: float) -> None:
+        """Have room for so many rows. Raises InputError, which names the ``step`` (s), where memory does not do."""
+        if self.times.size >= rows:
+            return
+        try:
+            self._allocate(signals, rows)
+        except (MemoryError, ValueError, OverflowError, OSError) as error:  # numpy cannot even count some
+            problem = f"{rows} rows do not fit into memory"
+            remedy = "give a longer step or an earlier `stop_time`"
+            raise InputError("`step`", f"{step:g}", problem, remedy) from error
+
+    def _allocate(self, signals: int, rows: int) -> None:
+        self.record = np.empty((signals, rows))
+        self.times = np.empty(rows)
+
+    def enter(self, phase: Phase, component: int = 0) -> None:
+        """Note what is done next."""
+        self.phase[:] = phase, component
+
+    @property
+    def point(self) -> int:
+        """The communication point that is being computed, or the last one."""
+        return int(self.outcome[POINT])
+
+    @property
+    def subject(self) -> int:
+        """The number of the component that was the last to step."""
+        return int(self.outcome[SUBJECT])
+
+
+def rows_between(first: int, last: int, every: int = 1) -> int:
+    """Room that a flight between two communication points needs, -1 for its start, where every n-th row is kept."""
+    return (last - max(first, 0)) // every + 2

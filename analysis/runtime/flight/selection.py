@@ -1,0 +1,77 @@
+"""What of a system may change from flight to flight, and what is recorded, wherever it flies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from ...common.errors import InputError
+from ..ssp.parameter_sets import parse_value
+from ..system.assignments import Settings
+from ..system.checks import check_fault
+from ..system.fault import Fault
+from ..system.network import Network
+from ..system.prepared import PreparedSystem
+from .parameters import Key
+from .program import Injection, Layout, of_excitation, of_fault
+
+TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry rounding
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Parameters that flights may be given anew (``varied``, by ``component.variable``), signals to record (``wanted``,
+    None: all outputs, connected inputs and system connectors), ``faults``, and connectors that `advance` may add
+    signals to (``excited``).
+    """
+
+    varied: tuple[str, ...] = ()
+    wanted: tuple[str, ...] | None = None
+    faults: tuple[Fault, ...] = ()
+    excited: tuple[str, ...] = ()
+
+    def check_faults(self, network: Network) -> None:
+        """Raises InputError for a fault on what is no connector."""
+        for fault in self.faults:
+            check_fault(network, fault)
+
+    def keys(self, network: Network) -> dict[str, Key]:
+        """(component, variable) of the varied parameters, by name. Raises InputError for one that is none."""
+        return {name: _key(network, name) for name in self.varied}
+
+    def settings(self, prepared: PreparedSystem, keys: Mapping[str, Key]) -> Settings:
+        """The system's settings, in which every varied parameter has a place, at its start value if need be."""
+        variables = dict(prepared.settings.variables)
+        for name, (component, variable) in keys.items():
+            fmu = prepared.network.fmus[component]
+            declared = fmu.variables[variable]
+            variables.setdefault(
+                (component, variable), parse_value(str(declared.start), declared.type, fmu.label, name)
+            )
+        return replace(prepared.settings, variables=variables)
+
+    def injections(self, step: float) -> list[Injection]:
+        """Faults, then excitations; ``step`` is the communication step (s)."""
+        excitations = [of_excitation(name, column) for column, name in enumerate(self.excited)]
+        return [*(of_fault(fault, TIME_MARGIN * step) for fault in self.faults), *excitations]
+
+    def signal_names(self, layout: Layout, file: str) -> list[str]:
+        """What is recorded, in the order of the slots. Raises InputError for a wanted signal that is none."""
+        for name in self.wanted or ():
+            if name not in layout.slots:
+                raise InputError(file, name, "no such signal", "name a connector as component.variable")
+        return [name for name in layout.slots if self.wanted is None or name in self.wanted]
+
+
+def check_replaced(declared: Sequence[Fault], faults: Sequence[Fault | None]) -> None:
+    """Faults of a flight are on the connectors, and of the kinds, that the simulation was made with, or None."""
+    for known, fault in zip(declared, faults, strict=True):
+        assert fault is None or (fault.name, fault.kind) == (known.name, known.kind)
+
+
+def _key(network: Network, name: str) -> Key:
+    for component, fmu in network.fmus.items():
+        variable = fmu.variables.get(name.removeprefix(f"{component}."))
+        if name.startswith(f"{component}.") and variable is not None and variable.causality in ("parameter", "input"):
+            return component, variable.name
+    raise InputError(network.file, name, "no such parameter", "see perilune list for components")

@@ -1,0 +1,20 @@
+"""The flight server started ahead, while what else a command takes is imported: both take a second."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ...fmus_src.own_digests import has_foreign
+from ..runtime.apart.servers import start_server
+from .options.verb import Verb, options_of
+
+
+def start_early(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> None:
+    """Start it where a command's files have FMUs of others, which it will fly."""
+    if "in_process" not in options_of(verb.options) or options.get("in_process"):
+        return
+    files = [arguments.get("system"), *arguments.get("files", ()), *options.get("use", {}).values()]
+    if any(has_foreign(Path(file)) for file in files if file is not None):
+        start_server()
