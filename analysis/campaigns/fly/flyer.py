@@ -103,7 +103,10 @@ class Flyer:
         """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
         judge = self._judge(variant)
         for trial in trials:
-            judge.add(self._flight(variant, trial), trial, self.values_for(trial))
+            flight, sampled = self._flight(variant, trial), self.values_for(trial)
+            if trial + 1 in trials and not self.halted:
+                self._announce(variant, trial + 1)
+            judge.add(flight, trial, sampled)
             if self.halted:
                 raise KeyboardInterrupt
         return judge.trials()
@@ -151,6 +154,12 @@ class Flyer:
         except StuckError as error:  # what it flew with is lost: the next trial flies with instances of its own
             del self._ready[variant]
             return nothing_flown(simulation, str(error))
+
+    def _announce(self, variant: str, trial: int) -> None:
+        if variant in self._ready:
+            simulation, _ = self._ready[variant]
+            sampled = self.values_for(trial)
+            simulation.announce(sampled.parameters(simulation.prepared, trial), sampled.faults_of(trial))
 
     def _is_to_be_repeated(self, simulation: BaseSimulation, flight: Flight) -> bool:
         """Whether a flight that lost its process flies once more, in a fresh one: who dies has not always done it.

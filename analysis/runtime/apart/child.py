@@ -29,7 +29,9 @@ def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket,
             verdict = reset_verdict(subject)
             send_answer(channel, messages.Verdict(verdict.resets, verdict.reason))
             return
-        pilot = _Pilot(channel, task, subject, SharedRecorder(memory[0], task.signals, task.rows))
+        recorder = SharedRecorder(memory[0], task.signals, task.rows)
+        recorder.close()
+        pilot = _Pilot(channel, task, subject, recorder)
     except InputError as error:
         send_answer(channel, _refusal(error))
         return
@@ -55,6 +57,7 @@ class _Pilot:
             log=None if task.log is None else Log(task.log, self._write),
             recorder=recorder,
         )
+        self._recorders = {0: recorder}
         self._memory: Memory | None = None
         self._snapshots: dict[int, Snapshot] = {}
 
@@ -81,6 +84,9 @@ class _Pilot:
     @_answer.register
     def _(self, request: messages.Fly, _descriptors: list[int]) -> None:
         simulation = self._simulation
+        recorder = self._recorders[request.recorder]
+        if recorder is not simulation.recorder:
+            simulation.record_into(recorder)
         simulation.set(request.values)
         if request.faults is not None:
             simulation.set_faults(request.faults)
@@ -94,7 +100,10 @@ class _Pilot:
 
     @_answer.register
     def _(self, request: messages.NewRecorder, descriptors: list[int]) -> None:
-        self._simulation.record_into(SharedRecorder(descriptors[0], self._signals, request.rows))
+        recorder = SharedRecorder(descriptors[0], self._signals, request.rows)
+        recorder.close()
+        self._recorders[request.number] = recorder
+        send_answer(self._channel, messages.Done())
 
     @property
     def _cells(self) -> Memory:

@@ -32,7 +32,7 @@ class UnreadableError(Exception):
 
 @dataclass(frozen=True)
 class SystemFlights:
-    """To simulate a system. ``log`` is the level of messages; ``rows`` of ``signals`` are what the recorder holds."""
+    """To simulate a system. ``log`` is the level of messages, ``rows`` of ``signals`` what the recorder holds."""
 
     selection: Selection
     log: str | None
@@ -50,8 +50,12 @@ class ResetTrial:
 
 @dataclass(frozen=True)
 class Fly:
-    """From one communication point to another; new values of varied parameters and faults, if there are."""
+    """From one communication point to another; new values of varied parameters and faults, if there are.
 
+    ``recorder`` is the number of one that the child has.
+    """
+
+    recorder: int
     first: int
     last: int
     every: int
@@ -69,8 +73,9 @@ class KnownVerdicts:
 
 @dataclass(frozen=True)
 class NewRecorder:
-    """Rows go into other memory, whose descriptor comes along; has no answer."""
+    """Other memory for so many rows, whose descriptor comes along."""
 
+    number: int
     rows: int
 
 

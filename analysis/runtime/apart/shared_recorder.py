@@ -11,9 +11,11 @@ from contextlib import suppress
 import numpy as np
 
 from ..flight.recorder import OUTCOME_WORDS, FlightRecorder
+from .system_calls import IS_LINUX
 
 WORD = 8  # bytes, of every number here
 HEAD = OUTCOME_WORDS + 3  # words: outcome, halt, phase
+F_SEAL_SHRINK, F_SEAL_GROW, F_SEAL_FUTURE_WRITE = 0x2, 0x4, 0x10  # of <linux/fcntl.h>
 NAME = "perilune_flight"
 
 
@@ -36,6 +38,10 @@ class SharedRecorder(FlightRecorder):
     def _allocate(self, signals: int, rows: int) -> None:
         raise MemoryError  # who shares it has made it large enough
 
+    def seal(self) -> None:
+        """Have the memory written by those alone who have mapped it, and not as a file by whoever has that open."""
+        _seal(self.descriptor, F_SEAL_FUTURE_WRITE)
+
     def close(self) -> None:
         """Close the file; the rows stay as long as someone has them."""
         if self.descriptor >= 0:
@@ -52,12 +58,18 @@ def make_recorder(signals: int, rows: int) -> SharedRecorder:
     descriptor = _open()
     try:
         os.ftruncate(descriptor, size_of(signals, rows))
-        with suppress(AttributeError, OSError):  # files elsewhere than in Linux's memory cannot be sealed
-            fcntl.fcntl(descriptor, fcntl.F_ADD_SEALS, fcntl.F_SEAL_SHRINK | fcntl.F_SEAL_GROW | fcntl.F_SEAL_SEAL)
+        _seal(descriptor, F_SEAL_SHRINK | F_SEAL_GROW)
         return SharedRecorder(descriptor, signals, rows)
     except BaseException:
         os.close(descriptor)
         raise
+
+
+def _seal(descriptor: int, seals: int) -> None:
+    """Files elsewhere than in Linux's memory cannot be sealed."""
+    if IS_LINUX:
+        with suppress(OSError):
+            fcntl.fcntl(descriptor, fcntl.F_ADD_SEALS, seals)
 
 
 def _open() -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import closing, suppress
 
 import numpy as np
 
@@ -24,6 +25,7 @@ from .resets import find_verdicts
 from .servers import GB, Subject, fork
 from .shared_recorder import SharedRecorder, make_recorder
 
+RECORDERS = 2  # one flight is looked at while the next one flies
 SEE_LOG = "see what it logs with `log`"
 
 
@@ -34,8 +36,6 @@ class ApartSimulation(BaseSimulation):
     again and again, but is replaced after a flight that has gone wrong, since an FMU that did may have harmed it.
     Raises InputError where a child ends otherwise than in flight.
     """
-
-    recorder: SharedRecorder
 
     def __init__(
         self,
@@ -54,10 +54,17 @@ class ApartSimulation(BaseSimulation):
         self._types = {name: self.layout.types[name] for name in self.signal_names}
         self._values: dict[str, ParameterValue] = {}
         self._told: dict[str, ParameterValue] = {}  # what the child knows of both
-        self._told_faults: Sequence[Fault | None] | None = None
-        self.recorder = self._make_recorder(rows_between(-1, prepared.steps))
+        self._told_faults: tuple[Fault | None, ...] | None = None
+        self._recorders: list[SharedRecorder] = []  # of the child
+        self._turn = 0  # which of them takes the flight that is under way
+        self._pending: messages.Fly | None = None  # announced: under way, or waiting to be looked at
         self._connection = self._begin()
         self.flights = 0  # of the child
+
+    @property
+    def recorder(self) -> SharedRecorder:  # type: ignore[override]
+        """Of the flight that is under way, or the last one."""
+        return self._recorders[self._turn]
 
     def _make_recorder(self, rows: int) -> SharedRecorder:
         try:
@@ -69,26 +76,30 @@ class ApartSimulation(BaseSimulation):
 
     def _begin(self) -> Connection:
         """A child with everything instantiated. Raises InputError where that does not do."""
-        prepared, recorder = self.prepared, self.recorder
+        prepared, options = self.prepared, self.prepared.options
+        recorder = self._make_recorder(rows_between(-1, prepared.steps))
         recorder.enter(Phase.INSTANTIATION)
-        level = None if self._log is None else self._log.level
-        options = prepared.options
-        child = fork(
-            Subject(prepared, prepared.of_flights(), locked=not prepared.is_native),
-            messages.SystemFlights(self._selection, level, len(self.signal_names), recorder.times.size),
-            folder=options.folder,
-            memory=round(options.memory * GB),
-            files=[recorder.descriptor],
-        )
-        connection = Connection(child, self._write, Stillness(self._progress, options.call_timeout))
+        self._recorders, self._turn = [recorder], 0
         self.flights, self._told, self._told_faults = 0, {}, None
-        try:
-            connection.hear(messages.Done)
-        except ChildEndedError as error:
-            component = self._component(int(recorder.phase[1]))
-            label = prepared.network.fmus[component].label
-            problem = f"cannot be instantiated: {error.how}"
-            raise InputError(label, component, problem, SEE_LOG) from None
+        level = None if self._log is None else self._log.level
+        with closing(recorder):
+            child = fork(
+                Subject(prepared, prepared.of_flights(), locked=not prepared.is_native),
+                messages.SystemFlights(self._selection, level, len(self.signal_names), recorder.times.size),
+                folder=options.folder,
+                memory=round(options.memory * GB),
+                files=[recorder.descriptor],
+            )
+            connection = Connection(child, self._write, Stillness(self._progress, options.call_timeout))
+            try:
+                connection.hear(messages.Done)
+            except ChildEndedError as error:
+                component = self._component(int(recorder.phase[1]))
+                fmu = prepared.network.fmus.get(component)
+                label = fmu.label if fmu is not None else prepared.network.file
+                problem = f"cannot be instantiated: {error.how}"
+                raise InputError(label, component, problem, SEE_LOG) from None
+            recorder.seal()
         return connection
 
     def _write(self, line: str) -> None:
@@ -100,9 +111,9 @@ class ApartSimulation(BaseSimulation):
         return self.recorder.outcome.tobytes() + self.recorder.phase.tobytes()
 
     def _component(self, number: int) -> str:
-        """A component's name; the number is what a child wrote."""
+        """A component's name; the number is what a child wrote, which may be anything."""
         names = list(self.prepared.network.fmus)
-        return names[number] if 0 <= number < len(names) else names[0]
+        return names[number] if 0 <= number < len(names) else "a component"
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
         """Give varied parameters other values, from the next start on."""
@@ -114,20 +125,27 @@ class ApartSimulation(BaseSimulation):
         check_replaced(self._selection.faults, faults)
         self._faults = faults
 
+    def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
+        """See `BaseSimulation.announce`."""
+        if not self._connection.is_open or self._pending is not None or self.recorder.halt[0]:
+            return
+        self.set(values)
+        self.set_faults(faults)
+        with suppress(ChildEndedError):  # which the flight itself comes to, too
+            self._pending = self._depart(-1, self.prepared.steps, 1, NOTHING)
+
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
         """See `BaseSimulation.advance`."""
-        self._make_ready(first)
-        self._reserve(rows_between(first, last, every))
-        faults = None if self._faults is self._told_faults else tuple(self._faults)
-        values = {name: value for name, value in self._values.items() if self._told.get(name, self) != value}
-        request = messages.Fly(first, last, every, values, faults, excitation)
-        self.flights += first < 0
+        pending, self._pending = self._pending, None
         try:
-            flown = self._connection.ask(request, messages.Flown)
+            if pending is not None and not self._is_as_announced(pending, first, last, every, excitation):
+                self._connection.hear(messages.Flown)
+                pending = None
+            if pending is None:
+                self._depart(first, last, every, excitation)
+            flown = self._connection.hear(messages.Flown)
         except ChildEndedError as error:
             return self._lost(error, first, every)
-        self._told |= values
-        self._told_faults = self._faults
         if flown.status not in FLIGHT_STATUSES or not 0 <= flown.rows <= self.recorder.times.size:
             self._connection.close(kill=True)
             return self._flight(0, CRASHED, "answers that cannot be read")
@@ -135,22 +153,50 @@ class ApartSimulation(BaseSimulation):
             self._connection.close()
         return self._flight(flown.rows, flown.status, flown.message)
 
+    def _is_as_announced(
+        self, pending: messages.Fly, first: int, last: int, every: int, excitation: np.ndarray
+    ) -> bool:
+        """Whether a flight that was announced is the one that is asked for."""
+        asked = (first, last, every, excitation.size) == (pending.first, pending.last, pending.every, 0)
+        return asked and self._told == self._values and self._told_faults == tuple(self._faults)
+
+    def _depart(self, first: int, last: int, every: int, excitation: np.ndarray) -> messages.Fly:
+        """Let the child fly, into the recorder that the last flight does not lie in."""
+        self._make_ready(first)
+        self._take_turn(rows_between(first, last, every))
+        faults = tuple(self._faults)
+        values = {name: value for name, value in self._values.items() if self._told.get(name, self) != value}
+        request = messages.Fly(
+            self._turn, first, last, every, values, None if faults == self._told_faults else faults, excitation
+        )
+        self.flights += first < 0
+        self._connection.tell(request)
+        self._told |= values
+        self._told_faults = faults
+        return request
+
     def _make_ready(self, first: int) -> None:
         """Have a child that can fly, and knows whose reset cannot be trusted."""
         if first >= 0:
             return
         if not self._connection.is_open:
-            self.recorder.halt[0] = 0
             self._connection = self._begin()
         elif self.flights == 1:
             verdicts = find_verdicts(self.prepared)
             self._connection.tell(messages.KnownVerdicts({key: (it.resets, it.reason) for key, it in verdicts.items()}))
 
-    def _reserve(self, rows: int) -> None:
-        if self.recorder.times.size < rows:
-            self.recorder.close()
-            self.recorder = self._make_recorder(rows)
-            self._connection.tell(messages.NewRecorder(rows), [self.recorder.descriptor])
+    def _take_turn(self, rows: int) -> None:
+        """Go on to the other recorder; the child is given one where it has none, or too small a one."""
+        turn = (self._turn + 1) % RECORDERS
+        if turn == len(self._recorders) or self._recorders[turn].times.size < rows:
+            fresh = self._make_recorder(max(rows, self.recorder.times.size))
+            with closing(fresh):
+                request = messages.NewRecorder(turn, fresh.times.size)
+                self._connection.ask(request, messages.Done, [fresh.descriptor])
+                fresh.seal()
+            self._recorders[turn : turn + 1] = [fresh]
+        self._recorders[turn].halt[0] = self.recorder.halt[0]
+        self._turn = turn
 
     def _flight(self, rows: int, status: str, message: str) -> Flight:
         recorder = self.recorder
@@ -176,6 +222,11 @@ class ApartSimulation(BaseSimulation):
             return f"{self._component(recorder.subject)}: in the initialisation"
         time = prepared.start + recorder.point * prepared.step
         return f"{self._component(recorder.subject)}: on the way to t = {time:g} s"
+
+    def interrupt(self, halt: bool = True) -> None:
+        """See `BaseSimulation.interrupt`."""
+        for recorder in self._recorders:
+            recorder.halt[0] = halt
 
     def give_up(self, why: str) -> bool:
         """End the child of a flight that is under way in another thread, which then comes back ``hung``."""
@@ -209,4 +260,3 @@ class ApartSimulation(BaseSimulation):
     def close(self) -> None:
         """Free the instances, and end the child; at once, where a flight is under way in a thread, given up."""
         self._connection.close(kill=self.recorder.phase[0] != Phase.IDLE)
-        self.recorder.close()

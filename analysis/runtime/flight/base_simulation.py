@@ -70,6 +70,13 @@ class BaseSimulation(ABC):
         self.set(values)
         return self.advance(-1, self.prepared.steps, every=every)
 
+    @abstractmethod
+    def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
+        """Say what flies next, while the last flight is still looked at: `run` takes as long as ever, or less.
+
+        The arrays of the last flight are left alone until the next call of `run`.
+        """
+
     def set(self, values: Mapping[str, ParameterValue]) -> None:
         """Give varied parameters other values, from the next start on."""
         for name, value in values.items():

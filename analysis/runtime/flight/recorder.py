@@ -23,7 +23,7 @@ class Phase(IntEnum):
     END = 4  # terminated, then freed
 
 
-@dataclass
+@dataclass(eq=False)
 class FlightRecorder:
     """``record`` [signals, rows] and ``times`` [rows] (s) of a flight; ``outcome`` is the loop's, see `arrays.Buffers`.
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
 
+from ..ssp.parameter_sets import ParameterValue
 from ..system.fault import Fault
 from ..system.prepared import PreparedSystem, no_collection
 from .base_simulation import NOTHING, BaseSimulation
@@ -73,6 +74,9 @@ class Simulation(BaseSimulation):
         self.life_cycle = LifeCycle(self.instances, self.program, self._instructions)
         self._under_way = threading.Lock()
         self.recorder.enter(Phase.IDLE)
+
+    def announce(self, _values: Mapping[str, ParameterValue], _faults: Sequence[Fault | None]) -> None:
+        """Nothing: a flight here takes the thread that looks at the last one."""
 
     def give_up(self, _why: str) -> bool:
         """False: a thread cannot be ended."""

@@ -18,12 +18,15 @@
  * ONE_AT_A_TIME    a second instance beside the first is refused
  * ENDS_AT          the time (s) at which it asks for the end, as Stair of the Reference FMUs does at 10 s
  * KEEPS_END        fmi2Reset does not forget that it has asked for the end, which it does at the next step again
+ * DEED, IN         what it does to its process in a call, see deeds.h
  * ANSWERS, AT      the status that fmi2DoStep returns from the time AT (s) on
  */
+#define _GNU_SOURCE
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include "deeds.h"
 #include "refused_calls.h"
 
 enum { GAIN, U, Y, TWICE, TOLERANCE, LENGTH, REALS };
@@ -78,6 +81,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     if (chdir(GOES_TO) != 0) return NULL;
 #endif
     note("i");
+    MAY_DO(INSTANTIATION);
     instances++;
     Odd *odd = calloc(1, sizeof(Odd));
     forget_parameters(odd);
@@ -88,6 +92,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
 void fmi2FreeInstance(fmi2Component c)
 {
     note("f");
+    MAY_DO(FREEING);
     instances--;
     free(c);
 }
@@ -119,7 +124,11 @@ fmi2Status fmi2EnterInitializationMode(fmi2Component c)
     return go(c, "e", INSTANTIATED, INITIALISING);
 }
 
-fmi2Status fmi2ExitInitializationMode(fmi2Component c) { return go(c, "x", INITIALISING, STEPPING); }
+fmi2Status fmi2ExitInitializationMode(fmi2Component c)
+{
+    MAY_DO_WITH(INITIALISATION, ((Odd *)c)->whole[COUNT]);
+    return go(c, "x", INITIALISING, STEPPING);
+}
 
 fmi2Status fmi2Terminate(fmi2Component c)
 {
@@ -131,6 +140,7 @@ fmi2Status fmi2Reset(fmi2Component c)
 {
     Odd *odd = c;
     note("r");
+    MAY_DO(RESETTING);
     odd->state = INSTANTIATED;
 #ifndef KEEPS_PARAMETERS
     forget_parameters(odd);
@@ -228,6 +238,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real t, fmi2Real h, fmi2Boolean final
 {
     Odd *odd = c;
     double end = t + h;
+    if (t >= 0.5) MAY_DO_WITH(STEP, odd->whole[COUNT]);
     if (odd->state != STEPPING) note("!");
 #ifdef BREAKS
     if (odd->real[GAIN] < 0.0) {

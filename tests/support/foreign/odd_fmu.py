@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import IntEnum
 from pathlib import Path
 
 import fmpy
@@ -38,6 +39,10 @@ DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 <InitialUnknowns><Unknown index="4"/><Unknown index="5"/><Unknown index="6"/></InitialUnknowns></ModelStructure>
 </fmiModelDescription>
 """
+# As deeds.h numbers them.
+Call = IntEnum("Call", "CONSTRUCTION INSTANTIATION INITIALISATION STEP RESETTING FREEING", start=0)
+DEEDS = "SEGFAULT ABORT OVERFLOW EXIT_0 EXIT_1 EXIT_AT_ONCE KILL_GROUP HANG GROW PRINT SCRIBBLE CORRUPT LEAVE_ORPHAN"
+Deed = IntEnum("Deed", DEEDS, start=0)
 ENDS = "input u Real; output y Real; output tolerance Real; output length Real"
 
 
@@ -49,7 +54,7 @@ def odd_fmu(
     ``tolerance`` is that of its default experiment, ``once`` whether it says canBeInstantiatedOnlyOncePerProcess.
     """
     macros = tuple(
-        f"-D{macro}" if value is True else f'-D{macro}="{value}"' if isinstance(value, str) else f"-D{macro}={value}"
+        f"-D{macro}" if value is True else f'-D{macro}="{value}"' if isinstance(value, str) else f"-D{macro}={value:d}"
         for macro, value in quirks.items()
     )
     description = DESCRIPTION.format(

@@ -1,0 +1,140 @@
+"""FMUs that end their process, or do not return: `run` says who and when, batches go on, nothing is left behind.
+
+Truth: the FMU's source, which does to its process what the test asks for; the same campaign with an FMU that does not.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import perilune
+from perilune.analysis.campaigns.fly.runner import run_batch
+from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.system.options import SystemOptions
+from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
+from tests.support.lengths import either
+
+pytestmark = pytest.mark.flies
+
+ENDS = {
+    "SEGFAULT": "crashed|its process ended by SIGSEGV",
+    "ABORT": "crashed|its process ended by SIGABRT",
+    "OVERFLOW": "crashed|its process ended by SIGSEGV",
+    "EXIT_0": "crashed|its process ended with exit status 0",
+    "EXIT_1": "crashed|its process ended with exit status 1",
+    "EXIT_AT_ONCE": "crashed|its process ended with exit status 3",
+    "KILL_GROUP": "crashed|its process ended by SIGKILL",
+    "SCRIBBLE": "crashed|its process sent answers that cannot be read",
+    "LEAVE_ORPHAN": "crashed|its process ended by SIGABRT",
+}
+
+
+@pytest.mark.parametrize("deed", ENDS)
+def test_a_run_keeps_what_was_flown(tmp_path, deed):
+    whole = perilune.simulate(odd_fmu(tmp_path, "good"), stop_time=1.0)
+    status, how = ENDS[deed].split("|")
+    flight = perilune.simulate(odd_fmu(tmp_path, DEED=Deed[deed], IN=Call.STEP), stop_time=1.0)
+    assert flight.status == status
+    assert flight.message.endswith(f": {how}")
+    if deed == "SCRIBBLE":  # which goes on flying until it is ended
+        return
+    assert flight.message.startswith("odd: on the way to t = 0.75 s: ")
+    assert flight.time.tolist() == [0.0, 0.25, 0.5]
+    assert np.array_equal(flight["odd.y"], whole["good.y"][:3])
+
+
+CALLS = {
+    Call.CONSTRUCTION: "odd: cannot be instantiated: its process ended by SIGSEGV",
+    Call.INSTANTIATION: "odd: cannot be instantiated: its process ended by SIGSEGV",
+}
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_an_fmu_that_cannot_be_instantiated_is_refused(tmp_path, call):
+    path = odd_fmu(tmp_path, DEED=Deed.SEGFAULT, IN=call)
+    with pytest.raises(InputError, match=CALLS[call]):
+        perilune.simulate(path)
+
+
+def test_a_crash_in_the_initialisation_leaves_no_row(tmp_path):
+    flight = perilune.simulate(odd_fmu(tmp_path, DEED=Deed.ABORT, IN=Call.INITIALISATION))
+    assert (flight.status, flight.time.size) == ("crashed", 0)
+    assert flight.message == "odd: in the initialisation: its process ended by SIGABRT"
+
+
+def test_what_happens_when_it_is_freed_does_not_matter(tmp_path):
+    assert perilune.simulate(odd_fmu(tmp_path, DEED=Deed.SEGFAULT, IN=Call.FREEING)).status == "stop_time"
+
+
+def test_a_call_that_does_not_return_has_a_limit(tmp_path):
+    flight = perilune.simulate(odd_fmu(tmp_path, DEED=Deed.HANG, IN=Call.STEP), stop_time=1.0, call_timeout=0.5)
+    assert flight.status == "hung"
+    assert flight.message == "odd: on the way to t = 0.75 s: a call did not return for 0.5 s"
+    with pytest.raises(InputError, match="cannot be instantiated: a call did not return"):
+        perilune.simulate(odd_fmu(tmp_path, DEED=Deed.HANG, IN=Call.INSTANTIATION), call_timeout=0.5)
+
+
+def test_memory_has_a_limit(tmp_path):
+    flight = perilune.simulate(odd_fmu(tmp_path, DEED=Deed.GROW, IN=Call.STEP), stop_time=1.0, memory=0.2)
+    assert flight.status == "out_of_memory"
+    assert flight.message == "odd: on the way to t = 0.75 s: its process took more memory than it may"
+    assert perilune.simulate(odd_fmu(tmp_path, DEED=Deed.GROW, IN=Call.STEP), stop_time=0.75).status == "stop_time"
+
+
+CAMPAIGN = """
+system = "odd"
+trials = {trials}
+seed = 3
+
+[draw."odd.count"]
+distribution = "choice"
+values = [1, 2, 3, 4, 5, 6, 7, 8, 9, 13]
+
+[metric.last]
+expression = "odd.y"
+reduction = "final"
+
+[success]
+expression = "last > 0"
+"""
+
+
+def fly(folder, workers, trials=200, **quirks):
+    """The trials of a batch, and who had a count of 13."""
+    folder.mkdir()
+    fmu = odd_fmu(folder, **quirks)
+    (folder / "c.toml").write_text(CAMPAIGN.format(trials=trials))
+    options = SystemOptions(stop_time=1.0, step=0.25, call_timeout=0.5, memory=0.2)
+    plan = read_plan(fmu, str(folder / "c.toml"), options)
+    return run_batch(plan, workers=workers).trials["default"], plan.draws.columns["odd.count"] == 13
+
+
+@pytest.fixture(scope="module")
+def good(tmp_path_factory):
+    return fly(tmp_path_factory.mktemp("good") / "batch", 1)[0]
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize("deed", either([*ENDS, "CORRUPT", "GROW"], ["SEGFAULT", "EXIT_0", "CORRUPT"]))
+def test_a_batch_goes_on(tmp_path, good, deed, workers):
+    """Also with heap corruption, after which it is another trial that may end the process: it flies again."""
+    trials, bad = fly(tmp_path / "batch", workers, COUNTED=13, IN=Call.STEP, DEED=Deed[deed])
+    assert 0 < bad.sum() < bad.size
+    assert np.array_equal(trials.metrics["last"][~bad], good.metrics["last"][~bad])
+    assert [status for status, late in zip(trials.statuses, bad, strict=True) if not late] == ["stop_time"] * int(
+        sum(~bad)
+    )
+    expected = "out_of_memory" if deed == "GROW" else "crashed"
+    if deed != "CORRUPT":  # of which glibc need not become aware
+        assert {trials.statuses[trial] for trial in np.flatnonzero(bad)} == {expected}
+        assert not trials.success[bad].any()
+        assert set(trials.messages) == set(np.flatnonzero(bad))
+
+
+def test_a_reset_that_crashes_is_not_trusted(tmp_path, good):
+    """Each trial has instances of its own then."""
+    trials, _ = fly(tmp_path / "batch", 1, 30, DEED=Deed.SEGFAULT, IN=Call.RESETTING)
+    assert trials.statuses == ["stop_time"] * 30
+    assert np.array_equal(trials.metrics["last"], good.metrics["last"][:30])
