@@ -14,17 +14,25 @@ from ..common.errors import InputError
 from ..reports.figures.reading import read_figures
 from ..reports.run_report import write_run_report
 from ..runtime.flight.interruptible import StuckError
+from ..runtime.system.options import trust_of
 from .common.arguments import read_requirements
 from .common.campaign_text import outcome_lines
 from .common.campaigns import read_campaign
 from .options.campaigns import REPLAY, ReplayOptions
 from .options.command import record_options
 from .options.option import FilePath
+from .options.system import TrustOptions
 from .options.verb import verb
 from .run import STUCK, Result
 
 METRIC = "metric."
-OF_A_FOLDER = {"configuration", "log", "timeout", "require"}  # options that go with a campaign's folder
+OF_A_FOLDER = {
+    "configuration",
+    "log",
+    "timeout",
+    "require",
+    *TrustOptions.__annotations__,
+}  # options that go with a campaign's folder
 
 
 @dataclass(repr=False, kw_only=True)
@@ -146,4 +154,5 @@ def _replay(source: FilePath, trial: int, options: Mapping[str, Any]) -> Replaye
         if name not in OF_A_FOLDER:
             problem = "a campaign's folder has its own"
             raise InputError(f"`{name}`", "", problem, "leave it out, or give a system and `campaign`")
-    return replay_trial(Path(source), trial, options["configuration"], log=options["log"], timeout=options["timeout"])
+    given = {name: options[name] for name in ("log", "timeout")}
+    return replay_trial(Path(source), trial, options["configuration"], trust=trust_of(options), **given)

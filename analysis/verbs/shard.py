@@ -14,10 +14,11 @@ from ..campaigns.fly.runner import fly_campaign, merge_rows
 from ..campaigns.fly.shards.numbering import numbers_of
 from ..common.errors import InputError
 from ..common.targets import check_folder
+from ..runtime.system.options import trust_of
 from .batch import BatchResult
 from .common.campaign_text import campaign_requirements, failure_lines, find_failed
 from .common.campaigns import read_campaign, resume_hint
-from .options.campaigns import MERGE, PREPARE, SHARD, ExecutionOptions, PrepareOptions
+from .options.campaigns import MERGE, PREPARE, SHARD, PrepareOptions, ShardOptions
 from .options.option import FilePath
 from .options.system import RequireOptions
 from .options.verb import verb
@@ -96,14 +97,14 @@ class ShardResult:
 
 
 @verb(SHARD)
-def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpack[ExecutionOptions]) -> ShardResult:
+def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpack[ShardOptions]) -> ShardResult:
     """Simulate some shards of a campaign's folder: `perilune shard`. Complete ones stay as they are.
 
     ``numbers`` are shards, the first is 0, or texts "A-B"; ``scheduler`` is as in `batch`. Raises InputError, for a
     number that is no shard's too.
     """
     shards = [numbers] if isinstance(numbers, int) else numbers_of([str(number) for number in numbers])
-    campaign = open_folder(Path(folder))
+    campaign = open_folder(Path(folder), trust_of(options))
     wanted = campaign.check_campaign(shards)
     workers, engine = options["workers"], options["engine"]
     with (

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ....fmus_src.kernel.functions import VERSION
 from ...common.errors import InputError
+from ...runtime.system.options import UNTRUSTED, Trust
 from ...runtime.system.prepared import PreparedSystem
 from ..spec.checks import check_plan, prepare_variants
 from ..spec.plan import BatchPlan
@@ -112,14 +113,14 @@ def open_campaign(
         return Campaign(plan, plan, systems, manifest, None)
     folder = output.absolute()  # FMUs may change the working folder
     manifest = (resume_folder if resume else begin)(folder, manifest, contents, plan)
-    flown = restore(folder, manifest, plan.watch.log, in_process=plan.options.in_process)
+    flown = restore(folder, manifest, plan.watch.log, trust=plan.options)
     plan = replace(plan, known_draws=flown.draws)  # read from the folder, and not in memory
     return Campaign(plan, flown, systems, manifest, folder, output)
 
 
-def open_folder(folder: Path) -> Campaign:
-    """The campaign whose manifest lies in a folder. Raises InputError."""
+def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> Campaign:
+    """The campaign whose manifest lies in a folder; ``trust`` is what foreign FMUs may do. Raises InputError."""
     named, folder = folder, folder.absolute()
     manifest = read_manifest(folder)
-    plan = restore(folder, manifest)  # whose draws were looked at when the folder was made
+    plan = restore(folder, manifest, trust=trust)  # whose draws were looked at when the folder was made
     return Campaign(plan, plan, prepare_variants(plan), manifest, folder, named)

@@ -18,7 +18,7 @@ from ...runtime.apart.resets import find_verdict
 from ...runtime.flight.reset_check import ResetVerdict, store_verdict
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.system.fault import parse_fault
-from ...runtime.system.options import SystemOptions, Watch
+from ...runtime.system.options import UNTRUSTED, SystemOptions, Trust, Watch
 from ...runtime.system.prepared import PreparedSystem
 from ...runtime.system.series import InputSeries
 from ..draws.given import GivenDraws, part_streams
@@ -30,8 +30,8 @@ from .manifest import CONTENTS, CampaignDocument, Manifest, SourceDocument, cont
 from .shards.draws import read_draws
 from .shards.numbering import shard_size
 
-# Of the options: where values are written, where paths are meant from, and what only who flies may decide.
-NOT_ASKED = ("places", "folder", "in_process")
+# Of the options: where values are written, where paths are meant from, and what whoever simulates decides.
+NOT_ASKED = ("places", "folder", *UNTRUSTED.trust)
 
 
 def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Manifest, dict[str, bytes]]:
@@ -123,12 +123,12 @@ def _table(columns: Mapping[str, np.ndarray]) -> bytes:
 
 
 def restore(
-    folder: Path, manifest: Manifest, log: str | None = None, *, draws: Path | None = None, in_process: bool = False
+    folder: Path, manifest: Manifest, log: str | None = None, *, draws: Path | None = None, trust: Trust = UNTRUSTED
 ) -> BatchPlan:
     """The plan of a campaign's folder, with the draws that are stored there. Raises InputError.
 
     ``log`` is the level of the FMUs' messages, which changes no result; ``draws`` is the folder of the table of draws
-    where that is another; ``in_process`` is as in `SystemOptions`.
+    where that is another; ``trust`` is what foreign FMUs may do.
     """
     contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
     source = _restore_source(contents, manifest.campaign)
@@ -152,7 +152,7 @@ def restore(
     plan = BatchPlan(
         manifest.system["label"],
         campaign,
-        SystemOptions(**options, folder=str(contents), in_process=in_process),
+        SystemOptions(**options, folder=str(contents), **trust.trust),
         source.sha256,
         faults=tuple(parse_fault(text) for text in manifest.faults),
         series=series,

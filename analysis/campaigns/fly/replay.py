@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ...common.errors import InputError, suggestion
 from ...runtime.flight.results import TIMED_OUT, Result
+from ...runtime.system.options import UNTRUSTED, Trust
 from ...runtime.system.prepared import PreparedSystem
 from ..spec.campaign import Variant
 from ..spec.checks import check_plan
@@ -48,19 +49,25 @@ class ReplayedTrial:
 
 
 def replay_trial(
-    folder: Path, trial: int, configuration: str | None = None, *, log: str | None = None, timeout: float | None = None
+    folder: Path,
+    trial: int,
+    configuration: str | None = None,
+    *,
+    log: str | None = None,
+    timeout: float | None = None,
+    trust: Trust = UNTRUSTED,
 ) -> ReplayedTrial:
     """Fly a trial of a campaign's folder again, to the bits of the campaign. Raises InputError and StuckError.
 
     ``configuration`` names the variant where the campaign compares several. ``log`` is the level of the FMUs' messages;
-    ``timeout`` (s, wall clock) takes the place of the campaign's own.
+    ``timeout`` (s, wall clock) takes the place of the campaign's own, ``trust`` is what foreign FMUs may do.
     """
     folder = folder.absolute()  # FMUs may change the working folder
-    campaign = open_folder(folder)
+    campaign = open_folder(folder, trust)
     variant = _variant_of(campaign.plan, folder, configuration)
     _check_trial(folder, trial, campaign.manifest.trials)
     manifest = read_manifest(folder)
-    plan = restore(folder, manifest if timeout is None else replace(manifest, timeout=timeout), log)
+    plan = restore(folder, manifest if timeout is None else replace(manifest, timeout=timeout), log, trust=trust)
     return _replay(plan, campaign.systems[variant.name], variant, trial, campaign)
 
 

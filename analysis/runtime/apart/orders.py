@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from .restriction import Restriction
+
 OUT_OF_MEMORY = "out of memory"  # a reason to be ended
 
 
@@ -26,13 +28,17 @@ class Forget:
 
 @dataclass(frozen=True)
 class Begin:
-    """Fork a child; its channel and its recorder's file come along. ``memory`` (bytes) is what it may take."""
+    """Fork a child; its channel and its recorder's file come along.
+
+    ``memory`` (bytes) is what it may take, ``restriction`` what it may not do.
+    """
 
     number: int
     key: int
     task: Any  # one of `messages`
     folder: str
     memory: int
+    restriction: Restriction | None
 
 
 @dataclass(frozen=True)

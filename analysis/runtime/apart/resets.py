@@ -11,7 +11,8 @@ from ..system.options import SystemOptions
 from ..system.prepared import PreparedSystem
 from . import messages
 from .connection import ChildEndedError, Connection, Stillness
-from .servers import GB, Subject, fork
+from .containment import limits_for
+from .servers import Subject, fork
 
 
 def find_verdicts(prepared: PreparedSystem) -> Mapping[str, ResetVerdict]:
@@ -25,7 +26,7 @@ def find_verdict(fmu: Fmu, options: SystemOptions) -> ResetVerdict:
     known = verdict_in_cache(fmu)
     if known is not None:
         return known
-    child = fork(Subject(fmu, fmu), messages.ResetTrial(), folder=os.getcwd(), memory=round(options.memory * GB))
+    child = fork(Subject(fmu, fmu), messages.ResetTrial(), folder=os.getcwd(), limits=limits_for([fmu], options))
     connection = Connection(child, lambda line: None, Stillness(lambda: None, options.call_timeout))
     try:
         answer = connection.hear(messages.Verdict)

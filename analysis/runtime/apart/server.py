@@ -11,13 +11,15 @@ import os
 import pickle
 import resource
 import selectors
+import shutil
 import signal
 import socket
 import sys
+import tempfile
 import time
 import traceback
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NoReturn
 
 from ..flight.compiled import loop
@@ -25,9 +27,11 @@ from . import child
 from .orders import OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
 from .printed import Printed
 from .requests import receive_request, send_request
+from .restriction import Restriction, restrict
 from .system_calls import adopt_orphans, child_processes, end_with_parent, resident_memory
 
 LOOK = 0.1  # s, between looks at the children's memory
+SCRATCH = "perilune_flight_"
 GRACE = 0.2  # s that a child has to end after it has closed its channel
 
 
@@ -35,6 +39,7 @@ GRACE = 0.2  # s that a child has to end after it has closed its channel
 class _Child:
     pid: int
     printed: Printed
+    scratch: str  # its folder
     memory: int
     status: int | None = None
     reason: str = ""
@@ -79,15 +84,16 @@ class FlightServer:
             send_request(self._control, self._end(request))
 
     def _begin(self, request: Begin, descriptors: list[int]) -> None:
+        scratch = tempfile.mkdtemp(prefix=SCRATCH)
         read, write = os.pipe()
         pid = os.fork()
         if not pid:
-            _work(request, self._subjects[request.key], descriptors, write)
+            _work(request, self._subjects[request.key], descriptors, write, scratch)
         for descriptor in (*descriptors, write):
             os.close(descriptor)
         os.set_blocking(read, False)
         printed = Printed(read)
-        self._children[request.number] = _Child(pid, printed, request.memory + resident_memory(os.getpid()))
+        self._children[request.number] = _Child(pid, printed, scratch, request.memory + resident_memory(os.getpid()))
         self._selector.register(read, selectors.EVENT_READ, printed)
 
     def _end(self, request: End) -> Ended:
@@ -105,6 +111,7 @@ class FlightServer:
         if ended.printed.descriptor in self._selector.get_map():
             self._selector.unregister(ended.printed.descriptor)
         ended.printed.close()
+        shutil.rmtree(ended.scratch, ignore_errors=True)
         assert ended.status is not None
         return Ended(ended.status, ended.reason)
 
@@ -151,7 +158,7 @@ class FlightServer:
             self._end(End(number, kill=True))
 
 
-def _work(request: Begin, subject: Any, descriptors: list[int], output: int) -> NoReturn:
+def _work(request: Begin, subject: Any, descriptors: list[int], output: int, scratch: str) -> NoReturn:
     """The life of a child."""
     status = 70  # of sysexits.h: an error of our own
     try:
@@ -165,6 +172,7 @@ def _work(request: Begin, subject: Any, descriptors: list[int], output: int) -> 
         _close_all_but({0, 1, 2, *descriptors})
         os.chdir(request.folder)
         if os.getppid() == parent:
+            _settle_in(scratch, request.restriction)
             channel, *memory = descriptors
             child.work(request.task, subject, socket.socket(fileno=channel), memory)
             status = 0
@@ -175,6 +183,15 @@ def _work(request: Begin, subject: Any, descriptors: list[int], output: int) -> 
             sys.stdout.flush()
             sys.stderr.flush()
         os._exit(status)
+
+
+def _settle_in(scratch: str, restriction: Restriction | None) -> None:
+    """Have a folder of one's own for temporary files, and may write nowhere else if there is a restriction."""
+    for name in ("TMPDIR", "TEMP", "TMP"):
+        os.environ[name] = scratch
+    tempfile.tempdir = None  # found anew
+    if restriction is not None:
+        restrict(replace(restriction, writable=(scratch, *restriction.writable)))
 
 
 def _close_all_but(kept: set[int]) -> None:

@@ -17,9 +17,9 @@ from typing import Any
 
 from .orders import Begin, End, Ended, Forget, Learn, Look
 from .requests import receive_request, send_request
+from .restriction import Restriction
 
 SERVER_GONE = Ended(0, "the flight server has ended")
-GB = 1e9  # bytes
 _lock = threading.RLock()
 _numbers = itertools.count(1)
 
@@ -34,6 +34,14 @@ class Subject:
     owner: object
     content: object
     locked: bool = False
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a child may take, in bytes, and may not do."""
+
+    memory: int
+    restriction: Restriction | None
 
 
 @dataclass(frozen=True)
@@ -75,14 +83,18 @@ class ServerProcess:
         self._forgotten: deque[int] = deque()  # keys of what is gone here, and not told yet
         self.is_there = True
 
-    def fork(self, subject: Subject, task: Any, *, folder: str, memory: int, files: Sequence[int] = ()) -> Child:
+    def fork(self, subject: Subject, task: Any, *, folder: str, limits: Limits, files: Sequence[int] = ()) -> Child:
         """A child that does a task of `messages` in a folder. Raises OSError where the server has ended."""
         ours, theirs = socket.socketpair()
         with theirs, _lock:
             try:
                 key = self._known(subject)
                 number = next(_numbers)
-                send_request(self._control, Begin(number, key, task, folder, memory), [theirs.fileno(), *files])
+                send_request(
+                    self._control,
+                    Begin(number, key, task, folder, limits.memory, limits.restriction),
+                    [theirs.fileno(), *files],
+                )
             except OSError:
                 ours.close()
                 self.is_there = False
@@ -126,9 +138,9 @@ def start_server() -> ServerProcess:
         return _server
 
 
-def fork(subject: Subject, task: Any, *, folder: str, memory: int, files: Sequence[int] = ()) -> Child:
+def fork(subject: Subject, task: Any, *, folder: str, limits: Limits, files: Sequence[int] = ()) -> Child:
     """A child of the server, which is started again should it have ended; see `ServerProcess.fork`."""
     try:
-        return start_server().fork(subject, task, folder=folder, memory=memory, files=files)
+        return start_server().fork(subject, task, folder=folder, limits=limits, files=files)
     except OSError:
-        return start_server().fork(subject, task, folder=folder, memory=memory, files=files)
+        return start_server().fork(subject, task, folder=folder, limits=limits, files=files)

@@ -20,9 +20,10 @@ from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
 from . import messages
 from .connection import ChildEndedError, Connection, Stillness
+from .containment import limits_for
 from .memory import ApartMemory
 from .resets import find_verdicts
-from .servers import GB, Subject, fork
+from .servers import Subject, fork
 from .shared_recorder import SharedRecorder, make_recorder
 
 RECORDERS = 2  # one flight is looked at while the next one flies
@@ -87,7 +88,7 @@ class ApartSimulation(BaseSimulation):
                 Subject(prepared, prepared.of_flights(), locked=not prepared.is_native),
                 messages.SystemFlights(self._selection, level, len(self.signal_names), recorder.times.size),
                 folder=options.folder,
-                memory=round(options.memory * GB),
+                limits=limits_for(prepared.network.fmus.values(), options),
                 files=[recorder.descriptor],
             )
             connection = Connection(child, self._write, Stillness(self._progress, options.call_timeout))

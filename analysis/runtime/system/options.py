@@ -34,18 +34,58 @@ class Layer:
     places: Mapping[str, tuple[str, int]] = field(default_factory=dict, compare=False)
 
 
+NETWORK, WRITE = "network", "write="
+ISOLATION = ("available", "strict")
+
+
 @dataclass(frozen=True)
-class SystemOptions(Layer):
+class Trust:
+    """What foreign FMUs may do here: never read from a campaign's folder, but asked of whoever simulates.
+
+    ``in_process``: they are loaded into this process, too, and not into one of their own. There they may not use the
+    network, nor write, unless ``allow`` says ``network``, or ``write=FOLDER``. ``isolate``: ``available`` restricts
+    them as far as the operating system does, ``strict`` refuses them where it does not. Raises InputError.
+    """
+
+    in_process: bool = field(default=False, compare=False)
+    allow: tuple[str, ...] = field(default=(), compare=False)
+    isolate: str = field(default=ISOLATION[0], compare=False)
+
+    def __post_init__(self) -> None:
+        if self.isolate not in ISOLATION:
+            raise InputError("`isolate`", self.isolate, "unknown", suggestion(self.isolate, ISOLATION))
+        for text in self.allow:
+            if text != NETWORK and not text.startswith(WRITE):
+                raise InputError("`allow`", text, "unknown", f"give {NETWORK}, or {WRITE}FOLDER")
+        for folder in self.writable:
+            if not os.path.isdir(folder):
+                raise InputError("`allow`", folder, "no such folder", "make it, or correct the name")
+
+    @property
+    def writable(self) -> tuple[str, ...]:
+        """The folders that foreign FMUs may write to."""
+        return tuple(text.removeprefix(WRITE) for text in self.allow if text != NETWORK)
+
+    @property
+    def trust(self) -> dict[str, Any]:
+        """These options alone, by name."""
+        return {each.name: getattr(self, each.name) for each in fields(Trust)}
+
+
+UNTRUSTED = Trust()
+
+
+@dataclass(frozen=True)
+class SystemOptions(Trust, Layer):
     """What the command line calls system options; see `perilune run --help`.
 
     Times in s. ``algorithm`` None is what the system's description says, else the first of `ALGORITHMS`. ``flavour``
     None takes native FMUs where they are built. ``open_inputs``: what becomes of inputs that the SSD declares and
     nothing drives, ``start`` keeps the FMU's start values. ``strict``: FMUs whose descriptions break rules of FMI are
     refused and not only remarked upon. ``feedthrough`` are components whose outputs depend directly on all inputs,
-    ``no_feedthrough`` those whose outputs depend directly on none. ``in_process``: FMUs of others are loaded into this
-    process, too, and not into one of their own, whose limits are ``call_timeout`` (s), of one call of an FMU, and
-    ``memory`` (GB). ``folder`` is what relative paths are meant from: an FMU may change the process's working folder
-    once it is loaded.
+    ``no_feedthrough`` those whose outputs depend directly on none. ``call_timeout`` (s), of one call of an FMU, and
+    ``memory`` (GB) are limits of processes with foreign FMUs. ``folder`` is what relative paths are meant from: an FMU
+    may change the process's working folder once it is loaded.
     """
 
     step: float | None = None
@@ -58,7 +98,6 @@ class SystemOptions(Layer):
     open_inputs: str = "refuse"
     feedthrough: tuple[str, ...] = ()
     no_feedthrough: tuple[str, ...] = ()
-    in_process: bool = field(default=False, compare=False)
     call_timeout: float = field(default=300.0, compare=False)
     memory: float = field(default=4.0, compare=False)
     folder: str = field(default_factory=os.getcwd, compare=False, repr=False)
@@ -85,6 +124,7 @@ def system_options(options: Mapping[str, Any]) -> SystemOptions:
         **given
         | {
             "use": {slot: os.fspath(fmu) for slot, fmu in given["use"].items()},
+            "allow": tuple(given.get("allow", ())),
             "parameters": tuple(os.fspath(name) for name in given["parameters"]),
         }
     )
@@ -99,6 +139,12 @@ def _places(layers: Sequence[Layer]) -> dict[str, tuple[str, int]]:
 LOG_LEVELS = ("error", "warning", "info", "all")
 # The least fmi2Status of each level: discard, warning, OK; of `all` FMUs are asked for all their categories, too.
 SAID_FROM = dict(zip(LOG_LEVELS, (2, 1, 0, 0), strict=True))
+
+
+def trust_of(options: Mapping[str, Any]) -> Trust:
+    """What foreign FMUs may do, among the options of a verb."""
+    given = {each.name: options[each.name] for each in fields(Trust) if each.name in options}
+    return Trust(**given | {"allow": tuple(given.get("allow", ()))})
 
 
 @dataclass(frozen=True)

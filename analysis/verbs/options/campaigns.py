@@ -13,6 +13,7 @@ from .system import (
     Seed,
     SimulationOptions,
     SystemOptions,
+    TrustOptions,
     UntilDecided,
     Workers,
 )
@@ -104,6 +105,10 @@ class ExecutionOptions(TypedDict, total=False):
     scheduler: Annotated[str | None, Option("run on the workers of this dask scheduler instead", metavar="ADDRESS")]
 
 
+class ShardOptions(ExecutionOptions, TrustOptions, total=False):
+    """Options of shard"""
+
+
 class BatchOptions(CampaignOptions, TrialsOptions, ExecutionOptions, RequireOptions, total=False):
     """Options of batch"""
 
@@ -169,7 +174,7 @@ SHARD = Verb(
     "shard",
     "simulate some shards of a prepared campaign, or of an unfinished batch",
     (FOLDER, Argument("numbers", "K", "numbers of shards, the first is 0; A-B: from A to B", many=True)),
-    options=ExecutionOptions,
+    options=ShardOptions,
     examples={
         "perilune prepare lunar_terminal_guidance --campaign paper --trials 100 --output parts": "a folder to share",
         "perilune shard parts 0-1": "its first shards, on any machine that has the folder",

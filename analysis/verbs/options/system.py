@@ -8,10 +8,24 @@ from typing import Annotated, Any, Literal, TypedDict
 from ...runtime.system.fault import Fault
 from .option import NONE, FilePath, Option, SetValue, StructuredArray
 
-InProcess = Annotated[bool, Option("trust foreign FMUs: load them into this process, not into one of their own", False)]
+
+class TrustOptions(TypedDict, total=False):
+    """What foreign FMUs may do"""
+
+    in_process: Annotated[
+        bool, Option("trust foreign FMUs: load them into this process, not into one of their own", False)
+    ]
+    allow: Annotated[
+        Sequence[str],
+        Option("let foreign FMUs use the network, or write below a folder", (), metavar="network|write=FOLDER"),
+    ]
+    isolate: Annotated[
+        Literal["available", "strict"],
+        Option("restrict foreign FMUs as far as the system does, or refuse them where it does not", "available"),
+    ]
 
 
-class SystemOptions(TypedDict, total=False):
+class SystemOptions(TrustOptions, total=False):
     """System options"""
 
     use: Annotated[
@@ -53,7 +67,6 @@ class SystemOptions(TypedDict, total=False):
     no_feedthrough: Annotated[
         Sequence[str], Option("treat a component as without direct feedthrough", (), metavar="COMPONENT")
     ]
-    in_process: InProcess
     call_timeout: Annotated[
         float,
         Option(

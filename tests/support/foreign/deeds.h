@@ -2,14 +2,49 @@
  *
  * In steps it does so from 0.5 s on. Without DEED nothing is done.
  */
-#include <pthread.h>
+#include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/ptrace.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 
 enum { CONSTRUCTION, INSTANTIATION, INITIALISATION, STEP, RESETTING, FREEING };
-enum { SEGFAULT, ABORT, OVERFLOW, EXIT_0, EXIT_1, EXIT_AT_ONCE, KILL_GROUP, HANG, GROW, PRINT, SCRIBBLE, CORRUPT, LEAVE_ORPHAN };
+enum { SEGFAULT, ABORT, OVERFLOW, EXIT_0, EXIT_1, EXIT_AT_ONCE, KILL_GROUP, HANG, GROW, PRINT, SCRIBBLE, CORRUPT, LEAVE_ORPHAN, TRY };
 
 #ifdef DEED
+/* One line for each thing that it tries: what, and whether that was refused. */
+static void tried(const char *what, long result)
+{
+    printf("%s: %s\n", what, result >= 0 ? "done" : strerror(errno));
+    fflush(stdout);
+}
+
+static long writes(const char *folder, const char *name)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return open(path, O_CREAT | O_WRONLY, 0600);
+}
+
+static void try_everything(void)
+{
+    const char *results = getenv("TRY_RESULTS");
+    tried("own folder", writes(getenv("TMPDIR"), "mine"));
+    tried("home", writes(getenv("HOME"), "perilune_tried"));
+    tried("temporary folder", writes("/tmp", "perilune_tried"));
+    tried("results", writes(results == NULL ? "." : results, "tried"));
+    tried("TCP", socket(AF_INET, SOCK_STREAM, 0));
+    tried("UDP", socket(AF_INET, SOCK_DGRAM, 0));
+    tried("AF_UNIX", socket(AF_UNIX, SOCK_STREAM, 0));
+    tried("io_uring", syscall(425, 1, NULL));
+    tried("ptrace", ptrace(PTRACE_ATTACH, getppid(), NULL, NULL));
+    tried("signal", kill(getppid(), SIGTERM));
+    tried("signal to all", kill(-1, SIGCONT));
+    int pair[2];
+    tried("socketpair", socketpair(AF_UNIX, SOCK_STREAM, 0, pair));
+}
+
 static double overflow(volatile double *below)
 {
     volatile double here[4096];
@@ -40,6 +75,7 @@ static void do_it(void)
     case PRINT: for (int i = 0; i < 1000000; i++) printf("\033[31mline %d\n", i); break;
     case SCRIBBLE: for (int i = 0; i < 256; i++) if (write(i, "no answer at all, but long enough", 33) < 0) continue; break;
     case CORRUPT: grown = malloc(24); memset(grown - 16, 0xff, 64); free(grown); break;
+    case TRY: try_everything(); break;
     case LEAVE_ORPHAN: if (fork() == 0) { setsid(); if (fork() == 0) while (1) pause(); _exit(0); } abort();
     }
 }
