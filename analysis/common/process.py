@@ -15,11 +15,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
 from typing import Any, NoReturn, TextIO
 
+from .visible import visible
+
 CLOSED = (errno.EPIPE, errno.ESHUTDOWN)
 
 
 class Stream:
     """A text stream that takes everything: from the first error on, which ``error`` keeps, what is written is dropped.
+
+    Characters that control a terminal are written as `visible` does.
 
     ``stream`` is None where the process was started without it.
     """
@@ -37,7 +41,7 @@ class Stream:
         return self.error is not None and self.error.errno not in CLOSED
 
     def write(self, text: str) -> int:
-        self._try("write", text)
+        self._try("write", visible(text))
         return len(text)
 
     def flush(self) -> None:

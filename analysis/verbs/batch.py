@@ -135,7 +135,8 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
 
     ``compare`` maps slots to the FMUs compared there on the same draws, one or a list; ``output`` is a folder for
     trials, draws and summary, refused if it holds results unless ``overwrite``, or ``resume``, which continues with
-    what it holds; ``until_decided`` ends with the first shard after which the campaign's requirements are met, or are
+    what it holds, and with ``retry_crashed`` simulates shards again that have trials which crashed, hung or ran out of
+    memory; ``until_decided`` ends with the first shard after which the campaign's requirements are met, or are
     not; ``engine`` is threads or processes, and ``scheduler`` the address of a dask scheduler whose workers simulate
     instead; ``faults`` are injected in every trial, after the campaign's own, and every trial has the same ``input``;
     one that takes longer than ``timeout`` (s, wall clock) ends ``timed_out``, is no success, and the next one starts;
@@ -148,6 +149,8 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
         raise InputError("`resume`", "", "there is no folder to resume in", "give `output`")
     if options["resume"] and options["overwrite"]:
         raise InputError("`resume`", "`overwrite`", "one keeps what is stored, one does not", "leave one of them out")
+    if options["retry_crashed"] and not options["resume"]:
+        raise InputError("`retry_crashed`", "", "there are no trials to simulate again", "give `resume`")
     is_kept = options["overwrite"] or options["resume"]
     check_folder("`output`", folder, overwrite=is_kept, otherwise="`resume` or `overwrite`")
     plan = read_campaign(system, campaign, options)
@@ -159,5 +162,7 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
         cluster(options["scheduler"], workers=workers, engine=engine) as elsewhere,
     ):
         opened = open_campaign(plan, folder, resume=options["resume"], engine=engine, workers=workers)
+        if options["retry_crashed"]:
+            opened.discard_lost(range(opened.numbering.count))
         rows = fly_campaign(opened, opened.missing(), workers=workers, engine=engine, elsewhere=elsewhere)
         return BatchResult.finish(opened, rows, requirements=tuple(requirements))

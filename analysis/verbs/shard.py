@@ -100,11 +100,13 @@ class ShardResult:
 def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpack[ShardOptions]) -> ShardResult:
     """Simulate some shards of a campaign's folder: `perilune shard`. Complete ones stay as they are.
 
-    ``numbers`` are shards, the first is 0, or texts "A-B"; ``scheduler`` is as in `batch`. Raises InputError, for a
-    number that is no shard's too.
+    ``numbers`` are shards, the first is 0, or texts "A-B"; ``scheduler`` and ``retry_crashed`` are as in `batch`.
+    Raises InputError, for a number that is no shard's too.
     """
     shards = [numbers] if isinstance(numbers, int) else numbers_of([str(number) for number in numbers])
     campaign = open_folder(Path(folder), trust_of(options))
+    if options["retry_crashed"]:
+        campaign.discard_lost(shards)
     wanted = campaign.check_campaign(shards)
     workers, engine = options["workers"], options["engine"]
     with (

@@ -11,13 +11,14 @@ from ....fmus_src.kernel.functions import VERSION
 from ...common.errors import InputError
 from ...runtime.system.options import UNTRUSTED, Trust
 from ...runtime.system.prepared import PreparedSystem
+from ..lost_trials import lost_status
 from ..spec.checks import check_plan, prepare_variants
 from ..spec.plan import BatchPlan
 from .folder import begin, cut, resume_folder
 from .manifest import FILE, Manifest, read_manifest
 from .metadata import Provenance, batch_digest, provenance
 from .plan_manifest import gather, restore
-from .shards.files import is_flown
+from .shards.files import is_flown, shard_path
 from .shards.numbering import Numbering
 from .store import FlownRows, HeldShards, StoredShards
 from .workers import in_threads, worker_count
@@ -78,6 +79,15 @@ class Campaign:
         if self.folder is None:
             return list(shards)
         return [shard for shard in shards if not is_flown(self.folder, self.batch, shard, self.numbering.of(shard))]
+
+    def discard_lost(self, shards: Iterable[int]) -> None:
+        """Remove those of some shards that have trials which crashed, hung or ran out of memory: they fly again."""
+        if self.folder is None:
+            return
+        for shard in sorted(set(shards) - set(self.missing())):
+            rows = self.shard_rows(shard).values()
+            if any(lost_status(status) for each in rows for part in each.parts("status") for status in part["status"]):
+                shard_path(self.folder, shard).unlink()
 
     def check_campaign(self, shards: Iterable[int]) -> list[int]:
         """Those of some shards that its folder does not hold.

@@ -11,7 +11,7 @@ from functools import singledispatchmethod
 from typing import Any
 
 from ...common.errors import InputError
-from ..flight.instance import Log
+from ..flight.instance import Log, leave_messages_unformatted
 from ..flight.memory import Memory, Snapshot
 from ..flight.reset_check import ResetVerdict, reset_verdict, store_verdict
 from ..flight.simulation import Simulation
@@ -29,6 +29,8 @@ def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket,
             verdict = reset_verdict(subject)
             send_answer(channel, messages.Verdict(verdict.resets, verdict.reason))
             return
+        if not task.formats:
+            leave_messages_unformatted()
         recorder = SharedRecorder(memory[0], task.signals, task.rows)
         recorder.close()
         pilot = _Pilot(channel, task, subject, recorder)

@@ -33,7 +33,6 @@ from .servers import Child
 
 LOOK = 0.25  # s, between looks at a child that says nothing
 PATIENCE = 1.5  # s that a child has to free its instances
-PIECE = 65536  # bytes
 
 
 class ChildEndedError(Exception):
@@ -117,11 +116,17 @@ class Connection:
     def _is_freed(self) -> bool:
         """Ask the child to free its instances; whether it has done so, and ended."""
         channel, deadline = self._child.channel, time.monotonic() + PATIENCE
-        with suppress(OSError, ValueError):
+        try:
             channel.shutdown(socket.SHUT_WR)
-            while select.select([channel], [], [], max(0.0, deadline - time.monotonic()))[0]:
-                if not channel.recv(PIECE):
-                    return True
+            while time.monotonic() < deadline:
+                channel.settimeout(max(deadline - time.monotonic(), LOOK))
+                kind, content = receive_frame(channel)
+                if kind == LINE:
+                    self._write(content.decode(errors="replace"))
+        except EOFError:
+            return True
+        except (OSError, ValueError, UnreadableError):
+            pass
         return False
 
     def _finish(self, *, kill: bool) -> Ended | None:

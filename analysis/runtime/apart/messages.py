@@ -32,10 +32,14 @@ class UnreadableError(Exception):
 
 @dataclass(frozen=True)
 class SystemFlights:
-    """To simulate a system. ``log`` is the level of messages, ``rows`` of ``signals`` what the recorder holds."""
+    """To simulate a system. ``log`` is the level of messages, ``rows`` of ``signals`` what the recorder holds.
+
+    ``formats``: messages of FMUs are formats of printf, as FMI 2.0 has them.
+    """
 
     selection: Selection
     log: str | None
+    formats: bool
     signals: int
     rows: int
 

@@ -6,6 +6,8 @@ import os
 import sys
 from contextlib import suppress
 
+from ...common.visible import visible_line
+
 PIECE = 65536  # bytes read at once
 LONGEST_LINE = 4096  # bytes
 MOST_LINES = 1000  # of a child
@@ -48,26 +50,10 @@ class Printed:
     def _write(self, line: bytes) -> None:
         self._lines += 1
         if self._lines <= MOST_LINES:
-            _print(visible(line[:LONGEST_LINE].decode(errors="replace")))
+            _print(visible_line(line[:LONGEST_LINE].decode(errors="replace"), LONGEST_LINE))
 
 
 def _print(line: str) -> None:
     with suppress(OSError, ValueError):
         sys.stderr.write(f"{line}\n")
         sys.stderr.flush()
-
-
-BIDIRECTIONAL = {*range(0x202A, 0x202F), *range(0x2066, 0x206A), 0x200E, 0x200F, 0x061C}
-
-
-def visible(text: str) -> str:
-    """A line of text that others wrote: characters that control a terminal or the direction of text are escaped."""
-    return "".join(
-        character
-        if character == "\t"
-        or not (ord(character) < 0x20 or 0x7F <= ord(character) < 0xA0 or ord(character) in BIDIRECTIONAL)
-        else f"\\x{ord(character):02x}"
-        if ord(character) < 0x100
-        else f"\\u{ord(character):04x}"
-        for character in text
-    )

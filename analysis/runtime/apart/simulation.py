@@ -59,8 +59,8 @@ class ApartSimulation(BaseSimulation):
         self._recorders: list[SharedRecorder] = []  # of the child
         self._turn = 0  # which of them takes the flight that is under way
         self._pending: messages.Fly | None = None  # announced: under way, or waiting to be looked at
+        self._formats = True  # of messages, which can end a process whose arguments are missing
         self._connection = self._begin()
-        self.flights = 0  # of the child
 
     @property
     def recorder(self) -> SharedRecorder:  # type: ignore[override]
@@ -86,7 +86,9 @@ class ApartSimulation(BaseSimulation):
         with closing(recorder):
             child = fork(
                 Subject(prepared, prepared.of_flights(), locked=not prepared.is_native),
-                messages.SystemFlights(self._selection, level, len(self.signal_names), recorder.times.size),
+                messages.SystemFlights(
+                    self._selection, level, self._formats, len(self.signal_names), recorder.times.size
+                ),
                 folder=options.folder,
                 limits=limits_for(prepared.network.fmus.values(), options),
                 files=[recorder.descriptor],
@@ -150,8 +152,9 @@ class ApartSimulation(BaseSimulation):
         if flown.status not in FLIGHT_STATUSES or not 0 <= flown.rows <= self.recorder.times.size:
             self._connection.close(kill=True)
             return self._flight(0, CRASHED, "answers that cannot be read")
-        if flown.status not in COMPLETE and not self.prepared.is_own:
+        if (flown.status not in COMPLETE and not self.prepared.is_own) or not self._formats:
             self._connection.close()
+            self._formats = True
         return self._flight(flown.rows, flown.status, flown.message)
 
     def _is_as_announced(
@@ -205,7 +208,11 @@ class ApartSimulation(BaseSimulation):
         return Flight(recorder.times[:rows], signals, self._types, status, message)
 
     def _lost(self, error: ChildEndedError, first: int, every: int) -> Flight:
-        """A flight whose process ended, with the rows that it left."""
+        """A flight whose process ended, with the rows that it left.
+
+        The next one flies with messages as they are: a format without its arguments may have ended this one.
+        """
+        self._formats = not self._formats or error.status != CRASHED
         point = self.recorder.point
         rows = min(max(-(-(point - max(first, -1) - 1) // every), 0), self.recorder.times.size)
         if self.recorder.phase[0] == Phase.RENEWAL:

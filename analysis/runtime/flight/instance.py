@@ -14,11 +14,14 @@ from fmpy import fmi2
 from fmpy.logging import addLoggerProxy
 
 from ...common.errors import InputError
+from ...common.visible import visible, visible_line
 from ..system.fmu import Fmu
 from ..system.options import LOG_LEVELS, SAID_FROM
 from .library import LOADING, Library, acquire, release
 from .recorder import FlightRecorder
 
+MOST_MESSAGES = 1000  # of a component, in a flight
+LONGEST_MESSAGE = 4096  # bytes
 STATUSES = ("OK", "warning", "discard", "error", "fatal", "pending")
 
 
@@ -30,13 +33,15 @@ def status_word(status: int) -> str:
 class Log:
     """Writes the messages of a simulation's FMUs as they come, those of a ``level`` of `LOG_LEVELS` and graver.
 
-    ``place`` is put before each line: in a batch the trial. ``emit`` is given the lines instead of standard error.
+    At most MOST_MESSAGES of each component. ``place`` is put before each line: in a batch the trial. ``emit`` is given
+    the lines instead of standard error.
     """
 
     def __init__(self, level: str, emit: Callable[[str], None] | None = None) -> None:
         self.level = level
         self.place = ""
         self.emit = self.write_line if emit is None else emit
+        self._counts: dict[str, int] = {}  # of messages, by component
         self._clock: tuple[FlightRecorder, float, float] | None = None
 
     @property
@@ -55,9 +60,19 @@ class Log:
             if self._clock is not None:
                 recorder, start, step = self._clock
                 time = f"t = {start + recorder.point * step:.9g} s: "
-            text = " | ".join(" ".join(line.split()) for line in message.splitlines() if line.strip())
+            self._counts[component] = self._counts.get(component, 0) + 1
+            if self._counts[component] > MOST_MESSAGES:
+                return
+            text = visible_line(" | ".join(line for line in message.splitlines() if line.strip()), LONGEST_MESSAGE)
             label = f" ({category})" if category else ""
             self.emit(f"{time}{component}: {status_word(status)}{label}: {text}")
+
+    def close(self) -> None:
+        """Say how many messages were left out."""
+        for component, count in self._counts.items():
+            if count > MOST_MESSAGES:
+                self.emit(f"{component}: and {count - MOST_MESSAGES} messages more")
+        self._counts = {}
 
     def write_line(self, line: str) -> None:
         """A message in words, to standard error."""
@@ -142,20 +157,34 @@ _alone: set[str] = set()  # digests of FMUs that are instantiated, and may be on
 def _log(_environment: object, instance: bytes, status: int, category: bytes, message: bytes) -> None:
     log = _logs.get((instance or b"").decode(errors="replace"))
     if log is not None and message:
-        log.append(message)
+        if len(log) < MOST_MESSAGES:
+            log.append(message[:LONGEST_MESSAGE])
         if log.listener is not None:
             log.listener(status, _text(category or b""), _text(message))
 
 
 def _text(message: bytes) -> str:
-    return message.decode(errors="replace").strip()
+    return visible(message[:LONGEST_MESSAGE].decode(errors="replace").strip())
 
 
-_callbacks = fmi2.fmi2CallbackFunctions()
-_callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(_log)
-_callbacks.allocateMemory = fmi2.defaultCallbacks.allocateMemory
-_callbacks.freeMemory = fmi2.defaultCallbacks.freeMemory
-addLoggerProxy(ctypes.byref(_callbacks))
+def _make_callbacks() -> fmi2.fmi2CallbackFunctions:
+    callbacks = fmi2.fmi2CallbackFunctions()
+    callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(_log)
+    callbacks.allocateMemory = fmi2.defaultCallbacks.allocateMemory
+    callbacks.freeMemory = fmi2.defaultCallbacks.freeMemory
+    return callbacks
+
+
+_callbacks = _make_callbacks()
+addLoggerProxy(ctypes.byref(_callbacks))  # messages are formats of printf (FMI 2.0), whose arguments may be missing
+_plain_callbacks = _make_callbacks()
+_formats = True
+
+
+def leave_messages_unformatted() -> None:
+    """Take the messages of all FMUs that are instantiated from now on as they are, without their arguments."""
+    global _formats
+    _formats = False
 
 
 def instantiate(fmu: Fmu, name: str, log: Log | None = None) -> Instance:
@@ -176,7 +205,7 @@ def instantiate(fmu: Fmu, name: str, log: Log | None = None) -> Instance:
     try:
         library = acquire(fmu)
         slave = library.slave(unique)
-        slave.instantiate(callbacks=_callbacks, loggingOn=True)
+        slave.instantiate(callbacks=_callbacks if _formats else _plain_callbacks, loggingOn=True)
         if log is not None and log.everything:
             slave.setDebugLogging(True, [])  # no categories named: all of them
     except Exception as error:  # fmpy raises bare Exception when the library does not load or instantiate

@@ -215,6 +215,8 @@ class Simulation(BaseSimulation):
         """Free the instances; those of a flight that still goes on in a thread, given up, end with the process."""
         if self._under_way.acquire(blocking=False):
             self.recorder.enter(Phase.END)
+            if self._log is not None:
+                self._log.close()
             self.life_cycle.close()
             self.instances = {}
             self._under_way.release()

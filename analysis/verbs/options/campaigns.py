@@ -103,6 +103,9 @@ class ExecutionOptions(TypedDict, total=False):
         Option("parallel threads or processes; default: threads where the FMUs allow them"),
     ]
     scheduler: Annotated[str | None, Option("run on the workers of this dask scheduler instead", metavar="ADDRESS")]
+    retry_crashed: Annotated[
+        bool, Option("simulate stored shards again in which trials crashed, hung or ran out of memory", False)
+    ]
 
 
 class ShardOptions(ExecutionOptions, TrustOptions, total=False):

@@ -5,12 +5,16 @@ Truth: the FMU's source, which does to its process what the test asks for; the s
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
 import perilune
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
 from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
@@ -138,3 +142,29 @@ def test_a_reset_that_crashes_is_not_trusted(tmp_path, good):
     trials, _ = fly(tmp_path / "batch", 1, 30, DEED=Deed.SEGFAULT, IN=Call.RESETTING)
     assert trials.statuses == ["stop_time"] * 30
     assert np.array_equal(trials.metrics["last"], good.metrics["last"][:30])
+
+
+def test_a_format_without_its_arguments_ends_one_flight_only(tmp_path, good):
+    """FMI 2.0 makes messages formats: in the second flight they are taken as they are."""
+    trials, _ = fly(tmp_path / "batch", 1, 20, DEED=Deed.LOG, IN=Call.STEP)
+    assert trials.statuses == ["stop_time"] * 20
+    assert np.array_equal(trials.metrics["last"], good.metrics["last"][:20])
+    assert perilune.simulate(tmp_path / "batch" / "odd.fmu", stop_time=1.0).status == "crashed"
+
+
+def test_what_fmus_print_and_log_is_no_order_to_the_terminal(tmp_path, capfd):
+    assert (
+        main(["run", str(odd_fmu(tmp_path, DEED=Deed.LOG_CONTROLS, IN=Call.STEP)), "--stop-time", "1", "--log", "info"])
+        == 0
+    )
+    (line, _) = [line for line in capfd.readouterr().err.splitlines() if line.startswith("log: ")]
+    assert line == "log: t = 0.75 s: odd: OK (any): \\x1b[31mred\\u009b\\u202e"
+
+
+def test_what_fmus_print_has_an_end(tmp_path):
+    fmu = odd_fmu(tmp_path, DEED=Deed.PRINT, IN=Call.INITIALISATION)
+    command = [sys.executable, "-m", "perilune", "run", str(fmu), "--stop-time", "1"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=100)
+    lines = done.stderr.splitlines()
+    assert lines[:2] == ["\\x1b[31mline 0", "\\x1b[31mline 1"]
+    assert lines[1000:] == ["... and 999000 lines more"]

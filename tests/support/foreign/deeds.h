@@ -10,9 +10,17 @@
 #include <sys/syscall.h>
 
 enum { CONSTRUCTION, INSTANTIATION, INITIALISATION, STEP, RESETTING, FREEING };
-enum { SEGFAULT, ABORT, OVERFLOW, EXIT_0, EXIT_1, EXIT_AT_ONCE, KILL_GROUP, HANG, GROW, PRINT, SCRIBBLE, CORRUPT, LEAVE_ORPHAN, TRY };
+enum { SEGFAULT, ABORT, OVERFLOW, EXIT_0, EXIT_1, EXIT_AT_ONCE, KILL_GROUP, HANG, GROW, PRINT, SCRIBBLE, CORRUPT, LEAVE_ORPHAN, TRY, LOG, LOG_CONTROLS };
 
 #ifdef DEED
+static const fmi2CallbackFunctions *callbacks;
+static char *instance;
+
+static void say(const char *message)
+{
+    callbacks->logger(callbacks->componentEnvironment, instance, fmi2OK, "any", message);
+}
+
 /* One line for each thing that it tries: what, and whether that was refused. */
 static void tried(const char *what, long result)
 {
@@ -75,6 +83,8 @@ static void do_it(void)
     case PRINT: for (int i = 0; i < 1000000; i++) printf("\033[31mline %d\n", i); break;
     case SCRIBBLE: for (int i = 0; i < 256; i++) if (write(i, "no answer at all, but long enough", 33) < 0) continue; break;
     case CORRUPT: grown = malloc(24); memset(grown - 16, 0xff, 64); free(grown); break;
+    case LOG: say("%s%s%s%n"); break;
+    case LOG_CONTROLS: say("\033[31mred\xc2\x9b\xe2\x80\xae"); break;
     case TRY: try_everything(); break;
     case LEAVE_ORPHAN: if (fork() == 0) { setsid(); if (fork() == 0) while (1) pause(); _exit(0); } abort();
     }
@@ -85,8 +95,10 @@ static void do_it(void)
 #else
 #define MAY_DO_WITH(call, count) MAY_DO(call)
 #endif
+#define REMEMBER(call, name) do { callbacks = call; instance = strdup(name); } while (0)
 __attribute__((constructor)) static void construct(void) { MAY_DO(CONSTRUCTION); }
 #else
 #define MAY_DO(call)
 #define MAY_DO_WITH(call, count)
+#define REMEMBER(call, name)
 #endif

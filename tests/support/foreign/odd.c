@@ -26,8 +26,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include "deeds.h"
 #include "refused_calls.h"
+#include "deeds.h"
 
 enum { GAIN, U, Y, TWICE, TOLERANCE, LENGTH, REALS };
 enum { COUNT, MODE, INTEGERS };
@@ -81,6 +81,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     if (chdir(GOES_TO) != 0) return NULL;
 #endif
     note("i");
+    REMEMBER(call, name);
     MAY_DO(INSTANTIATION);
     instances++;
     Odd *odd = calloc(1, sizeof(Odd));
