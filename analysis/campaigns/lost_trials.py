@@ -8,8 +8,8 @@ from .summary import Summary
 
 def lost_status(status: str) -> str:
     """``crashed``, ``hung`` or ``out_of_memory`` if that is what a trial's status begins with, else nothing."""
-    word = status.partition(" (")[0]
-    return word if word in LOST else ""
+    beginning = status.partition(" (")[0]
+    return beginning if beginning in LOST else ""
 
 
 def lost_lines(summary: Summary) -> list[str]:

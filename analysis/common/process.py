@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
 from typing import Any, NoReturn, TextIO
 
+from .scratch import remove_all
 from .visible import visible
 
 CLOSED = (errno.EPIPE, errno.ESHUTDOWN)
@@ -76,11 +77,15 @@ def steady_streams() -> Iterator[Stream]:
 
 
 def leave(status: int) -> NoReturn:
-    """End the process at once with an exit status; what was written to standard output and error is not lost."""
+    """End the process at once with an exit status; what was written to standard output and error is not lost.
+
+    Its temporary folders are removed.
+    """
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:  # a process can be started without them
             with suppress(OSError):
                 stream.flush()
+    remove_all()
     os._exit(status)
 
 

@@ -20,8 +20,8 @@ from ..reports.time_histories import signal_plot
 from ..reports.trajectory import trajectory_plot
 from ..runtime.apart.opening import open_simulation
 from ..runtime.flight import results
-from ..runtime.flight.instance import Log
 from ..runtime.flight.interruptible import StuckError, fly
+from ..runtime.instances.instance import Log
 from ..runtime.system.fault import Fault, faults_of
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system

@@ -14,7 +14,7 @@ import sys
 import numpy as np
 import pytest
 
-from perilune.analysis.runtime.flight.instance import instantiate
+from perilune.analysis.runtime.instances.instance import instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.own_blocks import build_own_blocks
@@ -88,7 +88,7 @@ import json, os, sys
 from pathlib import Path
 import perilune.fmus_src.plants.flat_moon_lander as newer
 assert "2.0 * self.thrust" in open(newer.__file__).read()
-from perilune.analysis.runtime.flight.instance import instantiate
+from perilune.analysis.runtime.instances.instance import instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
 fmus = [load_fmu(Path(path).read_bytes(), path) for path in sys.argv[1:]]
 instances = [instantiate(fmu, name) for fmu, name in zip(fmus, ("old", "new"))]

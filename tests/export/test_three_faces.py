@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from perilune.analysis.runtime.flight.instance import Instance, instantiate
+from perilune.analysis.runtime.instances.instance import Instance, instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.fmus_src.block import Block, Input, Parameter
 from perilune.fmus_src.catalogue import catalogue

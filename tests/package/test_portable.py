@@ -34,9 +34,14 @@ def actual(text):
             yield ast.unparse(node), node.lineno
 
 
+FORKS = ("analysis/runtime/apart/server", "analysis/runtime/apart/system")  # where only Unix gets to
+
+
 def test_no_call_that_only_unix_has():
     assert len(SOURCES) > 300
-    assert {path: list(actual(path.read_text(encoding="utf-8"))) for path in SOURCES} == {path: [] for path in SOURCES}
+    portable = [path for path in SOURCES if not path.relative_to(ROOT).as_posix().startswith(FORKS)]
+    actual_calls = {path: list(actual(path.read_text(encoding="utf-8"))) for path in portable}
+    assert actual_calls == {path: [] for path in portable}
 
 
 @pytest.mark.parametrize(

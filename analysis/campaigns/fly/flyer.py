@@ -8,10 +8,10 @@ from typing import NamedTuple
 from ...runtime.apart.opening import flies_here, open_simulation
 from ...runtime.apart.simulation import ApartSimulation
 from ...runtime.flight.base_simulation import BaseSimulation
-from ...runtime.flight.instance import Log
 from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
-from ...runtime.flight.library import LOADING
 from ...runtime.flight.results import CRASHED, LOST, Flight, Result
+from ...runtime.instances.instance import Log
+from ...runtime.instances.library import LOADING
 from ...runtime.ssp.parameter_sets import ParameterValue
 from ..spec.checks import VariantNames, variant_names
 from ..spec.plan import BatchPlan, DrawnTrials

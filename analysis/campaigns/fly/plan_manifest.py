@@ -15,7 +15,7 @@ import pyarrow.parquet
 
 from ....fmus_src.kernel.functions import VERSION
 from ...runtime.apart.resets import find_verdict
-from ...runtime.flight.reset_check import ResetVerdict, store_verdict
+from ...runtime.instances.reset_check import ResetVerdict, store_verdict
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.system.fault import parse_fault
 from ...runtime.system.options import UNTRUSTED, SystemOptions, Trust, Watch

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...common.errors import InputError
 from ..flight.results import CRASHED, HUNG, OUT_OF_MEMORY
-from .messages import (
+from .protocol.messages import (
     ANSWER,
     LINE,
     NUMBERS,
@@ -26,9 +26,9 @@ from .messages import (
     read_answer,
     receive_frame,
 )
-from .orders import OUT_OF_MEMORY as TOO_LARGE
-from .orders import Ended
-from .requests import send_request
+from .protocol.orders import OUT_OF_MEMORY as TOO_LARGE
+from .protocol.orders import Ended
+from .protocol.requests import send_request
 from .servers import Child
 
 LOOK = 0.25  # s, between looks at a child that says nothing
@@ -68,10 +68,10 @@ class Connection:
 
     def ask(self, request: Any, expected: type[Kind], files: Sequence[int] = ()) -> Kind:
         """An answer. Raises ChildEndedError, and InputError where the child raised it."""
-        self.tell(request, files)
+        self.send(request, files)
         return self.hear(expected)
 
-    def tell(self, request: Any, files: Sequence[int] = ()) -> None:
+    def send(self, request: Any, files: Sequence[int] = ()) -> None:
         """Send what has no answer, or one that is heard later. Raises ChildEndedError."""
         try:
             send_request(self._child.channel, request, files)
@@ -93,7 +93,7 @@ class Connection:
 
     def ask_numbers(self, request: Any, count: int) -> np.ndarray:
         """An answer of so many float64."""
-        self.tell(request)
+        self.send(request)
         kind, content = self._receive()
         if kind == ANSWER:
             answer = read_answer(content, Refused)

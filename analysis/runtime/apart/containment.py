@@ -9,8 +9,8 @@ from pathlib import Path
 from ...common.errors import InputError
 from ..system.fmu import Fmu
 from ..system.options import NETWORK, SystemOptions
-from .restriction import Restriction, find_missing
 from .servers import Limits
+from .system.restriction import Restriction, find_missing
 
 GB = 1e9  # bytes
 

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from ..flight.base_memory import BaseMemory, Cell
-from . import messages
+from .protocol import messages
 
 
 @dataclass(frozen=True)
@@ -32,20 +32,20 @@ class ApartMemory(BaseMemory[ApartSnapshot]):
 
     def __init__(self, simulation: Answering) -> None:
         self._simulation = simulation
-        self.cells = [Cell(*cell) for cell in simulation.ask(messages.ListCells(), messages.CellList).cells]
+        self.cells = [Cell(*cell) for cell in simulation.ask(messages.ListMemory(), messages.CellList).entries]
 
     def read(self) -> np.ndarray:
         """The values of all cells now."""
-        return self._simulation.ask_numbers(messages.ReadCells(), len(self.cells))
+        return self._simulation.ask_numbers(messages.ReadMemory(), len(self.cells))
 
     def take(self, point: int) -> ApartSnapshot:
         """Save everything at communication point ``point``; `release` it in the end."""
         return ApartSnapshot(point, self._simulation.ask(messages.TakeSnapshot(point), messages.Done).number)
 
-    def put_back(self, snapshot: ApartSnapshot, cell: Cell | None = None, value: float = 0.0) -> None:
+    def put_back(self, snapshot: ApartSnapshot, cell: Cell | None = None, number: float = 0.0) -> None:
         """Everything as it was, but for one cell's value."""
-        place = None if cell is None else self.cells.index(cell)
-        self._simulation.ask(messages.PutBack(snapshot.number, place, value), messages.Done)
+        index = None if cell is None else self.cells.index(cell)
+        self._simulation.ask(messages.PutBack(snapshot.number, index, number), messages.Done)
 
     def release(self, snapshot: ApartSnapshot) -> None:
         """Free what `take` saved."""

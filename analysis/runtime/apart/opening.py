@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+import os
+from typing import Unpack
 
-from ..flight.base_simulation import BaseSimulation
-from ..flight.instance import Log
-from ..system.fault import Fault
+from ...common.errors import InputError
+from ..flight.base_simulation import BaseSimulation, Choices
 from ..system.prepared import PreparedSystem
 from .simulation import ApartSimulation
+
+CAN_FORK = hasattr(os, "fork")
 
 
 def flies_here(prepared: PreparedSystem) -> bool:
@@ -16,19 +18,15 @@ def flies_here(prepared: PreparedSystem) -> bool:
     return prepared.is_own or prepared.options.in_process
 
 
-def open_simulation(
-    prepared: PreparedSystem,
-    *,
-    apart: bool = False,
-    varied: Collection[str] = (),
-    wanted: Collection[str] | None = None,
-    faults: Sequence[Fault] = (),
-    excited: Sequence[str] = (),
-    log: Log | None = None,
-) -> BaseSimulation:
-    """A simulation, in a child where it may not be here or is to be ``apart``; see `Simulation`. Raises InputError."""
-    kind = ApartSimulation if apart or not flies_here(prepared) else _simulation_here()
-    return kind(prepared, varied=varied, wanted=wanted, faults=faults, excited=excited, log=log)
+def open_simulation(prepared: PreparedSystem, *, apart: bool = False, **choices: Unpack[Choices]) -> BaseSimulation:
+    """A simulation, in a child where it may not be here or is to be ``apart``; see `Choices`. Raises InputError."""
+    if not CAN_FORK and not flies_here(prepared):
+        (first, *_) = [fmu.label for fmu in prepared.network.fmus.values() if not fmu.is_own]
+        problem = "is foreign, and needs a process of its own, which this operating system cannot fork"
+        raise InputError(first, "", problem, "give `in_process` if you trust it")
+    here = flies_here(prepared) and not (apart and CAN_FORK)
+    kind = _simulation_here() if here else ApartSimulation
+    return kind(prepared, **choices)
 
 
 def _simulation_here() -> type[BaseSimulation]:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
-from ..flight.reset_check import ResetVerdict, store_verdict, verdict_in_cache
+from ..instances.reset_check import ResetVerdict, store_verdict, verdict_in_cache
 from ..system.fmu import Fmu
 from ..system.options import SystemOptions
 from ..system.prepared import PreparedSystem
-from . import messages
 from .connection import ChildEndedError, Connection, Stillness
 from .containment import limits_for
+from .protocol import messages
 from .servers import Subject, fork
 
 

@@ -15,9 +15,9 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
-from .orders import Begin, End, Ended, Forget, Learn, Look
-from .requests import receive_request, send_request
-from .restriction import Restriction
+from .protocol.orders import Begin, End, Ended, Forget, Learn, Look
+from .protocol.requests import receive_request, send_request
+from .system.restriction import Restriction
 
 SERVER_GONE = Ended(0, "the flight server has ended")
 _lock = threading.RLock()
@@ -71,10 +71,10 @@ class ServerProcess:
 
     def __init__(self) -> None:
         self._control, theirs = socket.socketpair()
-        code = f"import sys; sys.path[:] = {sys.path!r}; from {__package__}.server import main; main({theirs.fileno()})"
+        start = f"from {__package__}.server.server import main; main({theirs.fileno()})"
         with theirs:
             subprocess.Popen(
-                [sys.executable, "-c", code],
+                [sys.executable, "-c", f"import sys; sys.path[:] = {sys.path!r}; {start}"],
                 stdin=subprocess.DEVNULL,
                 pass_fds=[theirs.fileno()],
                 start_new_session=True,

@@ -1,16 +1,16 @@
-"""A simulation in a child: asked as one that is here, with the same bits."""
+"""A simulation in a child: same as one that is here, with the same bits."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing, suppress
+from typing import Unpack
 
 import numpy as np
 
 from ...common.errors import InputError
-from ..flight.base_simulation import NOTHING, BaseSimulation
+from ..flight.base_simulation import NOTHING, BaseSimulation, Choices
 from ..flight.endings import FLIGHT_STATUSES
-from ..flight.instance import Log
 from ..flight.program import layout_of
 from ..flight.recorder import Phase, rows_between
 from ..flight.results import COMPLETE, CRASHED, Flight
@@ -18,44 +18,35 @@ from ..flight.selection import check_replaced
 from ..ssp.parameter_sets import ParameterValue
 from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
-from . import messages
 from .connection import ChildEndedError, Connection, Stillness
 from .containment import limits_for
 from .memory import ApartMemory
+from .protocol import messages
+from .protocol.shared_recorder import SharedRecorder, make_recorder
 from .resets import find_verdicts
 from .servers import Subject, fork
-from .shared_recorder import SharedRecorder, make_recorder
 
 RECORDERS = 2  # one flight is looked at while the next one flies
 SEE_LOG = "see what it logs with `log`"
 
 
 class ApartSimulation(BaseSimulation):
-    """Instances of a system's FMUs in a child of the flight server; arguments as `BaseSimulation`'s.
+    """Instances of a system's FMUs in a child of the flight server.
 
     A flight whose process ends comes back ``crashed``, ``hung`` or ``out_of_memory``, with its rows. A child flies
     again and again, but is replaced after a flight that has gone wrong, since an FMU that did may have harmed it.
     Raises InputError where a child ends otherwise than in flight.
     """
 
-    def __init__(
-        self,
-        prepared: PreparedSystem,
-        *,
-        varied: Collection[str] = (),
-        wanted: Collection[str] | None = None,
-        faults: Sequence[Fault] = (),
-        excited: Sequence[str] = (),
-        log: Log | None = None,
-    ) -> None:
-        super().__init__(prepared, varied=varied, wanted=wanted, faults=faults, excited=excited, log=log)
+    def __init__(self, prepared: PreparedSystem, **choices: Unpack[Choices]) -> None:
+        super().__init__(prepared, **choices)
         injections = self._selection.injections(prepared.step)
         self.layout = layout_of(prepared.network, self.settings, self._selection.wanted, injections)
         self.signal_names = self._selection.signal_names(self.layout, prepared.network.file)
         self._types = {name: self.layout.types[name] for name in self.signal_names}
         self._values: dict[str, ParameterValue] = {}
-        self._told: dict[str, ParameterValue] = {}  # what the child knows of both
-        self._told_faults: tuple[Fault | None, ...] | None = None
+        self._sent: dict[str, ParameterValue] = {}  # what the child knows of both
+        self._sent_faults: tuple[Fault | None, ...] | None = None
         self._recorders: list[SharedRecorder] = []  # of the child
         self._turn = 0  # which of them takes the flight that is under way
         self._pending: messages.Fly | None = None  # announced: under way, or waiting to be looked at
@@ -81,7 +72,7 @@ class ApartSimulation(BaseSimulation):
         recorder = self._make_recorder(rows_between(-1, prepared.steps))
         recorder.enter(Phase.INSTANTIATION)
         self._recorders, self._turn = [recorder], 0
-        self.flights, self._told, self._told_faults = 0, {}, None
+        self.flights, self._sent, self._sent_faults = 0, {}, None
         level = None if self._log is None else self._log.level
         with closing(recorder):
             child = fork(
@@ -160,23 +151,23 @@ class ApartSimulation(BaseSimulation):
     def _is_as_announced(
         self, pending: messages.Fly, first: int, last: int, every: int, excitation: np.ndarray
     ) -> bool:
-        """Whether a flight that was announced is the one that is asked for."""
-        asked = (first, last, every, excitation.size) == (pending.first, pending.last, pending.every, 0)
-        return asked and self._told == self._values and self._told_faults == tuple(self._faults)
+        """Whether a flight that was announced is the one that is same for."""
+        same = (first, last, every, excitation.size) == (pending.first, pending.last, pending.every, 0)
+        return same and self._sent == self._values and self._sent_faults == tuple(self._faults)
 
     def _depart(self, first: int, last: int, every: int, excitation: np.ndarray) -> messages.Fly:
         """Let the child fly, into the recorder that the last flight does not lie in."""
         self._make_ready(first)
         self._take_turn(rows_between(first, last, every))
         faults = tuple(self._faults)
-        values = {name: value for name, value in self._values.items() if self._told.get(name, self) != value}
+        values = {name: value for name, value in self._values.items() if self._sent.get(name, self) != value}
         request = messages.Fly(
-            self._turn, first, last, every, values, None if faults == self._told_faults else faults, excitation
+            self._turn, first, last, every, values, None if faults == self._sent_faults else faults, excitation
         )
         self.flights += first < 0
-        self._connection.tell(request)
-        self._told |= values
-        self._told_faults = faults
+        self._connection.send(request)
+        self._sent |= values
+        self._sent_faults = faults
         return request
 
     def _make_ready(self, first: int) -> None:
@@ -187,7 +178,7 @@ class ApartSimulation(BaseSimulation):
             self._connection = self._begin()
         elif self.flights == 1:
             verdicts = find_verdicts(self.prepared)
-            self._connection.tell(messages.KnownVerdicts({key: (it.resets, it.reason) for key, it in verdicts.items()}))
+            self._connection.send(messages.KnownVerdicts({key: (it.resets, it.reason) for key, it in verdicts.items()}))
 
     def _take_turn(self, rows: int) -> None:
         """Go on to the other recorder; the child is given one where it has none, or too small a one."""

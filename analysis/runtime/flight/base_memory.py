@@ -39,7 +39,7 @@ class BaseMemory(ABC, Generic[Snapshot]):
         """Save everything at communication point ``point``; `release` it in the end."""
 
     @abstractmethod
-    def put_back(self, snapshot: Snapshot, cell: Cell | None = None, value: float = 0.0) -> None:
+    def put_back(self, snapshot: Snapshot, cell: Cell | None = None, number: float = 0.0) -> None:
         """Everything as it was, but for one cell's value."""
 
     @abstractmethod

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any, Self
+from typing import Any, Self, TypedDict, Unpack
 
 import numpy as np
 
+from ..instances.instance import Log
 from ..ssp.parameter_sets import ParameterValue
 from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
 from .base_memory import BaseMemory
-from .instance import Log
 from .program import Layout
 from .recorder import FlightRecorder
 from .results import Flight, Provenance, Result, provenance_of
@@ -21,37 +21,43 @@ from .selection import Selection
 NOTHING = np.zeros((0, 0))  # no excitation
 
 
-class BaseSimulation(ABC):
-    """``varied`` names the parameters (``component.variable``) that `fly` may be given anew; ``wanted`` the signals to
-    record (None: all outputs, connected inputs and system connectors); ``faults`` those that fly unless `set_faults`
+class Choices(TypedDict, total=False):
+    """``varied`` names the parameters (``component.variable``) that flights may be given anew; ``wanted`` the signals
+    to record (None: all outputs, connected inputs and system connectors); ``faults`` those that fly unless `set_faults`
     says otherwise; ``excited`` the connectors that `advance` may add signals to; ``log`` is told what the FMUs say.
+    """
 
-    Use it as a context manager: it frees the instances. Not shared between threads, but for `interrupt` and `give_up`.
+    varied: Collection[str]
+    wanted: Collection[str] | None
+    faults: Sequence[Fault]
+    excited: Sequence[str]
+    log: Log | None
+
+
+class BaseSimulation(ABC):
+    """Use it as a context manager: it frees the instances. Not shared between threads, but for `interrupt`, `give_up`.
+
+    Raises InputError for names that the system does not have.
     """
 
     recorder: FlightRecorder
     layout: Layout
     signal_names: list[str]
 
-    def __init__(
-        self,
-        prepared: PreparedSystem,
-        *,
-        varied: Collection[str] = (),
-        wanted: Collection[str] | None = None,
-        faults: Sequence[Fault] = (),
-        excited: Sequence[str] = (),
-        log: Log | None = None,
-    ) -> None:
+    def __init__(self, prepared: PreparedSystem, **choices: Unpack[Choices]) -> None:
         self.prepared = prepared
+        wanted, faults = choices.get("wanted"), tuple(choices.get("faults", ()))
         self._selection = Selection(
-            tuple(varied), None if wanted is None else tuple(wanted), tuple(faults), tuple(excited)
+            tuple(choices.get("varied", ())),
+            None if wanted is None else tuple(wanted),
+            faults,
+            tuple(choices.get("excited", ())),
         )
         self._selection.check_faults(prepared.network)
         self._varied = self._selection.keys(prepared.network)
         self.settings = self._selection.settings(prepared, self._varied)
         self._faults: Sequence[Fault | None] = faults
-        self._log = log
+        self._log = choices.get("log")
 
     def fly(self, values: Mapping[str, ParameterValue] | None = None, *, every: int = 1) -> Result:
         """One flight from the start, with ``values`` for varied parameters; every n-th row is kept.

@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from fmpy import fmi2
 
+from ..instances.instance import Instance, status_word
+from ..instances.library import FUNCTION_NAMES
 from .compiled import arrays, codes
-from .instance import Instance, status_word
-from .library import FUNCTION_NAMES
 from .parameters import LONGEST
 from .program import Layout
 

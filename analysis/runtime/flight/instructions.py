@@ -7,11 +7,11 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
+from ..instances.instance import Instance
+from ..instances.library import FUNCTION_NAMES
 from ..system.schedule import Schedule
 from .compiled import codes
 from .in_memory import Run, runs_in_memory, with_moves
-from .instance import Instance
-from .library import FUNCTION_NAMES
 from .parameters import Texts
 
 TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}

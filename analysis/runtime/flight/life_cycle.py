@@ -8,11 +8,11 @@ from collections.abc import Set as AbstractSet
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
+from ..instances.instance import Instance
+from ..instances.reset_check import ResetVerdict, reset_verdict, store_verdict, verdict_in_cache
 from .compiled import arrays, codes
 from .endings import Outcome, check_initialisation
-from .instance import Instance
 from .instructions import InstructionList
-from .reset_check import ResetVerdict, reset_verdict, store_verdict, verdict_in_cache
 
 
 class LifeCycle:

@@ -11,11 +11,11 @@ import numpy as np
 from lxml import etree
 
 from ...common.errors import InputError
+from ..instances.instance import Instance
 from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem
 from .base_memory import BaseMemory, Cell
 from .compiled import arrays
-from .instance import Instance
 from .program import Layout
 
 STATE_ANNOTATION = "org.perilune.state"  # in modelDescription.xml of FMUs that tell how they serialise their memory
@@ -109,7 +109,7 @@ class Memory(BaseMemory[Snapshot]):
         buffers = self._buffers
         return Snapshot(point, states, serialized, buffers.values.copy(), buffers.whole.copy(), buffers.frozen.copy())
 
-    def put_back(self, snapshot: Snapshot, cell: Cell | None = None, value: float = 0.0) -> None:
+    def put_back(self, snapshot: Snapshot, cell: Cell | None = None, number: float = 0.0) -> None:
         """Everything as it was, but for one cell's value."""
         for component, instance in self._instances.items():
             instance.slave.setFMUstate(snapshot.states[component])
@@ -120,10 +120,10 @@ class Memory(BaseMemory[Snapshot]):
         if cell is None:
             return
         if cell.component is None:
-            buffers.values[cell.place] = value
+            buffers.values[cell.place] = number
             return
         slave = self._instances[cell.component].slave
-        changed = self._write[cell.component](snapshot.serialized[cell.component], cell.place, value)
+        changed = self._write[cell.component](snapshot.serialized[cell.component], cell.place, number)
         state = slave.deSerializeFMUstate(changed)
         slave.setFMUstate(state)
         slave.freeFMUstate(state)

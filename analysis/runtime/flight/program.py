@@ -10,6 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from fmpy.model_description import ScalarVariable
 
+from ..instances.instance import Instance
+from ..instances.library import FUNCTION_NAMES
 from ..ssp.conversions import IDENTITY
 from ..system.assignments import Settings, numbers
 from ..system.checks import connector_type
@@ -21,9 +23,7 @@ from ..system.network import Link, Network, Node
 from ..system.prepared import PreparedSystem
 from ..system.schedule import origin
 from .compiled import arrays, codes
-from .instance import Instance
 from .instructions import InstructionList, write_instructions
-from .library import FUNCTION_NAMES
 from .parameters import TYPE_KIND, Parameters, Texts
 
 KIND_NUMBERS = {"override": codes.OVERRIDE, "bias": codes.BIAS, "freeze": codes.FREEZE}

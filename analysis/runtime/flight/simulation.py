@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Unpack
 
 import numpy as np
 
+from ..instances.instance import Instance, instantiate
 from ..ssp.parameter_sets import ParameterValue
 from ..system.fault import Fault
 from ..system.prepared import PreparedSystem, no_collection
-from .base_simulation import NOTHING, BaseSimulation
+from .base_simulation import NOTHING, BaseSimulation, Choices
 from .compiled import arrays, codes, loop
 from .endings import TERMINATED, Outcome, end_request, in_words
-from .instance import Instance, Log, instantiate
 from .instructions import write_ending
 from .life_cycle import LifeCycle
 from .memory import Memory
@@ -26,25 +27,17 @@ from .selection import TIME_MARGIN, check_replaced
 class Simulation(BaseSimulation):
     """Instances of a system's FMUs in this process, reset and reused from flight to flight.
 
-    Arguments as `BaseSimulation`'s; ``recorder`` is where rows are written to.
+    ``recorder`` is where rows are written to.
     """
 
     def __init__(
-        self,
-        prepared: PreparedSystem,
-        *,
-        varied: Collection[str] = (),
-        wanted: Collection[str] | None = None,
-        faults: Sequence[Fault] = (),
-        excited: Sequence[str] = (),
-        log: Log | None = None,
-        recorder: FlightRecorder | None = None,
+        self, prepared: PreparedSystem, *, recorder: FlightRecorder | None = None, **choices: Unpack[Choices]
     ) -> None:
-        super().__init__(prepared, varied=varied, wanted=wanted, faults=faults, excited=excited, log=log)
+        super().__init__(prepared, **choices)
         self.recorder = FlightRecorder() if recorder is None else recorder
         self.instances: dict[str, Instance] = {}
-        if log is not None:
-            log.follow(self.recorder, prepared.start, prepared.step)
+        if self._log is not None:
+            self._log.follow(self._time)
         with no_collection():
             self._instantiate()
 
@@ -102,12 +95,14 @@ class Simulation(BaseSimulation):
                 self.program.fault_value[number] = injection.value
         self._faults = faults
 
+    def _time(self) -> float:
+        """Of the communication point under way (s)."""
+        return self.prepared.start + self.recorder.point * self.prepared.step
+
     def record_into(self, recorder: FlightRecorder) -> None:
         """Write the rows of the flights that follow elsewhere; ends no flight."""
         self.recorder = recorder
         self.buffers = self.buffers._replace(outcome=recorder.outcome, halt=recorder.halt)
-        if self._log is not None:
-            self._log.follow(recorder, self.prepared.start, self.prepared.step)
 
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
         """See `BaseSimulation.advance`."""

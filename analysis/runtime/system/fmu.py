@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import io
 import shutil
-import tempfile
 import weakref
 import zipfile
 from collections import Counter
@@ -21,6 +20,7 @@ from lxml import etree
 
 from ....fmus_src.own_digests import is_own
 from ...common.errors import InputError
+from ...common.scratch import make_folder
 from ..ssp.archive import open_zip
 from ..ssp.conversions import Unit, units_of_fmu
 from ..ssp.documents import parse_xml
@@ -103,7 +103,7 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
         runs_python = description.coSimulation.needsExecutionTool
         remedy = "take its native flavour" if runs_python else "compile the FMU's sources for it"
         raise InputError(label, binary, "no binary for this platform", remedy)
-    folder = Path(tempfile.mkdtemp(prefix="perilune_"))
+    folder = make_folder()
     digest = hashlib.sha256(data).hexdigest()
     fmu = Fmu(label, digest, description, folder, is_own=is_own(digest), flaws=list(flaws))
     # Others' may reach for any of their files: FMPy's remoting starts a server of binaries/win32 from binaries/win64.

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from perilune.analysis.runtime.flight.instance import instantiate
+from perilune.analysis.runtime.instances.instance import instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.navigation.kalman import KalmanNavigation

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from perilune.analysis.runtime.apart.restriction import find_missing
+from perilune.analysis.runtime.apart.system.restriction import find_missing
 from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
 
 pytestmark = [pytest.mark.flies, pytest.mark.skipif(bool(find_missing()), reason="the system restricts no processes")]
@@ -46,14 +46,14 @@ def test_what_is_refused(tmp_path):
 def test_what_is_allowed(tmp_path):
     said = tries(tmp_path, "--allow", "network", "--allow", f"write={tmp_path / 'results'}")
     done = ("own folder", "results", "TCP", "UDP", "AF_UNIX", "socketpair")
-    assert {name for name, word in said.items() if word == "done"} - {"signal to all"} == set(done)
+    assert {name for name, answer in said.items() if answer == "done"} - {"signal to all"} == set(done)
     assert [path.name for path in (tmp_path / "results").iterdir()] == ["tried"]
 
 
 # Answers ENOSYS to Landlock's calls and to new filters, as an older system does, and becomes the command.
 WITHOUT = """
 import ctypes, errno, os, sys
-from perilune.analysis.runtime.apart import restriction as r
+from perilune.analysis.runtime.apart.system import restriction as r
 ENOSYS = 0x00050000 | errno.ENOSYS
 code = [r._instruction(r.LOAD, r.NUMBER)]
 for number in (444, 445, 446, 317):
@@ -86,7 +86,7 @@ def test_a_system_without_restrictions(tmp_path, options, status):
 # Becomes the user nobody, restricts itself and tries.
 AS_NOBODY = """
 import ctypes, os, socket, sys
-from perilune.analysis.runtime.apart.restriction import Restriction, restrict
+from perilune.analysis.runtime.apart.system.restriction import Restriction, restrict
 mine, others = sys.argv[1:]
 ctypes.CDLL(None), os.setgid(65534), os.setuid(65534)
 restrict(Restriction((mine,), network=False))

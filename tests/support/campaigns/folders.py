@@ -11,7 +11,7 @@ from pathlib import Path
 import psutil
 import pyarrow.parquet
 
-SERVER = "apart.server import main"  # what the command line of a flight server, and of its children, has
+SERVER = "apart.server.server import main"  # what the command line of a flight server, and of its children, has
 
 
 def bytes_of(folder):

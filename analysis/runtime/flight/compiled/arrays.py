@@ -86,30 +86,30 @@ class Buffers(NamedTuple):
 
 def blank() -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray]:
     """Arguments of the loop, without a system: their types are those of all systems."""
-    real, whole, text, place, byte = np.float64, np.int32, np.uint64, np.int64, np.uint8
+    real, whole, text, index, byte = np.float64, np.int32, np.uint64, np.int64, np.uint8
     row, rows = 0, (0, 0)
     settings = Settings(np.zeros(row, real), np.zeros(row, whole), np.zeros(row, text))
     program = Program(
         instructions=np.zeros(rows, text),
         reset_end=0,
-        phases=np.zeros(row, place),
+        phases=np.zeros(row, index),
         reference=np.zeros(row, np.uint32),
         initial=np.zeros(row, real),
         parameter_reference=np.zeros(row, np.uint32),
         tolerance=np.zeros(row, real),
-        source=np.zeros(row, place),
-        target=np.zeros(row, place),
+        source=np.zeros(row, index),
+        target=np.zeros(row, index),
         factor=np.zeros(row, real),
         offset=np.zeros(row, real),
-        table=np.zeros(rows, place),
+        table=np.zeros(rows, index),
         table_from=np.zeros(row, real),
         table_to=np.zeros(row, real),
         finished_slot=0,
-        fault_slot=np.zeros(row, place),
-        fault_kind=np.zeros(row, place),
+        fault_slot=np.zeros(row, index),
+        fault_kind=np.zeros(row, index),
         fault_window=np.zeros(rows, real),
         fault_value=np.zeros(row, real),
-        drive_slot=np.zeros(row, place),
+        drive_slot=np.zeros(row, index),
         drive_table=np.zeros(rows, real),
     )
     texts = Texts(
@@ -120,9 +120,9 @@ def blank() -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray]:
         whole=np.zeros(row, whole),
         frozen=np.zeros(row, real),
         read_back=settings,
-        outcome=np.zeros(row, place),
+        outcome=np.zeros(row, index),
         texts=texts,
-        halt=np.zeros(row, place),
+        halt=np.zeros(row, index),
     )
     span = Span(reset=False, start=0.0, step=0.0, stop=0.0, first=0, last=0)
     return (
@@ -130,6 +130,6 @@ def blank() -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray]:
         buffers,
         settings,
         span,
-        Recording(np.zeros(row, place), 0, np.zeros(rows), np.zeros(row)),
+        Recording(np.zeros(row, index), 0, np.zeros(rows), np.zeros(row)),
         np.zeros(rows),
     )

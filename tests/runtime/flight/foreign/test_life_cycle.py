@@ -10,8 +10,8 @@ import pytest
 
 import perilune
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.runtime.flight.reset_check import ResetVerdict, reset_verdict
 from perilune.analysis.runtime.flight.simulation import Simulation
+from perilune.analysis.runtime.instances.reset_check import ResetVerdict, reset_verdict
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import component, document, fly, pack, system

@@ -20,18 +20,19 @@ import time
 import traceback
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, NoReturn
 
-from ..flight.compiled import loop
+from ....common.scratch import make_folder
+from ...flight.compiled import loop
+from ..protocol.orders import OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
+from ..protocol.requests import receive_request, send_request
+from ..system.restriction import Restriction, restrict
+from ..system.system_calls import adopt_orphans, child_processes, end_with_parent, resident_memory
 from . import child
-from .orders import OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
 from .printed import Printed
-from .requests import receive_request, send_request
-from .restriction import Restriction, restrict
-from .system_calls import adopt_orphans, child_processes, end_with_parent, resident_memory
 
 LOOK = 0.1  # s, between looks at the children's memory
-SCRATCH = "perilune_flight_"
 GRACE = 0.2  # s that a child has to end after it has closed its channel
 
 
@@ -39,7 +40,7 @@ GRACE = 0.2  # s that a child has to end after it has closed its channel
 class _Child:
     pid: int
     printed: Printed
-    scratch: str  # its folder
+    scratch: Path
     memory: int
     status: int | None = None
     reason: str = ""
@@ -84,11 +85,11 @@ class FlightServer:
             send_request(self._control, self._end(request))
 
     def _begin(self, request: Begin, descriptors: list[int]) -> None:
-        scratch = tempfile.mkdtemp(prefix=SCRATCH)
+        scratch = make_folder()
         read, write = os.pipe()
         pid = os.fork()
         if not pid:
-            _work(request, self._subjects[request.key], descriptors, write, scratch)
+            _work(request, self._subjects[request.key], descriptors, write, str(scratch))
         for descriptor in (*descriptors, write):
             os.close(descriptor)
         os.set_blocking(read, False)
@@ -194,8 +195,8 @@ def _settle_in(scratch: str, restriction: Restriction | None) -> None:
         restrict(replace(restriction, writable=(scratch, *restriction.writable)))
 
 
-def _close_all_but(kept: set[int]) -> None:
-    bounds = [*sorted(kept), os.sysconf("SC_OPEN_MAX")]
+def _close_all_but(remaining: set[int]) -> None:
+    bounds = [*sorted(remaining), os.sysconf("SC_OPEN_MAX")]
     for before, after in itertools.pairwise(bounds):
         os.closerange(before + 1, after)
 

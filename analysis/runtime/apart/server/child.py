@@ -10,16 +10,16 @@ from collections.abc import Sequence
 from functools import singledispatchmethod
 from typing import Any
 
-from ...common.errors import InputError
-from ..flight.instance import Log, leave_messages_unformatted
-from ..flight.memory import Memory, Snapshot
-from ..flight.reset_check import ResetVerdict, reset_verdict, store_verdict
-from ..flight.simulation import Simulation
-from ..system.prepared import PreparedSystem
-from . import messages
-from .messages import ResetTrial, SystemFlights, send_answer, send_line, send_numbers
-from .requests import receive_request
-from .shared_recorder import SharedRecorder
+from ....common.errors import InputError
+from ...flight.memory import Memory, Snapshot
+from ...flight.simulation import Simulation
+from ...instances.instance import Log, leave_messages_unformatted
+from ...instances.reset_check import ResetVerdict, reset_verdict, store_verdict
+from ...system.prepared import PreparedSystem
+from ..protocol import messages
+from ..protocol.messages import ResetTrial, SystemFlights, send_answer, send_line, send_numbers
+from ..protocol.requests import receive_request
+from ..protocol.shared_recorder import SharedRecorder
 
 
 def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket, memory: Sequence[int]) -> None:
@@ -108,35 +108,35 @@ class _Pilot:
         send_answer(self._channel, messages.Done())
 
     @property
-    def _cells(self) -> Memory:
+    def _system_memory(self) -> Memory:
         if self._memory is None:
             self._memory = self._simulation.memory()
         return self._memory
 
     @_answer.register
-    def _(self, _request: messages.ListCells, _descriptors: list[int]) -> None:
-        cells = [(cell.name, cell.unit, cell.component, cell.place) for cell in self._cells.cells]
-        send_answer(self._channel, messages.CellList(cells))
+    def _(self, _request: messages.ListMemory, _descriptors: list[int]) -> None:
+        entries = [(cell.name, cell.unit, cell.component, cell.place) for cell in self._system_memory.cells]
+        send_answer(self._channel, messages.CellList(entries))
 
     @_answer.register
-    def _(self, _request: messages.ReadCells, _descriptors: list[int]) -> None:
-        send_numbers(self._channel, self._cells.read())
+    def _(self, _request: messages.ReadMemory, _descriptors: list[int]) -> None:
+        send_numbers(self._channel, self._system_memory.read())
 
     @_answer.register
     def _(self, request: messages.TakeSnapshot, _descriptors: list[int]) -> None:
         number = max(self._snapshots, default=0) + 1
-        self._snapshots[number] = self._cells.take(request.point)
+        self._snapshots[number] = self._system_memory.take(request.point)
         send_answer(self._channel, messages.Done(number))
 
     @_answer.register
     def _(self, request: messages.PutBack, _descriptors: list[int]) -> None:
-        cell = None if request.cell is None else self._cells.cells[request.cell]
-        self._cells.put_back(self._snapshots[request.snapshot], cell, request.value)
+        cell = None if request.cell is None else self._system_memory.cells[request.cell]
+        self._system_memory.put_back(self._snapshots[request.snapshot], cell, request.number)
         send_answer(self._channel, messages.Done())
 
     @_answer.register
     def _(self, request: messages.ReleaseSnapshot, _descriptors: list[int]) -> None:
-        self._cells.release(self._snapshots.pop(request.snapshot))
+        self._system_memory.release(self._snapshots.pop(request.snapshot))
         send_answer(self._channel, messages.Done())
 
 

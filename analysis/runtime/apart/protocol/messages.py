@@ -13,9 +13,9 @@ from typing import TypeVar
 import msgspec
 import numpy as np
 
-from ..flight.selection import Selection
-from ..ssp.parameter_sets import ParameterValue
-from ..system.fault import Fault
+from ...flight.selection import Selection
+from ...ssp.parameter_sets import ParameterValue
+from ...system.fault import Fault
 from .requests import receive_bytes
 
 HEADER = struct.Struct("<cI")
@@ -84,12 +84,12 @@ class NewRecorder:
 
 
 @dataclass(frozen=True)
-class ListCells:
+class ListMemory:
     """The cells of the system's memory."""
 
 
 @dataclass(frozen=True)
-class ReadCells:
+class ReadMemory:
     """Their values."""
 
 
@@ -102,7 +102,7 @@ class TakeSnapshot:
 class PutBack:
     snapshot: int
     cell: int | None
-    value: float
+    number: float
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,7 @@ class Refused(msgspec.Struct, tag=True, forbid_unknown_fields=True):
 class CellList(msgspec.Struct, tag=True, forbid_unknown_fields=True):
     """Names, units, components and places of `memory.Cell`."""
 
-    cells: list[tuple[str, str | None, str | None, int]]
+    entries: list[tuple[str, str | None, str | None, int]]
 
 
 class Verdict(msgspec.Struct, tag=True, forbid_unknown_fields=True):

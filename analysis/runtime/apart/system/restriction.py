@@ -190,6 +190,6 @@ def _filter_code(refused: Sequence[int], signals: Iterable[int], process: int) -
     return [*code, _instruction(RETURN, ALLOW)]
 
 
-def _instruction(code: int, value: int, true: int = 0, false: int = 0) -> bytes:
+def _instruction(code: int, operand: int, true: int = 0, false: int = 0) -> bytes:
     """One of BPF; ``true`` and ``false`` are how many a comparison skips."""
-    return struct.pack("=HBBI", code, true, false, value)
+    return struct.pack("=HBBI", code, true, false, operand)

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import fcntl
 import mmap
 import os
 import tempfile
-from contextlib import suppress
 
 import numpy as np
 
-from ..flight.recorder import OUTCOME_WORDS, FlightRecorder
-from .system_calls import IS_LINUX
+from ...flight.recorder import OUTCOME_WORDS, FlightRecorder
+from ..system.system_calls import add_seals
 
-WORD = 8  # bytes, of every number here
+NUMBER_SIZE = 8  # bytes, of every number here
 HEAD = OUTCOME_WORDS + 3  # words: outcome, halt, phase
 F_SEAL_SHRINK, F_SEAL_GROW, F_SEAL_FUTURE_WRITE = 0x2, 0x4, 0x10  # of <linux/fcntl.h>
 NAME = "perilune_flight"
@@ -26,7 +24,7 @@ class SharedRecorder(FlightRecorder):
         memory = mmap.mmap(descriptor, size_of(signals, rows))
         self.descriptor = descriptor
         words = np.frombuffer(memory, dtype=np.int64, count=HEAD)
-        numbers = np.frombuffer(memory, dtype=np.float64, offset=HEAD * WORD)
+        numbers = np.frombuffer(memory, dtype=np.float64, offset=HEAD * NUMBER_SIZE)
         super().__init__(
             record=numbers[rows:].reshape(signals, rows),
             times=numbers[:rows],
@@ -40,7 +38,7 @@ class SharedRecorder(FlightRecorder):
 
     def seal(self) -> None:
         """Have the memory written by those alone who have mapped it, and not as a file by whoever has that open."""
-        _seal(self.descriptor, F_SEAL_FUTURE_WRITE)
+        add_seals(self.descriptor, F_SEAL_FUTURE_WRITE)
 
     def close(self) -> None:
         """Close the file; the rows stay as long as someone has them."""
@@ -50,7 +48,7 @@ class SharedRecorder(FlightRecorder):
 
 
 def size_of(signals: int, rows: int) -> int:
-    return WORD * (HEAD + rows * (signals + 1))
+    return NUMBER_SIZE * (HEAD + rows * (signals + 1))
 
 
 def make_recorder(signals: int, rows: int) -> SharedRecorder:
@@ -58,18 +56,11 @@ def make_recorder(signals: int, rows: int) -> SharedRecorder:
     descriptor = _open()
     try:
         os.ftruncate(descriptor, size_of(signals, rows))
-        _seal(descriptor, F_SEAL_SHRINK | F_SEAL_GROW)
+        add_seals(descriptor, F_SEAL_SHRINK | F_SEAL_GROW)
         return SharedRecorder(descriptor, signals, rows)
     except BaseException:
         os.close(descriptor)
         raise
-
-
-def _seal(descriptor: int, seals: int) -> None:
-    """Files elsewhere than in Linux's memory cannot be sealed."""
-    if IS_LINUX:
-        with suppress(OSError):
-            fcntl.fcntl(descriptor, fcntl.F_ADD_SEALS, seals)
 
 
 def _open() -> int:

@@ -18,7 +18,6 @@ from ...common.visible import visible, visible_line
 from ..system.fmu import Fmu
 from ..system.options import LOG_LEVELS, SAID_FROM
 from .library import LOADING, Library, acquire, release
-from .recorder import FlightRecorder
 
 MOST_MESSAGES = 1000  # of a component, in a flight
 LONGEST_MESSAGE = 4096  # bytes
@@ -42,24 +41,21 @@ class Log:
         self.place = ""
         self.emit = self.write_line if emit is None else emit
         self._counts: dict[str, int] = {}  # of messages, by component
-        self._clock: tuple[FlightRecorder, float, float] | None = None
+        self._clock: Callable[[], float] | None = None
 
     @property
     def everything(self) -> bool:
         """Whether FMUs are asked for all of their categories."""
         return self.level == LOG_LEVELS[-1]
 
-    def follow(self, recorder: FlightRecorder, start: float, step: float) -> None:
-        """Take the time (s) from a flight whose communication points are ``step`` apart."""
-        self._clock = recorder, start, step
+    def follow(self, clock: Callable[[], float]) -> None:
+        """Put the time (s) of a flight before each message, as ``clock`` gives it."""
+        self._clock = clock
 
     def write(self, component: str, status: int, category: str, message: str) -> None:
         """One message, on one line: what an FMU breaks into several is put together with bars."""
         if not 0 <= status < len(STATUSES) or status >= SAID_FROM[self.level]:
-            time = ""
-            if self._clock is not None:
-                recorder, start, step = self._clock
-                time = f"t = {start + recorder.point * step:.9g} s: "
+            time = "" if self._clock is None else f"t = {self._clock():.9g} s: "
             self._counts[component] = self._counts.get(component, 0) + 1
             if self._counts[component] > MOST_MESSAGES:
                 return

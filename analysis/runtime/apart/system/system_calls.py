@@ -9,6 +9,9 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
+with suppress(ImportError):  # on Windows
+    import fcntl
+
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
 IS_LINUX = sys.platform == "linux"
 
@@ -27,11 +30,11 @@ def adopt_orphans() -> None:
 
 def child_processes() -> list[int]:
     """This process's children, where the system says so."""
-    found: list[int] = []
+    processes: list[int] = []
     for task in Path("/proc/self/task").glob("*/children"):
         with suppress(OSError):
-            found += map(int, task.read_text().split())
-    return found
+            processes += map(int, task.read_text().split())
+    return processes
 
 
 def resident_memory(process: int) -> int:
@@ -40,3 +43,10 @@ def resident_memory(process: int) -> int:
         return int(Path(f"/proc/{process}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
     except (OSError, IndexError, ValueError):
         return 0
+
+
+def add_seals(descriptor: int, seals: int) -> None:
+    """Seals of a file in memory (fcntl, F_ADD_SEALS); other files have none."""
+    if IS_LINUX:
+        with suppress(OSError):
+            fcntl.fcntl(descriptor, fcntl.F_ADD_SEALS, seals)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from .restriction import Restriction
+from ..system.restriction import Restriction
 
 OUT_OF_MEMORY = "out of memory"  # a reason to be ended
 

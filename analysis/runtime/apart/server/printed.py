@@ -6,9 +6,9 @@ import os
 import sys
 from contextlib import suppress
 
-from ...common.visible import visible_line
+from ....common.visible import visible_line
 
-PIECE = 65536  # bytes read at once
+BLOCK = 65536  # bytes read at once
 LONGEST_LINE = 4096  # bytes
 MOST_LINES = 1000  # of a child
 
@@ -18,7 +18,7 @@ class Printed:
 
     def __init__(self, descriptor: int) -> None:
         self.descriptor = descriptor
-        self._rest = b""
+        self._partial = b""
         self._lines = 0
         self.is_closed = False
 
@@ -26,24 +26,24 @@ class Printed:
         """Pass on what there is; returns whether more may come."""
         while True:
             try:
-                piece = os.read(self.descriptor, PIECE)
+                block = os.read(self.descriptor, BLOCK)
             except BlockingIOError:
                 return True
-            if not piece:
+            if not block:
                 return False
-            *lines, self._rest = (self._rest + piece).split(b"\n")
+            *lines, self._partial = (self._partial + block).split(b"\n")
             for line in lines:
                 self._write(line)
-            if len(self._rest) > LONGEST_LINE:
-                self._write(self._rest)
-                self._rest = b""
+            if len(self._partial) > LONGEST_LINE:
+                self._write(self._partial)
+                self._partial = b""
 
     def close(self) -> None:
         """Pass on the last line, say how many were left out, and close the pipe."""
         self.is_closed = True
         os.close(self.descriptor)
-        if self._rest:
-            self._write(self._rest)
+        if self._partial:
+            self._write(self._partial)
         if self._lines > MOST_LINES:
             _print(f"... and {self._lines - MOST_LINES} lines more")
 

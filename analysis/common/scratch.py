@@ -1,0 +1,48 @@
+"""Folders for a while: they go with the process that made them or, should it be killed, when the next one makes one."""
+
+from __future__ import annotations
+
+import atexit
+import shutil
+import tempfile
+import time
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+
+PREFIX = "perilune_"
+LOCK = "lock"  # in each process's folder, locked as long as it lives
+YOUNG = 60.0  # s, in which a folder may not be locked yet
+
+
+def make_folder() -> Path:
+    """A new folder among the temporary files; whoever made it removes it, or it goes with the process."""
+    return Path(tempfile.mkdtemp(dir=_folder()[0]))
+
+
+def remove_all() -> None:
+    """Remove all folders of this process, which is about to end."""
+    if _folder.cache_info().currsize:
+        shutil.rmtree(_folder()[0], ignore_errors=True)
+
+
+@cache
+def _folder() -> tuple[Path, FileLock]:
+    """The folder that has all of this process's, and its lock."""
+    _sweep()
+    folder = Path(tempfile.mkdtemp(prefix=PREFIX))
+    atexit.register(remove_all)
+    lock = FileLock(folder / LOCK)
+    lock.acquire(blocking=False)
+    return folder, lock
+
+
+def _sweep() -> None:
+    """Remove the folders of processes that are gone."""
+    for path in Path(tempfile.gettempdir()).glob(f"{PREFIX}*/{LOCK}"):
+        with suppress(OSError, Timeout):
+            if time.time() - path.lstat().st_mtime > YOUNG:
+                with FileLock(path, blocking=False):
+                    shutil.rmtree(path.parent)

@@ -1,0 +1,1 @@
+"""The flight server and its children, on systems that fork."""

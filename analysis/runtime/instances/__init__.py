@@ -1,0 +1,1 @@
+"""FMUs instantiated: their libraries, their calls, what they log, whether they reset."""
