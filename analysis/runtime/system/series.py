@@ -78,17 +78,17 @@ def _of_file(path: str) -> InputSeries:
         names = [name.strip() for name in next(reader, [])]
         _check_names(path, "line 1", names)
         numbers, lines = array("d"), array("q")
-        for cells in reader:
-            if not cells:
+        for fields in reader:
+            if not fields:
                 continue  # an empty line
-            if len(cells) != len(names):
-                problem = f"{len(cells)} numbers, but {len(names)} columns"
+            if len(fields) != len(names):
+                problem = f"{len(fields)} numbers, but {len(names)} columns"
                 raise InputError(path, f"line {reader.line_num}", problem, "give one for each column")
             try:
-                numbers.extend(map(float, cells))
+                numbers.extend(map(float, fields))
             except ValueError:
                 del numbers[len(lines) * len(names) :]
-                numbers.extend(_number(path, reader.line_num, *pair) for pair in zip(names, cells, strict=True))
+                numbers.extend(_number(path, reader.line_num, *pair) for pair in zip(names, fields, strict=True))
             lines.append(reader.line_num)
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(path, "", f"not a CSV file: {error}", FORM) from error
