@@ -11,11 +11,10 @@ import atexit
 import errno
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
 from typing import Any, NoReturn, TextIO
 
-from .scratch import remove_all
 from .visible import visible
 
 CLOSED = (errno.EPIPE, errno.ESHUTDOWN)
@@ -76,16 +75,26 @@ def steady_streams() -> Iterator[Stream]:
             errors.flush()
 
 
+_farewells: list[Callable[[], object]] = []
+
+
+def at_end(farewell: Callable[[], object]) -> None:
+    """Have something done when this process ends, by `leave` too; the last one first."""
+    _farewells.append(farewell)
+    atexit.register(farewell)
+
+
 def leave(status: int) -> NoReturn:
     """End the process at once with an exit status; what was written to standard output and error is not lost.
 
-    Its temporary folders are removed.
+    What `at_end` was given is done.
     """
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:  # a process can be started without them
             with suppress(OSError):
                 stream.flush()
-    remove_all()
+    for farewell in reversed(_farewells):
+        farewell()
     os._exit(status)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import atexit
 import shutil
 import tempfile
 import time
@@ -11,6 +10,8 @@ from functools import cache
 from pathlib import Path
 
 from filelock import FileLock, Timeout
+
+from .process import at_end
 
 PREFIX = "perilune_"
 LOCK = "lock"  # in each process's folder, locked as long as it lives
@@ -22,7 +23,7 @@ def make_folder() -> Path:
     return Path(tempfile.mkdtemp(dir=_folder()[0]))
 
 
-def remove_all() -> None:
+def _remove_all() -> None:
     """Remove all folders of this process, which is about to end."""
     if _folder.cache_info().currsize:
         shutil.rmtree(_folder()[0], ignore_errors=True)
@@ -33,7 +34,7 @@ def _folder() -> tuple[Path, FileLock]:
     """The folder that has all of this process's, and its lock."""
     _sweep()
     folder = Path(tempfile.mkdtemp(prefix=PREFIX))
-    atexit.register(remove_all)
+    at_end(_remove_all)
     lock = FileLock(folder / LOCK)
     lock.acquire(blocking=False)
     return folder, lock

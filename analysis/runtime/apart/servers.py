@@ -15,11 +15,13 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
+from ...common.process import at_end
 from .protocol.orders import Begin, End, Ended, Forget, Learn, Look
 from .protocol.requests import receive_request, send_request
 from .system.restriction import Restriction
 
 SERVER_GONE = Ended(0, "the flight server has ended")
+PATIENCE = 2.0  # s that a server has to end
 _lock = threading.RLock()
 _numbers = itertools.count(1)
 
@@ -73,7 +75,7 @@ class ServerProcess:
         self._control, theirs = socket.socketpair()
         start = f"from {__package__}.server.server import main; main({theirs.fileno()})"
         with theirs:
-            subprocess.Popen(
+            self._process = subprocess.Popen(
                 [sys.executable, "-c", f"import sys; sys.path[:] = {sys.path!r}; {start}"],
                 stdin=subprocess.DEVNULL,
                 pass_fds=[theirs.fileno()],
@@ -82,6 +84,13 @@ class ServerProcess:
         self._keys: dict[int, int] = {}  # by identity of what the server has
         self._forgotten: deque[int] = deque()  # keys of what is gone here, and not told yet
         self.is_there = True
+
+    def close(self) -> None:
+        """End it, with all its children."""
+        self.is_there = False
+        self._control.close()
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(PATIENCE)
 
     def fork(self, subject: Subject, task: Any, *, folder: str, limits: Limits, files: Sequence[int] = ()) -> Child:
         """A child that does a task of `messages` in a folder. Raises OSError where the server has ended."""
@@ -135,6 +144,7 @@ def start_server() -> ServerProcess:
     with _lock:
         if _server is None or not _server.is_there:
             _server = ServerProcess()
+            at_end(_server.close)
         return _server
 
 

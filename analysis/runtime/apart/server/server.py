@@ -23,6 +23,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NoReturn
 
+from ....common.process import leave
 from ....common.scratch import make_folder
 from ...flight.compiled import loop
 from ..protocol.orders import OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
@@ -211,3 +212,4 @@ def main(control: int) -> None:
         server.serve()
     finally:
         server.close()
+        leave(0)
