@@ -12,9 +12,12 @@ from .options.verb import Verb, options_of
 
 
 def start_early(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> None:
-    """Start it where a command's files have FMUs of others, which it will fly."""
+    """Start it where a command will simulate in processes: FMUs of others, or campaigns with Python FMUs."""
     if "in_process" not in options_of(verb.options) or options.get("in_process"):
         return
     files = [arguments.get("system"), *arguments.get("files", ()), *options.get("use", {}).values()]
-    if any(has_foreign(Path(file)) for file in files if file is not None):
+    in_processes = "engine" in options_of(verb.options) and (
+        options.get("engine") == "processes" or (options.get("flavour") == "python" and options.get("workers") != 1)
+    )
+    if in_processes or any(has_foreign(Path(file)) for file in files if file is not None):
         start_server()

@@ -1,0 +1,138 @@
+"""Foreign FMUs are loaded into children alone: neither the command nor its flight server ever maps their library.
+
+Truth: /proc/PID/maps of every process of the command, read while the FMU waits in a step for the reader.
+"""
+
+from __future__ import annotations
+
+import ast
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+
+from perilune.fmus_src.paths import ROOT
+from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
+
+pytestmark = [pytest.mark.flies, pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")]
+SERVER = "server.server import main"
+CAMPAIGN = """
+system = "odd"
+trials = 30
+seed = 3
+
+[draw."odd.gain"]
+distribution = "uniform"
+low = 1.0
+high = 2.0
+
+[metric.last]
+expression = "odd.y"
+reduction = "final"
+
+[success]
+expression = "last > 0"
+"""
+COMMANDS = {
+    "run": ["run", "{fmu}", "--stop-time", "1"],
+    "validate": ["validate", "{fmu}"],
+    "batch": ["batch", "{fmu}", "--campaign", "{campaign}", "--stop-time", "1", "--step", "0.25", "--workers", "1"],
+    "batch with two workers": ["batch", "{fmu}", "--campaign", "{campaign}", "--stop-time", "1", "--step", "0.25"],
+    "rare": [
+        "rare",
+        "{fmu}",
+        "--campaign",
+        "{campaign}",
+        "--stop-time",
+        "1",
+        "--step",
+        "0.25",
+        "--failure",
+        "last < 0",
+    ],
+}
+
+
+def maps(process):
+    try:
+        return Path(f"/proc/{process}/maps").read_text()
+    except OSError:
+        return ""
+
+
+def waiting(tmp_path, words, **quirks):
+    """A command whose FMU waits in its calls, and the processes that belong to it: command, server, children."""
+    fmu = odd_fmu(tmp_path, **quirks)
+    (tmp_path / "c.toml").write_text(CAMPAIGN)
+    line = [word.format(fmu=fmu, campaign=tmp_path / "c.toml") for word in words]
+    command = subprocess.Popen(
+        [sys.executable, "-m", "perilune", *line], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline and command.poll() is None:
+        family = psutil.Process(command.pid).children(recursive=True)
+        children = [each.pid for each in family if each.ppid() != command.pid]
+        if any("/odd.so" in maps(child) for child in children):
+            return command, [each.pid for each in family if each.ppid() == command.pid], children
+        time.sleep(0.02)
+    command.kill()
+    raise AssertionError(f"{line}: no child has loaded the FMU")
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_no_other_process_has_them(tmp_path, name):
+    command, servers, children = waiting(tmp_path, COMMANDS[name], DEED=Deed.HANG, IN=Call.INITIALISATION)
+    try:
+        assert servers
+        assert all("/odd.so" not in maps(process) for process in (command.pid, *servers))
+        assert all(maps(process) for process in (command.pid, *servers))
+    finally:
+        command.send_signal(signal.SIGINT)
+        command.wait(60.0)
+    assert not [process for process in (*servers, *children) if psutil.pid_exists(process)]
+
+
+def test_children_of_a_killed_command_are_gone(tmp_path):
+    command, servers, children = waiting(tmp_path, COMMANDS["run"], DEED=Deed.HANG, IN=Call.STEP)
+    os.kill(command.pid, signal.SIGKILL)
+    command.wait()
+    deadline = time.monotonic() + 10.0
+    while time.monotonic() < deadline and any(map(psutil.pid_exists, (*servers, *children))):
+        time.sleep(0.02)
+    assert not [process for process in (*servers, *children) if psutil.pid_exists(process)]
+
+
+def test_describe_loads_nothing(tmp_path):
+    """Its constructor would end the process."""
+    fmu = odd_fmu(tmp_path, DEED=Deed.SEGFAULT, IN=Call.CONSTRUCTION)
+    done = subprocess.run([sys.executable, "-m", "perilune", "describe", str(fmu)], capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+# Who may load FMUs: a child; this process through the door, where they are Perilune's own; and who times our own.
+LOADERS = {
+    "analysis/runtime/apart/server/child.py",
+    "analysis/runtime/apart/opening.py",
+    "analysis/benchmark/importers.py",
+    "analysis/runtime/flight/simulation.py",
+    "analysis/runtime/instances/reset_check.py",
+}
+
+
+def test_who_loads_fmus():
+    """By what each file imports: `Simulation`, `reset_verdict` or `instantiate` of these modules."""
+    loaders = set()
+    for path in sorted((ROOT / "analysis").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").endswith(
+                ("flight.simulation", "instances.instance", "reset_check", "instance")
+            ):
+                names = {alias.name for alias in node.names}
+                if names & {"Simulation", "instantiate"} or (names & {"reset_verdict"} and "flight/" not in str(path)):
+                    loaders.add(path.relative_to(ROOT).as_posix())
+    assert loaders == LOADERS
