@@ -8,15 +8,35 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any, Required, TypedDict
+
+import msgspec
 
 from ...common.atomic import write_atomically
+from ...common.bounds import INPUT_BYTES, TRIALS
 from ...common.errors import InputError
+from ...common.regular import read_regular
 
 FILE = "manifest.json"
 CONTENTS = "files"  # the folder beside it
+SAME_VERSION = "resume with the version of perilune that wrote it"
 MOST_DIFFERENCES = 3  # named in one line
 WRITE = "give a folder that perilune batch or prepare wrote"
+
+
+class ResetDocument(TypedDict):
+    """The verdict on an FMU's reset."""
+
+    resets: bool
+    reason: str
+
+
+class TableDocument(TypedDict):
+    """A table that was given: what its user calls it, the SHA-256 of the file, its content."""
+
+    label: str
+    sha256: str
+    content: str
 
 
 class SystemDocument(TypedDict):
@@ -33,8 +53,8 @@ class SystemDocument(TypedDict):
 class SourceDocument(TypedDict, total=False):
     """A campaign's file, with those that it extends; ``position`` is that of its own entries among theirs."""
 
-    label: str
-    content: str
+    label: Required[str]
+    content: Required[str]
     extends: list[SourceDocument]
     position: int
 
@@ -42,8 +62,8 @@ class SourceDocument(TypedDict, total=False):
 class CampaignDocument(SourceDocument, total=False):
     """A campaign's file, with what the command line compares, selects and sweeps."""
 
-    compare: dict[str, list[str]]
-    compared_by: str
+    compare: Required[dict[str, list[str]]]
+    compared_by: Required[str]
     selected: str
     sweep: dict[str, str]
 
@@ -67,11 +87,11 @@ class Manifest:
     campaign: CampaignDocument
     options: Mapping[str, Any]
     faults: list[str]
-    series: Mapping[str, str] | None
-    draws: Mapping[str, str] | None
+    series: TableDocument | None
+    draws: TableDocument | None
     timeout: float | None
     fmus: Mapping[str, Mapping[str, str]]
-    resets: Mapping[str, Mapping[str, Any]]
+    resets: Mapping[str, ResetDocument]
     until_decided: bool
     seed: int
     trials: int
@@ -106,18 +126,36 @@ def _contents(campaign: SourceDocument) -> list[str]:
 
 
 def read_manifest(folder: Path) -> Manifest:
-    """The manifest in a folder. Raises InputError."""
+    """The manifest in a folder, which anyone may have written. Raises InputError."""
     path = folder / FILE
+    content = read_regular(path, WRITE, INPUT_BYTES.most)
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(path, "", error.strerror or str(error), WRITE) from error
-    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        document = msgspec.json.decode(content, type=dict[str, msgspec.Raw])
+        manifest = msgspec.json.decode(content, type=Manifest)
+    except msgspec.ValidationError as error:
+        problem, _, element = str(error).partition(" - at ")
+        raise InputError(path, element.strip("`$."), f"{problem[:1].lower()}{problem[1:]}", SAME_VERSION) from error
+    except (msgspec.DecodeError, RecursionError) as error:
         raise InputError(path, "", f"not JSON: {error}", WRITE) from error
-    names = {field.name for field in fields(Manifest)}
-    if not isinstance(document, dict) or set(document) | {"elementary_functions"} != names:
-        raise InputError(path, "", "not as this version of perilune writes it", "resume with the version that wrote it")
-    return Manifest(**document)
+    unknown = sorted(set(document) - {field.name for field in fields(Manifest)})
+    if unknown:
+        raise InputError(path, unknown[0], "not as this version of perilune writes it", SAME_VERSION)
+    _check_manifest(manifest, path)
+    return manifest
+
+
+def _check_manifest(manifest: Manifest, path: Path) -> None:
+    """Refuse numbers out of bounds, and contents that are named by anything but their hashes."""
+    for name, number in (("trials", manifest.trials), ("shard_size", manifest.shard_size)):
+        TRIALS.check(number, path, name)
+        if number < 1:
+            raise InputError(path, name, f"{number}, not a positive number", SAME_VERSION)
+    for name in manifest.names():
+        if not NAMED.fullmatch(name) or "/" in name or "\\" in name:
+            raise InputError(path, name, "not the name of a content: its SHA-256", SAME_VERSION)
+    fmu = manifest.system["fmu"]
+    if fmu is not None and fmu not in manifest.system["files"]:
+        raise InputError(path, "system.fmu", f"no file {fmu} of the system", SAME_VERSION)
 
 
 def differences(held: Manifest, asked: Manifest) -> str:
@@ -167,10 +205,7 @@ def remove_contents(folder: Path) -> None:
 def content_path(folder: Path, name: str) -> Path:
     """The path of a content, whose bytes are those of its name. Raises InputError."""
     path = folder / name
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise InputError(path, "", "not found", COPY_AGAIN) from error
+    content = read_regular(path, COPY_AGAIN, INPUT_BYTES.most)
     if content_name(content, path.suffix) != name:
         raise InputError(path, "", "its content is not the one that it is named by", COPY_AGAIN)
     return path

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import chdir
-from dataclasses import asdict, replace
+from dataclasses import asdict, fields, replace
 from importlib.metadata import version
 from pathlib import Path, PurePath
-from typing import Any
+from typing import cast
 
+import msgspec
 import numpy as np
 import pyarrow
 import pyarrow.parquet
 
 from ....fmus_src.kernel.functions import VERSION
+from ...common.errors import InputError
 from ...runtime.apart.resets import find_verdict
 from ...runtime.instances.reset_check import ResetVerdict, store_verdict
 from ...runtime.ssp.archive import SystemArchive
@@ -26,12 +28,24 @@ from ..spec.file import parse_campaign
 from ..spec.plan import BatchPlan
 from ..spec.source import CampaignSource
 from ..spec.sweeps import with_sweeps
-from .manifest import CONTENTS, CampaignDocument, Manifest, SourceDocument, content_name, content_path
+from .manifest import (
+    CONTENTS,
+    FILE,
+    SAME_VERSION,
+    CampaignDocument,
+    Manifest,
+    ResetDocument,
+    SourceDocument,
+    TableDocument,
+    content_name,
+    content_path,
+)
 from .shards.draws import read_draws
+from .shards.files import numbers, read_table
 from .shards.numbering import shard_size
 
 # Of the options: where values are written, where paths are meant from, and what whoever simulates decides.
-NOT_ASKED = ("places", "folder", *UNTRUSTED.trust)
+NOT_STORED = ("places", "folder", *UNTRUSTED.trust)
 
 
 def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Manifest, dict[str, bytes]]:
@@ -57,16 +71,16 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
             for prepared in systems.values()
             for requested, read in prepared.elsewhere.items()
         }
-    series = None
+    series: TableDocument | None = None
     if plan.series is not None:
         content = keep(_table({"time": plan.series.time, **plan.series.columns}), ".parquet")
         series = {"label": plan.series.file, "sha256": plan.series.sha256, "content": content}
-    draws = None
+    draws: TableDocument | None = None
     if plan.given is not None:
         content = keep(_table(plan.given.table), ".parquet")
         draws = {"label": plan.given.file, "sha256": plan.given.sha256, "content": content}
     campaign = plan.campaign
-    options = {name: value for name, value in asdict(plan.options).items() if name not in NOT_ASKED}
+    options = {name: value for name, value in asdict(plan.options).items() if name not in NOT_STORED}
     fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
     document: CampaignDocument = {
         **_source(plan.source, campaign.file, keep),
@@ -98,7 +112,11 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
             variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
             for variant, prepared in systems.items()
         },
-        resets={digest: asdict(find_verdict(fmu, plan.options)) for digest, fmu in fmus.items() if not fmu.is_own},
+        resets={
+            digest: cast(ResetDocument, asdict(find_verdict(fmu, plan.options)))
+            for digest, fmu in fmus.items()
+            if not fmu.is_own
+        },
         until_decided=plan.until_decided,
         seed=campaign.seed,
         trials=campaign.trials,
@@ -142,9 +160,7 @@ def restore(
         selected=manifest.campaign.get("selected"),
     )
     campaign = with_sweeps(read, manifest.campaign.get("sweep", {}))
-    options: dict[str, Any] = {
-        name: tuple(value) if isinstance(value, list) else value for name, value in manifest.options.items()
-    }
+    options = _restore_options(manifest, folder)
     series = None
     if manifest.series is not None:
         columns = _read_columns(contents, manifest.series)
@@ -152,7 +168,7 @@ def restore(
     plan = BatchPlan(
         manifest.system["label"],
         campaign,
-        SystemOptions(**options, folder=str(contents), **trust.trust),
+        replace(options, folder=str(contents), **trust.trust),
         source.sha256,
         faults=tuple(parse_fault(text) for text in manifest.faults),
         series=series,
@@ -172,6 +188,20 @@ def restore(
     for digest, verdict in manifest.resets.items():
         store_verdict(digest, ResetVerdict(**verdict))
     return plan
+
+
+def _restore_options(manifest: Manifest, folder: Path) -> SystemOptions:
+    """The system options of a manifest, whose types are checked. Raises InputError."""
+    known = {field.name for field in fields(SystemOptions)} - {*NOT_STORED}
+    unknown = sorted(set(manifest.options) - known)
+    if unknown:
+        raise InputError(folder / FILE, f"options.{unknown[0]}", "not an option of a campaign", SAME_VERSION)
+    try:
+        return msgspec.convert(dict(manifest.options), SystemOptions)
+    except msgspec.ValidationError as error:
+        problem, _, element = str(error).partition(" - at ")
+        name = f"options.{element.strip('`$.')}".rstrip(".")
+        raise InputError(folder / FILE, name, f"{problem[:1].lower()}{problem[1:]}", SAME_VERSION) from error
 
 
 def _restore_source(contents: Path, campaign: SourceDocument) -> CampaignSource:
@@ -194,6 +224,7 @@ def _restore_archive(contents: Path, manifest: Manifest) -> SystemArchive:
     )
 
 
-def _read_columns(contents: Path, table: Mapping[str, str]) -> dict[str, np.ndarray]:
-    read = pyarrow.parquet.read_table(content_path(contents, table["content"]))
-    return {name: read[name].to_numpy() for name in read.column_names}
+def _read_columns(contents: Path, table: TableDocument) -> dict[str, np.ndarray]:
+    path = content_path(contents, table["content"])
+    read = read_table(path)
+    return {name: numbers(read, name, path) for name in read.column_names}

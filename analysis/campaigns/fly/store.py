@@ -10,10 +10,15 @@ from typing import Protocol
 import pyarrow
 import pyarrow.parquet
 
+from ...common.errors import InputError
+from ...common.regular import check_regular
 from ..spec.plan import BatchPlan
 from ..trials import Part, TrialRows, Trials, join_trials
 from .shards.arrow import numpy_of
 from .shards.files import (
+    IDENTITY,
+    NEW_FOLDER,
+    check_rows,
     describe_columns,
     numbers,
     read_table,
@@ -50,16 +55,27 @@ class ShardRows:
             yield {name: numpy_of(table[name]) for name in names}
 
     def whole(self) -> Trials:
-        return join_trials(self._trials(shard) for shard in self.shards)
+        flown: list[Trials] = []
+        for shard in self.shards:
+            part = self._trials(shard)
+            different = set(part.final) ^ set(flown[0].final) if flown else ()
+            if different:
+                path, name = shard_path(self.folder, shard), f"final.{min(different)}"
+                raise InputError(path, name, "not a column of all shards", NEW_FOLDER)
+            flown.append(part)
+        return join_trials(flown)
 
     def _table(self, shard: int, names: list[str] | None = None) -> pyarrow.Table:
         path = shard_path(self.folder, shard)
         place = [variant.name for variant in self.plan.campaign.variants()].index(self.variant)
+        check_regular(path, NEW_FOLDER)
         try:
             with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
-                return file.read_row_group(place, names)
-        except (OSError, pyarrow.ArrowException) as error:
+                table = file.read_row_group(place, None if names is None else list(dict.fromkeys([*names, *IDENTITY])))
+        except (OSError, ValueError, IndexError, pyarrow.ArrowException) as error:
             raise unreadable(path, error) from error
+        check_rows(table, self.variant, self.numbering.of(shard), names, path)
+        return table
 
     def _trials(self, shard: int) -> Trials:
         path = shard_path(self.folder, shard)

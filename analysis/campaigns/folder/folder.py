@@ -11,7 +11,7 @@ from ..fly.campaign import open_folder
 from ..fly.manifest import FILE as MANIFEST
 from ..fly.manifest import WRITE
 from ..fly.metadata import Provenance, batch_digest
-from ..fly.shards.files import AGAIN, FOLDER, SUMMARY, describe_columns, trials_in
+from ..fly.shards.files import FOLDER, NEW_FOLDER, SUMMARY, describe_columns, trials_in
 from .stored import read_summary, without_summary
 
 
@@ -62,7 +62,7 @@ class ResultFolder:
             shards.append(shard)
             end = shard.trials.stop
         if self.is_whole and end != total:
-            raise InputError(self.folder / FOLDER, "", f"trials from {end} on are missing", AGAIN)
+            raise InputError(self.folder / FOLDER, "", f"trials from {end} on are missing", NEW_FOLDER)
         if not shards:
             raise InputError(self.folder, FOLDER, "no shard is flown yet", "open it again when one is")
         return tuple(shards)

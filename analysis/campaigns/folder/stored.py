@@ -19,9 +19,9 @@ from ..fly.manifest import FILE as MANIFEST
 from ..fly.manifest import WRITE
 from ..fly.metadata import Provenance, batch_digest
 from ..fly.shards.files import (
-    AGAIN,
     DRAWS,
     FOLDER,
+    NEW_FOLDER,
     SUMMARY,
     about_of,
     describe_columns,
@@ -90,7 +90,7 @@ class StoredBatch:
         if self.group is None:
             return []
         if self.group not in self.draws:
-            raise InputError(*where, f"{self.group} is not a column of draws.parquet", AGAIN)
+            raise InputError(*where, f"{self.group} is not a column of draws.parquet", NEW_FOLDER)
         return groups_of([self.draws[self.group]], where)
 
     def split_rows(self, name: str) -> tuple[str, str]:
@@ -102,7 +102,7 @@ class StoredBatch:
         path = trace_path(self.folder, variant, trial)
         table = read_table(path, names if names is None else [*names, "time"])
         if "time" not in table.column_names:
-            raise InputError(path, "time", "no such column", AGAIN)
+            raise InputError(path, "time", "no such column", NEW_FOLDER)
         return {name: numbers(table, name, path) for name in table.column_names}
 
 
@@ -153,11 +153,11 @@ def _read_shards(folder: Path, batch: str, trials: int) -> dict[Path, pyarrow.Ta
             break
         path = shard_path(folder, shard)
         if not path.is_file():
-            raise InputError(path, "", f"not found: trials from {end} on are missing", AGAIN)
+            raise InputError(path, "", f"not found: trials from {end} on are missing", NEW_FOLDER)
         table = read_table(path)
         there = trials_in(path, about_of(table.schema), batch, SUMMARY)
         if there.start != end:
-            raise InputError(path, "", f"begins with trial {there.start}, not {end}", AGAIN)
+            raise InputError(path, "", f"begins with trial {there.start}, not {end}", NEW_FOLDER)
         tables[path] = table
         end = there.stop
     return tables
@@ -175,7 +175,7 @@ def read_summary(path: Path) -> SummaryDocument:
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
     except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
-        raise InputError(path, "", f"not JSON: {error}", AGAIN) from error
+        raise InputError(path, "", f"not JSON: {error}", NEW_FOLDER) from error
     variants = document.get("variants") if isinstance(document, dict) else None
     if not isinstance(variants, dict) or not variants:
         raise InputError(path, "variants", "missing", WRITE)
@@ -202,7 +202,7 @@ def _metrics(document: SummaryDocument, path: Path) -> tuple[Metric, ...]:
             for name, fact in document["metrics"].items()
         )
     except (AttributeError, KeyError, TypeError) as error:
-        raise InputError(path, "metrics", "not as perilune batch writes them", AGAIN) from error
+        raise InputError(path, "metrics", "not as perilune batch writes them", NEW_FOLDER) from error
 
 
 def _variants(
@@ -214,7 +214,7 @@ def _variants(
     for path, table in shards.items():
         for name in draws:
             if _column(name) not in table.column_names:
-                raise InputError(path, _column(name), "no such column", AGAIN)
+                raise InputError(path, _column(name), "no such column", NEW_FOLDER)
         labels = np.array(table["variant"].to_pylist(), dtype=str)
         columns = {name: numbers(table, _column(name), path) for name in draws}
         for variant, trials in trials_of(table, [metric.name for metric in metrics], path).items():
@@ -224,10 +224,10 @@ def _variants(
                 np.array_equal(columns[name][rows], column[trials.trial]) for name, column in draws.items()
             )
             if not same:
-                raise InputError(path, variant, "its draws are not those of draws.parquet", AGAIN)
+                raise InputError(path, variant, "its draws are not those of draws.parquet", NEW_FOLDER)
             parts.setdefault(variant, []).append(trials)
     if len({sum(len(part.trial) for part in variants) for variants in parts.values()}) != 1:
-        raise InputError(next(iter(shards)).parent, "variant", "not every variant has every trial", AGAIN)
+        raise InputError(next(iter(shards)).parent, "variant", "not every variant has every trial", NEW_FOLDER)
     return {variant: join_trials(variants) for variant, variants in parts.items()}
 
 
@@ -239,12 +239,12 @@ def _column(draw: str) -> str:
 def _check_summary(document: SummaryDocument, variants: Mapping[str, Trials], path: Path) -> None:
     """Refuse a summary that does not count what the table holds."""
     if list(document["variants"]) != list(variants):
-        raise InputError(path, "variants", "not those of trials/", AGAIN)
+        raise InputError(path, "variants", "not those of trials/", NEW_FOLDER)
     for name, trials in variants.items():
         stated = document["variants"][name]
         rate = stated.get("success_rate") if isinstance(stated, dict) else None
         if rate != int(trials.success.sum()) / len(trials.success):
-            raise InputError(path, f"variants.{name}", "its success rate is not that of trials/", AGAIN)
+            raise InputError(path, f"variants.{name}", "its success rate is not that of trials/", NEW_FOLDER)
 
 
 def _list_traces(folder: Path, variants: list[str], batch: str) -> tuple[dict[str, list[int]], int]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...common.errors import InputError, suggestion
-from ..fly.shards.files import AGAIN, describe_columns, numbers, read_table, trace_path
+from ..fly.shards.files import NEW_FOLDER, describe_columns, numbers, read_table, trace_path
 from .folder import ResultFolder
 
 TIME = "time"
@@ -67,5 +67,5 @@ def _columns(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:
     table = read_table(path, names)
     for name in names:
         if name not in table.column_names:
-            raise InputError(path, name, "no such column", AGAIN)
+            raise InputError(path, name, "no such column", NEW_FOLDER)
     return {name: numbers(table, name, path).astype(np.float64) for name in names}

@@ -12,7 +12,7 @@ from ...common.errors import InputError
 from ..flight.base_simulation import NOTHING, BaseSimulation, Choices
 from ..flight.endings import FLIGHT_STATUSES
 from ..flight.program import layout_of
-from ..flight.recorder import Phase, rows_between
+from ..flight.recorder import Phase, check_room, rows_between
 from ..flight.results import COMPLETE, CRASHED, Flight
 from ..flight.selection import check_replaced
 from ..ssp.parameter_sets import ParameterValue
@@ -59,12 +59,8 @@ class ApartSimulation(BaseSimulation):
         return self._recorders[self._turn]
 
     def _make_recorder(self, rows: int) -> SharedRecorder:
-        try:
-            return make_recorder(len(self.signal_names), rows)
-        except (MemoryError, ValueError, OverflowError, OSError) as error:
-            problem = f"{rows} rows do not fit into memory"
-            remedy = "give a longer step or an earlier `stop_time`"
-            raise InputError("`step`", f"{self.prepared.step:g}", problem, remedy) from error
+        check_room(len(self.signal_names), rows, self.prepared.step)
+        return make_recorder(len(self.signal_names), rows)
 
     def _begin(self) -> Connection:
         """A child with everything instantiated. Raises InputError where that does not do."""

@@ -6,11 +6,16 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 
 import numpy as np
+import psutil
 
+from ...common.bounds import MEMORY_SHARE
 from ...common.errors import InputError
 
 POINT, SUBJECT = 4, 1  # of an outcome, in flight: the communication point under way, the component stepped last
 OUTCOME_WORDS = 6
+
+
+SMALL = 1e8  # bytes, for which nobody is asked
 
 
 class Phase(IntEnum):
@@ -39,14 +44,9 @@ class FlightRecorder:
 
     def reserve(self, signals: int, rows: int, step: float) -> None:
         """Have room for so many rows. Raises InputError, which names the ``step`` (s), where memory does not do."""
-        if self.times.size >= rows:
-            return
-        try:
+        if self.times.size < rows:
+            check_room(signals, rows, step)
             self._allocate(signals, rows)
-        except (MemoryError, ValueError, OverflowError, OSError) as error:  # numpy cannot even count some
-            problem = f"{rows} rows do not fit into memory"
-            remedy = "give a longer step or an earlier `stop_time`"
-            raise InputError("`step`", f"{step:g}", problem, remedy) from error
 
     def _allocate(self, signals: int, rows: int) -> None:
         self.record = np.empty((signals, rows))
@@ -65,6 +65,17 @@ class FlightRecorder:
     def subject(self) -> int:
         """The number of the component that was the last to step."""
         return int(self.outcome[SUBJECT])
+
+
+def check_room(signals: int, rows: int, step: float) -> None:
+    """Raise InputError, which names the ``step`` (s), where the free memory does not do for so many rows."""
+    needed = 8.0 * rows * (signals + 1)
+    if needed > SMALL and needed > MEMORY_SHARE.most * psutil.virtual_memory().available:
+        problem = (
+            f"{rows} rows of {signals} signals take {needed / 1e9:.3g} GB, over {MEMORY_SHARE.most:.0%} of what is free"
+        )
+        remedy = f"give a longer step or an earlier `stop_time`, or set {MEMORY_SHARE.variable}"
+        raise InputError("`step`", f"{step:g}", problem, remedy)
 
 
 def rows_between(first: int, last: int, every: int = 1) -> int:

@@ -20,7 +20,9 @@ from urllib.parse import unquote
 from ....fmus_src.export.available import fmu_file
 from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
 from ....fmus_src.paths import IS_CHECKOUT, ROOT, SYSTEMS, own_fmus
+from ...common.bounds import ARCHIVE_BYTES, ARCHIVE_ENTRIES
 from ...common.errors import InputError, suggestion
+from ...common.regular import read_regular
 
 HOW_TO_BUILD = (
     "build_fmus.py builds this repository's, " if IS_CHECKOUT else ""
@@ -107,6 +109,7 @@ class SystemArchive:
         name = self._place(source)
         if self._has(name) or self.path.is_file() or not self._inside(name):
             return partial(self._content, name, element), f"{self.label}!{name}"
+        self.refuse_elsewhere(name, element)
         path = fmu_file(Path(name).stem, flavour, self.path)
         if path is None:
             places = " or ".join(map(str, own_fmus(Path(name).stem, flavour, self.path)))
@@ -117,6 +120,12 @@ class SystemArchive:
             problem = f"no file {name} in the system, no {flavour} FMU of this repository, and none is built ({places})"
             raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
         return path.read_bytes, str(path)
+
+    def refuse_elsewhere(self, name: str, element: str) -> None:
+        """Raise InputError where the system is one of a campaign's folder, which takes no files from other places."""
+        if self.known_digest is not None:
+            problem = f"{name} is not among the files that the campaign's folder holds"
+            raise InputError(self.label, element, problem, "prepare the campaign again, with all of its files")
 
     def is_own_file(self, source: str) -> bool:
         """Whether a source is a file of the system, not one of those that `fmu` finds elsewhere."""
@@ -165,6 +174,7 @@ class SystemArchive:
                 return content, label
         if parameters_asked(name) in self.elsewhere:
             return self.elsewhere[parameters_asked(name)].read_bytes(), name
+        self.refuse_elsewhere(name, option)
         if Path(name).is_file():
             return Path(name).read_bytes(), name
         known = sorted(Path(entry).name for entry in self.files if entry.endswith(suffix))
@@ -217,6 +227,12 @@ def open_zip(data: bytes, label: str) -> zipfile.ZipFile:
     """A zip archive whose every file reads back; raises InputError for anything else."""
     try:
         archive = zipfile.ZipFile(io.BytesIO(data))
+        entries = archive.infolist()
+    except UNREADABLE as error:
+        raise InputError(label, "archive", f"not a readable zip: {error}", "build or copy the file again") from error
+    ARCHIVE_ENTRIES.check(len(entries), label, "archive")
+    ARCHIVE_BYTES.check(sum(entry.file_size for entry in entries), label, "archive")
+    try:
         broken = archive.testzip()
     except UNREADABLE as error:
         raise InputError(label, "archive", f"not a readable zip: {error}", "build or copy the file again") from error
@@ -247,7 +263,7 @@ def open_system(system: str | Path) -> SystemArchive:
         remedy = f"perilune export {text} builds them; fly the folder of a system that names them"
         raise InputError(text, "", "a file of blocks is no system", remedy)
     if path.is_file():
-        archive = open_zip(path.read_bytes(), text)
+        archive = open_zip(read_regular(path.resolve(), "give another file", ARCHIVE_BYTES.most), text)
         files = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
         return SystemArchive(path.stem, text, path, files)
     raise InputError(text, "system", "neither a system, a folder nor a file", suggestion(text, system_names()))

@@ -13,6 +13,7 @@ from pathlib import Path
 import fmpy
 from lxml import etree
 
+from ...common.bounds import XML_BYTES
 from ...common.errors import InputError
 
 SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
@@ -90,6 +91,7 @@ def _schema(kind: str) -> etree.XMLSchema:
 def parse_xml(data: bytes, file: str) -> etree._Element:
     """Root element of an XML document; a DOCTYPE is refused before anything else is looked at."""
     refusal = InputError(file, "DOCTYPE", "a document type declaration is not accepted", "remove the <!DOCTYPE ...>")
+    XML_BYTES.check(len(data), file, "")
     if b"<!DOCTYPE" in data.upper():
         raise refusal
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False)

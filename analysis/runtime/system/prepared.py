@@ -136,6 +136,7 @@ def _prepare(
             if key in archive.elsewhere:
                 read, label = archive.elsewhere[key].read_bytes, options.use[name]
             else:
+                archive.refuse_elsewhere(options.use[name], f"`use` {name}")
                 read, label = locate_fmu(block, options.flavour, system=archive.path)
             elsewhere[key] = read
         else:

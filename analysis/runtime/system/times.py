@@ -33,20 +33,22 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     if stop is None:
         raise InputError(experiment, "stopTime", "there is none", "give `stop_time`")
     start = description.start_time
-    step_asked = ("`step`", f"{step:g}")
-    stop_asked = ("`stop_time`", f"{stop:g}") if options.stop_time is not None else (experiment, f"stopTime {stop:g}")
+    step_option = ("`step`", f"{step:g}")
+    stop_option = ("`stop_time`", f"{stop:g}") if options.stop_time is not None else (experiment, f"stopTime {stop:g}")
     duration = stop - start
     if duration < 0.0:
-        raise InputError(*stop_asked, f"lies before the start, {start:g} s", "give a later stop time")
+        raise InputError(*stop_option, f"lies before the start, {start:g} s", "give a later stop time")
     if max(abs(stop), abs(start)) + step == max(abs(stop), abs(start)):
         problem = f"a step of {step:g} s does not advance a time of {stop:g} s"
-        requested = step_asked if options.step is not None else stop_asked
+        requested = step_option if options.step is not None else stop_option
         raise InputError(*requested, problem, "give a longer `step` or earlier times")
     steps = round(duration / step) if duration / step < float("inf") else -1
+    if duration > 0.0 and step > duration * (1.0 + 1e-9):
+        raise InputError(*step_option, f"longer than the simulation of {duration:g} s", "give a shorter `step`")
     if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):
         problem = f"{duration:g} s from the start are not a whole number of steps of {step:g} s"
         remedy = f"for instance `stop_time` {start + max(1, steps) * step:.12g}"
-        raise InputError(*stop_asked, problem, remedy)
+        raise InputError(*stop_option, problem, remedy)
     return start, step, steps
 
 

@@ -69,7 +69,7 @@ def waiting(tmp_path, words, **quirks):
     """A command whose FMU waits in its calls, and the processes that belong to it: command, server, children."""
     fmu = odd_fmu(tmp_path, **quirks)
     (tmp_path / "c.toml").write_text(CAMPAIGN)
-    line = [word.format(fmu=fmu, campaign=tmp_path / "c.toml") for word in words]
+    line = [text.format(fmu=fmu, campaign=tmp_path / "c.toml") for text in words]
     command = subprocess.Popen(
         [sys.executable, "-m", "perilune", *line], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )

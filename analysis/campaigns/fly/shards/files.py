@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -12,7 +13,9 @@ import pyarrow
 import pyarrow.parquet
 
 from ....common.atomic import whole_file
+from ....common.bounds import TRIALS
 from ....common.errors import InputError
+from ....common.regular import check_regular
 from ...spec.plan import BatchPlan
 from ...trials import Trials
 from .arrow import numpy_of, table_of, texts_of
@@ -127,17 +130,21 @@ def _describe_field(table: pyarrow.Table, about: Mapping[str, object]) -> pyarro
     return table.replace_schema_metadata({"perilune": json.dumps(about)})
 
 
+NEW_FOLDER = "fly the batch again into an empty folder"
+
+
 def describe_columns(path: Path) -> object:
     """What a file that `write_shard` wrote says of itself; None where it says nothing, or is not there.
 
     Raises InputError for one that is damaged.
     """
-    if not path.is_file():
+    if not os.path.lexists(path):
         return None
+    check_regular(path, NEW_FOLDER)
     try:
         with pyarrow.parquet.ParquetFile(path) as file:
             return about_of(file.schema_arrow)
-    except (OSError, pyarrow.ArrowException) as error:
+    except (OSError, ValueError, pyarrow.ArrowException) as error:
         raise unreadable(path, error) from error
 
 
@@ -156,17 +163,47 @@ def about_of(schema: pyarrow.Schema) -> object:
         return None
 
 
-AGAIN = "fly the batch again into an empty folder"
 COLUMNS = ("variant", "trial", "status", "success", "end_time")
+
+
+IDENTITY = ("variant", "trial")  # the columns that say which simulation a row is of
+TEXTS = ("variant", "status", "message")
+NUMBERS = ("trial", "success", "end_time")
+NUMBER_PREFIXES = ("draw.", "final.", "metric.")
+
+
+def check_rows(table: pyarrow.Table, variant: str, trials: range, names: Collection[str] | None, path: Path) -> None:
+    """Refuse a variant's rows of a shard that are not its trials in order, or columns of other types.
+
+    ``names`` are the columns that were asked for, None for all. Raises InputError.
+    """
+    for name in (*IDENTITY, *(COLUMNS if names is None else names)):
+        if name not in table.column_names:
+            raise InputError(path, name, "no such column", NEW_FOLDER)
+    for name in table.column_names:
+        kind = table.schema.field(name).type
+        if pyarrow.types.is_dictionary(kind):
+            kind = kind.value_type
+        is_text = pyarrow.types.is_string(kind) or pyarrow.types.is_large_string(kind)
+        if name in TEXTS and not (is_text and not table[name].null_count):
+            raise InputError(path, name, "not a column of texts", NEW_FOLDER)
+        if name in NUMBERS or name.startswith(NUMBER_PREFIXES):
+            numbers(table, name, path)
+    if not np.array_equal(numbers(table, "trial", path), np.arange(trials.start, trials.stop)):
+        problem = f"its rows are not trials {trials.start} to {trials.stop - 1} of {variant}, once each"
+        raise InputError(path, "trial", problem, NEW_FOLDER)
+    if set(table["variant"].unique().to_pylist()) != {variant}:
+        raise InputError(path, "variant", f"not the rows of {variant}", NEW_FOLDER)
 
 
 def read_table(path: Path, columns: Collection[str] | None = None) -> pyarrow.Table:
     """A parquet file, or those of its ``columns`` that there are, checksums verified. Raises InputError."""
+    check_regular(path, NEW_FOLDER)
     try:
         with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
             names = file.schema_arrow.names
             return file.read(names if columns is None else [name for name in names if name in columns])
-    except (OSError, pyarrow.ArrowException) as error:
+    except (OSError, ValueError, pyarrow.ArrowException) as error:
         raise unreadable(path, error) from error
 
 
@@ -176,7 +213,7 @@ def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
     column = table[name]
     known = pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_boolean(kind)
     if column.null_count or not known:
-        raise InputError(path, name, "not a column of numbers", AGAIN)
+        raise InputError(path, name, "not a column of numbers", NEW_FOLDER)
     return numpy_of(column)
 
 
@@ -185,7 +222,7 @@ def trials_of(table: pyarrow.Table, metrics: Iterable[str], path: Path) -> dict[
     metrics = list(metrics)
     for name in (*COLUMNS, *(f"metric.{metric}" for metric in metrics)):
         if name not in table.column_names:
-            raise InputError(path, name, "no such column", AGAIN)
+            raise InputError(path, name, "no such column", NEW_FOLDER)
     labels = np.array(table["variant"].to_pylist(), dtype=str)
     statuses = np.array(table["status"].to_pylist(), dtype=object)
     messages = np.array(table["message"].to_pylist(), dtype=object) if "message" in table.column_names else None
@@ -215,7 +252,10 @@ def trials_in(path: Path, about: object, batch: str, whose: str) -> range:
     Raises InputError for one of another batch than that of the file ``whose``, and for one that has another's name.
     """
     if not isinstance(about, dict) or about.get("batch") != batch:
-        raise InputError(path, "", f"of another batch than {whose}", AGAIN)
+        raise InputError(path, "", f"of another batch than {whose}", NEW_FOLDER)
     if about.get("shard") != int(path.stem):
-        raise InputError(path, "", "not the shard that it is named by", AGAIN)
-    return range(*about["trials"])
+        raise InputError(path, "", "not the shard that it is named by", NEW_FOLDER)
+    match about.get("trials"):
+        case [int(first), int(stop)] if 0 <= first < stop <= TRIALS.most:
+            return range(first, stop)
+    raise InputError(path, "trials", "not the span of a shard", NEW_FOLDER)

@@ -166,7 +166,7 @@ def test_what_is_refused(name, folder, capsys):
 
 def test_a_folder_that_is_none(tmp_path, capsys):
     assert main(["replay", str(tmp_path), "0"]) == 2
-    assert "manifest.json: No such file or directory; give a folder that perilune batch" in capsys.readouterr().err
+    assert "manifest.json: not found; give a folder that perilune batch" in capsys.readouterr().err
 
 
 def test_a_comparison_names_the_failures_of_each_variant(tmp_path, monkeypatch):

@@ -1,0 +1,57 @@
+"""How large files and flights may be, before memory is taken for them: all bounds, and how to change them.
+
+Whoever needs more sets the environment variable of a bound, PERILUNE_ and its name in capitals.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+from .errors import InputError
+
+PREFIX = "PERILUNE_"
+
+
+@dataclass(frozen=True)
+class Bound:
+    """At most so many: ``default`` unless the environment says otherwise; ``subject`` is what is counted."""
+
+    name: str
+    default: float
+    unit: str
+    subject: str
+
+    @property
+    def variable(self) -> str:
+        """The name of its environment variable."""
+        return f"{PREFIX}{self.name.upper()}"
+
+    @property
+    def most(self) -> float:
+        """The bound as it holds here. Raises InputError where the environment has no positive number."""
+        text = os.environ.get(self.variable)
+        if text is None:
+            return self.default
+        try:
+            number = float(text)
+        except ValueError:
+            number = -1.0
+        if not number > 0.0:
+            raise InputError(self.variable, text, "not a positive number", "correct or unset it")
+        return number
+
+    def check(self, number: float, file: str | os.PathLike[str], element: str) -> None:
+        """Raise InputError where a number is above the bound."""
+        if number > self.most:
+            problem = f"{self.subject}: {number:.6g} {self.unit}, at most {self.most:.6g} are accepted"
+            raise InputError(file, element, problem, f"if you trust it, set {self.variable}")
+
+
+ARCHIVE_BYTES = Bound("archive_bytes", 2e9, "bytes", "content of an archive (.ssp, .fmu), unpacked")
+ARCHIVE_ENTRIES = Bound("archive_entries", 10_000, "files", "files of an archive")
+XML_BYTES = Bound("xml_bytes", 256e6, "bytes", "an XML document")
+INPUT_BYTES = Bound("input_bytes", 2e9, "bytes", "a file of inputs, draws or parameters, a manifest or its contents")
+MEMORY_SHARE = Bound("memory_share", 0.25, "of the free memory", "samples of a simulation")
+TRIALS = Bound("trials", 1e9, "trials", "trials of a campaign")
+BOUNDS = (ARCHIVE_BYTES, ARCHIVE_ENTRIES, XML_BYTES, INPUT_BYTES, MEMORY_SHARE, TRIALS)

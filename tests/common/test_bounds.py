@@ -1,0 +1,51 @@
+"""Bounds of files: named with the variable that changes them, and refused before memory is taken.
+
+Truth: archives that declare more than they have; the table of the docs.
+"""
+
+from __future__ import annotations
+
+import tracemalloc
+import zipfile
+
+import pytest
+
+from perilune.analysis.common.bounds import ARCHIVE_ENTRIES, BOUNDS
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.ssp.archive import open_system
+from perilune.fmus_src.paths import ROOT
+
+
+def test_the_table_of_the_docs():
+    rows = [f"| `{each.variable}` | {each.default:g} {each.unit} | {each.subject} |" for each in BOUNDS]
+    assert "\n".join(rows) in (ROOT / "docs" / "guides" / "trust.md").read_text(encoding="utf-8")
+
+
+def test_an_archive_that_unpacks_to_gigabytes(tmp_path):
+    """3 GB of zeros in 3 MB, of which nothing is unpacked."""
+    path = tmp_path / "bomb.ssp"
+    with (
+        zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive,
+        archive.open("zeros", "w", force_zip64=True) as file,
+    ):
+        for _ in range(3000):
+            file.write(bytes(1_000_000))
+    tracemalloc.start()
+    with pytest.raises(InputError, match=r"3e\+09 bytes, at most 2e\+09 are accepted; .* set PERILUNE_ARCHIVE_BYTES"):
+        open_system(path)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert most < 50_000_000
+
+
+def test_an_archive_of_too_many_files(tmp_path, monkeypatch):
+    path = tmp_path / "many.ssp"
+    with zipfile.ZipFile(path, "w") as archive:
+        for number in range(11):
+            archive.writestr(f"{number}", "")
+    monkeypatch.setenv(ARCHIVE_ENTRIES.variable, "10")
+    with pytest.raises(InputError, match="11 files, at most 10 are accepted"):
+        open_system(path)
+    monkeypatch.setenv(ARCHIVE_ENTRIES.variable, "none")
+    with pytest.raises(InputError, match="PERILUNE_ARCHIVE_ENTRIES: none: not a positive number"):
+        open_system(path)
