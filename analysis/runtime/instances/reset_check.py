@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
@@ -48,27 +49,29 @@ def store_verdict(digest: str, verdict: ResetVerdict) -> None:
     _verdicts[digest] = verdict
 
 
-def reset_verdict(fmu: Fmu) -> ResetVerdict:
+def reset_verdict(fmu: Fmu, flown: Callable[[], None] = lambda: None) -> ResetVerdict:
     """Whether an FMU resets, tried at the first call: it does not depend on who asks, nor on what has flown.
 
     One instance flies with other parameters and inputs than declared, is reset and flies with the declared ones;
-    outputs and parameters must be those of a fresh instance, to the last bit.
+    outputs and parameters must be those of a fresh instance, to the last bit. ``flown`` is called as soon as a first
+    instance has flown with the declared values.
     """
     with _trying:
         verdict = verdict_in_cache(fmu)
         if verdict is None:
             with LOADING, chdir(Path.cwd()):  # back, should the FMU have gone elsewhere
-                verdict = _verdicts[fmu.digest] = _try_reset(fmu)
+                verdict = _verdicts[fmu.digest] = _try_reset(fmu, flown)
         return verdict
 
 
-def _try_reset(fmu: Fmu) -> ResetVerdict:
+def _try_reset(fmu: Fmu, flown: Callable[[], None]) -> ResetVerdict:
     fresh = instantiate(fmu, "fresh")
     try:
         expected = [*_simulate(fresh, {}), _read(fresh.slave, fmu, "parameter")]
     except FMICallException as error:
         _free(fresh, error)
         return ResetVerdict(False, f"it cannot be tried on its declared starts: {_words(error)}")
+    flown()
     _free(fresh)
     for changes in _changes(fmu):
         used = instantiate(fmu, "used")

@@ -168,3 +168,17 @@ def test_what_fmus_print_has_an_end(tmp_path):
     lines = done.stderr.splitlines()
     assert lines[:2] == ["\\x1b[31mline 0", "\\x1b[31mline 1"]
     assert lines[1000:] == ["... and 999000 lines more"]
+
+
+@pytest.mark.parametrize("call", [Call.CONSTRUCTION, Call.INSTANTIATION, Call.INITIALISATION, Call.STEP])
+@pytest.mark.parametrize("deed", either([Deed.SEGFAULT, Deed.EXIT_0, Deed.HANG], [Deed.EXIT_0]))
+def test_what_is_refused_before_anything_flies(tmp_path, capsys, call, deed):
+    """By `validate` and by `prepare`, which try an FMU with its declared values."""
+    fmu = odd_fmu(tmp_path, DEED=deed, IN=call)
+    (tmp_path / "c.toml").write_text(CAMPAIGN.format(trials=30))
+    prepare = ["prepare", str(fmu), "--campaign", str(tmp_path / "c.toml"), "--output", str(tmp_path / "out")]
+    for command in (["validate", str(fmu)], [*prepare, "--step", "0.25", "--stop-time", "1"]):
+        assert main([*command, "--call-timeout", "1"]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert "odd: tried alone, with its declared values: " in line
+    assert not (tmp_path / "out" / "manifest.json").exists()

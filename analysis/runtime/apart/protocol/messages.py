@@ -46,7 +46,9 @@ class SystemFlights:
 
 @dataclass(frozen=True)
 class ResetTrial:
-    """To try whether an FMU resets."""
+    """To try whether an FMU resets; ``formats`` as in `SystemFlights`."""
+
+    formats: bool
 
 
 # Requests, to a child
@@ -141,10 +143,11 @@ class CellList(msgspec.Struct, tag=True, forbid_unknown_fields=True):
 
 
 class Verdict(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """A `ResetVerdict`."""
+    """A `ResetVerdict`; one that is not final says that the FMU has flown with its declared values."""
 
     resets: bool
     reason: str
+    is_final: bool = True
 
 
 Answer = Done | Flown | Refused | CellList | Verdict

@@ -24,13 +24,13 @@ from ..protocol.shared_recorder import SharedRecorder
 
 def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket, memory: Sequence[int]) -> None:
     """Do a task with a system or an FMU; ``memory`` is the file of the recorder, if there is one."""
+    if not task.formats:
+        leave_messages_unformatted()
     try:
         if isinstance(task, ResetTrial):
-            verdict = reset_verdict(subject)
+            verdict = reset_verdict(subject, lambda: send_answer(channel, messages.Verdict(False, "", is_final=False)))
             send_answer(channel, messages.Verdict(verdict.resets, verdict.reason))
             return
-        if not task.formats:
-            leave_messages_unformatted()
         recorder = SharedRecorder(memory[0], task.signals, task.rows)
         recorder.close()
         pilot = _Pilot(channel, task, subject, recorder)
