@@ -28,7 +28,7 @@ class Bound:
         return f"{PREFIX}{self.name.upper()}"
 
     @property
-    def most(self) -> float:
+    def limit(self) -> float:
         """The bound as it holds here. Raises InputError where the environment has no positive number."""
         text = os.environ.get(self.variable)
         if text is None:
@@ -43,8 +43,8 @@ class Bound:
 
     def check(self, number: float, file: str | os.PathLike[str], element: str) -> None:
         """Raise InputError where a number is above the bound."""
-        if number > self.most:
-            problem = f"{self.subject}: {number:.6g} {self.unit}, at most {self.most:.6g} are accepted"
+        if number > self.limit:
+            problem = f"{self.subject}: {number:.6g} {self.unit}, at most {self.limit:.6g} are accepted"
             raise InputError(file, element, problem, f"if you trust it, set {self.variable}")
 
 

@@ -37,12 +37,12 @@ def check_regular(path: Path, remedy: str) -> None:
         raise InputError(path, "", f"{KINDS.get(stat.S_IFMT(mode), 'no file')}, not a regular file", remedy)
 
 
-def read_regular(path: Path, remedy: str, most: float) -> bytes:
+def read_regular(path: Path, remedy: str, limit: float) -> bytes:
     """The content of a regular file of at most so many bytes. Raises InputError."""
     check_regular(path, remedy)
     size = os.path.getsize(path)
-    if size > most:
-        raise InputError(path, "", f"{size} bytes, at most {most:.6g} are read", remedy)
+    if size > limit:
+        raise InputError(path, "", f"{size} bytes, at most {limit:.6g} are read", remedy)
     try:
         return path.read_bytes()
     except OSError as error:

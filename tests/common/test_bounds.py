@@ -33,9 +33,9 @@ def test_an_archive_that_unpacks_to_gigabytes(tmp_path):
     tracemalloc.start()
     with pytest.raises(InputError, match=r"3e\+09 bytes, at most 2e\+09 are accepted; .* set PERILUNE_ARCHIVE_BYTES"):
         open_system(path)
-    _, most = tracemalloc.get_traced_memory()
+    _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert most < 50_000_000
+    assert peak < 50_000_000
 
 
 def test_an_archive_of_too_many_files(tmp_path, monkeypatch):

@@ -128,7 +128,7 @@ def _contents(campaign: SourceDocument) -> list[str]:
 def read_manifest(folder: Path) -> Manifest:
     """The manifest in a folder, which anyone may have written. Raises InputError."""
     path = folder / FILE
-    content = read_regular(path, WRITE, INPUT_BYTES.most)
+    content = read_regular(path, WRITE, INPUT_BYTES.limit)
     try:
         document = msgspec.json.decode(content, type=dict[str, msgspec.Raw])
         manifest = msgspec.json.decode(content, type=Manifest)
@@ -205,7 +205,7 @@ def remove_contents(folder: Path) -> None:
 def content_path(folder: Path, name: str) -> Path:
     """The path of a content, whose bytes are those of its name. Raises InputError."""
     path = folder / name
-    content = read_regular(path, COPY_AGAIN, INPUT_BYTES.most)
+    content = read_regular(path, COPY_AGAIN, INPUT_BYTES.limit)
     if content_name(content, path.suffix) != name:
         raise InputError(path, "", "its content is not the one that it is named by", COPY_AGAIN)
     return path

@@ -263,7 +263,7 @@ def open_system(system: str | Path) -> SystemArchive:
         remedy = f"perilune export {text} builds them; fly the folder of a system that names them"
         raise InputError(text, "", "a file of blocks is no system", remedy)
     if path.is_file():
-        archive = open_zip(read_regular(path.resolve(), "give another file", ARCHIVE_BYTES.most), text)
+        archive = open_zip(read_regular(path.resolve(), "give another file", ARCHIVE_BYTES.limit), text)
         files = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
         return SystemArchive(path.stem, text, path, files)
     raise InputError(text, "system", "neither a system, a folder nor a file", suggestion(text, system_names()))

@@ -55,7 +55,11 @@ def odd_fmu(
     ``tolerance`` is that of its default experiment, ``once`` whether it says canBeInstantiatedOnlyOncePerProcess.
     """
     macros = tuple(
-        f"-D{macro}" if value is True else f'-D{macro}="{value}"' if isinstance(value, str) else f"-D{macro}={value:d}"
+        f"-D{macro}"
+        if value is True
+        else f'-D{macro}="{value}"'
+        if isinstance(value, str)
+        else f"-D{macro}={value.value if isinstance(value, IntEnum) else value}"
         for macro, value in quirks.items()
     )
     description = DESCRIPTION.format(

@@ -256,6 +256,6 @@ def trials_in(path: Path, about: object, batch: str, whose: str) -> range:
     if about.get("shard") != int(path.stem):
         raise InputError(path, "", "not the shard that it is named by", NEW_FOLDER)
     match about.get("trials"):
-        case [int(first), int(stop)] if 0 <= first < stop <= TRIALS.most:
+        case [int(first), int(stop)] if 0 <= first < stop <= TRIALS.limit:
             return range(first, stop)
     raise InputError(path, "trials", "not the span of a shard", NEW_FOLDER)

@@ -199,9 +199,9 @@ def test_any_bits_of_a_shard(whole, tmp_path, bits):
     content = path.read_bytes()
 
     @given(st.lists(st.integers(0, 8 * len(content) - 1), min_size=bits, max_size=bits))
-    def check(places):
+    def check(flipped):
         changed = bytearray(content)
-        for bit in places:
+        for bit in flipped:
             changed[bit // 8] ^= 1 << bit % 8
         path.write_bytes(changed)
         outcome(folder)
