@@ -291,6 +291,7 @@ def test_unstable_trials_are_counted_and_the_worst_is_named(plain, tmp_path, cap
     assert f"{unstable} of {TRIALS} trials unstable; worst trial {spread['worst_trial']}: " in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_the_same_numbers_twice_whatever_the_workers(packed, campaign, capsys):
     """Two points, so that there is something to share."""
     there = '<Point name="later" time="30"/>'

@@ -71,9 +71,8 @@ def check_room(signals: int, rows: int, step: float) -> None:
     """Raise InputError, which names the ``step`` (s), where the free memory does not do for so many rows."""
     needed = 8.0 * rows * (signals + 1)
     if needed > SMALL and needed > MEMORY_SHARE.limit * psutil.virtual_memory().available:
-        problem = (
-            f"{rows} rows of {signals} signals take {needed / 1e9:.3g} GB, over {MEMORY_SHARE.limit:.0%} of what is free"
-        )
+        share = f"{MEMORY_SHARE.limit:.0%} of what is free"
+        problem = f"{rows} rows of {signals} signals take {needed / 1e9:.3g} GB, over {share}"
         remedy = f"give a longer step or an earlier `stop_time`, or set {MEMORY_SHARE.variable}"
         raise InputError("`step`", f"{step:g}", problem, remedy)
 

@@ -154,6 +154,7 @@ class TurningRobot:
         return quaternion(self.attitude * Rotation.from_rotvec(ARCSEC * self.random.normal(size=3)))
 
 
+@pytest.mark.slow
 def test_errors_and_innovations_are_as_large_as_the_covariance_says():
     noise, flights = 1e-11, 25
     attitude, rate, innovations = 0.0, 0.0, []

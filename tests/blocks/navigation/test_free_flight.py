@@ -159,6 +159,7 @@ def squares(gradient, flights=100):
     return np.array(actual)
 
 
+@pytest.mark.slow
 def test_over_half_an_orbit_only_the_gradient_makes_the_covariance_right():
     low, high = stats.chi2.interval(0.999, 6 * 100)
     assert low < squares(True).sum() < high

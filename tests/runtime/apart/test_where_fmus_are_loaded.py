@@ -18,6 +18,7 @@ import pytest
 
 from perilune.fmus_src.paths import ROOT
 from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
+from tests.support.lengths import either
 
 pytestmark = [pytest.mark.flies, pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")]
 SERVER = "server.server import main"
@@ -84,7 +85,7 @@ def waiting(tmp_path, words, **quirks):
     raise AssertionError(f"{line}: no child has loaded the FMU")
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize("name", either(list(COMMANDS), ["batch with two workers"]))
 def test_no_other_process_has_them(tmp_path, name):
     command, servers, children = waiting(tmp_path, COMMANDS[name], DEED=Deed.HANG, IN=Call.INITIALISATION)
     try:

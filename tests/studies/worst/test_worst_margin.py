@@ -175,6 +175,7 @@ def test_of_several_channels_the_least_counts(exact_fmus, written, tmp_path):
     assert np.ptp(channels[0]) > 0.01
 
 
+@pytest.mark.slow
 def test_workers_do_not_matter(actual, late, box):
     _, result = actual
     other = perilune.worst(late, box, loop="loop", flights=FLIGHTS, workers=2)
