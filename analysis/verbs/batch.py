@@ -26,7 +26,7 @@ from ..reports.common.notebook import Grid, metric_grid, notebook_view
 from ..runtime.flight.results import require_pandas
 from ..studies.sobol import rank_correlations
 from .common.campaign_text import campaign_problems, campaign_requirements, status_meanings
-from .common.campaigns import read_campaign, resume_hint
+from .common.campaigns import name_foreign, read_campaign, resume_hint
 from .options.campaigns import BATCH, BatchOptions
 from .options.option import FilePath
 from .options.verb import verb
@@ -162,6 +162,8 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
         cluster(options["scheduler"], workers=workers, engine=engine) as elsewhere,
     ):
         opened = open_campaign(plan, folder, resume=options["resume"], engine=engine, workers=workers)
+        if options["resume"]:
+            name_foreign(opened)
         if options["retry_crashed"]:
             opened.discard_lost(range(opened.numbering.count))
         rows = fly_campaign(opened, opened.missing(), workers=workers, engine=engine, elsewhere=elsewhere)

@@ -17,7 +17,7 @@ from ..common.targets import check_folder
 from ..runtime.system.options import trust_of
 from .batch import BatchResult
 from .common.campaign_text import campaign_requirements, failure_lines, find_failed
-from .common.campaigns import read_campaign, resume_hint
+from .common.campaigns import name_foreign, read_campaign, resume_hint
 from .options.campaigns import MERGE, PREPARE, SHARD, PrepareOptions, ShardOptions
 from .options.option import FilePath
 from .options.system import RequireOptions
@@ -105,6 +105,7 @@ def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpac
     """
     shards = [numbers] if isinstance(numbers, int) else numbers_of([str(number) for number in numbers])
     campaign = open_folder(Path(folder), trust_of(options))
+    name_foreign(campaign)
     if options["retry_crashed"]:
         campaign.discard_lost(shards)
     wanted = campaign.check_campaign(shards)

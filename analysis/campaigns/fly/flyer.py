@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -44,6 +45,7 @@ class Flyer:
         self.variants = {variant.name: variant for variant in plan.campaign.variants()}
         self._ready: dict[str, tuple[BaseSimulation, VariantNames]] = {}
         self._logs: dict[str, Log] = {}
+        self._warned: set[str] = set()  # variants
         self.halted = False
 
     def simulation(self, variant: str) -> tuple[BaseSimulation, VariantNames]:
@@ -149,11 +151,19 @@ class Flyer:
         try:
             flight = run(simulation, parameters, self.plan.watch.timeout)
             if self._is_to_be_repeated(simulation, flight):
-                flight = run(simulation, parameters, self.plan.watch.timeout)
+                first, flight = flight.message, run(simulation, parameters, self.plan.watch.timeout)
+                if flight.status not in LOST:
+                    self._warn_once(variant, f"trial {trial}: {first}; not so in a new process, which counts")
             return flight
         except StuckError as error:  # what it flew with is lost: the next trial flies with instances of its own
             del self._ready[variant]
             return nothing_flown(simulation, str(error))
+
+    def _warn_once(self, variant: str, text: str) -> None:
+        """Say what was not as it should be in a trial of a variant; of those that follow nothing."""
+        if variant not in self._warned:
+            self._warned.add(variant)
+            warnings.warn(f"{variant}: {text}", stacklevel=2)
 
     def _announce(self, variant: str, trial: int) -> None:
         if variant in self._ready:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -12,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...campaigns.draws.given import ALL, GivenDraws
+from ...campaigns.fly.campaign import Campaign
 from ...campaigns.fly.cluster.tasks import WorkersDiedError
 from ...campaigns.fly.manifest import FILE as MANIFEST
 from ...campaigns.replay_command import campaign_command, replay_command
@@ -71,6 +73,16 @@ def commands_of(plan: BatchPlan) -> Commands:
         return campaign_command(replace(plan, campaign=replace(plan.campaign, trials=trials)), variant)
 
     return Commands(replay, monte_carlo)
+
+
+def name_foreign(campaign: Campaign) -> None:
+    """Say which foreign FMUs a campaign's folder is about to run: whoever wrote it has chosen them."""
+    fmus = {fmu.digest: fmu for system in campaign.systems.values() for fmu in system.network.fmus.values()}
+    foreign = sorted(f"{fmu.name} ({digest[:12]})" for digest, fmu in fmus.items() if not fmu.is_own)
+    if foreign:
+        warnings.warn(
+            f"{campaign.named or campaign.folder}: simulates its foreign FMUs {', '.join(foreign)}", stacklevel=2
+        )
 
 
 @contextmanager

@@ -1,0 +1,100 @@
+"""Campaigns whose FMU ends its process in some trials: the same bytes however they are flown, and told wherever asked.
+
+Truth: the FMU's source, which does so where its count is 13; the batch in one command.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+
+import pyarrow.parquet
+import pytest
+
+from perilune.analysis.cli import main
+from tests.support.campaigns.folders import bytes_of, killed_when, shards_in, started
+from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
+
+pytestmark = pytest.mark.flies
+CAMPAIGN = """
+system = "odd"
+trials = 75
+seed = 3
+
+[draw."odd.count"]
+distribution = "choice"
+values = [1, 2, 3, 4, 5, 6, 7, 8, 9, 13]
+
+[metric.last]
+expression = "odd.y"
+reduction = "final"
+
+[success]
+expression = "last > 0"
+"""
+
+
+@pytest.fixture(scope="module")
+def crashing(tmp_path_factory):
+    """The words of a command that simulates it, and the folder that it wrote."""
+    folder = tmp_path_factory.mktemp("crashing")
+    fmu = odd_fmu(folder, DEED=Deed.SEGFAULT, IN=Call.STEP, COUNTED=13)
+    (folder / "c.toml").write_text(CAMPAIGN)
+    words = [str(fmu), "--campaign", str(folder / "c.toml"), "--step", "0.25", "--stop-time", "1"]
+    assert main(["batch", *words, "--output", str(folder / "out"), "--workers", "1"]) == 1
+    return words, folder / "out"
+
+
+def crashed(folder):
+    """How many trials of a folder crashed."""
+    statuses = pyarrow.parquet.read_table(folder / "trials", columns=["status"])["status"].to_pylist()
+    return statuses.count("crashed")
+
+
+def test_the_result_counts_them(crashing, tmp_path, capsys):
+    words, folder = crashing
+    assert main(["batch", *words, "--report", str(tmp_path / "page.html"), "--json", str(tmp_path / "r.json")]) == 1
+    count = crashed(folder)
+    assert 0 < count < 75
+    line = f"default: {count} crashed of 75 trials, which are no successes"
+    assert f"perilune: {line}; --retry-crashed simulates them again\n" in capsys.readouterr().err
+    assert line in (tmp_path / "page.html").read_text()
+    assert json.loads((tmp_path / "r.json").read_text())["variants"]["default"]["statuses"]["crashed"] == count
+
+
+def test_in_shards(crashing, tmp_path):
+    words, folder = crashing
+    out = tmp_path / "out"
+    assert main(["prepare", *words, "--output", str(out)]) == 0
+    with pytest.warns(UserWarning, match="simulates its foreign FMUs odd"):
+        assert main(["shard", str(out), "0", "--workers", "2"]) == 1
+    assert main(["shard", str(out), "1-2"]) == 1
+    assert main(["merge", str(out)]) == 1
+    assert bytes_of(out) == bytes_of(folder)
+
+
+def test_killed_and_resumed(crashing, tmp_path):
+    words, folder = crashing
+    out = tmp_path / "out"
+    process = started("batch", *words, "--output", out, "--workers", "2")
+    killed_when(process, lambda: shards_in(out) >= 1)
+    process.communicate()
+    assert main(["batch", *words, "--output", str(out), "--resume"]) == 1
+    assert bytes_of(out) == bytes_of(folder)
+
+
+def test_simulated_again(crashing, tmp_path):
+    """Only shards with such trials are; the FMU being what it is, to the same bytes."""
+    words, folder = crashing
+    out = shutil.copytree(folder, tmp_path / "out")
+    before = {path.name: path.stat().st_mtime_ns for path in (out / "trials").iterdir()}
+    assert main(["batch", *words, "--output", str(out), "--resume", "--retry-crashed"]) == 1
+    after = {path.name: path.stat().st_mtime_ns for path in (out / "trials").iterdir()}
+    again = {name for name in before if after[name] != before[name]}
+    assert again == {path.name for path in (folder / "trials").iterdir() if crashed_in(path)}
+    assert bytes_of(out) == bytes_of(folder)
+    assert main(["batch", *words, "--output", str(out), "--retry-crashed"]) == 2
+
+
+def crashed_in(path):
+    return "crashed" in pyarrow.parquet.read_table(path, columns=["status"])["status"].to_pylist()
