@@ -41,8 +41,8 @@ expression = "last > 0"
 
 def main() -> None:
     """Print two tables: batches and runs."""
-    with tempfile.TemporaryDirectory() as place:
-        folder = Path(place)
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
         (folder / "c.toml").write_text(CAMPAIGN)
         good = odd_fmu(folder, "good")
         bad = odd_fmu(folder, "bad", DEED=Deed.SEGFAULT, IN=Call.STEP, COUNTED=13)

@@ -8,7 +8,7 @@ from enum import IntEnum
 import numpy as np
 import psutil
 
-from ...common.bounds import MEMORY_SHARE
+from ...common.bounds import MEMORY_FRACTION
 from ...common.errors import InputError
 
 POINT, SUBJECT = 4, 1  # of an outcome, in flight: the communication point under way, the component stepped last
@@ -70,10 +70,10 @@ class FlightRecorder:
 def check_room(signals: int, rows: int, step: float) -> None:
     """Raise InputError, which names the ``step`` (s), where the free memory does not do for so many rows."""
     needed = 8.0 * rows * (signals + 1)
-    if needed > SMALL and needed > MEMORY_SHARE.limit * psutil.virtual_memory().available:
-        share = f"{MEMORY_SHARE.limit:.0%} of what is free"
-        problem = f"{rows} rows of {signals} signals take {needed / 1e9:.3g} GB, over {share}"
-        remedy = f"give a longer step or an earlier `stop_time`, or set {MEMORY_SHARE.variable}"
+    if needed > SMALL and needed > MEMORY_FRACTION.limit * psutil.virtual_memory().available:
+        excess = f"{MEMORY_FRACTION.limit:.0%} of what is free"
+        problem = f"{rows} rows of {signals} signals take {needed / 1e9:.3g} GB, over {excess}"
+        remedy = f"give a longer step or an earlier `stop_time`, or set {MEMORY_FRACTION.variable}"
         raise InputError("`step`", f"{step:g}", problem, remedy)
 
 
