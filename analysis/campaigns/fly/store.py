@@ -67,11 +67,11 @@ class ShardRows:
 
     def _table(self, shard: int, names: list[str] | None = None) -> pyarrow.Table:
         path = shard_path(self.folder, shard)
-        place = [variant.name for variant in self.plan.campaign.variants()].index(self.variant)
+        group = [variant.name for variant in self.plan.campaign.variants()].index(self.variant)
         check_regular(path, NEW_FOLDER)
         try:
             with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
-                table = file.read_row_group(place, None if names is None else list(dict.fromkeys([*names, *IDENTITY])))
+                table = file.read_row_group(group, None if names is None else list(dict.fromkeys([*names, *IDENTITY])))
         except (OSError, ValueError, IndexError, pyarrow.ArrowException) as error:
             raise unreadable(path, error) from error
         check_rows(table, self.variant, self.numbering.of(shard), names, path)

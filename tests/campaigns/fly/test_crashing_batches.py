@@ -90,8 +90,8 @@ def test_simulated_again(crashing, tmp_path):
     before = {path.name: path.stat().st_mtime_ns for path in (out / "trials").iterdir()}
     assert main(["batch", *words, "--output", str(out), "--resume", "--retry-crashed"]) == 1
     after = {path.name: path.stat().st_mtime_ns for path in (out / "trials").iterdir()}
-    again = {name for name in before if after[name] != before[name]}
-    assert again == {path.name for path in (folder / "trials").iterdir() if crashed_in(path)}
+    repeated = {name for name in before if after[name] != before[name]}
+    assert repeated == {path.name for path in (folder / "trials").iterdir() if crashed_in(path)}
     assert bytes_of(out) == bytes_of(folder)
     assert main(["batch", *words, "--output", str(out), "--retry-crashed"]) == 2
 
