@@ -169,6 +169,7 @@ def test_loops_are_picked_by_name_or_connector(packed, capsys):
             assert actual[name] == pytest.approx(everything["loops"][0][name], rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_declared_loop_at_several_times(packed, tmp_path, capsys):
     """A system that does not change has the margins of python-control all the time."""
     page = tmp_path / "page.html"

@@ -71,6 +71,7 @@ def test_a_vehicle_that_is_twice_as_large(capsys):
     assert two["programme"]["propellant_kg"] == pytest.approx(2.0 * one["programme"]["propellant_kg"])
 
 
+@pytest.mark.slow
 def test_optimum_bound_and_curves(tmp_path, capsys):
     document = tmp_path / "plan.json"
     more = ["--optimum", "--bound", "--curves", "--intervals", "60", "--json", str(document)]

@@ -110,7 +110,13 @@ def _beginning(command: str, table) -> str | None:
 
 
 OF_SYSTEMS = "docs/systems/"  # pages whose commands are alike: `make test` takes every third of them
-LONG_PAGES = ("docs/stability.md", "docs/guides/neural_network_guidance.md")  # half a minute each: `make long` alone
+# Of these the commands take a third of a minute each: `make long` alone.
+LONG_PAGES = (
+    "docs/stability.md",
+    "docs/guides/neural_network_guidance.md",
+    "docs/studies/failures.md",
+    "docs/use_elsewhere.md",
+)
 TAKEN = (
     PLACES
     if LONG

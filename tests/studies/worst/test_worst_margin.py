@@ -142,6 +142,7 @@ def test_the_worst_is_studied_again(actual, late, box, capsys):
     assert spread.replay.replace(" --trial 0", "") == document["replay"].replace(" --trial 0", "")
 
 
+@pytest.mark.slow
 def test_among_unstable_loops_the_largest_multiplier_is_worst(late, written, tmp_path, capsys):
     """The derivative gain up to 2 s, of which 1.58 s is stable: no margin is left, and poles say how unstable."""
     campaign = written(uniform("control.derivative", 0.5, 2.0))

@@ -78,7 +78,7 @@ def test_shards_one_by_one(cluster, line, whole, place, capsys):
 
 @pytest.mark.parametrize("flavour", ["native", "python"])
 def test_without_a_folder(cluster, flavour):
-    """Python FMUs, too, which fly one at a time in a worker."""
+    """Python FMUs, too, which fly in children of the workers."""
     compare = {"guidance": ["analytic_guidance"]}
     options = dict(trials=3, stop_time=2.0, flavour=flavour, compare=compare)
     there = perilune.batch(SYSTEM, "paper", **options, scheduler=cluster.address)
@@ -105,38 +105,30 @@ expression = "last > 0"
 
 
 @pytest.mark.slow
-def test_a_step_that_hangs_ends_its_worker(cluster, tmp_path):
-    """One that keeps Python's lock: the trials that are none of these are whole, and the workers there again."""
+def test_a_step_that_hangs_costs_a_trial(cluster, tmp_path):
+    """One that keeps Python's lock, too: it hangs in a child of the worker."""
     fmu = build_lone_fmu("Holding", tmp_path, 'stopTime="1" stepSize="0.25"')
     (tmp_path / "c.toml").write_text(STUCK.format(name="Holding", trials=4))
     limited = dict(set={"Holding.at": 0.5}, timeout=0.5)
     actual = perilune.batch(fmu, tmp_path / "c.toml", **limited, scheduler=cluster.address)
     late = actual.plan.draws.columns["Holding.pause"] > 0.0
     assert 0 < late.sum() < late.size
-    assert actual.trials["default"].statuses == ["timed_out" if value else "stop_time" for value in late]
+    assert actual.trials["default"].statuses == ["hung" if value else "stop_time" for value in late]
 
 
-@pytest.mark.slow
-def test_an_fmu_that_ends_every_worker(cluster, place, tmp_path, capsys):
-    """All that does not need it is flown, then the campaign ends in a line."""
-    fmu, out = build_lone_fmu("Dying", tmp_path, 'stopTime="1" stepSize="0.25"'), place / "dying"
+def test_an_fmu_that_ends_its_process_costs_a_trial(cluster, place, tmp_path):
+    """The workers stay, and the bytes are those of a batch that flies here."""
+    fmu = build_lone_fmu("Dying", tmp_path, 'stopTime="1" stepSize="0.25"')
     draws = pyarrow.table({"Dying.pause": [0.0] * 30 + [1.0] + [0.0] * 29})
     pyarrow.parquet.write_table(draws, tmp_path / "draws.parquet")
     (tmp_path / "c.toml").write_text(STUCK.format(name="Dying", trials=4))
-    words = [
-        "--campaign",
-        str(tmp_path / "c.toml"),
-        "--set",
-        "Dying.at=0.5",
-        "--draws",
-        str(tmp_path / "draws.parquet"),
-    ]
-    assert main(["batch", str(fmu), *words, "--output", str(out), "--scheduler", cluster.address]) == 1
-    said = capsys.readouterr().err
-    assert "perilune: workers end again and again with trial 30 of default; completed trials are stored in" in said
-    assert said.count("\n") == 1
-    assert not (out / "trials" / "000001.parquet").exists()
-    assert shards_in(out) == 2
+    line = ["batch", str(fmu), "--campaign", str(tmp_path / "c.toml"), "--set", "Dying.at=0.5"]
+    line += ["--draws", str(tmp_path / "draws.parquet")]
+    assert main([*line, "--output", str(place / "dying"), "--scheduler", cluster.address]) == 1
+    assert main([*line, "--output", str(tmp_path / "here"), "--workers", "1"]) == 1
+    assert bytes_of(place / "dying") == bytes_of(tmp_path / "here")
+    statuses = pyarrow.parquet.read_table(place / "dying" / "trials", columns=["trial", "status"]).to_pylist()
+    assert [row["trial"] for row in statuses if row["status"] == "crashed"] == [30]
 
 
 def test_killed_workers_fly_again(cluster, line, place):

@@ -134,7 +134,7 @@ def test_what_killed_writers_leave_is_taken_away(whole, tmp_path):
 
 
 def test_killed_workers_fly_again(tmp_path):
-    trials, kills = either((2000, 20), (400, 3))
+    trials, kills = either((2000, 20), (150, 2))
     source = random.Random(11)
     line = ["batch", SYSTEM, "--campaign", "paper", "--trials", trials, "--workers", "2"]
     process = started(*line, "--engine", "processes", "--output", tmp_path / "killed")
