@@ -31,7 +31,7 @@ STEPS = either(2000, 500)
 MANY = either(1_000_000, 20_000)  # steps of the elementary functions
 REFERENCE = "cc -O0"
 
-pytestmark = pytest.mark.skipif(shutil.which("cc") is None, reason="no system cc")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(shutil.which("cc") is None, reason="no system cc")]
 
 
 @pytest.mark.parametrize("compiler", [name for name in COMPILERS if name != REFERENCE and (LONG or name in QUICK)])

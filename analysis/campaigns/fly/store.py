@@ -82,10 +82,10 @@ class ShardRows:
         metrics = [metric.name for metric in self.plan.campaign.metrics]
         trials = trials_of(self._table(shard), metrics, path)[self.variant]
         for trial in trials.trial.tolist():
-            place = trace_path(self.folder, self.variant, trial)
-            if describe_columns(place) == {"batch": self.batch, "variant": self.variant, "trial": trial}:
-                table = read_table(place)
-                trials.traces[trial] = {name: numbers(table, name, place) for name in table.column_names}
+            trace = trace_path(self.folder, self.variant, trial)
+            if describe_columns(trace) == {"batch": self.batch, "variant": self.variant, "trial": trial}:
+                table = read_table(trace)
+                trials.traces[trial] = {name: numbers(table, name, trace) for name in table.column_names}
         return trials
 
 

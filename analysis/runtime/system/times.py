@@ -43,7 +43,7 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
         requested = step_option if options.step is not None else stop_option
         raise InputError(*requested, problem, "give a longer `step` or earlier times")
     steps = round(duration / step) if duration / step < float("inf") else -1
-    if duration > 0.0 and step > duration * (1.0 + 1e-9):
+    if options.step is not None and 0.0 < duration * (1.0 + 1e-9) < step:
         raise InputError(*step_option, f"longer than the simulation of {duration:g} s", "give a shorter `step`")
     if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):
         problem = f"{duration:g} s from the start are not a whole number of steps of {step:g} s"

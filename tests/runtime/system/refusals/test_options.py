@@ -36,7 +36,7 @@ from tests.support.refused import PLAIN, RAMP, ssp
         (["--step", "0"], ["--step", "not a positive number"]),
         (["--step", "-0.1"], ["--step", "not a positive number"]),
         (["--step", "0.3"], ["--stop-time", "whole number of steps of 0.3 s"]),
-        (["--step", "1e-13"], ["--step", "rows do not fit"]),
+        (["--step", "1e-13"], ["--step", "GB, over 25% of what is free"]),
         (["--step", "1e-320"], ["--step", "does not advance a time of 1 s"]),
         (["--stop-time", "1e300"], ["--stop-time", "does not advance", "earlier times"]),
         (["--feedthrough", "nobody"], ["--feedthrough: nobody", "use one of gain, ramp"]),
