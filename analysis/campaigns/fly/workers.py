@@ -64,7 +64,6 @@ class FlyerPool:
         self._apart = apart or (workers > 1 and not threads)
         self._flyers: list[Flyer] = []
         self._thread = threading.local()
-        self._halted = False
         if workers == 1:
             self._start()
         self._executor = None if workers == 1 else ThreadPoolExecutor(workers, initializer=self._start)
@@ -121,13 +120,12 @@ class FlyerPool:
         wait_for(futures, timeout=PATIENCE)
         for flyer in self._flyers:
             flyer.give_up()
-        self._halted = True
 
     def __enter__(self) -> FlyerPool:
         return self
 
     def __exit__(self, *_: object) -> None:
         if self._executor is not None:
-            self._executor.shutdown(wait=not self._halted)
+            self._executor.shutdown()
         for flyer in self._flyers:
             flyer.close()

@@ -83,11 +83,13 @@ class ServerProcess:
             )
         self._keys: dict[int, int] = {}  # by identity of what the server has
         self._forgotten: deque[int] = deque()  # keys of what is gone here, and not told yet
-        self.is_there = True
+        self.is_there, self._has_served = True, False
 
     def close(self) -> None:
-        """End it, with all its children."""
+        """End it, with all its children; at once where it never had one, as it may still be loading."""
         self.is_there = False
+        if not self._has_served:
+            self._process.kill()
         self._control.close()
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(PATIENCE)
@@ -96,6 +98,7 @@ class ServerProcess:
         """A child that does a task of `messages` in a folder. Raises OSError where the server has ended."""
         ours, theirs = socket.socketpair()
         with theirs, _lock:
+            self._has_served = True
             try:
                 key = self._known(subject)
                 number = next(_numbers)
