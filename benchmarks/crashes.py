@@ -17,37 +17,20 @@ from pathlib import Path
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.runtime.system.options import SystemOptions
-from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
+from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
 
 REPEATS = 5
 STEP = 1e-4  # s, of 1 s
-CAMPAIGN = """
-system = "odd"
-trials = 200
-seed = 3
-
-[draw."odd.count"]
-distribution = "choice"
-values = [1, 2, 3, 4, 5, 6, 7, 8, 9, 13]
-
-[metric.last]
-expression = "odd.y"
-reduction = "final"
-
-[success]
-expression = "last > 0"
-"""
 
 
 def main() -> None:
     """Print two tables: batches and runs."""
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        (folder / "c.toml").write_text(CAMPAIGN)
         good = odd_fmu(folder, "good")
         bad = odd_fmu(folder, "bad", DEED=Deed.SEGFAULT, IN=Call.STEP, COUNTED=13)
         for fmu in (good, bad):
-            (folder / f"{fmu.stem}.toml").write_text(CAMPAIGN.replace("odd", fmu.stem))
+            (folder / f"{fmu.stem}.toml").write_text(COUNTS.format(name=fmu.stem, trials=200))
         print("| 200 trials, workers | in this process, s | in children, s | 20 of them crash, s | a crash, s |")
         print("|---|---|---|---|---|")
         for workers in (1, 2):

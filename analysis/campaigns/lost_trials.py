@@ -1,4 +1,4 @@
-"""Trials that ended with their process, or whose FMU did not return: counted wherever a campaign's result is told."""
+"""Trials that ended with their process, or whose FMU did not return: counted with a campaign's result."""
 
 from __future__ import annotations
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import stat
 import tempfile
 import time
 from contextlib import suppress
@@ -32,18 +33,20 @@ def _remove_all() -> None:
 @cache
 def _folder() -> tuple[Path, FileLock]:
     """The folder that has all of this process's, and its lock."""
-    _sweep()
     folder = Path(tempfile.mkdtemp(prefix=PREFIX))
+    _sweep(folder.stat().st_uid)
     at_end(_remove_all)
     lock = FileLock(folder / LOCK)
     lock.acquire(blocking=False)
     return folder, lock
 
 
-def _sweep() -> None:
-    """Remove the folders of processes that are gone."""
+def _sweep(user: int) -> None:
+    """Remove a user's folders of processes that are gone; a lock that is a link could lead to any file."""
     for path in Path(tempfile.gettempdir()).glob(f"{PREFIX}*/{LOCK}"):
         with suppress(OSError, Timeout):
-            if time.time() - path.lstat().st_mtime > YOUNG:
+            state = path.lstat()
+            is_ours = state.st_uid == path.parent.stat().st_uid == user and stat.S_ISREG(state.st_mode)
+            if is_ours and time.time() - state.st_mtime > YOUNG:
                 with FileLock(path, blocking=False):
                     shutil.rmtree(path.parent)

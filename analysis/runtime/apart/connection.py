@@ -1,4 +1,4 @@
-"""A child that is asked one thing at a time: answers, and what is made of its end."""
+"""Requests to a child and its answers, one at a time, and what its end means."""
 
 from __future__ import annotations
 
@@ -32,6 +32,7 @@ from .protocol.requests import send_request
 from .servers import Child
 
 LOOK = 0.25  # s, between looks at a child that says nothing
+FRAME = 10.0  # s in which the next bytes of an answer follow, once it has begun
 PATIENCE = 1.5  # s that a child has to free its instances
 
 
@@ -60,6 +61,7 @@ class Connection:
         self._write = write
         self._stillness = stillness
         self._given_up = ""
+        child.channel.settimeout(FRAME)
         self._end = weakref.finalize(self, child.end, kill=True)
 
     @property
@@ -79,7 +81,7 @@ class Connection:
             raise self._ended() from None
 
     def hear(self, expected: type[Kind]) -> Kind:
-        """The answer to what the child was told."""
+        """The answer to the last request."""
         kind, content = self._receive()
         try:
             if kind != ANSWER:
@@ -95,12 +97,13 @@ class Connection:
         """An answer of so many float64."""
         self.send(request)
         kind, content = self._receive()
-        if kind == ANSWER:
-            answer = read_answer(content, Refused)
-            raise InputError(answer.file, answer.element, answer.problem, answer.remedy)
-        if kind != NUMBERS or len(content) != 8 * count:
-            raise self._unreadable()
-        return np.frombuffer(content)
+        if kind == NUMBERS and len(content) == 8 * count:
+            return np.frombuffer(content)
+        try:
+            refused = read_answer(content if kind == ANSWER else b"", Refused)
+        except UnreadableError:
+            raise self._unreadable() from None
+        raise InputError(refused.file, refused.element, refused.problem, refused.remedy)
 
     def give_up(self, why: str) -> None:
         """End the child, for whoever waits for it in another thread: a call does not return."""
@@ -138,24 +141,24 @@ class Connection:
         before, since = self._stillness.measure(), time.monotonic()
         while True:
             try:
-                if not select.select([channel], [], [], LOOK)[0]:
-                    now = self._stillness.measure()
-                    if now != before:
-                        before, since = now, time.monotonic()
-                    if time.monotonic() - since > self._stillness.limit:
-                        self._given_up = f"a call did not return for {self._stillness.limit:g} s"
-                    if self._given_up or self._child.is_over:
-                        raise EOFError
+                is_ready = bool(select.select([channel], [], [], LOOK)[0])
+                now = self._stillness.measure()
+                if now != before:
+                    before, since = now, time.monotonic()
+                if time.monotonic() - since > self._stillness.limit:
+                    self._given_up = f"a call did not return for {self._stillness.limit:g} s"
+                if self._given_up or (not is_ready and self._child.is_over):
+                    raise EOFError
+                if not is_ready:
                     continue
                 kind, content = receive_frame(channel)
-            except UnreadableError:
+            except (UnreadableError, TimeoutError):
                 raise self._unreadable() from None
             except (EOFError, OSError, ValueError):
                 raise self._ended() from None
             if kind != LINE:
                 return kind, content
             self._write(content.decode(errors="replace"))
-            before, since = self._stillness.measure(), time.monotonic()
 
     def _unreadable(self) -> ChildEndedError:
         self._finish(kill=True)

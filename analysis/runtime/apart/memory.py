@@ -20,7 +20,7 @@ class ApartSnapshot:
 
 
 class Answering(Protocol):
-    """Who is asked: a simulation in a child."""
+    """What answers requests: a simulation in a child."""
 
     def ask(self, request: object, expected: type[messages.Kind]) -> messages.Kind: ...
 

@@ -82,7 +82,7 @@ class ServerProcess:
                 start_new_session=True,
             )
         self._keys: dict[int, int] = {}  # by identity of what the server has
-        self._forgotten: deque[int] = deque()  # keys of what is gone here, and not told yet
+        self._forgotten: deque[int] = deque()  # keys that the server is still to forget
         self.is_there, self._has_served = True, False
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""A simulation in a child: same as one that is here, with the same bits."""
+"""A simulation in a child, with the methods and the bits of one in this process."""
 
 from __future__ import annotations
 
@@ -147,9 +147,9 @@ class ApartSimulation(BaseSimulation):
     def _is_as_announced(
         self, pending: messages.Fly, first: int, last: int, every: int, excitation: np.ndarray
     ) -> bool:
-        """Whether a flight that was announced is the one that is same for."""
-        same = (first, last, every, excitation.size) == (pending.first, pending.last, pending.every, 0)
-        return same and self._sent == self._values and self._sent_faults == tuple(self._faults)
+        """Whether the flight that was announced is the one that `advance` is called for."""
+        is_same = (first, last, every, excitation.size) == (pending.first, pending.last, pending.every, 0)
+        return is_same and self._sent == self._values and self._sent_faults == tuple(self._faults)
 
     def _depart(self, first: int, last: int, every: int, excitation: np.ndarray) -> messages.Fly:
         """Let the child fly, into the recorder that the last flight does not lie in."""

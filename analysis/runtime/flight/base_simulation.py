@@ -24,7 +24,7 @@ NOTHING = np.zeros((0, 0))  # no excitation
 class Choices(TypedDict, total=False):
     """``varied`` names the parameters (``component.variable``) that flights may be given anew; ``wanted`` the signals
     to record (None: all outputs, connected inputs and system connectors); ``faults`` those that fly unless `set_faults`
-    says otherwise; ``excited`` the connectors that `advance` may add signals to; ``log`` is told what the FMUs say.
+    says otherwise; ``excited`` the connectors that `advance` may add signals to; ``log`` receives the FMUs' messages.
     """
 
     varied: Collection[str]

@@ -15,7 +15,7 @@ POINT, SUBJECT = 4, 1  # of an outcome, in flight: the communication point under
 OUTCOME_WORDS = 6
 
 
-SMALL = 1e8  # bytes, for which nobody is asked
+SMALL = 1e8  # bytes, up to which the free memory is not read
 
 
 class Phase(IntEnum):

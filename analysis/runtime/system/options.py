@@ -40,7 +40,7 @@ ISOLATION = ("available", "strict")
 
 @dataclass(frozen=True)
 class Trust:
-    """What foreign FMUs may do here: never read from a campaign's folder, but asked of whoever simulates.
+    """What foreign FMUs may do here: options of whoever simulates, never read from a campaign's folder.
 
     ``in_process``: they are loaded into this process, too, and not into one of their own. There they may not use the
     network, nor write, unless ``allow`` says ``network``, or ``write=FOLDER``. ``isolate``: ``available`` restricts
@@ -101,6 +101,13 @@ class SystemOptions(Trust, Layer):
     call_timeout: float = field(default=300.0, compare=False)
     memory: float = field(default=4.0, compare=False)
     folder: str = field(default_factory=os.getcwd, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("call_timeout", "memory"):
+            limit = getattr(self, name)
+            if not 0.0 < limit < math.inf:
+                raise InputError(f"`{name}`", str(limit), "not a positive number", "give more than 0")
 
     def among(self, **layers: Layer) -> SystemOptions:
         """These options, the command line's, with what others ask, by the names of `LAYERS`."""

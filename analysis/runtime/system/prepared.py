@@ -60,7 +60,7 @@ class PreparedSystem:
 
     @property
     def is_own(self) -> bool:
-        """Whether Perilune built all of its FMUs; others are code of strangers."""
+        """Whether Perilune built all of its FMUs; a system with any other is foreign."""
         return all(fmu.is_own for fmu in self.network.fmus.values())
 
     def of_flights(self) -> PreparedSystem:

@@ -13,25 +13,9 @@ import pytest
 
 from perilune.analysis.cli import main
 from tests.support.campaigns.folders import bytes_of, killed_when, shards_in, started
-from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
+from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
 
 pytestmark = pytest.mark.flies
-CAMPAIGN = """
-system = "odd"
-trials = 75
-seed = 3
-
-[draw."odd.count"]
-distribution = "choice"
-values = [1, 2, 3, 4, 5, 6, 7, 8, 9, 13]
-
-[metric.last]
-expression = "odd.y"
-reduction = "final"
-
-[success]
-expression = "last > 0"
-"""
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +23,7 @@ def crashing(tmp_path_factory):
     """The words of a command that simulates it, and the folder that it wrote."""
     folder = tmp_path_factory.mktemp("crashing")
     fmu = odd_fmu(folder, DEED=Deed.SEGFAULT, IN=Call.STEP, COUNTED=13)
-    (folder / "c.toml").write_text(CAMPAIGN)
+    (folder / "c.toml").write_text(COUNTS.format(name="odd", trials=75))
     words = [str(fmu), "--campaign", str(folder / "c.toml"), "--step", "0.25", "--stop-time", "1"]
     assert main(["batch", *words, "--output", str(folder / "out"), "--workers", "1"]) == 1
     return words, folder / "out"

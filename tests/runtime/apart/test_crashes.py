@@ -17,7 +17,7 @@ from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
-from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
+from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
 from tests.support.lengths import either
 
 pytestmark = pytest.mark.flies
@@ -87,29 +87,11 @@ def test_memory_has_a_limit(tmp_path):
     assert perilune.simulate(odd_fmu(tmp_path, DEED=Deed.GROW, IN=Call.STEP), stop_time=0.75).status == "stop_time"
 
 
-CAMPAIGN = """
-system = "odd"
-trials = {trials}
-seed = 3
-
-[draw."odd.count"]
-distribution = "choice"
-values = [1, 2, 3, 4, 5, 6, 7, 8, 9, 13]
-
-[metric.last]
-expression = "odd.y"
-reduction = "final"
-
-[success]
-expression = "last > 0"
-"""
-
-
 def fly(folder, workers, trials=200, **quirks):
     """The trials of a batch, and who had a count of 13."""
     folder.mkdir()
     fmu = odd_fmu(folder, **quirks)
-    (folder / "c.toml").write_text(CAMPAIGN.format(trials=trials))
+    (folder / "c.toml").write_text(COUNTS.format(name="odd", trials=trials))
     options = SystemOptions(stop_time=1.0, step=0.25, call_timeout=0.5, memory=0.2)
     plan = read_plan(fmu, str(folder / "c.toml"), options)
     return run_batch(plan, workers=workers).trials["default"], plan.draws.columns["odd.count"] == 13
@@ -175,7 +157,7 @@ def test_what_fmus_print_has_an_end(tmp_path):
 def test_what_is_refused_before_anything_flies(tmp_path, capsys, call, deed):
     """By `validate` and by `prepare`, which try an FMU with its declared values."""
     fmu = odd_fmu(tmp_path, DEED=deed, IN=call)
-    (tmp_path / "c.toml").write_text(CAMPAIGN.format(trials=30))
+    (tmp_path / "c.toml").write_text(COUNTS.format(name="odd", trials=30))
     prepare = ["prepare", str(fmu), "--campaign", str(tmp_path / "c.toml"), "--output", str(tmp_path / "out")]
     for command in (["validate", str(fmu)], [*prepare, "--step", "0.25", "--stop-time", "1"]):
         assert main([*command, "--call-timeout", "1"]) == 2

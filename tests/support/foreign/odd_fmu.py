@@ -44,6 +44,22 @@ Call = IntEnum("Call", "CONSTRUCTION INSTANTIATION INITIALISATION STEP RESETTING
 ENDINGS = "SEGFAULT ABORT OVERFLOW EXIT_0 EXIT_1 EXIT_AT_ONCE KILL_GROUP"
 OTHERS = "HANG GROW PRINT SCRIBBLE CORRUPT LEAVE_ORPHAN TRY LOG LOG_CONTROLS"
 Deed = IntEnum("Deed", f"{ENDINGS} {OTHERS}", start=0)
+COUNTS = """
+system = "{name}"
+trials = {trials}
+seed = 3
+
+[draw."{name}.count"]
+distribution = "choice"
+values = [1, 2, 3, 4, 5, 6, 7, 8, 9, 13]
+
+[metric.last]
+expression = "{name}.y"
+reduction = "final"
+
+[success]
+expression = "last > 0"
+"""  # a campaign of one such FMU, of which a tenth of the trials has a count of 13
 ENDS = "input u Real; output y Real; output tolerance Real; output length Real"
 
 

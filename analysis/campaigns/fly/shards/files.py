@@ -175,7 +175,7 @@ NUMBER_PREFIXES = ("draw.", "final.", "metric.")
 def check_rows(table: pyarrow.Table, variant: str, trials: range, names: Collection[str] | None, path: Path) -> None:
     """Refuse a variant's rows of a shard that are not its trials in order, or columns of other types.
 
-    ``names`` are the columns that were asked for, None for all. Raises InputError.
+    ``names`` are the columns that were read, None for all. Raises InputError.
     """
     for name in (*IDENTITY, *(COLUMNS if names is None else names)):
         if name not in table.column_names:

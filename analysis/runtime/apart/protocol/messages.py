@@ -116,7 +116,7 @@ class ReleaseSnapshot:
 
 
 class Done(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """What was asked for is done; ``number`` names a snapshot."""
+    """The request is carried out; ``number`` names a snapshot."""
 
     number: int = 0
 

@@ -1,4 +1,4 @@
-"""What a flight server is asked for; it answers to `Look` and `End`. All are pickles: both sides are our own code."""
+"""Orders to a flight server, which answers to `Look` and `End`; pickles, since both sides are our own code."""
 
 from __future__ import annotations
 

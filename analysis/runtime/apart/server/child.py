@@ -1,4 +1,4 @@
-"""What a child does: it instantiates a system, or tries one FMU, and answers until nobody asks any more.
+"""What a child does: it instantiates a system, or tries one FMU, and answers requests until its channel is closed.
 
 Only here, and in what this calls, are the libraries of FMUs loaded that fly in children.
 """
@@ -42,7 +42,7 @@ def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket,
 
 
 class _Pilot:
-    """Does what is asked of one simulation."""
+    """Carries out the requests to one simulation."""
 
     def __init__(
         self, channel: socket.socket, task: SystemFlights, prepared: PreparedSystem, recorder: SharedRecorder

@@ -57,7 +57,7 @@ class FlightServer:
         self._looked = 0.0
 
     def serve(self) -> None:
-        """Do what is asked until nobody asks any more."""
+        """Carry out orders until the control socket is closed."""
         while True:
             for key, _ in self._selector.select(LOOK if self._children else None):
                 if key.data is not None:
@@ -191,7 +191,7 @@ def _settle_in(scratch: str, restriction: Restriction | None) -> None:
     """Have a folder of one's own for temporary files, and may write nowhere else if there is a restriction."""
     for name in ("TMPDIR", "TEMP", "TMP"):
         os.environ[name] = scratch
-    tempfile.tempdir = None  # found anew
+    tempfile.tempdir = None  # determined again at its next use
     if restriction is not None:
         restrict(replace(restriction, writable=(scratch, *restriction.writable)))
 

@@ -1,1 +1,1 @@
-"""What the operating system is asked of processes; Linux alone has most of it."""
+"""Calls of the operating system for processes; Linux alone has most of them."""

@@ -1,4 +1,4 @@
-"""What Linux is asked of processes that Python has no name for."""
+"""Calls of Linux for processes that Python has no function for."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Folders of campaigns that strangers wrote: each is merged, or refused in one line that names file and element.
+"""Folders of campaigns of unknown origin: each is merged, or refused in one line that names file and element.
 
 Truth: a good folder, in which the tests change what they know; the errors are `InputError` and no others.
 """

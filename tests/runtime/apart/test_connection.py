@@ -1,0 +1,89 @@
+"""What a process makes of a child that sends anything: an end, in bounded time, and never a wait for good.
+
+Truth: the bytes that the test writes itself, in place of a child.
+"""
+
+from __future__ import annotations
+
+import socket
+import struct
+import threading
+from types import SimpleNamespace
+
+import pytest
+
+from perilune.analysis.runtime.apart import connection as module
+from perilune.analysis.runtime.apart.connection import ChildEndedError, Connection, Stillness
+from perilune.analysis.runtime.apart.protocol import messages
+from perilune.analysis.runtime.apart.protocol.orders import Ended
+
+ANSWERS = {
+    "no kind": b"x" + bytes(8),
+    "too long": struct.pack("<cI", b"A", 2**32 - 1),
+    "cut short": struct.pack("<cI", b"A", 100) + b"{}",
+    "no JSON": struct.pack("<cI", b"A", 2) + b"{]",
+    "another answer": struct.pack("<cI", b"A", 24) + b'{"type":"Done","more":1}',
+    "numbers": struct.pack("<cI", b"N", 8) + bytes(8),
+}
+
+
+@pytest.fixture
+def pair(monkeypatch):
+    """A connection whose child the test is, which ends when it is told to."""
+    monkeypatch.setattr(module, "FRAME", 0.2)
+    ours, theirs = socket.socketpair()
+
+    def end(*, kill):
+        ours.close()
+        return Ended(9 if kill else 0)
+
+    lines = []
+    child = SimpleNamespace(channel=ours, end=end, is_over=False)
+    yield Connection(child, lines.append, Stillness(lambda: None, 0.5)), theirs, lines
+    theirs.close()
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_what_is_no_answer(pair, name):
+    connection, theirs, _ = pair
+    theirs.sendall(ANSWERS[name])
+    with pytest.raises(ChildEndedError, match="answers that cannot be read") as caught:
+        connection.hear(messages.Flown)
+    assert caught.value.status == "crashed"
+    assert not connection.is_open
+
+
+@pytest.mark.parametrize("name", ["no JSON", "another answer"])
+def test_what_are_no_numbers(pair, name):
+    connection, theirs, _ = pair
+    theirs.sendall(ANSWERS[name])
+    with pytest.raises(ChildEndedError, match="answers that cannot be read"):
+        connection.ask_numbers(messages.ReadMemory(), 3)
+
+
+def test_lines_without_end_are_no_progress(pair):
+    connection, theirs, lines = pair
+    over = threading.Event()
+
+    def write():
+        while not over.is_set():
+            try:
+                messages.send_line(theirs, "still here")
+            except OSError:
+                return
+
+    writer = threading.Thread(target=write)
+    writer.start()
+    with pytest.raises(ChildEndedError, match=r"a call did not return for 0.5 s") as caught:
+        connection.hear(messages.Done)
+    over.set()
+    writer.join()
+    assert caught.value.status == "hung"
+    assert set(lines) == {"still here"}
+
+
+def test_an_answer(pair):
+    connection, theirs, _ = pair
+    messages.send_answer(theirs, messages.Flown("stop_time", "", 3))
+    assert connection.hear(messages.Flown).rows == 3
+    assert connection.is_open
