@@ -63,10 +63,10 @@ def test_what_are_no_numbers(pair, name):
 
 def test_lines_without_end_are_no_progress(pair):
     connection, theirs, lines = pair
-    over = threading.Event()
+    finished = threading.Event()
 
     def write():
-        while not over.is_set():
+        while not finished.is_set():
             try:
                 messages.send_line(theirs, "still here")
             except OSError:
@@ -76,7 +76,7 @@ def test_lines_without_end_are_no_progress(pair):
     writer.start()
     with pytest.raises(ChildEndedError, match=r"a call did not return for 0.5 s") as caught:
         connection.hear(messages.Done)
-    over.set()
+    finished.set()
     writer.join()
     assert caught.value.status == "hung"
     assert set(lines) == {"still here"}
