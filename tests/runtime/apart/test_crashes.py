@@ -92,7 +92,7 @@ def fly(folder, workers, trials=200, **quirks):
     folder.mkdir()
     fmu = odd_fmu(folder, **quirks)
     (folder / "c.toml").write_text(COUNTS.format(name="odd", trials=trials))
-    options = SystemOptions(stop_time=1.0, step=0.25, call_timeout=0.5, memory=0.2)
+    options = SystemOptions(stop_time=1.0, step=0.25, call_timeout=10.0, memory=0.2)
     plan = read_plan(fmu, str(folder / "c.toml"), options)
     return run_batch(plan, workers=workers).trials["default"], plan.draws.columns["odd.count"] == 13
 
