@@ -13,6 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.lengths import either
+
 pytestmark = pytest.mark.usefixtures("fmus")
 SYSTEM = "lunar_terminal_guidance"
 CAMPAIGN = f"{SYSTEM} --campaign paper --compare guidance=analytic_guidance --workers 1"
@@ -43,7 +45,7 @@ def closed() -> int:
     return writing
 
 
-@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize("verb", either([*VERBS], ["run"]))
 def test_nothing_is_lost(verb, tmp_path):
     words, files = VERBS[verb]
     output = closed()

@@ -20,7 +20,7 @@ from perilune.fmus_src.export.native_fmu import build_native_fmu
 from tests.support import lengths
 from tests.support.kernels.comparison import Pair, fly
 from tests.support.kernels.native_instance import CACHE, LOGGER, Callbacks, NativeInstance, opened
-from tests.support.lengths import LONG, either
+from tests.support.lengths import either
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = lengths.size(200)
@@ -31,17 +31,15 @@ COMPILERS = {
     "cc -O3": ["cc", "-O3"],
     "zig -O2": [sys.executable, "-m", "ziglang", "cc", "-O2"],
 }
-# Under `make long` every block with what optimises hardest; always the blocks that compute most, with every compiler.
-HARD = either(
-    ("spherical_moon_lander", "free_flying_robot", "kalman_navigation", "jet_allocation_least_propellant"),
-    ("kalman_navigation",),
-)
-CASES = [
-    (block, compiler)
-    for block in BLOCKS
-    for compiler in COMPILERS
-    if block.fmu_name in HARD or (LONG and compiler == "cc -O3")
+# Under `make long` every block with what optimises hardest, and the blocks that compute most with every compiler.
+HARD = ("spherical_moon_lander", "free_flying_robot", "kalman_navigation", "jet_allocation_least_propellant")
+LONG_CASES = [
+    (block, compiler) for block in BLOCKS for compiler in COMPILERS if block.fmu_name in HARD or compiler == "cc -O3"
 ]
+SHORT_CASES = [
+    (block, compiler) for block in BLOCKS for compiler in ("cc -O0", "cc -O3") if block.fmu_name == "kalman_navigation"
+]
+CASES = either(LONG_CASES, SHORT_CASES)
 TWO = ("forming_filter", "flat_moon_lander")
 
 

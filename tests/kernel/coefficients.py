@@ -32,13 +32,12 @@ class Approximation:
         with mp.workdps(DIGITS):
             return [float(value) for value in _remez(self)]
 
-    def worst_error(self, points: int = 400) -> float:
-        """Largest weighted error of the rounded coefficients."""
+    def worst_error(self, coefficients: list[float], points: int = 400) -> float:
+        """Largest weighted error of rounded coefficients."""
         with mp.workdps(DIGITS):
             low, high = (mp.mpmathify(end) for end in self.interval)
-            values = self.derive()
             arguments = [low + (high - low) * (k + 0.5) / points for k in range(points)]
-            errors = [mp.polyval(values, x, asc=True) - self.function(x) for x in arguments]
+            errors = [mp.polyval(coefficients, x, asc=True) - self.function(x) for x in arguments]
             return float(max(abs(self.weight(x) * error) for x, error in zip(arguments, errors, strict=True)))
 
 
@@ -121,6 +120,7 @@ APPROXIMATIONS = (
 
 if __name__ == "__main__":
     for approximation in APPROXIMATIONS:
-        print(f"# {approximation.name}: weighted error at most {approximation.worst_error():.1e}")
-        for number, value in enumerate(approximation.derive()):
+        derived = approximation.derive()
+        print(f"# {approximation.name}: weighted error at most {approximation.worst_error(derived):.1e}")
+        for number, value in enumerate(derived):
             print(f"{approximation.name}_{number} = {value!r}")

@@ -26,4 +26,4 @@ def test_sources_have_the_derived_coefficients(approximation: Approximation) -> 
     named = {name: value for home in HOMES for name, value in vars(home).items() if name.startswith(prefix)}
     in_source = [named[f"{prefix}{number}"] for number in range(approximation.terms)]
     assert in_source == approximation.derive()
-    assert approximation.worst_error() < WORST.get(approximation.name, 2e-17)
+    assert approximation.worst_error(in_source) < WORST.get(approximation.name, 2e-17)

@@ -20,12 +20,7 @@ from tests.support.lengths import LONG, either
 pytestmark = pytest.mark.usefixtures("fmus")
 
 EVERY_FUNCTION = str(Path(__file__).with_name("every_function.toml"))
-ONE_FILTER = ["--configuration", "orbital_filter__orbital_modal_control"]
-SMALL = [
-    ("robot_rendezvous", "seeds", 1, ["--stop-time", "60"]),
-    ("orbital_attitude", "noisy", 40, ONE_FILTER),  # one flight for each point of its grid
-    ("lunar_terminal_guidance", EVERY_FUNCTION, 6, []),
-]
+SMALL = [("lunar_terminal_guidance", EVERY_FUNCTION, 6, [])]
 WHOLE = [
     ("lunar_landing", "terminal_box", 60, []),
     ("robot_rendezvous", "seeds", 8, []),

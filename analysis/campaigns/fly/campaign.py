@@ -15,6 +15,7 @@ from ..lost_trials import lost_status
 from ..spec.checks import check_plan, prepare_variants
 from ..spec.plan import BatchPlan
 from .folder import begin, cut, resume_folder
+from .folder_lock import lock_folder
 from .manifest import FILE, Manifest, read_manifest
 from .metadata import Provenance, batch_digest, provenance
 from .plan_manifest import gather, restore
@@ -81,13 +82,21 @@ class Campaign:
         return [shard for shard in shards if not is_flown(self.folder, self.batch, shard, self.numbering.of(shard))]
 
     def discard_lost(self, shards: Iterable[int]) -> None:
-        """Remove those of some shards that have trials which crashed, hung or ran out of memory: they fly again."""
+        """Remove those of some shards that have trials which crashed, hung or ran out of memory: they fly again.
+
+        Raises InputError where another process simulates the campaign.
+        """
         if self.folder is None:
             return
-        for shard in sorted(set(shards) - set(self.missing())):
-            rows = self.shard_rows(shard).values()
-            if any(lost_status(status) for each in rows for part in each.parts("status") for status in part["status"]):
-                shard_path(self.folder, shard).unlink()
+        with lock_folder(self.folder, alone=True):
+            for shard in sorted(set(shards) - set(self.missing())):
+                if self._has_lost(shard):
+                    shard_path(self.folder, shard).unlink()
+
+    def _has_lost(self, shard: int) -> bool:
+        """Whether a shard has such trials."""
+        columns = (columns for rows in self.shard_rows(shard).values() for columns in rows.parts("status"))
+        return any(lost_status(status) for column in columns for status in column["status"])
 
     def check_campaign(self, shards: Iterable[int]) -> list[int]:
         """Those of some shards that its folder does not hold.
@@ -122,7 +131,8 @@ def open_campaign(
     if output is None:
         return Campaign(plan, plan, systems, manifest, None)
     folder = output.absolute()  # FMUs may change the working folder
-    manifest = (resume_folder if resume else begin)(folder, manifest, contents, plan)
+    with lock_folder(folder, alone=not resume):
+        manifest = (resume_folder if resume else begin)(folder, manifest, contents, plan)
     flown = restore(folder, manifest, plan.watch.log, trust=plan.options)
     plan = replace(plan, known_draws=flown.draws)  # read from the folder, and not in memory
     return Campaign(plan, flown, systems, manifest, folder, output)

@@ -20,6 +20,7 @@ from ..tables import assumption_lines, faults_line, summary_text
 from ..trials import Trials
 from .campaign import Campaign
 from .folder import tidy
+from .folder_lock import lock_folder
 from .metadata import Provenance, batch_digest
 from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
 from .shards.numbering import Numbering, shard_size
@@ -47,8 +48,9 @@ class BatchResult:
         campaign = campaign.of_first(len(next(iter(rows.values()))))
         result = cls(campaign.plan, rows, campaign.provenance, campaign.named, **more)
         if campaign.folder is not None:
-            result.write_summary(campaign.folder)
-            tidy(campaign.folder)
+            with lock_folder(campaign.folder):
+                result.write_summary(campaign.folder)
+                tidy(campaign.folder)
         return result
 
     @cached_property
@@ -98,12 +100,13 @@ class BatchResult:
         """
         batch = batch_digest(self.provenance)
         numbering = Numbering(self.plan.campaign.trials, shard_size(self.plan.campaign.trials))
-        write_draws(self.plan, folder, numbering.size)
-        clear(folder)
-        for shard in range(numbering.count):
-            part = {variant: trials.part(numbering.of(shard)) for variant, trials in self.trials.items()}
-            write_shard(folder, batch, shard, self.plan, part)
-        self.write_summary(folder)
+        with lock_folder(folder, alone=True):
+            write_draws(self.plan, folder, numbering.size)
+            clear(folder)
+            for shard in range(numbering.count):
+                part = {variant: trials.part(numbering.of(shard)) for variant, trials in self.trials.items()}
+                write_shard(folder, batch, shard, self.plan, part)
+            self.write_summary(folder)
 
     def write_summary(self, folder: Path) -> None:
         """Write summary.json, which completes the folder: the shards are stored there already."""

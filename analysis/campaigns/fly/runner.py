@@ -15,6 +15,7 @@ from ..requirement_verdicts import satisfies, trials_to_decision
 from ..spec.plan import BatchPlan
 from ..trials import TrialRows, Trials
 from .campaign import Campaign, open_campaign
+from .folder_lock import lock_folder
 from .results import BatchResult
 from .shards.flights import fly_shards, task_size
 from .shards.numbering import spans
@@ -78,7 +79,7 @@ def fly_campaign(
     else:
         flying = _fly_here(campaign, shards, workers, engine)
     failed = 0
-    with progress_bar(total=flights, unit="flight") as bar, closing(flying) as flown:
+    with lock_folder(campaign.folder), progress_bar(total=flights, unit="flight") as bar, closing(flying) as flown:
         for shard, trials in () if decision.is_decided else flown:
             store.add(shard, trials)
             decision.add(shard, trials)

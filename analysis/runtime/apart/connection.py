@@ -26,8 +26,8 @@ from .protocol.messages import (
     read_answer,
     receive_frame,
 )
+from .protocol.orders import NEAR_MEMORY_LIMIT, Ended
 from .protocol.orders import OUT_OF_MEMORY as TOO_LARGE
-from .protocol.orders import Ended
 from .protocol.requests import send_request
 from .servers import Child
 
@@ -111,10 +111,19 @@ class Connection:
         with suppress(OSError):
             self._child.channel.shutdown(socket.SHUT_RDWR)  # wakes whoever waits
 
-    def close(self, *, kill: bool = False) -> None:
-        """Let the child free its instances, and end; PATIENCE is limited."""
-        if self.is_open:
-            self._finish(kill=kill or not self._is_freed())
+    def close(self) -> str:
+        """Let the child free its instances, and end; what went wrong, if something did. PATIENCE is limited."""
+        if not self.is_open:
+            return ""
+        is_freed = self._is_freed()
+        ended = self._finish(kill=not is_freed)
+        if not is_freed:
+            return f"its process did not end within {PATIENCE:g} s"
+        return f"its process ended {_in_words(ended.status)}" if ended is not None and ended.status else ""
+
+    def kill(self) -> None:
+        """End the child at once."""
+        self._finish(kill=True)
 
     def _is_freed(self) -> bool:
         """Ask the child to free its instances; whether it has done so, and ended."""
@@ -172,6 +181,9 @@ class Connection:
             return ChildEndedError(CRASHED, "its process has ended")
         if ended.reason == TOO_LARGE:
             return ChildEndedError(OUT_OF_MEMORY, "its process took more memory than it may")
+        if ended.reason == NEAR_MEMORY_LIMIT:
+            how = f"its process ended {_in_words(ended.status)} near its memory limit"
+            return ChildEndedError(OUT_OF_MEMORY, how)
         return ChildEndedError(CRASHED, ended.reason or f"its process ended {_in_words(ended.status)}")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import closing, suppress
 from typing import Unpack
@@ -50,6 +51,7 @@ class ApartSimulation(BaseSimulation):
         self._recorders: list[SharedRecorder] = []  # of the child
         self._turn = 0  # which of them takes the flight that is under way
         self._pending: messages.Fly | None = None  # announced: under way, or waiting to be looked at
+        self._renews = True  # whether a child flies more than once
         self._formats = True  # of messages, which can end a process whose arguments are missing
         self._connection = self._begin()
 
@@ -117,7 +119,8 @@ class ApartSimulation(BaseSimulation):
 
     def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
         """See `BaseSimulation.announce`."""
-        if not self._connection.is_open or self._pending is not None or self.recorder.halt[0]:
+        is_busy = self._pending is not None or bool(self.recorder.halt[0])
+        if is_busy or not (self._connection.is_open and self._renews):
             return
         self.set(values)
         self.set_faults(faults)
@@ -135,12 +138,16 @@ class ApartSimulation(BaseSimulation):
                 self._depart(first, last, every, excitation)
             flown = self._connection.hear(messages.Flown)
         except ChildEndedError as error:
+            if self.recorder.phase[0] == Phase.RENEWAL and self._renews:
+                self._renews = False  # it happened after a flight, and before this one
+                self._note("it was terminated and reset", error.how)
+                return self.advance(first, last, excitation, every=every)
             return self._lost(error, first, every)
         if flown.status not in FLIGHT_STATUSES or not 0 <= flown.rows <= self.recorder.times.size:
-            self._connection.close(kill=True)
+            self._connection.kill()
             return self._flight(0, CRASHED, "answers that cannot be read")
         if (flown.status not in COMPLETE and not self.prepared.is_own) or not self._formats:
-            self._connection.close()
+            self._free()
             self._formats = True
         return self._flight(flown.rows, flown.status, flown.message)
 
@@ -170,6 +177,8 @@ class ApartSimulation(BaseSimulation):
         """Have a child that can fly, and knows whose reset cannot be trusted."""
         if first >= 0:
             return
+        if not self._renews:
+            self._connection.kill()
         if not self._connection.is_open:
             self._connection = self._begin()
         elif self.flights == 1:
@@ -202,15 +211,11 @@ class ApartSimulation(BaseSimulation):
         self._formats = not self._formats or error.status != CRASHED
         point = self.recorder.point
         rows = min(max(-(-(point - max(first, -1) - 1) // every), 0), self.recorder.times.size)
-        if self.recorder.phase[0] == Phase.RENEWAL:
-            rows = 0
         return self._flight(rows, error.status, f"{self._progress_text()}: {error.how}")
 
     def _progress_text(self) -> str:
         """What the child was at when it ended."""
         prepared, recorder = self.prepared, self.recorder
-        if recorder.phase[0] == Phase.RENEWAL:
-            return "before its start, when the FMUs were reset"
         if recorder.phase[0] == Phase.INSTANTIATION:
             return f"{self._component(int(recorder.phase[1]))}: while it was instantiated"
         if not recorder.point:
@@ -254,4 +259,17 @@ class ApartSimulation(BaseSimulation):
 
     def close(self) -> None:
         """Free the instances, and end the child; at once, where a flight is under way in a thread, given up."""
-        self._connection.close(kill=self.recorder.phase[0] != Phase.IDLE)
+        if self.recorder.phase[0] == Phase.IDLE:
+            self._free()
+        else:
+            self._connection.kill()
+
+    def _free(self) -> None:
+        """End the child once its FMUs are terminated and freed; flights that were flown before stand as they are."""
+        problem = self._connection.close()
+        if problem:
+            self._note("it was terminated and freed", problem)
+
+    def _note(self, when: str, problem: str) -> None:
+        """Warn of what an FMU does between flights, which no flight is to blame for."""
+        warnings.warn(f"{self._component(int(self.recorder.phase[1]))}: when {when}, {problem}", stacklevel=4)

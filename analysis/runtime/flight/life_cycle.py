@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from collections.abc import Set as AbstractSet
 
 import numpy as np
@@ -21,14 +21,20 @@ class LifeCycle:
     Our own FMUs that flew well are terminated and reset by the loop itself. Others are here: those whose reset cannot
     be trusted, and those that returned an error or discarded a step, which the trial of a reset need not have come
     to, are instantiated anew. A flight is ended when the next one begins, since until then it can go on.
+    ``note_subject`` is called with the number of each component before one of its functions is.
     """
 
     def __init__(
-        self, instances: Mapping[str, Instance], program: arrays.Program, instructions: InstructionList
+        self,
+        instances: Mapping[str, Instance],
+        program: arrays.Program,
+        instructions: InstructionList,
+        note_subject: Callable[[int], None],
     ) -> None:
         self._instances = instances
         self._program = program
         self._instructions = instructions
+        self._note_subject = note_subject
         self._are_own = all(instance.fmu.is_own for instance in instances.values())
         self._fresh = True
         self._running: AbstractSet[str] = set()  # initialised, so that they can be terminated
@@ -61,6 +67,7 @@ class LifeCycle:
             self._running = set()
             return True
         for index, (name, instance) in enumerate(self._instances.items()):
+            self._note_subject(index)
             if not self._is_reset(name, instance):
                 instance.renew()
                 self._readdress(index, instance)
@@ -113,7 +120,8 @@ class LifeCycle:
 
         After fmi2Fatal no instance of it may be used again, nor freed (FMI 2.0).
         """
-        for name, instance in self._instances.items():
+        for index, (name, instance) in enumerate(self._instances.items()):
+            self._note_subject(index)
             if instance.fmu.digest == fatal:
                 instance.abandon()
             else:

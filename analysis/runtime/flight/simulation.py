@@ -64,7 +64,7 @@ class Simulation(BaseSimulation):
             halt=self.recorder.halt,
         )
         self._loop: Callable[..., int] | None = None
-        self.life_cycle = LifeCycle(self.instances, self.program, self._instructions)
+        self.life_cycle = LifeCycle(self.instances, self.program, self._instructions, self._note_subject)
         self._under_way = threading.Lock()
         self.recorder.enter(Phase.IDLE)
 
@@ -98,6 +98,9 @@ class Simulation(BaseSimulation):
     def _time(self) -> float:
         """Of the communication point under way (s)."""
         return self.prepared.start + self.recorder.point * self.prepared.step
+
+    def _note_subject(self, component: int) -> None:
+        self.recorder.phase[1] = component
 
     def record_into(self, recorder: FlightRecorder) -> None:
         """Write the rows of the flights that follow elsewhere; ends no flight."""

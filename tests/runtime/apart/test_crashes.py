@@ -68,8 +68,22 @@ def test_a_crash_in_the_initialisation_leaves_no_row(tmp_path):
     assert flight.message == "odd: in the initialisation: its process ended by SIGABRT"
 
 
-def test_what_happens_when_it_is_freed_does_not_matter(tmp_path):
-    assert perilune.simulate(odd_fmu(tmp_path, DEED=Deed.SEGFAULT, IN=Call.FREEING)).status == "stop_time"
+@pytest.mark.parametrize(("deed", "how"), [("SEGFAULT", "ended by SIGSEGV"), ("HANG", "did not end within 1.5 s")])
+def test_what_happens_when_it_is_freed_is_a_note(tmp_path, deed, how):
+    with pytest.warns(UserWarning, match=f"^odd: when it was terminated and freed, its process {how}$"):
+        flight = perilune.simulate(odd_fmu(tmp_path, DEED=Deed[deed], IN=Call.FREEING))
+    assert flight.status == "stop_time"
+
+
+def test_a_batch_notes_once_what_happens_when_it_is_freed(tmp_path):
+    """Between flights and after the last one: none of its trials is to blame for it."""
+    with pytest.warns(UserWarning, match="odd") as noted:
+        trials, _ = fly(tmp_path / "batch", 1, 20, DEED=Deed.SEGFAULT, IN=Call.FREEING)
+    assert [str(warning.message) for warning in noted] == [
+        f"odd: when it was terminated and {what}, its process ended by SIGSEGV" for what in ("reset", "freed")
+    ]
+    assert trials.statuses == ["stop_time"] * 20
+    assert not trials.messages
 
 
 def test_a_call_that_does_not_return_has_a_limit(tmp_path):
@@ -85,6 +99,20 @@ def test_memory_has_a_limit(tmp_path):
     assert flight.status == "out_of_memory"
     assert flight.message == "odd: on the way to t = 0.75 s: its process took more memory than it may"
     assert perilune.simulate(odd_fmu(tmp_path, DEED=Deed.GROW, IN=Call.STEP), stop_time=0.75).status == "stop_time"
+
+
+MEMORY = {
+    Deed.FILL: "out_of_memory|its process ended by SIGABRT near its memory limit",
+    Deed.RESERVE: "crashed|its process ended by SIGSEGV",
+}
+
+
+@pytest.mark.parametrize("deed", MEMORY)
+def test_allocations_fail_near_the_limit_of_memory(tmp_path, deed):
+    """Of 0.2 GB: one fills 0.18 and gives up, the other uses 1 GB without a look at whether it has it."""
+    flight = perilune.simulate(odd_fmu(tmp_path, DEED=deed, IN=Call.STEP), stop_time=1.0, memory=0.2)
+    status, how = MEMORY[deed].split("|")
+    assert (flight.status, flight.message) == (status, f"odd: on the way to t = 0.75 s: {how}")
 
 
 def fly(folder, workers, trials=200, **quirks):

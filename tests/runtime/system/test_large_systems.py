@@ -1,4 +1,4 @@
-"""Chains of ten different FMUs with ten connections each, some hundred components long.
+"""Chains of ten different FMUs with ten connections each, a hundred components long under `make long`.
 
 Truth: the recursion that the chain computes, in numpy. `benchmarks/README.md` says how time and memory grow.
 """
@@ -10,8 +10,9 @@ from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.large_systems import KINDS, build_mixers, large_system
+from tests.support.lengths import either
 
-COUNT, STEPS = 200, 4
+COUNT, STEPS = either(200, 60), 4
 
 
 @pytest.fixture(scope="module")

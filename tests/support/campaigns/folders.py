@@ -11,12 +11,14 @@ from pathlib import Path
 import psutil
 import pyarrow.parquet
 
+from perilune.analysis.campaigns.fly.folder_lock import FILE
+
 SERVER = "apart.server.server import main"  # what the command line of a flight server, and of its children, has
 
 
 def bytes_of(folder):
-    """SHA-256 of every file that a campaign left, by name."""
-    files = sorted(path for path in Path(folder).rglob("*") if path.is_file())
+    """SHA-256 of every file that a campaign left, by name, but for the lock."""
+    files = sorted(path for path in Path(folder).rglob("*") if path.is_file() and path.name != FILE)
     return {path.relative_to(folder).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
 
 

@@ -10,7 +10,7 @@
 #include <sys/syscall.h>
 
 enum { CONSTRUCTION, INSTANTIATION, INITIALISATION, STEP, RESETTING, FREEING };
-enum { SEGFAULT, ABORT, OVERFLOW, EXIT_0, EXIT_1, EXIT_AT_ONCE, KILL_GROUP, HANG, GROW, PRINT, SCRIBBLE, CORRUPT, LEAVE_ORPHAN, TRY, LOG, LOG_CONTROLS };
+enum { SEGFAULT, ABORT, OVERFLOW, EXIT_0, EXIT_1, EXIT_AT_ONCE, KILL_GROUP, HANG, GROW, FILL, RESERVE, PRINT, SCRIBBLE, CORRUPT, LEAVE_ORPHAN, TRY, LOG, LOG_CONTROLS };
 
 #ifdef DEED
 static const fmi2CallbackFunctions *callbacks;
@@ -60,6 +60,12 @@ static double overflow(volatile double *below)
     return overflow(here) + here[1];
 }
 
+static void fill(size_t bytes)
+{
+    volatile char *memory = malloc(bytes);
+    for (size_t i = 0; i < bytes; i += 4096) memory[i] = 1;
+}
+
 static void do_it(void)
 {
     char *grown = NULL;
@@ -80,6 +86,8 @@ static void do_it(void)
             usleep(5000);
         }
         break;
+    case FILL: fill(180000000); abort();
+    case RESERVE: fill(1000000000); break;
     case PRINT: for (int i = 0; i < 1000000; i++) printf("\033[31mline %d\n", i); break;
     case SCRIBBLE: for (int i = 0; i < 256; i++) if (write(i, "no answer at all, but long enough", 33) < 0) continue; break;
     case CORRUPT: grown = malloc(24); memset(grown - 16, 0xff, 64); free(grown); break;

@@ -7,7 +7,9 @@ from typing import Any
 
 from ..system.restriction import Restriction
 
-OUT_OF_MEMORY = "out of memory"  # a reason to be ended
+# Why a child was ended, or failed:
+OUT_OF_MEMORY = "out of memory"
+NEAR_MEMORY_LIMIT = "near its memory limit"
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,7 @@ class End:
 
 @dataclass(frozen=True)
 class Ended:
-    """``status`` is that of os.waitpid; ``reason`` is why the server has killed it, if it has."""
+    """``status`` is that of os.waitpid; ``reason`` is why the server has killed it, or it has failed, where known."""
 
     status: int
     reason: str = ""

@@ -26,15 +26,23 @@ from typing import Any, NoReturn
 from ....common.process import leave
 from ....common.scratch import make_folder
 from ...flight.compiled import loop
-from ..protocol.orders import OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
+from ..protocol.orders import NEAR_MEMORY_LIMIT, OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
 from ..protocol.requests import receive_request, send_request
 from ..system.restriction import Restriction, restrict
-from ..system.system_calls import adopt_orphans, child_processes, end_with_parent, resident_memory
+from ..system.system_calls import (
+    adopt_orphans,
+    child_processes,
+    end_with_parent,
+    limit_addresses,
+    peak_memory,
+    resident_memory,
+)
 from . import child
 from .printed import Printed
 
 LOOK = 0.1  # s, between looks at the children's memory
 GRACE = 0.2  # s that a child has to end after it has closed its channel
+NEAR = 0.9  # of its limit of memory: a child that fails there has failed for want of it
 
 
 @dataclass
@@ -95,7 +103,7 @@ class FlightServer:
             os.close(descriptor)
         os.set_blocking(read, False)
         printed = Printed(read)
-        self._children[request.number] = _Child(pid, printed, scratch, request.memory + resident_memory(os.getpid()))
+        self._children[request.number] = _Child(pid, printed, scratch, request.memory + resident_memory(pid))
         self._selector.register(read, selectors.EVENT_READ, printed)
 
     def _end(self, request: End) -> Ended:
@@ -119,9 +127,11 @@ class FlightServer:
 
     def _is_over(self, each: _Child) -> bool:
         if each.status is None:
-            pid, status = os.waitpid(each.pid, os.WNOHANG)
+            pid, status, usage = os.wait4(each.pid, os.WNOHANG)
             if pid:
                 each.status = status
+                if status and not each.reason and peak_memory(usage) > NEAR * each.memory:
+                    each.reason = NEAR_MEMORY_LIMIT
         return each.status is not None
 
     def _end_family(self, pid: int) -> None:
@@ -174,6 +184,7 @@ def _work(request: Begin, subject: Any, descriptors: list[int], output: int, scr
         _close_all_but({0, 1, 2, *descriptors})
         os.chdir(request.folder)
         if os.getppid() == parent:
+            limit_addresses(request.memory)
             _settle_in(scratch, request.restriction)
             channel, *memory = descriptors
             child.work(request.task, subject, socket.socket(fileno=channel), memory)

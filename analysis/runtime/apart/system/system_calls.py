@@ -11,9 +11,11 @@ from pathlib import Path
 
 with suppress(ImportError):  # on Windows
     import fcntl
+    import resource
 
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
 IS_LINUX = sys.platform == "linux"
+RESERVED = 2  # addresses, by what may be in memory: programs reserve more than they use
 
 
 def end_with_parent() -> None:
@@ -39,8 +41,29 @@ def child_processes() -> list[int]:
 
 def resident_memory(process: int) -> int:
     """Bytes that a process has in memory; 0 where the system does not say, or the process has ended."""
+    return _pages(process, 1)
+
+
+def peak_memory(usage: resource.struct_rusage) -> int:
+    """Bytes that a process that has ended had in memory at most."""
+    return usage.ru_maxrss * (1024 if IS_LINUX else 1)
+
+
+def limit_addresses(memory: int) -> None:
+    """Have allocations fail once this process has reserved twice so many bytes (`memory`) more than it has now.
+
+    It ends a process that grows too fast for whoever looks at it.
+    """
+    if IS_LINUX:
+        _, hard = resource.getrlimit(resource.RLIMIT_AS)
+        limit = _pages(os.getpid(), 0) + RESERVED * memory
+        resource.setrlimit(resource.RLIMIT_AS, (limit if hard < 0 else min(limit, hard), hard))
+
+
+def _pages(process: int, column: int) -> int:
+    """The bytes of a column of /proc/PID/statm."""
     try:
-        return int(Path(f"/proc/{process}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        return int(Path(f"/proc/{process}/statm").read_text().split()[column]) * os.sysconf("SC_PAGE_SIZE")
     except (OSError, IndexError, ValueError):
         return 0
 

@@ -37,7 +37,7 @@ def test_a_full_disk_ends_it_and_room_goes_on_with_it(tmp_path):
         mount -t tmpfs -o size=20m tmpfs {disk}
         head -c {20 * 1024 - free}k /dev/zero > {disk}/filler
         {command}; echo "status $?"
-        find {disk}/out -name '.*' -type f
+        find {disk}/out -name '.*.partial' -type f
         rm {disk}/filler
         {command} --resume || exit 1
         cp -r {disk}/out {retained}

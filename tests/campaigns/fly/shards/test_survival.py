@@ -125,10 +125,10 @@ def test_what_killed_writers_leave_is_taken_away(whole, tmp_path):
     for name in ("draws.parquet", "trials/000001.parquet", "traces/x/000007.parquet", f"files/{content}"):
         killed = subprocess.run([sys.executable, "-c", KILLED, str(out / name)], check=False)
         assert killed.returncode == -signal.SIGKILL
-    assert len(list(out.rglob(".*"))) == 4
+    assert len(list(out.rglob(".*"))) == 5  # with the lock
     (out / ".mine").write_text("kept")
     assert main(["batch", *CAMPAIGN, "--output", str(out), "--resume"]) == 0
-    assert [path.name for path in out.rglob(".*")] == [".mine"]
+    assert {path.name for path in out.rglob(".*")} == {".lock", ".mine"}
     (out / ".mine").unlink()
     assert bytes_of(out) == whole
 

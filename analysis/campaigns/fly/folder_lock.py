@@ -1,0 +1,50 @@
+"""The lock of a campaign's folder: several processes may simulate its shards, and none replaces them meanwhile."""
+
+from __future__ import annotations
+
+import os
+import sqlite3
+import warnings
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+from filelock import ReadWriteLock, Timeout
+
+from ...common.errors import InputError
+from ...common.regular import check_regular
+
+FILE = ".lock"  # an empty database, whose lock ends with its process
+
+
+@contextmanager
+def lock_folder(folder: Path | None, *, alone: bool = False) -> Iterator[None]:
+    """Use a folder, together with others who use it or ``alone``; None is no folder, which nobody else has.
+
+    Raises InputError where others use it so that this cannot be. Warns where the file system has no locks.
+    """
+    with ExitStack() as held:
+        if folder is not None:
+            held.enter_context(_locked(folder, alone))
+        yield
+
+
+@contextmanager
+def _locked(folder: Path, alone: bool) -> Iterator[None]:
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / FILE
+    if os.path.lexists(path):
+        check_regular(path, "remove it")
+    with ExitStack() as held:
+        try:
+            lock = ReadWriteLock(path, blocking=False, is_singleton=False)
+            held.callback(lock.close)
+            held.enter_context(lock.write_lock() if alone else lock.read_lock())
+        except Timeout:
+            problem = "another process simulates this campaign" if alone else "another process replaces this campaign"
+            raise InputError(folder, "", problem, "wait until it has ended, or give another folder") from None
+        except sqlite3.OperationalError as error:
+            warnings.warn(f"{folder} cannot be locked ({error}): do not overwrite it from elsewhere", stacklevel=4)
+        except (OSError, ValueError, sqlite3.Error) as error:
+            raise InputError(path, "", f"cannot be locked: {error}", "remove it") from error
+        yield
