@@ -105,10 +105,11 @@ class Flyer:
         """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
         judge = self._judge(variant)
         for trial in trials:
-            flight, sampled = self._flight(variant, trial), self.values_for(trial)
-            if trial + 1 in trials and not self.halted:
+            if trial == trials.start:
+                self._announce(variant, trial)
+            if trial + 1 in trials:
                 self._announce(variant, trial + 1)
-            judge.add(flight, trial, sampled)
+            judge.add(self._flight(variant, trial), trial, self.values_for(trial))
             if self.halted:
                 raise KeyboardInterrupt
         return judge.trials()
@@ -166,7 +167,7 @@ class Flyer:
             warnings.warn(f"{variant}: {text}", stacklevel=2)
 
     def _announce(self, variant: str, trial: int) -> None:
-        if variant in self._ready:
+        if variant in self._ready and not self.halted:
             simulation, _ = self._ready[variant]
             sampled = self.values_for(trial)
             simulation.announce(sampled.parameters(simulation.prepared, trial), sampled.faults_of(trial))

@@ -23,9 +23,9 @@ def lock_folder(folder: Path | None, *, alone: bool = False) -> Iterator[None]:
 
     Raises InputError where others use it so that this cannot be. Warns where the file system has no locks.
     """
-    with ExitStack() as held:
+    with ExitStack() as entered:
         if folder is not None:
-            held.enter_context(_locked(folder, alone))
+            entered.enter_context(_locked(folder, alone))
         yield
 
 
@@ -35,11 +35,11 @@ def _locked(folder: Path, alone: bool) -> Iterator[None]:
     path = folder / FILE
     if os.path.lexists(path):
         check_regular(path, "remove it")
-    with ExitStack() as held:
+    with ExitStack() as entered:
         try:
             lock = ReadWriteLock(path, blocking=False, is_singleton=False)
-            held.callback(lock.close)
-            held.enter_context(lock.write_lock() if alone else lock.read_lock())
+            entered.callback(lock.close)
+            entered.enter_context(lock.write_lock() if alone else lock.read_lock())
         except Timeout:
             problem = "another process simulates this campaign" if alone else "another process replaces this campaign"
             raise InputError(folder, "", problem, "wait until it has ended, or give another folder") from None

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import warnings
+from collections import deque
 from collections.abc import Mapping, Sequence
 from contextlib import closing, suppress
+from dataclasses import dataclass
 from typing import Unpack
 
 import numpy as np
@@ -31,6 +33,15 @@ RECORDERS = 2  # one flight is looked at while the next one flies
 SEE_LOG = "see what it logs with `log`"
 
 
+@dataclass(frozen=True)
+class _Departure:
+    """A flight that a child is to fly, with ``values`` of varied parameters and ``faults``."""
+
+    request: messages.Fly
+    values: Mapping[str, ParameterValue]
+    faults: tuple[Fault | None, ...]
+
+
 class ApartSimulation(BaseSimulation):
     """Instances of a system's FMUs in a child of the flight server.
 
@@ -46,11 +57,11 @@ class ApartSimulation(BaseSimulation):
         self.signal_names = self._selection.signal_names(self.layout, prepared.network.file)
         self._types = {name: self.layout.types[name] for name in self.signal_names}
         self._values: dict[str, ParameterValue] = {}
-        self._sent: dict[str, ParameterValue] = {}  # what the child knows of both
-        self._sent_faults: tuple[Fault | None, ...] | None = None
+        self._last: _Departure | None = None  # of the child, which has its values and faults
         self._recorders: list[SharedRecorder] = []  # of the child
         self._turn = 0  # which of them takes the flight that is under way
-        self._pending: messages.Fly | None = None  # announced: under way, or waiting to be looked at
+        self._announced: deque[_Departure] = deque()  # under way, or to follow
+        self._is_halted = False
         self._renews = True  # whether a child flies more than once
         self._formats = True  # of messages, which can end a process whose arguments are missing
         self._connection = self._begin()
@@ -70,7 +81,7 @@ class ApartSimulation(BaseSimulation):
         recorder = self._make_recorder(rows_between(-1, prepared.steps))
         recorder.enter(Phase.INSTANTIATION)
         self._recorders, self._turn = [recorder], 0
-        self.flights, self._sent, self._sent_faults = 0, {}, None
+        self.flights, self._last = 0, None
         level = None if self._log is None else self._log.level
         with closing(recorder):
             child = fork(
@@ -119,25 +130,24 @@ class ApartSimulation(BaseSimulation):
 
     def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
         """See `BaseSimulation.announce`."""
-        is_busy = self._pending is not None or bool(self.recorder.halt[0])
-        if is_busy or not (self._connection.is_open and self._renews):
-            return
-        self.set(values)
-        self.set_faults(faults)
-        with suppress(ChildEndedError):  # which the flight itself comes to, too
-            self._pending = self._depart(-1, self.prepared.steps, 1, NOTHING)
+        is_ready = self._connection.is_open and self._renews and not self._is_halted
+        if is_ready and len(self._announced) < RECORDERS and (not self._announced or len(self._recorders) == RECORDERS):
+            self.set(values)
+            self.set_faults(faults)
+            with suppress(ChildEndedError):  # which the flight itself comes to, too
+                self._announced.append(self._depart(-1, self.prepared.steps, 1, NOTHING))
 
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
         """See `BaseSimulation.advance`."""
-        pending, self._pending = self._pending, None
         try:
-            if pending is not None and not self._is_as_announced(pending, first, last, every, excitation):
-                self._connection.hear(messages.Flown)
-                pending = None
-            if pending is None:
-                self._depart(first, last, every, excitation)
+            if self._announced and not self._is_as_announced(self._announced[0], first, last, every, excitation):
+                self._recall()
+            departed = self._announced.popleft() if self._announced else self._depart(first, last, every, excitation)
+            self._turn = departed.request.recorder
+            self.recorder.halt[0] = self._is_halted
             flown = self._connection.hear(messages.Flown)
         except ChildEndedError as error:
+            self._announced.clear()
             if self.recorder.phase[0] == Phase.RENEWAL and self._renews:
                 self._renews = False  # it happened after a flight, and before this one
                 self._note("it was terminated and reset", error.how)
@@ -147,31 +157,44 @@ class ApartSimulation(BaseSimulation):
             self._connection.kill()
             return self._flight(0, CRASHED, "answers that cannot be read")
         if (flown.status not in COMPLETE and not self.prepared.is_own) or not self._formats:
+            self._recall()
             self._free()
             self._formats = True
         return self._flight(flown.rows, flown.status, flown.message)
 
     def _is_as_announced(
-        self, pending: messages.Fly, first: int, last: int, every: int, excitation: np.ndarray
+        self, announced: _Departure, first: int, last: int, every: int, excitation: np.ndarray
     ) -> bool:
         """Whether the flight that was announced is the one that `advance` is called for."""
-        is_same = (first, last, every, excitation.size) == (pending.first, pending.last, pending.every, 0)
-        return is_same and self._sent == self._values and self._sent_faults == tuple(self._faults)
+        request = announced.request
+        is_same = (first, last, every, excitation.size) == (request.first, request.last, request.every, 0)
+        return is_same and announced.values == self._values and announced.faults == tuple(self._faults)
 
-    def _depart(self, first: int, last: int, every: int, excitation: np.ndarray) -> messages.Fly:
-        """Let the child fly, into the recorder that the last flight does not lie in."""
+    def _recall(self) -> None:
+        """Do without the flights that were announced: they end at their next communication points."""
+        with suppress(ChildEndedError):
+            while self._announced:
+                self._recorders[self._announced[0].request.recorder].halt[0] = True
+                self._connection.hear(messages.Flown)
+                self._announced.popleft()
+        self._announced.clear()
+
+    def _depart(self, first: int, last: int, every: int, excitation: np.ndarray) -> _Departure:
+        """Let the child fly, behind what was announced, into the recorder whose turn it is then."""
         self._make_ready(first)
-        self._take_turn(rows_between(first, last, every))
-        faults = tuple(self._faults)
-        values = {name: value for name, value in self._values.items() if self._sent.get(name, self) != value}
-        request = messages.Fly(
-            self._turn, first, last, every, values, None if faults == self._sent_faults else faults, excitation
-        )
-        self.flights += first < 0
+        recorder = self._recorder_for(rows_between(first, last, every))
+        faults, known = tuple(self._faults), self._last
+        if known is None:
+            values, is_known = dict(self._values), False
+        else:
+            values = {name: value for name, value in self._values.items() if known.values.get(name, self) != value}
+            is_known = faults == known.faults
+        excited = excitation if excitation.size else None
+        request = messages.Fly(recorder, first, last, every, values, None if is_known else faults, excited)
         self._connection.send(request)
-        self._sent |= values
-        self._sent_faults = faults
-        return request
+        self.flights += first < 0
+        self._last = _Departure(request, dict(self._values), faults)
+        return self._last
 
     def _make_ready(self, first: int) -> None:
         """Have a child that can fly, and knows whose reset cannot be trusted."""
@@ -185,9 +208,10 @@ class ApartSimulation(BaseSimulation):
             verdicts = find_verdicts(self.prepared)
             self._connection.send(messages.KnownVerdicts({key: (it.resets, it.reason) for key, it in verdicts.items()}))
 
-    def _take_turn(self, rows: int) -> None:
-        """Go on to the other recorder; the child is given one where it has none, or too small a one."""
-        turn = (self._turn + 1) % RECORDERS
+    def _recorder_for(self, rows: int) -> int:
+        """The number of the recorder whose turn it is; the child is given one where it has none, or too small a one."""
+        before = self._announced[-1].request.recorder if self._announced else self._turn
+        turn = (before + 1) % RECORDERS
         if turn == len(self._recorders) or self._recorders[turn].times.size < rows:
             fresh = self._make_recorder(max(rows, self.recorder.times.size))
             with closing(fresh):
@@ -195,8 +219,8 @@ class ApartSimulation(BaseSimulation):
                 self._connection.ask(request, messages.Done, [fresh.descriptor])
                 fresh.seal()
             self._recorders[turn : turn + 1] = [fresh]
-        self._recorders[turn].halt[0] = self.recorder.halt[0]
-        self._turn = turn
+        self._recorders[turn].halt[0] = self._is_halted
+        return turn
 
     def _flight(self, rows: int, status: str, message: str) -> Flight:
         recorder = self.recorder
@@ -225,8 +249,8 @@ class ApartSimulation(BaseSimulation):
 
     def interrupt(self, halt: bool = True) -> None:
         """See `BaseSimulation.interrupt`."""
-        for recorder in self._recorders:
-            recorder.halt[0] = halt
+        self._is_halted = halt
+        self.recorder.halt[0] = halt
 
     def give_up(self, why: str) -> bool:
         """End the child of a flight that is under way in another thread, which then comes back ``hung``."""
@@ -259,7 +283,7 @@ class ApartSimulation(BaseSimulation):
 
     def close(self) -> None:
         """Free the instances, and end the child; at once, where a flight is under way in a thread, given up."""
-        if self.recorder.phase[0] == Phase.IDLE:
+        if self.recorder.phase[0] == Phase.IDLE and not self._announced:
             self._free()
         else:
             self._connection.kill()

@@ -78,9 +78,9 @@ class BaseSimulation(ABC):
 
     @abstractmethod
     def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
-        """Say what flies next, while the last flight is still looked at: `run` takes as long as ever, or less.
+        """Say what flies behind what was announced before, two flights at most: `run` takes as long as ever, or less.
 
-        The arrays of the last flight are left alone until the next call of `run`.
+        The arrays of the last flight are left alone by the first announcement, and not by the second.
         """
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:

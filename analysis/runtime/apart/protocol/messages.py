@@ -67,7 +67,7 @@ class Fly:
     every: int
     values: dict[str, ParameterValue]
     faults: tuple[Fault | None, ...] | None
-    excitation: np.ndarray
+    excitation: np.ndarray | None
 
 
 @dataclass(frozen=True)

@@ -19,11 +19,12 @@ MOST_FILES = 2
 def send_request(channel: socket.socket, request: Any, descriptors: Sequence[int] = ()) -> None:
     """A request, with open files if it has any. Raises OSError where nobody listens."""
     content = pickle.dumps(request, pickle.HIGHEST_PROTOCOL)
+    head = LENGTH.pack(len(content))
     if descriptors:
-        socket.send_fds(channel, [LENGTH.pack(len(content))], list(descriptors))
+        socket.send_fds(channel, [head], list(descriptors))
+        channel.sendall(content)
     else:
-        channel.sendall(LENGTH.pack(len(content)))
-    channel.sendall(content)
+        channel.sendall(head + content)
 
 
 def receive_request(channel: socket.socket) -> tuple[Any, list[int]]:

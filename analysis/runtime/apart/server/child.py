@@ -11,6 +11,7 @@ from functools import singledispatchmethod
 from typing import Any
 
 from ....common.errors import InputError
+from ...flight.base_simulation import NOTHING
 from ...flight.memory import Memory, Snapshot
 from ...flight.simulation import Simulation
 from ...instances.instance import Log, leave_messages_unformatted
@@ -92,7 +93,8 @@ class _Pilot:
         simulation.set(request.values)
         if request.faults is not None:
             simulation.set_faults(request.faults)
-        flight = simulation.advance(request.first, request.last, request.excitation, every=request.every)
+        excitation = NOTHING if request.excitation is None else request.excitation
+        flight = simulation.advance(request.first, request.last, excitation, every=request.every)
         send_answer(self._channel, messages.Flown(flight.status, flight.message, flight.time.size))
 
     @_answer.register

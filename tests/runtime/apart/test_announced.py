@@ -1,0 +1,70 @@
+"""Flights that a child is asked for ahead of time: each has its own values, whatever becomes of the one before.
+
+Truth: the integral of the FMU's source, y(1 s) = gain u + count + mode.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from perilune.analysis.campaigns.fly.runner import run_batch
+from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.runtime.apart.opening import open_simulation
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
+from tests.support.foreign.odd_fmu import COUNTS, odd_fmu
+
+pytestmark = pytest.mark.flies
+U, COUNT, MODE = 0.5, 1, 1  # as the FMU declares them
+OPTIONS = SystemOptions(stop_time=1.0, step=0.25)
+BREAKING = """
+[draw."odd.gain"]
+distribution = "choice"
+values = [-1.0, 0.0, 1.0, 2.0]
+"""
+
+
+def test_an_error_is_of_its_own_trial(tmp_path):
+    """The FMU is broken after it, and the next flight, which is asked for already, has another process."""
+    fmu = odd_fmu(tmp_path, BREAKS=True)
+    (tmp_path / "c.toml").write_text(COUNTS.format(name="odd", trials=60) + BREAKING)
+    plan = read_plan(fmu, str(tmp_path / "c.toml"), OPTIONS)
+    trials = run_batch(plan, workers=1).trials["default"]
+    gain, count = (plan.draws.columns[f"odd.{name}"] for name in ("gain", "count"))
+    assert [status == "failed" for status in trials.statuses] == (gain < 0.0).tolist()
+    expected = gain * U + count + MODE
+    np.testing.assert_allclose(trials.metrics["last"][gain >= 0.0], expected[gain >= 0.0], rtol=1e-14)
+
+
+@pytest.fixture
+def simulation(tmp_path):
+    with open_simulation(prepare_system(odd_fmu(tmp_path), OPTIONS), varied=["odd.gain"]) as opened:
+        yield opened
+
+
+def last(flight):
+    return flight["odd.y"][-1]
+
+
+def test_two_are_flown_in_order(simulation):
+    for gain in (1.0, 3.0, 5.0):
+        simulation.announce({"odd.gain": gain}, ())
+    assert [last(simulation.run({"odd.gain": gain})) for gain in (1.0, 3.0, 5.0)] == [2.5, 3.5, 4.5]
+
+
+def test_others_fly_instead(simulation):
+    simulation.announce({"odd.gain": 1.0}, ())
+    simulation.announce({"odd.gain": 3.0}, ())
+    assert last(simulation.run({"odd.gain": 7.0})) == 5.5
+    assert last(simulation.run({"odd.gain": 3.0})) == 3.5
+
+
+def test_a_flight_that_is_interrupted_does_not_end_the_next_one(simulation):
+    simulation.run({"odd.gain": 1.0})
+    simulation.interrupt()
+    assert simulation.run({"odd.gain": 1.0}).status == "interrupted"
+    simulation.interrupt(False)
+    simulation.announce({"odd.gain": 1.0}, ())
+    simulation.announce({"odd.gain": 3.0}, ())
+    assert [last(simulation.run({"odd.gain": gain})) for gain in (1.0, 3.0)] == [2.5, 3.5]
