@@ -1,4 +1,4 @@
-"""Campaigns whose FMU ends its process in some trials: the same bytes however they are flown, and told wherever asked.
+"""Campaigns whose FMU ends its process in some trials: counted in what they print, simulated again on request.
 
 Truth: the FMU's source, which does so where its count is 13; the batch in one command.
 """
@@ -12,7 +12,7 @@ import pyarrow.parquet
 import pytest
 
 from perilune.analysis.cli import main
-from tests.support.campaigns.folders import bytes_of, killed_when, shards_in, started
+from tests.support.campaigns.folders import bytes_of
 from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
 
 pytestmark = pytest.mark.flies
@@ -44,27 +44,6 @@ def test_the_result_counts_them(crashing, tmp_path, capsys):
     assert f"perilune: {line}; --retry-crashed simulates them again\n" in capsys.readouterr().err
     assert line in (tmp_path / "page.html").read_text()
     assert json.loads((tmp_path / "r.json").read_text())["variants"]["default"]["statuses"]["crashed"] == count
-
-
-def test_in_shards(crashing, tmp_path):
-    words, folder = crashing
-    out = tmp_path / "out"
-    assert main(["prepare", *words, "--output", str(out)]) == 0
-    with pytest.warns(UserWarning, match="simulates its foreign FMUs odd"):
-        assert main(["shard", str(out), "0", "--workers", "2"]) == 1
-    assert main(["shard", str(out), "1-2"]) == 1
-    assert main(["merge", str(out)]) == 1
-    assert bytes_of(out) == bytes_of(folder)
-
-
-def test_killed_and_resumed(crashing, tmp_path):
-    words, folder = crashing
-    out = tmp_path / "out"
-    process = started("batch", *words, "--output", out, "--workers", "2")
-    killed_when(process, lambda: shards_in(out) >= 1)
-    process.communicate()
-    assert main(["batch", *words, "--output", str(out), "--resume"]) == 1
-    assert bytes_of(out) == bytes_of(folder)
 
 
 def test_simulated_again(crashing, tmp_path):

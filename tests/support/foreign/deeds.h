@@ -2,6 +2,7 @@
  *
  * In steps it does so from 0.5 s on. Without DEED nothing is done.
  */
+#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -10,7 +11,7 @@
 #include <sys/syscall.h>
 
 enum { CONSTRUCTION, INSTANTIATION, INITIALISATION, STEP, RESETTING, FREEING };
-enum { SEGFAULT, ABORT, OVERFLOW, EXIT_0, EXIT_1, EXIT_AT_ONCE, KILL_GROUP, HANG, GROW, FILL, RESERVE, PRINT, SCRIBBLE, CORRUPT, LEAVE_ORPHAN, TRY, LOG, LOG_CONTROLS };
+enum { SEGFAULT, ABORT, OVERFLOW, EXIT_0, EXIT_1, EXIT_AT_ONCE, KILL_GROUP, HANG, GROW, FILL, RESERVE, PRINT, SCRIBBLE, CORRUPT, LEAVE_ORPHAN, TRY, LOG, LOG_CONTROLS, HANG_WITH_LOCK, LOG_MILLION };
 
 #ifdef DEED
 static const fmi2CallbackFunctions *callbacks;
@@ -92,6 +93,8 @@ static void do_it(void)
     case SCRIBBLE: for (int i = 0; i < 256; i++) if (write(i, "no answer at all, but long enough", 33) < 0) continue; break;
     case CORRUPT: grown = malloc(24); memset(grown - 16, 0xff, 64); free(grown); break;
     case LOG: say("%s%s%s%n"); break;
+    case LOG_MILLION: for (int i = 0; i < 1000000; i++) say("more"); break;
+    case HANG_WITH_LOCK: ((int (*)(void))dlsym(RTLD_DEFAULT, "PyGILState_Ensure"))(); while (1) pause();
     case LOG_CONTROLS: say("\033[31mred\xc2\x9b\xe2\x80\xae"); break;
     case TRY: try_everything(); break;
     case LEAVE_ORPHAN: if (fork() == 0) { setsid(); if (fork() == 0) while (1) pause(); _exit(0); } abort();
