@@ -92,12 +92,6 @@ HOLDING = (
 )
 
 # It takes the process with it.
-DYING = (
-    HANGING.replace("class Hanging", "class Dying")
-    .replace("import time", "import os")
-    .replace("time.sleep(self.pause)", "self.pause and os._exit(1)")
-)
-
 TALKING = """
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
 from pythonfmu.enums import Fmi2Status
@@ -132,7 +126,6 @@ SOURCES = {
     "Follower": FOLLOWER,
     "Hanging": HANGING,
     "Holding": HOLDING,
-    "Dying": DYING,
     "Talking": TALKING,
 }
 

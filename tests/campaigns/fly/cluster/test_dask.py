@@ -7,8 +7,6 @@ import random
 import shutil
 import threading
 
-import pyarrow
-import pyarrow.parquet
 import pytest
 
 import perilune
@@ -114,21 +112,6 @@ def test_a_step_that_hangs_costs_a_trial(cluster, tmp_path):
     late = actual.plan.draws.columns["Holding.pause"] > 0.0
     assert 0 < late.sum() < late.size
     assert actual.trials["default"].statuses == ["hung" if value else "stop_time" for value in late]
-
-
-def test_an_fmu_that_ends_its_process_costs_a_trial(cluster, place, tmp_path):
-    """The workers stay, and the bytes are those of a batch that flies here."""
-    fmu = build_lone_fmu("Dying", tmp_path, 'stopTime="1" stepSize="0.25"')
-    draws = pyarrow.table({"Dying.pause": [0.0] * 30 + [1.0] + [0.0] * 29})
-    pyarrow.parquet.write_table(draws, tmp_path / "draws.parquet")
-    (tmp_path / "c.toml").write_text(STUCK.format(name="Dying", trials=4))
-    line = ["batch", str(fmu), "--campaign", str(tmp_path / "c.toml"), "--set", "Dying.at=0.5"]
-    line += ["--draws", str(tmp_path / "draws.parquet")]
-    assert main([*line, "--output", str(place / "dying"), "--scheduler", cluster.address]) == 1
-    assert main([*line, "--output", str(tmp_path / "here"), "--workers", "1"]) == 1
-    assert bytes_of(place / "dying") == bytes_of(tmp_path / "here")
-    statuses = pyarrow.parquet.read_table(place / "dying" / "trials", columns=["trial", "status"]).to_pylist()
-    assert [row["trial"] for row in statuses if row["status"] == "crashed"] == [30]
 
 
 def test_killed_workers_fly_again(cluster, line, place):
