@@ -18,6 +18,7 @@ from ...common.errors import InputError
 from ..flight.results import CRASHED, HUNG, OUT_OF_MEMORY
 from .protocol.messages import (
     ANSWER,
+    FREED,
     LINE,
     NUMBERS,
     Kind,
@@ -113,18 +114,19 @@ class Connection:
         """Let the child free its instances, and end; what went wrong, if something did. PATIENCE is limited."""
         if not self.is_open:
             return ""
-        is_freed = self._is_freed()
-        ended = self._finish(kill=not is_freed)
-        if not is_freed:
+        answer = self._last_answer()
+        ended = self._finish(kill=answer is None)
+        if answer is None:
             return f"its process did not end within {PATIENCE:g} s"
-        return f"its process ended {_in_words(ended.status)}" if ended is not None and ended.status else ""
+        return "" if ended is None or answer == FREED else f"its process ended {_in_words(ended.status)}"
 
     def kill(self) -> None:
         """End the child at once."""
         self._finish(kill=True)
 
-    def _is_freed(self) -> bool:
-        """Ask the child to free its instances; whether it has done so, and ended."""
+    def _last_answer(self) -> bytes | None:
+        """Ask the child to free its instances; what it answers before it ends, None if it does not end."""
+        answer = b""
         channel, deadline = self._child.channel, time.monotonic() + PATIENCE
         try:
             channel.shutdown(socket.SHUT_WR)
@@ -133,11 +135,13 @@ class Connection:
                 kind, content = receive_frame(channel)
                 if kind == LINE:
                     self._write(content.decode(errors="replace"))
+                else:
+                    answer = content
         except EOFError:
-            return True
+            return answer
         except (OSError, ValueError, UnreadableError):
             pass
-        return False
+        return None
 
     def _finish(self, *, kill: bool) -> Ended | None:
         """End the child; None where that was done before."""

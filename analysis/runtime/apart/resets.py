@@ -41,7 +41,9 @@ def find_verdict(fmu: Fmu, options: SystemOptions) -> ResetVerdict:
             verdict = _try_twice(fmu, options)
         except ChildEndedError as error:
             problem = f"tried alone, with its declared values: {error.how}"
-            raise InputError(fmu.label, fmu.name, problem, "see what it logs with `log`, or mend it") from None
+            raise InputError(
+                fmu.label, fmu.name, problem, "mend it; perilune run --log info shows what it logs"
+            ) from None
         store_verdict(fmu.digest, verdict)
     return verdict
 

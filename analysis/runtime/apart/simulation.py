@@ -30,7 +30,7 @@ from .resets import find_verdicts
 from .servers import Subject, fork
 
 RECORDERS = 2  # one flight is looked at while the next one flies
-SEE_LOG = "see what it logs with `log`"
+SEE_LOG = "perilune run --log info shows what it logs"
 
 
 @dataclass(frozen=True)

@@ -68,7 +68,14 @@ def test_a_crash_in_the_initialisation_leaves_no_row(tmp_path):
     assert flight.message == "odd: in the initialisation: its process ended by SIGABRT"
 
 
-@pytest.mark.parametrize(("deed", "how"), [("SEGFAULT", "ended by SIGSEGV"), ("HANG", "did not end within 1.5 s")])
+FREEING = [
+    ("SEGFAULT", "ended by SIGSEGV"),
+    ("EXIT_0", "ended with exit status 0"),
+    ("HANG", "did not end within 1.5 s"),
+]
+
+
+@pytest.mark.parametrize(("deed", "how"), FREEING)
 def test_what_happens_when_it_is_freed_is_a_note(tmp_path, deed, how):
     with pytest.warns(UserWarning, match=f"^odd: when it was terminated and freed, its process {how}$"):
         flight = perilune.simulate(odd_fmu(tmp_path, DEED=Deed[deed], IN=Call.FREEING))

@@ -150,9 +150,14 @@ class Verdict(msgspec.Struct, tag=True, forbid_unknown_fields=True):
     is_final: bool = True
 
 
-Answer = Done | Flown | Refused | CellList | Verdict
+class Freed(msgspec.Struct, tag=True, forbid_unknown_fields=True):
+    """The last answer: all instances are freed."""
+
+
+Answer = Done | Flown | Refused | CellList | Verdict | Freed
 Kind = TypeVar("Kind", bound=msgspec.Struct)
 _decoder = msgspec.json.Decoder(Answer)
+FREED = msgspec.json.encode(Freed())
 
 
 def send_answer(channel: socket.socket, answer: Answer) -> None:

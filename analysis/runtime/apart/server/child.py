@@ -68,7 +68,7 @@ class _Pilot:
         send_line(self._channel, line)
 
     def serve(self) -> None:
-        """Answer requests until there are no more, then free the instances."""
+        """Answer requests until there are no more, then free the instances and say so."""
         while True:
             try:
                 request, descriptors = receive_request(self._channel)
@@ -79,6 +79,7 @@ class _Pilot:
             except InputError as error:
                 send_answer(self._channel, _refusal(error))
         self._simulation.close()
+        send_answer(self._channel, messages.Freed())
 
     @singledispatchmethod
     def _answer(self, request: Any, _descriptors: list[int]) -> None:
