@@ -30,7 +30,7 @@ from .protocol.messages import (
 from .protocol.orders import NEAR_MEMORY_LIMIT, Ended
 from .protocol.orders import OUT_OF_MEMORY as TOO_LARGE
 from .protocol.requests import send_request
-from .servers import Child
+from .servers import AnyChild
 
 LOOK = 0.25  # s, between looks at a child that says nothing
 FRAME = 10.0  # s in which the next bytes of an answer follow, once it has begun
@@ -57,7 +57,7 @@ class Stillness:
 class Connection:
     """Not shared between threads, but for `give_up`."""
 
-    def __init__(self, child: Child, write: Callable[[str], None], stillness: Stillness) -> None:
+    def __init__(self, child: AnyChild, write: Callable[[str], None], stillness: Stillness) -> None:
         self._child = child
         self._write = write
         self._stillness = stillness
@@ -190,11 +190,10 @@ class Connection:
 
 
 def _in_words(status: int) -> str:
-    """How a process ended, by its os.waitpid status."""
-    signaled = status & 0x7F
-    if not signaled:
-        return f"with exit status {status >> 8}"
+    """How a process ended, by the status of `Ended`."""
+    if status >= 0:
+        return f"with exit status {status if status < 256 else hex(status)}"  # Windows has codes such as 0xc0000005
     try:
-        return f"by {signal.Signals(signaled).name}"
+        return f"by {signal.Signals(-status).name}"
     except ValueError:
-        return f"by signal {signaled}"
+        return f"by signal {-status}"

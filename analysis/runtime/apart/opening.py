@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from typing import Unpack
 
-from ...common.errors import InputError
 from ..flight.base_simulation import BaseSimulation, Choices
 from ..system.prepared import PreparedSystem
 from .simulation import ApartSimulation
-
-CAN_FORK = hasattr(os, "fork")
 
 
 def flies_here(prepared: PreparedSystem) -> bool:
@@ -20,12 +16,7 @@ def flies_here(prepared: PreparedSystem) -> bool:
 
 def open_simulation(prepared: PreparedSystem, *, apart: bool = False, **choices: Unpack[Choices]) -> BaseSimulation:
     """A simulation, in a child where it may not be here or is to be ``apart``; see `Choices`. Raises InputError."""
-    if not CAN_FORK and not flies_here(prepared):
-        (first, *_) = [fmu.label for fmu in prepared.network.fmus.values() if not fmu.is_own]
-        problem = "is foreign, and needs a process of its own, which this operating system cannot fork"
-        raise InputError(first, "", problem, "give `in_process` if you trust it")
-    here = flies_here(prepared) and not (apart and CAN_FORK)
-    kind = _simulation_here() if here else ApartSimulation
+    kind = _simulation_here() if flies_here(prepared) and not apart else ApartSimulation
     return kind(prepared, **choices)
 
 

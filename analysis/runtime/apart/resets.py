@@ -14,7 +14,7 @@ from ..system.prepared import PreparedSystem
 from .connection import ChildEndedError, Connection, Stillness
 from .containment import limits_for
 from .protocol import messages
-from .servers import Subject, fork
+from .servers import Subject, begin_child
 
 
 def find_verdicts(prepared: PreparedSystem) -> Mapping[str, ResetVerdict]:
@@ -63,7 +63,7 @@ def _try(fmu: Fmu, options: SystemOptions, *, formats: bool) -> ResetVerdict:
     Raises ChildEndedError where it ends before the FMU has flown with its declared values.
     """
     task = messages.ResetTrial(formats)
-    child = fork(Subject(fmu, fmu), task, folder=os.getcwd(), limits=limits_for([fmu], options))
+    child = begin_child(Subject(fmu, fmu), task, folder=os.getcwd(), limits=limits_for([fmu], options))
     connection = Connection(child, lambda line: None, Stillness(lambda: None, options.call_timeout))
     has_flown = False
     try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import os
 import pickle
 import socket
 import subprocess
@@ -18,10 +19,12 @@ from typing import Any
 from ...common.process import at_end
 from .protocol.orders import Begin, End, Ended, Forget, Learn, Look
 from .protocol.requests import receive_request, send_request
+from .started import StartedChild
 from .system.restriction import Restriction
 
 SERVER_GONE = Ended(0, "the flight server has ended")
 PATIENCE = 2.0  # s that a server has to end
+CAN_FORK = hasattr(os, "fork")
 _lock = threading.RLock()
 _numbers = itertools.count(1)
 
@@ -138,6 +141,7 @@ class ServerProcess:
         return otherwise
 
 
+AnyChild = Child | StartedChild
 _server: ServerProcess | None = None
 
 
@@ -151,8 +155,13 @@ def start_server() -> ServerProcess:
         return _server
 
 
-def fork(subject: Subject, task: Any, *, folder: str, limits: Limits, files: Sequence[int] = ()) -> Child:
-    """A child of the server, which is started again should it have ended; see `ServerProcess.fork`."""
+def begin_child(subject: Subject, task: Any, *, folder: str, limits: Limits, files: Sequence[int] = ()) -> AnyChild:
+    """A child of the server, which is started again should it have ended; see `ServerProcess.fork`.
+
+    Where the operating system cannot fork, a process that is started anew.
+    """
+    if not CAN_FORK:
+        return StartedChild(subject.content, task, folder, limits.memory, files, locked=subject.locked)
     try:
         return start_server().fork(subject, task, folder=folder, limits=limits, files=files)
     except OSError:

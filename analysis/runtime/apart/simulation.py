@@ -27,7 +27,7 @@ from .memory import ApartMemory
 from .protocol import messages
 from .protocol.shared_recorder import SharedRecorder, make_recorder
 from .resets import find_verdicts
-from .servers import Subject, fork
+from .servers import Subject, begin_child
 
 RECORDERS = 2  # one flight is looked at while the next one flies
 SEE_LOG = "perilune run --log info shows what it logs"
@@ -84,14 +84,14 @@ class ApartSimulation(BaseSimulation):
         self.flights, self._last = 0, None
         level = None if self._log is None else self._log.level
         with closing(recorder):
-            child = fork(
+            child = begin_child(
                 Subject(prepared, prepared.of_flights(), locked=not prepared.is_native),
                 messages.SystemFlights(
-                    self._selection, level, self._formats, len(self.signal_names), recorder.times.size
+                    self._selection, level, self._formats, len(self.signal_names), recorder.times.size, recorder.name
                 ),
                 folder=options.folder,
                 limits=limits_for(prepared.network.fmus.values(), options),
-                files=[recorder.descriptor],
+                files=recorder.files,
             )
             connection = Connection(child, self._write, Stillness(self._progress, options.call_timeout))
             try:
@@ -215,8 +215,8 @@ class ApartSimulation(BaseSimulation):
         if turn == len(self._recorders) or self._recorders[turn].times.size < rows:
             fresh = self._make_recorder(max(rows, self.recorder.times.size))
             with closing(fresh):
-                request = messages.NewRecorder(turn, fresh.times.size)
-                self._connection.ask(request, messages.Done, [fresh.descriptor])
+                request = messages.NewRecorder(turn, fresh.times.size, fresh.name)
+                self._connection.ask(request, messages.Done, fresh.files)
                 fresh.seal()
             self._recorders[turn : turn + 1] = [fresh]
         self._recorders[turn].halt[0] = self._is_halted

@@ -34,7 +34,7 @@ class UnreadableError(Exception):
 class SystemFlights:
     """To simulate a system. ``log`` is the level of messages, ``rows`` of ``signals`` what the recorder holds.
 
-    ``formats``: messages of FMUs are formats of printf, as FMI 2.0 has them.
+    ``formats``: messages of FMUs are formats of printf, as FMI 2.0 has them; ``recorder`` is the name of its memory.
     """
 
     selection: Selection
@@ -42,6 +42,7 @@ class SystemFlights:
     formats: bool
     signals: int
     rows: int
+    recorder: str
 
 
 @dataclass(frozen=True)
@@ -79,10 +80,11 @@ class KnownVerdicts:
 
 @dataclass(frozen=True)
 class NewRecorder:
-    """Other memory for so many rows, whose descriptor comes along."""
+    """Other memory for so many rows, whose file comes along, or its ``name``."""
 
     number: int
     rows: int
+    name: str
 
 
 @dataclass(frozen=True)

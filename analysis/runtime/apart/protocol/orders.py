@@ -44,6 +44,20 @@ class Begin:
 
 
 @dataclass(frozen=True)
+class Single:
+    """All that a child is told that was not forked, on its standard input.
+
+    ``channel`` and ``files`` are descriptors that it has inherited; on Windows ``channel`` is a socket shared with it.
+    """
+
+    channel: int | bytes
+    files: list[int]
+    task: Any  # one of `messages`
+    content: bytes  # what it works on, pickled
+    locked: bool  # as in `Learn`
+
+
+@dataclass(frozen=True)
 class Look:
     """Tell whether a child has ended: what it has started may hold its channel open."""
 
@@ -60,7 +74,7 @@ class End:
 
 @dataclass(frozen=True)
 class Ended:
-    """``status`` is that of os.waitpid; ``reason`` is why the server has killed it, or it has failed, where known."""
+    """``status`` is the exit status, a signal if negative; ``reason`` is why it was killed or failed, where known."""
 
     status: int
     reason: str = ""

@@ -29,7 +29,10 @@ def send_request(channel: socket.socket, request: Any, descriptors: Sequence[int
 
 def receive_request(channel: socket.socket) -> tuple[Any, list[int]]:
     """A request and its open files; raises EOFError at the end."""
-    head, descriptors, _, _ = socket.recv_fds(channel, LENGTH.size, MOST_FILES)
+    if hasattr(socket, "recv_fds"):
+        head, descriptors, _, _ = socket.recv_fds(channel, LENGTH.size, MOST_FILES)
+    else:  # Windows
+        head, descriptors = channel.recv(LENGTH.size), []
     head += receive_bytes(channel, LENGTH.size - len(head)) if head else b""
     if not head:
         raise EOFError

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 import mmap
 import os
+import sys
 import tempfile
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -15,14 +18,17 @@ NUMBER_SIZE = 8  # bytes, of every number here
 HEAD = OUTCOME_WORDS + 3  # words: outcome, halt, phase
 F_SEAL_SHRINK, F_SEAL_GROW, F_SEAL_FUTURE_WRITE = 0x2, 0x4, 0x10  # of <linux/fcntl.h>
 NAME = "perilune_flight"
+_numbers = itertools.count(1)
 
 
 class SharedRecorder(FlightRecorder):
-    """As many rows as it was made for: [head, times, record] in one piece, of which ``descriptor`` is the open file."""
+    """As many rows as it was made for: [head, times, record] in one piece of memory.
 
-    def __init__(self, descriptor: int, signals: int, rows: int) -> None:
-        memory = mmap.mmap(descriptor, size_of(signals, rows))
-        self.descriptor = descriptor
+    The other process has it by its open ``files``, one, or on Windows, where there is none, by ``name``.
+    """
+
+    def __init__(self, memory: mmap.mmap, signals: int, rows: int, files: Sequence[int], name: str) -> None:
+        self.files, self.name = list(files), name
         words = np.frombuffer(memory, dtype=np.int64, count=HEAD)
         numbers = np.frombuffer(memory, dtype=np.float64, offset=HEAD * NUMBER_SIZE)
         super().__init__(
@@ -38,13 +44,13 @@ class SharedRecorder(FlightRecorder):
 
     def seal(self) -> None:
         """Have the memory written by those alone who have mapped it, and not as a file by whoever has that open."""
-        add_seals(self.descriptor, F_SEAL_FUTURE_WRITE)
+        for descriptor in self.files:
+            add_seals(descriptor, F_SEAL_FUTURE_WRITE)
 
     def close(self) -> None:
         """Close the file; the rows stay as long as someone has them."""
-        if self.descriptor >= 0:
-            os.close(self.descriptor)
-            self.descriptor = -1
+        while self.files:
+            os.close(self.files.pop())
 
 
 def size_of(signals: int, rows: int) -> int:
@@ -53,14 +59,26 @@ def size_of(signals: int, rows: int) -> int:
 
 def make_recorder(signals: int, rows: int) -> SharedRecorder:
     """A recorder that the other process cannot make smaller, which would end who reads it (SIGBUS). Raises OSError."""
+    if sys.platform == "win32":
+        return open_recorder(signals, rows, (), f"{NAME}_{os.getpid()}_{next(_numbers)}")
     descriptor = _open()
     try:
         os.ftruncate(descriptor, size_of(signals, rows))
         add_seals(descriptor, F_SEAL_SHRINK | F_SEAL_GROW)
-        return SharedRecorder(descriptor, signals, rows)
+        return open_recorder(signals, rows, [descriptor])
     except BaseException:
         os.close(descriptor)
         raise
+
+
+def open_recorder(signals: int, rows: int, files: Sequence[int], name: str = "") -> SharedRecorder:
+    """The recorder that another process has made."""
+    size = size_of(signals, rows)
+    if sys.platform == "win32":
+        memory = mmap.mmap(-1, size, tagname=name)
+    else:
+        memory = mmap.mmap(files[0], size)
+    return SharedRecorder(memory, signals, rows, files, name)
 
 
 def _open() -> int:

@@ -20,7 +20,7 @@ from ...system.prepared import PreparedSystem
 from ..protocol import messages
 from ..protocol.messages import ResetTrial, SystemFlights, send_answer, send_line, send_numbers
 from ..protocol.requests import receive_request
-from ..protocol.shared_recorder import SharedRecorder
+from ..protocol.shared_recorder import SharedRecorder, open_recorder
 
 
 def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket, memory: Sequence[int]) -> None:
@@ -32,7 +32,7 @@ def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket,
             verdict = reset_verdict(subject, lambda: send_answer(channel, messages.Verdict(False, "", is_final=False)))
             send_answer(channel, messages.Verdict(verdict.resets, verdict.reason))
             return
-        recorder = SharedRecorder(memory[0], task.signals, task.rows)
+        recorder = open_recorder(task.signals, task.rows, memory, task.recorder)
         recorder.close()
         pilot = _Pilot(channel, task, subject, recorder)
     except InputError as error:
@@ -105,7 +105,7 @@ class _Pilot:
 
     @_answer.register
     def _(self, request: messages.NewRecorder, descriptors: list[int]) -> None:
-        recorder = SharedRecorder(descriptors[0], self._signals, request.rows)
+        recorder = open_recorder(self._signals, request.rows, descriptors, request.name)
         recorder.close()
         self._recorders[request.number] = recorder
         send_answer(self._channel, messages.Done())

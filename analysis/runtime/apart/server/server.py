@@ -38,7 +38,7 @@ from ..system.system_calls import (
     resident_memory,
 )
 from . import child
-from .printed import Printed
+from .output import Output
 
 LOOK = 0.1  # s, between looks at the children's memory
 GRACE = 0.2  # s that a child has to end after it has closed its channel
@@ -48,7 +48,7 @@ NEAR = 0.9  # of its limit of memory: a child that fails there has failed for wa
 @dataclass
 class _Child:
     pid: int
-    printed: Printed
+    output: Output
     scratch: Path
     memory: int
     status: int | None = None
@@ -101,10 +101,9 @@ class FlightServer:
             _work(request, self._subjects[request.key], descriptors, write, str(scratch))
         for descriptor in (*descriptors, write):
             os.close(descriptor)
-        os.set_blocking(read, False)
-        printed = Printed(read)
-        self._children[request.number] = _Child(pid, printed, scratch, request.memory + resident_memory(pid))
-        self._selector.register(read, selectors.EVENT_READ, printed)
+        output = Output(read)
+        self._children[request.number] = _Child(pid, output, scratch, request.memory + resident_memory(pid))
+        self._selector.register(read, selectors.EVENT_READ, output)
 
     def _end(self, request: End) -> Ended:
         ended = self._children.pop(request.number)
@@ -117,13 +116,13 @@ class FlightServer:
                 deadline = float("inf")
             time.sleep(0.0005)
         self._end_family(ended.pid)
-        self._read(ended.printed)
-        if ended.printed.descriptor in self._selector.get_map():
-            self._selector.unregister(ended.printed.descriptor)
-        ended.printed.close()
+        self._read(ended.output)
+        if ended.output.descriptor in self._selector.get_map():
+            self._selector.unregister(ended.output.descriptor)
+        ended.output.close()
         shutil.rmtree(ended.scratch, ignore_errors=True)
         assert ended.status is not None
-        return Ended(ended.status, ended.reason)
+        return Ended(os.waitstatus_to_exitcode(ended.status), ended.reason)
 
     def _is_over(self, each: _Child) -> bool:
         if each.status is None:
@@ -149,9 +148,9 @@ class FlightServer:
                 with suppress(ChildProcessError):
                     os.waitpid(orphan, 0)
 
-    def _read(self, printed: Printed) -> None:
-        if not printed.is_closed and not printed.read() and printed.descriptor in self._selector.get_map():
-            self._selector.unregister(printed.descriptor)
+    def _read(self, output: Output) -> None:
+        if not output.is_closed and not output.read() and output.descriptor in self._selector.get_map():
+            self._selector.unregister(output.descriptor)
 
     def _watch(self) -> None:
         """End children that take more memory than they may."""

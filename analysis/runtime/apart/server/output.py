@@ -1,0 +1,34 @@
+"""The end of a pipe that a child prints into, read by the server between other work."""
+
+from __future__ import annotations
+
+import os
+
+from ..protocol.printed import BLOCK, Printed
+
+
+class Output:
+    """Of one child; ``descriptor`` is the reading end."""
+
+    def __init__(self, descriptor: int) -> None:
+        os.set_blocking(descriptor, False)
+        self.descriptor = descriptor
+        self.is_closed = False
+        self._printed = Printed()
+
+    def read(self) -> bool:
+        """Pass on what there is; returns whether more may come."""
+        while True:
+            try:
+                block = os.read(self.descriptor, BLOCK)
+            except BlockingIOError:
+                return True
+            if not block:
+                return False
+            self._printed.add(block)
+
+    def close(self) -> None:
+        """Close the pipe, and pass on the last line."""
+        self.is_closed = True
+        os.close(self.descriptor)
+        self._printed.finish()

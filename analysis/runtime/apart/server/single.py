@@ -1,0 +1,28 @@
+"""The process of a child that was not forked: it loads what a flight takes, and does one task."""
+
+from __future__ import annotations
+
+import pickle
+import socket
+import sys
+
+from ....common.process import leave
+from ...flight.compiled import loop
+from ..protocol.messages import Done, send_answer
+from ..protocol.orders import Single
+from . import child
+
+
+def main() -> None:
+    """Do what standard input says, and end."""
+    order: Single = pickle.load(sys.stdin.buffer)
+    if sys.platform == "win32":
+        assert isinstance(order.channel, bytes)
+        channel = socket.fromshare(order.channel)
+    else:
+        assert isinstance(order.channel, int)
+        channel = socket.socket(fileno=order.channel)
+    loop.load(locked=order.locked)
+    send_answer(channel, Done())
+    child.work(order.task, pickle.loads(order.content), channel, order.files)
+    leave(0)
