@@ -1,15 +1,25 @@
-"""Builds the FMUs into the wheel; everything else about the package is in pyproject.toml."""
+"""What pyproject.toml cannot say of the wheel: its FMUs, its bill of materials, the same bytes wherever it is built."""
 
+import hashlib
+import os
 import shutil
 import subprocess
 import sys
+import tomllib
+from datetime import UTC, datetime
 from pathlib import Path
+from uuid import UUID
 
 from setuptools import setup
+from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build_py import build_py
 
+ROOT = Path(__file__).resolve().parent
 # As build_fmus.py, which a source distribution does not hold.
 BUILD_FMUS = "from perilune.fmus_src.export.command import main; raise SystemExit(main())"
+EPOCH = int(os.environ.setdefault("SOURCE_DATE_EPOCH", "315532800"))  # s; of itself 1980, where the dates of zips begin
+MODE = 0o644  # of all files, whatever the umask of whoever builds
+BILL = "sboms/perilune.cdx.json"  # PEP 770: in .dist-info
 
 
 class BuildWithFmus(build_py):
@@ -29,8 +39,65 @@ class BuildWithFmus(build_py):
         options = ["--output", output, "--flavour", "native", "--portable"]
         for platform in ("linux64", "win64", "darwin64"):
             options += ["--platform", platform]
-        subprocess.run([sys.executable, "-c", BUILD_FMUS, *options], cwd=Path(__file__).parent, check=True)
+        subprocess.run([sys.executable, "-c", BUILD_FMUS, *options], cwd=ROOT, check=True)
         shutil.rmtree(output / "ssp")  # holds the FMUs a second time
 
 
-setup(cmdclass={"build_py": BuildWithFmus})
+class ReproducibleWheel(bdist_wheel):
+    """Adds the bill of materials, and gives all files the same dates and modes."""
+
+    def write_wheelfile(self, wheelfile_base: str, generator: str | None = None) -> None:
+        super().write_wheelfile(wheelfile_base, *() if generator is None else (generator,))
+        bill = Path(wheelfile_base) / BILL
+        bill.parent.mkdir()
+        bill.write_text(write_bill(), encoding="utf-8")
+        for path in Path(wheelfile_base).parent.rglob("*"):
+            if path.is_file():
+                path.chmod(MODE)
+
+
+def write_bill() -> str:
+    """A CycloneDX document: what the wheel has in it, what it needs, and what compiles its FMUs."""
+    from cyclonedx.model.bom import Bom, BomMetaData
+    from cyclonedx.model.component import Component, ComponentScope, ComponentType
+    from cyclonedx.model.license import LicenseExpression
+    from cyclonedx.output.json import JsonV1Dot6
+    from packageurl import PackageURL
+
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    build, about = project["build-system"]["requires"], project["project"]
+
+    def component(name: str, version: str, scope: ComponentScope, description: str | None = None) -> Component:
+        reference = PackageURL("pypi", name=name, version=version)
+        return Component(
+            name=name, version=version, purl=reference, bom_ref=str(reference), scope=scope, description=description
+        )
+
+    itself = Component(
+        type=ComponentType.APPLICATION,
+        name=about["name"],
+        version=about["version"],
+        description=about["description"],
+        bom_ref=about["name"],
+        purl=PackageURL("pypi", name=about["name"], version=about["version"]),
+        licenses=[LicenseExpression(about["license"])],
+    )
+    headers = Component(
+        name="fmi-headers",
+        version="2.0.1",
+        bom_ref="fmi-headers",
+        scope=ComponentScope.REQUIRED,
+        licenses=[LicenseExpression("BSD-2-Clause")],
+        description="fmi2*.h of the Modelica Association, in sources/ of every FMU",
+    )
+    needed = [component(*pinned.split("=="), ComponentScope.REQUIRED) for pinned in about["dependencies"]]
+    (zig,) = [pinned.split("==") for pinned in build if pinned.startswith("ziglang==")]
+    compiles = "compiles the FMUs, whose libraries for Windows have parts of its C runtime (mingw-w64)"
+    bom = Bom(components=[headers, *needed, component(*zig, ComponentScope.EXCLUDED, compiles)])
+    bom.metadata = BomMetaData(component=itself, timestamp=datetime.fromtimestamp(EPOCH, UTC))
+    bom.register_dependency(itself, [headers, *needed])
+    bom.serial_number = UUID(bytes=hashlib.sha256((ROOT / "pyproject.toml").read_bytes()).digest()[:16], version=4)
+    return JsonV1Dot6(bom).output_as_string(indent=1) + "\n"
+
+
+setup(cmdclass={"build_py": BuildWithFmus, "bdist_wheel": ReproducibleWheel})

@@ -9,17 +9,23 @@ import hashlib
 import io
 import json
 import math
+import os
 import re
 import shutil
+import subprocess
+import tomllib
 import zipfile
 
 import pytest
+from cyclonedx.schema import SchemaVersion
+from cyclonedx.validation.json import JsonStrictValidator
 from macholib.MachO import MachO
 from macholib.SymbolTable import SymbolTable
 
 import perilune
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.paths import ROOT
+from tests.support.installed import build_wheel
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("fmus")]
 
@@ -52,6 +58,33 @@ def test_one_new_name_of_moderate_size(installed):
         assert {f"perilune/{name}" for name in expected} <= set(names)
     native = {name for name, block in catalogue().items() if not block.python_only}
     assert {name for name in names if name.endswith(".fmu")} == {f"perilune/build/fmus/native/{n}.fmu" for n in native}
+
+
+def test_its_bill_of_materials(installed):
+    """CycloneDX, valid by its schema: what pyproject.toml pins, and what is in FMUs that is not ours."""
+    with zipfile.ZipFile(installed.wheel) as wheel:
+        text = wheel.read("perilune-0.1.0.dist-info/sboms/perilune.cdx.json").decode()
+    assert JsonStrictValidator(SchemaVersion.V1_6).validate_str(text) is None
+    bill = json.loads(text)
+    pinned = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    needed = {f"{each['name']}=={each['version']}" for each in bill["components"] if each["scope"] == "required"}
+    assert needed == {*pinned, "fmi-headers==2.0.1"}
+    assert [each["name"] for each in bill["components"] if each["scope"] == "excluded"] == ["ziglang"]
+
+
+def test_the_same_bytes_in_another_folder(installed, tmp_path):
+    """With other dates, modes, umask, time zone, locale and hashes."""
+    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    for name in filter(None, names.split("\0")):
+        copy = tmp_path / "copy" / name
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(ROOT / name, copy, follow_symlinks=False)
+        if not copy.is_symlink():
+            copy.chmod(0o600)
+            os.utime(copy, (1e9, 1e9))
+    others = {"TZ": "Asia/Tokyo", "LC_ALL": "C", "PYTHONHASHSEED": "7", "HOME": str(tmp_path)}
+    wheel = build_wheel(tmp_path / "wheel", tmp_path / "copy", umask=0o077, env={**os.environ, **others})
+    assert wheel.read_bytes() == installed.wheel.read_bytes()
 
 
 def test_its_fmus_are_listed_as_its_own(installed):

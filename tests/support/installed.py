@@ -6,6 +6,7 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy
 
@@ -35,10 +36,10 @@ class Installed:
         return {str(path.relative_to(self.site)): (stat.st_size, stat.st_mtime_ns) for path, stat in collected.items()}
 
 
-def build_wheel(folder: Path) -> Path:
-    """The wheel of this checkout, as `pip wheel` makes it."""
-    command = [sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", folder, ROOT]
-    subprocess.run(command, check=True, capture_output=True)
+def build_wheel(folder: Path, source: Path = ROOT, **process: Any) -> Path:
+    """The wheel of a checkout, as `pip wheel` makes it; ``process`` are options of `subprocess.run`."""
+    command = [sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", folder, source]
+    subprocess.run(command, check=True, capture_output=True, **process)
     (wheel,) = folder.glob("*.whl")
     return wheel
 
