@@ -1,6 +1,9 @@
-"""Trials that ended with their process, or whose FMU did not return: counted with a campaign's result."""
+"""Trials that ended with their process, or whose FMU did not return: counted with whatever they are results of."""
 
 from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
 
 from ..runtime.flight.results import LOST
 from .summary import Summary
@@ -12,15 +15,30 @@ def lost_status(status: str) -> str:
     return beginning if beginning in LOST else ""
 
 
-def lost_lines(summary: Summary) -> list[str]:
-    """A line for each variant that has any: how many crashed, hung or ran out of memory."""
-    lines = []
-    for variant, entry in summary.items():
-        counts = dict.fromkeys(LOST, 0)
-        for status, count in entry.statuses.items():
-            if lost_status(status):
-                counts[lost_status(status)] += count
-        words = [f"{count} {status.replace('_', ' ')}" for status, count in counts.items() if count]
-        if words:
-            lines.append(f"{variant}: {', '.join(words)} of {entry.trials} trials, which are no successes")
-    return lines
+def count_lost(statuses: Mapping[str, int]) -> Counter[str]:
+    """How many trials crashed, hung or ran out of memory, of the counts of all statuses."""
+    counts: Counter[str] = Counter()
+    for status, count in statuses.items():
+        if lost_status(status):
+            counts[lost_status(status)] += count
+    return counts
+
+
+def lost_words(counts: Mapping[str, int]) -> str:
+    """Such counts in words: "2 crashed, 1 out of memory"; empty where there are none."""
+    return ", ".join(f"{counts[status]} {status.replace('_', ' ')}" for status in LOST if counts.get(status))
+
+
+def lost_lines(statuses: Mapping[str, Mapping[str, int]]) -> list[str]:
+    """A line for each variant that has any, of the counts of its statuses."""
+    words = {variant: lost_words(count_lost(counts)) for variant, counts in statuses.items()}
+    return [
+        f"{variant}: {text} of {sum(statuses[variant].values())} trials, which are no successes"
+        for variant, text in words.items()
+        if text
+    ]
+
+
+def lost_of(summary: Summary) -> list[str]:
+    """The lines of a summary's variants."""
+    return lost_lines({variant: entry.statuses for variant, entry in summary.items()})

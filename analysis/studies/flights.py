@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -13,6 +14,7 @@ from ..campaigns.fly.flyer import Flyer
 from ..campaigns.fly.metadata import Provenance, provenance
 from ..campaigns.fly.shards.flights import task_size
 from ..campaigns.fly.workers import FlyerPool, worker_count
+from ..campaigns.lost_trials import count_lost
 from ..campaigns.spec.campaign import Record
 from ..campaigns.spec.checks import check_draws, check_plan
 from ..campaigns.spec.plan import BatchPlan
@@ -45,6 +47,7 @@ class SampleFlights:
         self.noise = noise_of(self.prepared, noise_trial, plan.campaign.seed)
         self.facts = study_provenance(self.plan, systems)
         self.flown = 0
+        self.lost: Counter[str] = Counter()  # flights that crashed, hung or ran out of memory
         self._pool = FlyerPool(self.plan, self._count, self.prepared.flies_in_threads)
         self._progress = progress_bar(unit="flight")
 
@@ -65,7 +68,9 @@ class SampleFlights:
             parts[place] = flown.renumber(pieces[place].start)
             self._progress.update(len(pieces[place]))
         self.flown += trials
-        return join_trials(parts.values()), plan.draws.of_part(range(trials)).columns
+        flown_trials = join_trials(parts.values())
+        self.lost += count_lost(Counter(flown_trials.statuses))
+        return flown_trials, plan.draws.of_part(range(trials)).columns
 
     def __enter__(self) -> SampleFlights:
         self._pool.__enter__()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar, NamedTuple, TypedDict
 
@@ -14,6 +14,7 @@ import pyarrow
 from ..campaigns.draws.declared import input_names
 from ..campaigns.draws.given import stream_component
 from ..campaigns.fly.shards.files import write_parquet
+from ..campaigns.lost_trials import lost_words
 from ..common.atomic import write_atomically
 from .draw_space import DrawSpace
 from .flights import StudyProvenance
@@ -101,6 +102,7 @@ class StudyResult:
 
     ``facts`` are what the numbers depend on, ``noise`` the random numbers that components draw themselves, ``units``
     those of draws and metrics by name. ``commands`` write the command lines that fly flights again, where known.
+    ``lost`` counts flights that crashed, hung or ran out of memory: they are failures, and no successes.
     """
 
     DRAWS: ClassVar[str]  # the file of draws with which flights are flown again
@@ -110,6 +112,7 @@ class StudyResult:
     facts: StudyProvenance
     noise: Noise
     units: Mapping[str, str]
+    lost: Mapping[str, int] = field(default_factory=dict)
     commands: Commands | None = None
 
     @property
@@ -119,7 +122,9 @@ class StudyResult:
     @property
     def conditions(self) -> str:
         """What the numbers are conditional on, as the end of a line; empty where they are not."""
-        return conditions(self.noise, self.space.held)
+        words = lost_words(self.lost)
+        lost = f", {words} of {self.flights} simulations counted as failures" if words else ""
+        return f"{conditions(self.noise, self.space.held)}{lost}"
 
     def replay(self, folder: Path | None, trial: int) -> str:
         """The command that flies a row of the file of draws again; empty where it is not written to a folder."""
@@ -132,6 +137,7 @@ class StudyResult:
     def _condition_document(self) -> dict[str, object]:
         return {
             "held": self.space.held,
+            **({"lost": dict(self.lost)} if self.lost else {}),
             **self.noise.document(),
             "conditional": bool(self.conditions),
             "conditions": self.conditions.removeprefix(", "),

@@ -79,6 +79,7 @@ def sensitivity(
             ranks=ranks,
             flown=flown.whole(),
             facts=flights.facts,
+            lost=flights.lost,
             noise=noise,
             units=units_of(space, flights.prepared, flights.facts),
         )

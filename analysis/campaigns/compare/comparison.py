@@ -42,7 +42,7 @@ class Comparison:
     """Contenders by label and batches by their folders' names, all flown on the same draws.
 
     ``reference`` is the variant that others are put against; ``notes`` say where the batches differ
-    other than by what was to be compared.
+    other than by what was to be compared, and how many trials crashed, hung or ran out of memory.
     """
 
     contenders: dict[str, Contender]

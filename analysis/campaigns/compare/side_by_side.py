@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TypeVar
@@ -11,6 +12,7 @@ import numpy as np
 
 from ...common.errors import InputError, suggestion
 from ..folder.stored import StoredBatch, read_batch
+from ..lost_trials import lost_lines
 from .comparison import Comparison, Contender
 
 DIFFERENCES = {
@@ -54,7 +56,8 @@ def compare_folders(make: type[Result], folders: Sequence[Path], reference: str 
         for variant in batch.variants:
             label = _label(name, variant, several=len(batches) > 1, single=len(variants) == 1)
             contenders[label] = Contender(label, batch, variant, index, variants.index(variant))
-    return make(contenders, named, reference or variants[0], tuple(_notes(named)))
+    lost = lost_lines({label: Counter(contender.trials.statuses) for label, contender in contenders.items()})
+    return make(contenders, named, reference or variants[0], (*_notes(named), *lost))
 
 
 def _label(folder: str, variant: str, *, several: bool, single: bool) -> str:

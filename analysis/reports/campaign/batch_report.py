@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.results import BatchResult
-from ...campaigns.lost_trials import lost_lines
+from ...campaigns.lost_trials import lost_of
 from ..common.page import write_page
 from .distributions import distribution_panels, legend_of, rates_figure, sort_metrics
 from .scatters import failure_panels, influence_on_success, scatter_figures
@@ -39,7 +39,7 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         summary=result.summary,
         rows=variant_rows(result.summary),
         group_rows=group_rows(result.summary),
-        lost=lost_lines(result.summary),
+        lost=lost_of(result.summary),
         requirements=verdict_rows(result.summary, campaign),
         statistics=HEADINGS,
         rates=rates_figure(result),

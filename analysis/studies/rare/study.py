@@ -73,5 +73,5 @@ def rare_failure(
         units = units_of(space, flights.prepared, flights.facts)
         return RareResult(
             failure=wanted, simulation=simulation, samples=samples, space=space, flown=flown.whole(),
-            facts=flights.facts, noise=noise, units=units,
+            facts=flights.facts, noise=noise, units=units, lost=flights.lost,
         )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
@@ -55,6 +56,7 @@ class MarginStudies:
         check_draws(self._plan, [prepared])
         self.channels = [channel.name for channel in self._study.channels]
         self.reasons: list[str] = []
+        self.lost: Counter[str] = Counter()  # none: a study whose flight is lost has a reason
         self.facts = study_provenance(self._plan, {"default": prepared})
         self.facts |= {"loop": asked.loop.name, "point": asked.point.name, "time": self._study.bench.time}
         self._pool: ProcessPoolExecutor | None = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Protocol, TypedDict, Unpack
@@ -39,6 +40,7 @@ class Flights(Protocol):
     facts: StudyProvenance
     noise: Noise
     prepared: PreparedSystem
+    lost: Counter[str]
 
     def fly(self, columns: Columns, streams: Streams) -> tuple[Sampled, Mapping[str, np.ndarray]]: ...
 
@@ -162,6 +164,7 @@ class _Search:
             space=space,
             flown=points.flown.whole(),
             facts=flights_of.facts,
+            lost=flights_of.lost,
             noise=flights_of.noise,
             units=units_of(space, flights_of.prepared, flights_of.facts),
             over=points.over,

@@ -13,7 +13,7 @@ import numpy as np
 from ...campaigns.fly.evaluation import worst_statuses
 from ...campaigns.fly.flyer import TrialResult
 from ...campaigns.fly.results import BatchResult
-from ...campaigns.lost_trials import lost_lines
+from ...campaigns.lost_trials import lost_of
 from ...campaigns.replay_command import replay_of_folder
 from ...campaigns.spec.campaign import Metric
 from ...campaigns.spec.expressions import Expression
@@ -32,7 +32,7 @@ def campaign_problems(result: BatchResult, requirements: Sequence[Expression]) -
     for variant, entry in result.summary.items():
         count = sum(count for status, count in entry.statuses.items() if status.startswith(TIMED_OUT))
         lines += [f"{variant}: {count} simulations took longer than the {limit}; give a longer one"] if count else []
-    lines += [f"{line}; `retry_crashed` simulates them again" for line in lost_lines(result.summary)]
+    lines += [f"{line}; `retry_crashed` simulates them again" for line in lost_of(result.summary)]
     values = requirement_values(result.summary)
     # a status that no trial had is not in the summary: it counts 0
     values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}

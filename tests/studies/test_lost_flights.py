@@ -1,0 +1,83 @@
+"""Studies and comparisons count the flights that crashed wherever they state a number.
+
+Truth: the FMU's source, which ends its process where its count is 13; so many trials have that count.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import perilune
+from perilune.analysis.cli import main
+from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
+
+pytestmark = pytest.mark.flies
+CAMPAIGN = """
+system = "odd"
+trials = 40
+seed = 3
+
+[draw."odd.gain"]
+distribution = "uniform"
+low = 0.0
+high = 1.0
+
+[draw.heavy]
+distribution = "uniform"
+low = 0.0
+high = 1.0
+
+[derive]
+"odd.count" = "1 + 12 * (heavy > 0.9)"
+
+[metric.last]
+expression = "odd.y"
+reduction = "final"
+
+[success]
+expression = "last < 2.4"
+"""
+OPTIONS = dict(stop_time=1.0, step=0.25, workers=1)
+STEPS = ["--stop-time", "1", "--step", "0.25", "--workers", "1"]
+
+
+@pytest.fixture(scope="module")
+def crashing(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("crashing")
+    (folder / "c.toml").write_text(CAMPAIGN)
+    return odd_fmu(folder, DEED=Deed.SEGFAULT, IN=Call.STEP, COUNTED=13), folder / "c.toml"
+
+
+def crashed_in(result):
+    return int(np.sum(result.flown.draws["heavy"] > 0.9))
+
+
+@pytest.mark.parametrize(
+    ("study", "arguments"),
+    [("rare", {"samples": 100}), ("worst", {"flights": 100}), ("sensitivity", {"base": 32})],
+)
+def test_a_study_states_them(crashing, tmp_path, study, arguments):
+    result = getattr(perilune, study)(*crashing, **arguments, **OPTIONS)
+    count = crashed_in(result)
+    assert count > 0
+    words = f"{count} crashed of {result.flights} simulations counted as failures"
+    assert words in result.lines()[0]
+    assert words in str(result.to_json()["conditions"])
+    assert result.to_json()["lost"] == {"crashed": count}
+    result.report(tmp_path / "page.html")
+    assert words in (tmp_path / "page.html").read_text()
+
+
+def test_a_comparison_notes_them(crashing, tmp_path, capsys):
+    fmu, campaign = crashing
+    good = odd_fmu(tmp_path)
+    for name, each in (("bad", fmu), ("good", good)):
+        assert main(["batch", str(each), "--campaign", str(campaign), "--output", str(tmp_path / name), *STEPS]) < 2
+    count = perilune.open_results(tmp_path / "bad").to_pandas()["status"].eq("crashed").sum()
+    page = tmp_path / "page.html"
+    capsys.readouterr()
+    assert main(["compare", str(tmp_path / "bad"), str(tmp_path / "good"), "--report", str(page)]) == 0
+    line = f"bad: {count} crashed of 40 trials, which are no successes"
+    assert line in capsys.readouterr().out.splitlines()
+    assert line in page.read_text()
