@@ -18,6 +18,7 @@ import pyarrow.parquet
 
 from ...common.atomic import whole_file, write_atomically
 from ...common.errors import suggestion
+from ...common.formulas import quote_formula
 from ...common.percent import short_percent
 from ..ssp.parameter_sets import ParameterValue
 from ..system.assignments import Settings
@@ -160,8 +161,9 @@ class Result(Flight):
         else:
             plain = not any(mark in name for name in self.signals for mark in ',"')
             options = pyarrow.csv.WriteOptions(quoting_header="none" if plain else "needed")
+            table = self.table().rename_columns([quote_formula(name) for name in ("time", *self.signals)])
             with whole_file(path) as partial:
-                pyarrow.csv.write_csv(self.table(), partial, options)
+                pyarrow.csv.write_csv(table, partial, options)
             units = {"time": "s"} | {name: unit for name, unit in self.units.items() if unit}
             text = json.dumps(self.summary() | {"units": units}, indent=1)
             write_atomically(path.with_name(f"{path.name}.json"), f"{text}\n".encode())

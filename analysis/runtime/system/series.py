@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...common.errors import InputError
+from ...common.formulas import unquote_formula
 
 TIME = "time"
 FORM = "write a comma-separated file whose first line is time and the inputs' names"
@@ -75,7 +76,7 @@ def _of_file(path: str) -> InputSeries:
         raise InputError(path, "", error.strerror or str(error), "give a CSV file of inputs over time") from error
     try:
         reader = csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""), skipinitialspace=True)
-        names = [name.strip() for name in next(reader, [])]
+        names = [unquote_formula(name.strip()) for name in next(reader, [])]
         _check_names(path, "line 1", names)
         numbers, lines = array("d"), array("q")
         for fields in reader:

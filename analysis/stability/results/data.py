@@ -19,6 +19,7 @@ import numpy as np
 from scipy.io import savemat
 
 from ...common.atomic import write_atomically
+from ...common.formulas import quote_formula
 from .document import document, joint_margin, loop_margins
 from .report import JointReport, LoopReport, Orders, StabilityReport
 from .responses import StateSpace
@@ -159,8 +160,8 @@ def _table(report: StabilityReport) -> str:
         for loop in loops:
             for name, frequency, values in _curves(loop):
                 for w, value in zip(frequency.tolist(), values.tolist(), strict=True):
-                    row = loop.name, loop.point, f"{name}{ending}", repr(w), repr(value.real), repr(value.imag)
-                    rows.writerow(row)
+                    names = map(quote_formula, (loop.name, loop.point, f"{name}{ending}"))
+                    rows.writerow((*names, repr(w), repr(value.real), repr(value.imag)))
     return text.getvalue()
 
 
