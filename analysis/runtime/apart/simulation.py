@@ -21,6 +21,7 @@ from ..flight.selection import check_replaced
 from ..ssp.parameter_sets import ParameterValue
 from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
+from . import progress
 from .connection import ChildEndedError, Connection, Stillness
 from .containment import limits_for
 from .memory import ApartMemory
@@ -93,11 +94,13 @@ class ApartSimulation(BaseSimulation):
                 limits=limits_for(prepared.network.fmus.values(), options),
                 files=recorder.files,
             )
-            connection = Connection(child, self._write, Stillness(self._progress, options.call_timeout))
+            connection = Connection(
+                child, self._write, Stillness(lambda: progress.measure(self.recorder), options.call_timeout)
+            )
             try:
                 connection.hear(messages.Done)
             except ChildEndedError as error:
-                component = self._component(int(recorder.phase[1]))
+                component = progress.component_in_phase(prepared, recorder)
                 fmu = prepared.network.fmus.get(component)
                 label = fmu.label if fmu is not None else prepared.network.file
                 problem = f"cannot be instantiated: {error.how}"
@@ -108,15 +111,6 @@ class ApartSimulation(BaseSimulation):
     def _write(self, line: str) -> None:
         if self._log is not None:
             self._log.write_line(line)
-
-    def _progress(self) -> bytes:
-        """What changes as long as FMUs return."""
-        return self.recorder.outcome.tobytes() + self.recorder.phase.tobytes()
-
-    def _component(self, number: int) -> str:
-        """A component's name; the number is what a child wrote, which may be anything."""
-        names = list(self.prepared.network.fmus)
-        return names[number] if 0 <= number < len(names) else "a component"
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
         """Give varied parameters other values, from the next start on."""
@@ -235,17 +229,7 @@ class ApartSimulation(BaseSimulation):
         self._formats = not self._formats or error.status != CRASHED
         point = self.recorder.point
         rows = min(max(-(-(point - max(first, -1) - 1) // every), 0), self.recorder.times.size)
-        return self._flight(rows, error.status, f"{self._progress_text()}: {error.how}")
-
-    def _progress_text(self) -> str:
-        """What the child was at when it ended."""
-        prepared, recorder = self.prepared, self.recorder
-        if recorder.phase[0] == Phase.INSTANTIATION:
-            return f"{self._component(int(recorder.phase[1]))}: while it was instantiated"
-        if not recorder.point:
-            return f"{self._component(recorder.subject)}: in the initialisation"
-        time = prepared.start + recorder.point * prepared.step
-        return f"{self._component(recorder.subject)}: on the way to t = {time:g} s"
+        return self._flight(rows, error.status, f"{progress.describe(self.prepared, self.recorder)}: {error.how}")
 
     def interrupt(self, halt: bool = True) -> None:
         """See `BaseSimulation.interrupt`."""
@@ -279,7 +263,9 @@ class ApartSimulation(BaseSimulation):
             raise self._refusal(error) from None
 
     def _refusal(self, error: ChildEndedError) -> InputError:
-        return InputError(self.prepared.network.file, "", f"{self._progress_text()}: {error.how}", SEE_LOG)
+        return InputError(
+            self.prepared.network.file, "", f"{progress.describe(self.prepared, self.recorder)}: {error.how}", SEE_LOG
+        )
 
     def close(self) -> None:
         """Free the instances, and end the child; at once, where a flight is under way in a thread, given up."""
@@ -296,4 +282,6 @@ class ApartSimulation(BaseSimulation):
 
     def _note(self, when: str, problem: str) -> None:
         """Warn of what an FMU does between flights, which no flight is to blame for."""
-        warnings.warn(f"{self._component(int(self.recorder.phase[1]))}: when {when}, {problem}", stacklevel=4)
+        warnings.warn(
+            f"{progress.component_in_phase(self.prepared, self.recorder)}: when {when}, {problem}", stacklevel=4
+        )
