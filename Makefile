@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | checks | figures | bench | sanitize | elementary | processors | browser | emulator | windows | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | checks | figures | bench | sanitize | fuzz | elementary | processors | browser | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # On a terminal pip shows what it does, in a log nothing.
@@ -81,6 +81,16 @@ large: build
 sanitize: .venv/ready
 	PERILUNE_LONG=1 PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py
 
+# What others may hand in, changed at random under atheris and libFuzzer (Debian's clang, installed as root): manifests,
+# shards, documents, and calls of native FMUs. It takes hours; FUZZ="--runs N" takes N of each, FUZZ="shards" one target.
+ATHERIS := atheris==3.0.0
+FUZZ ?=
+
+fuzz: build
+	@command -v clang >/dev/null || { apt-get update -qq && apt-get install -y -qq clang >/dev/null; }
+	$(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --target build/fuzz/site --upgrade $(ATHERIS)
+	PYTHONPATH=build/fuzz/site $(BIN)/python -m tests.fuzz $(FUZZ)
+
 # The elementary functions: errors of a million arguments each against mpmath, and the coefficients of their polynomials.
 elementary: .venv/ready
 	PERILUNE_ELEMENTARY_SAMPLES=1000000 $(BIN)/python -m pytest -n 2 -rP tests/kernel
@@ -125,4 +135,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build docs wheel notebooks explore gains checks bench large sanitize processors emulator windows browser lint clean
+.PHONY: demo test quick long long-campaigns build docs wheel notebooks explore gains checks bench large sanitize fuzz processors emulator windows browser lint clean

@@ -160,6 +160,8 @@ def restore(
         selected=manifest.campaign.get("selected"),
     )
     campaign = with_sweeps(read, manifest.campaign.get("sweep", {}))
+    if not campaign.variants():
+        raise InputError(folder / FILE, "campaign", "it compares nothing, or has selected no variant of it", SAME_VERSION)
     options = _restore_options(manifest, folder)
     series = None
     if manifest.series is not None:

@@ -1,0 +1,55 @@
+"""Fuzz everything, or one target: `python -m tests.fuzz [NAME] [--runs N]`; `make fuzz` has what it needs installed."""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+import time
+
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.paths import ROOT
+from tests.fuzz import fmi, guided
+
+FOLDER = ROOT / "build" / "fuzz"
+RUNS = {"manifests": 1_000_000, "shards": 100_000, "fmi": 2_000_000}
+
+
+def main() -> int:
+    """The exit status: 1 where something was found."""
+    parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
+    parser.add_argument("name", nargs="?", choices=RUNS)
+    parser.add_argument("--runs", type=int, metavar="N", help="inputs of each target")
+    given = parser.parse_args()
+    if given.name is None:
+        return max(_run(name, given.runs or runs) for name, runs in RUNS.items())
+    runs = given.runs or RUNS[given.name]
+    if given.name == "fmi":
+        return _fuzz_fmus(runs)
+    guided.fuzz(given.name, FOLDER / given.name, runs)
+    return 0
+
+
+def _run(name: str, runs: int) -> int:
+    """One target in a process of its own, which its end may take along."""
+    begin = time.monotonic()
+    command = [sys.executable, "-m", "tests.fuzz", name, "--runs", str(runs)]
+    log = FOLDER / f"{name}.log"
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    with log.open("w") as output:
+        status = subprocess.run(command, stdout=output, stderr=subprocess.STDOUT, cwd=ROOT, check=False).returncode
+    print(
+        f"{name}: {runs} inputs, {time.monotonic() - begin:.0f} s, {f'FAILED, see {log}' if status else 'good'}",
+        flush=True,
+    )
+    return int(status != 0)
+
+
+def _fuzz_fmus(runs: int) -> int:
+    blocks = [block for block in catalogue().values() if not block.python_only]
+    each = -(-runs // len(blocks))
+    return int(not all([fmi.fuzz(block, FOLDER / "fmi" / block.fmu_name, each) for block in blocks]))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

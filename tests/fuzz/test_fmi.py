@@ -1,0 +1,28 @@
+"""Native FMUs take any sequence of calls: the sanitizers find nothing. `make fuzz` takes two million, led by coverage.
+
+Truth: the sanitizers of the compiler.
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+
+import pytest
+
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.catalogue import catalogue
+from tests.fuzz.fmi import build
+from tests.support.lengths import LONG, either
+
+DENSE = ("kalman_navigation", "landing_sequencer")
+BLOCKS = [block for block in catalogue().values() if not block.python_only and (LONG or block.fmu_name in DENSE)]
+RUNS = either(20_000, 1000)
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc, whose sanitizers these are")
+@pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.fmu_name)
+def test_any_calls(block: type[Block], tmp_path):
+    program = build(block, tmp_path, guided=False)
+    done = subprocess.run([program, str(RUNS), "1"], capture_output=True, text=True, check=False, timeout=600)
+    assert done.returncode == 0, done.stderr
