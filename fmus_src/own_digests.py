@@ -7,12 +7,15 @@ ships; a list in the cache folder has whatever was built on this machine. All ot
 from __future__ import annotations
 
 import hashlib
-import zipfile
 from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
 from ..analysis.common.atomic import write_atomically
+from ..analysis.common.bounds import ARCHIVE_BYTES
+from ..analysis.common.errors import InputError
+from ..analysis.common.regular import read_input
+from ..analysis.common.zips import ZippedFiles
 from .paths import CACHE, FLAVOURS, shipped_fmu
 
 SUMS = "SHA256SUMS"
@@ -22,7 +25,11 @@ LISTS = (NOTED, *(shipped_fmu("", flavour).with_name(SUMS) for flavour in FLAVOU
 
 def digest_of(path: Path) -> str:
     """SHA-256 of a file, in hexadecimal digits."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+    return _digest(path.read_bytes())
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
 
 
 def is_own(digest: str) -> bool:
@@ -34,14 +41,13 @@ def has_foreign(path: Path) -> bool:
     """Whether a file, or a folder with its subfolders, has FMUs that Perilune has not built; False where unreadable."""
     try:
         if path.suffix == ".fmu":
-            return not is_own(digest_of(path))
+            return not is_own(_digest(read_input(path, "", ARCHIVE_BYTES)))
         if path.is_dir():
             return any(has_foreign(fmu) for fmu in path.glob("*/*.fmu"))
         if path.suffix == ".ssp":
-            with zipfile.ZipFile(path) as archive:
-                fmus = [name for name in archive.namelist() if name.endswith(".fmu")]
-                return not all(is_own(hashlib.sha256(archive.read(name)).hexdigest()) for name in fmus)
-    except (OSError, zipfile.BadZipFile):
+            files = ZippedFiles(read_input(path, "", ARCHIVE_BYTES), path.name)
+            return not all(is_own(_digest(files[name])) for name in files if name.endswith(".fmu"))
+    except (OSError, InputError):
         pass
     return False
 

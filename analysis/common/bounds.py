@@ -51,7 +51,37 @@ class Bound:
 ARCHIVE_BYTES = Bound("archive_bytes", 2e9, "bytes", "content of an archive (.ssp, .fmu), unpacked")
 ARCHIVE_ENTRIES = Bound("archive_entries", 10_000, "files", "files of an archive")
 XML_BYTES = Bound("xml_bytes", 256e6, "bytes", "an XML document")
+XML_TAGS = Bound("xml_tags", 1.5e6, "tags", "elements of an XML document, opened and closed")
+CAMPAIGN_BYTES = Bound("campaign_bytes", 256e3, "bytes", "the file of a campaign or of a law")
+CAMPAIGN_FILES = Bound("campaign_files", 100, "files", "files that a campaign extends")
+EXPRESSION_CHARACTERS = Bound("expression_characters", 10_000, "characters", "an expression")
+GRID_POINTS = Bound("grid_points", 10_000, "points", "values of a grid or of a sweep")
 INPUT_BYTES = Bound("input_bytes", 2e9, "bytes", "a file of inputs, draws or parameters, a manifest or its contents")
 MEMORY_FRACTION = Bound("memory_fraction", 0.25, "of the free memory", "samples of a simulation")
 TRIALS = Bound("trials", 1e9, "trials", "trials of a campaign")
-BOUNDS = (ARCHIVE_BYTES, ARCHIVE_ENTRIES, XML_BYTES, INPUT_BYTES, MEMORY_FRACTION, TRIALS)
+TABLE_TRIALS = Bound("table_trials", 1e6, "trials", "trials drawn as one table, rows of a file of draws")
+SHARDS = Bound("shards", 1e6, "shards", "shards of a campaign")
+BOUNDS = (
+    ARCHIVE_BYTES,
+    ARCHIVE_ENTRIES,
+    XML_BYTES,
+    XML_TAGS,
+    CAMPAIGN_BYTES,
+    CAMPAIGN_FILES,
+    EXPRESSION_CHARACTERS,
+    GRID_POINTS,
+    INPUT_BYTES,
+    MEMORY_FRACTION,
+    TRIALS,
+    TABLE_TRIALS,
+    SHARDS,
+)
+
+DOCUMENTS = (".ssd", ".ssv", ".ssm", ".ssb", ".xml")
+
+
+def bound_of(name: str) -> Bound:
+    """The bound of a file by what its name ends in."""
+    if name.endswith(DOCUMENTS):
+        return XML_BYTES
+    return CAMPAIGN_BYTES if name.endswith(".toml") else ARCHIVE_BYTES

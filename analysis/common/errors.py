@@ -53,8 +53,15 @@ class InputError(ValueError):
     @property
     def text(self) -> str:
         """The error in one line, parameters between backquotes."""
-        location = ": ".join(part for part in (self.file, self.element, self.problem) if part)
-        return " ".join(f"{location}; {self.remedy}".split())
+        location = ": ".join(_shorten(part) for part in (self.file, self.element, self.problem) if part)
+        return " ".join(f"{location}; {_shorten(self.remedy)}".split())
+
+
+LONGEST = 1000  # characters of each part of a line, whose names and values may be those of a file
+
+
+def _shorten(text: str) -> str:
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]} ..."
 
 
 class SeveralProblemsError(InputError):

@@ -6,6 +6,7 @@ import os
 import stat
 from pathlib import Path
 
+from .bounds import Bound
 from .errors import InputError
 
 KINDS = {
@@ -28,21 +29,51 @@ def is_regular(path: Path) -> bool:
 
 def check_regular(path: Path, remedy: str) -> None:
     """Refuse what is no regular file, or is not there. Raises InputError."""
+    _size(path, remedy, follow_links=False)
+
+
+def check_folder(path: Path, remedy: str) -> None:
+    """Refuse what is no folder where one is to be, or a link to one, which leads elsewhere. Raises InputError."""
+    if path.is_symlink() or (path.exists() and not path.is_dir()):
+        raise InputError(path, "", f"{KINDS.get(stat.S_IFMT(path.lstat().st_mode), 'a file')}, not a folder", remedy)
+
+
+def names_file(path: str | os.PathLike[str]) -> bool:
+    """Whether there is a regular file of a name, perhaps by a link; False for what cannot be a name."""
     try:
-        mode = path.lstat().st_mode
-    except OSError as error:
-        reason = "not found" if isinstance(error, FileNotFoundError) else error.strerror or str(error)
-        raise InputError(path, "", reason, remedy) from error
-    if not stat.S_ISREG(mode):
-        raise InputError(path, "", f"{KINDS.get(stat.S_IFMT(mode), 'no file')}, not a regular file", remedy)
+        return Path(path).is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def read_input(path: str | os.PathLike[str], remedy: str, bound: Bound) -> bytes:
+    """The content of a file that is given by its path, perhaps by a link; nothing else is opened. Raises InputError."""
+    bound.check(_size(Path(path), remedy, follow_links=True), path, "")
+    return _read(Path(path), remedy)
 
 
 def read_regular(path: Path, remedy: str, limit: float) -> bytes:
     """The content of a regular file of at most so many bytes. Raises InputError."""
-    check_regular(path, remedy)
-    size = os.path.getsize(path)
+    size = _size(path, remedy, follow_links=False)
     if size > limit:
         raise InputError(path, "", f"{size} bytes, at most {limit:.6g} are read", remedy)
+    return _read(path, remedy)
+
+
+def _size(path: Path, remedy: str, *, follow_links: bool) -> int:
+    """Bytes of a regular file; raises InputError for anything else."""
+    try:
+        state = path.stat(follow_symlinks=follow_links)
+    except (OSError, ValueError) as error:
+        reason = "not found" if isinstance(error, FileNotFoundError) else getattr(error, "strerror", None) or str(error)
+        raise InputError(path, "", reason, remedy) from error
+    if not stat.S_ISREG(state.st_mode):
+        kind = KINDS.get(stat.S_IFMT(state.st_mode), "no file")
+        raise InputError(path, "", f"{kind}, not a regular file", remedy)
+    return state.st_size
+
+
+def _read(path: Path, remedy: str) -> bytes:
     try:
         return path.read_bytes()
     except OSError as error:

@@ -12,6 +12,7 @@ from ..authoring.campaign import describe_campaign
 from ..authoring.description import describe_system, variables_of
 from ..authoring.fits import blocks_of_slot, slots
 from ..common.errors import InputError, suggestion
+from ..common.visible import on_one_line
 from ..runtime.ssp.archive import system_names
 from ..runtime.system.alone import describe_alone
 from ..runtime.system.fmu import load_fmu
@@ -30,7 +31,7 @@ class Description(NoProblems, dict[str, Any]):
 
     def lines(self) -> list[str]:
         """What `perilune describe` prints."""
-        return description_lines(self)
+        return [on_one_line(line) for line in description_lines(self)]
 
     def to_json(self) -> dict[str, object]:
         """The same for other programs."""

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure as Plot
 
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.tables import faults_line
+from ..common.visible import on_one_line
 from ..reports.common.notebook import Grid, notebook_view, value_text
 from ..reports.figures.declared import Band, Figure, Limits
 from ..reports.figures.limits import limit_document, limit_rows
@@ -85,7 +86,8 @@ class Result(results.Result):
     def lines(self) -> list[str]:
         """What `perilune run` prints."""
         faults = [faults_line(self.faults)] if self.faults else []
-        return [*flight_lines(self.prepared, self.figures, self), *note_lines(self.prepared), *faults]
+        lines = [*flight_lines(self.prepared, self.figures, self), *note_lines(self.prepared), *faults]
+        return [on_one_line(line) for line in lines]
 
     def problems(self) -> list[str]:
         """Why the simulation did not complete, limits that it violates, requirements that are not met."""

@@ -11,7 +11,10 @@ from fmpy.validation import validate_fmu
 
 from ..campaigns.spec.file import SYNTHESIS, read_campaign
 from ..campaigns.spec.source import read_source_file
+from ..common.bounds import bound_of
 from ..common.errors import ExitStatus, InputError
+from ..common.regular import read_input
+from ..common.visible import on_one_line
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
 from ..design.trajectories.stored_bound import MissingBound, find_bound
@@ -70,7 +73,7 @@ class Validation(Sequence[FileCheck]):
             for note in check.notes:
                 lines += wrap(f"{check.path}: note: {note}", 4)
             lines += [] if check.problems else [f"{check.path}: OK"]
-        return lines
+        return [on_one_line(line) for line in lines]
 
     def to_json(self) -> list[dict[str, object]]:
         """Path, problems and notes of each."""
@@ -156,6 +159,4 @@ def _check_loops(subject: Subject, declared: Declaration) -> None:
 
 
 def _read(path: str) -> bytes:
-    if not Path(path).is_file():
-        raise InputError(path, "file", "not found", "give the path of a file")
-    return Path(path).read_bytes()
+    return read_input(path, "give the path of a file", bound_of(path))

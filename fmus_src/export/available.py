@@ -11,6 +11,7 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
+from ...analysis.common.regular import names_file
 from ..catalogue import catalogue
 from ..paths import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, own_fmu, own_fmus, shipped_fmu
 from .pythonfmu_fmu import build_python_fmu
@@ -22,12 +23,12 @@ def fmu_file(name: str, flavour: str, system: Path | None = None) -> Path | None
     None where there is none.
     """
     shipped = shipped_fmu(name, flavour)
-    if shipped.is_file():
+    if names_file(shipped):
         return shipped
     if not IS_CHECKOUT and flavour == "python" and name in catalogue():
         path = _python_folder() / f"{name}.fmu"
         return path if path.is_file() else build_python_fmu(catalogue()[name], path)
-    return next((own for own in own_fmus(name, flavour, system) if own.is_file()), None)
+    return next((own for own in own_fmus(name, flavour, system) if names_file(own)), None)
 
 
 def fmu_flavours() -> dict[str, dict[str, Path | None]]:

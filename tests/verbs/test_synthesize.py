@@ -68,7 +68,7 @@ def test_evaluations_limit_the_search(file, capsys):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["none.toml"], "none.toml: No such file"),
+        (["none.toml"], "none.toml: not found"),
         (["campaign.toml"], "campaign.toml: network_operator: missing"),
         (["search.toml", "--resume"], "--resume: no folder to resume from"),
         (["search.toml", "--workers", "0"], "--workers: 0"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -11,12 +12,15 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
+from ...common.bounds import INPUT_BYTES, TABLE_TRIALS, TRIALS
 from ...common.errors import InputError, suggestion
+from ...common.regular import read_input
 from .declared import Declared, input_names
 
 STREAMS = "streams_of"  # the column that says whose random streams a row flies with; streams_of.NAME of one component
 ALL = ""  # the component that stands for all that have no streams of their own
 TRIAL = "trial"
+REMEDY = "give a Parquet file of draws"
 
 Streams = Mapping[str, np.ndarray]
 
@@ -89,39 +93,49 @@ def read_given(path: Path, campaign: Declared) -> GivenDraws:
     Columns ``streams_of.COMPONENT`` say with which trial's random stream a component flies in a row, ``streams_of``
     those of the others; without it that is the row's number. Derived values are not read: they are derived anew.
     """
-    try:
-        data = path.read_bytes()
-        table = pyarrow.parquet.read_table(pyarrow.BufferReader(data))
-    except OSError as error:  # Arrow's own errors of damaged files are such, too
-        raise InputError(path, "", error.strerror or str(error), "give a Parquet file of draws") from error
-    except pyarrow.ArrowInvalid as error:
-        raise InputError(path, "", f"not Parquet: {error}", "give a Parquet file of draws") from error
+    content = read_input(path, REMEDY, INPUT_BYTES)
     sampled = input_names(campaign)
-    for name in sampled:
-        if name not in table.column_names:
-            raise InputError(path, name, "is drawn, and no column has it", "add the column")
+    try:
+        file = pyarrow.parquet.ParquetFile(pyarrow.BufferReader(content))
+        TABLE_TRIALS.check(file.metadata.num_rows, path, "rows")
+        _check_columns(path, file.schema_arrow, campaign)
+        table = file.read()
+    except OSError as error:  # Arrow's own errors of damaged files are such, too
+        raise InputError(path, "", error.strerror or str(error), REMEDY) from error
+    except pyarrow.ArrowException as error:
+        raise InputError(path, "", f"not Parquet: {error}", REMEDY) from error
     stream_columns = [name for name in table.column_names if stream_component(name) is not None]
-    for name in table.column_names:
-        if name not in (TRIAL, *stream_columns, *sampled, *campaign.derived):
-            known = [*sampled, *campaign.derived, STREAMS]
-            raise InputError(path, name, f"{campaign.file} draws and derives no such value", suggestion(name, known))
     if not table.num_rows:
         raise InputError(path, "", "no row", "give one row or more")
     if not sampled and not stream_columns:
         raise InputError(path, "", f"{campaign.file} draws nothing", "leave the file out")
     columns = {name: _numbers(path, table, name) for name in (*sampled, *stream_columns)}
     for name in stream_columns:
-        if np.any((columns[name] < 0.0) | (columns[name] != np.round(columns[name]))):
+        if np.any((columns[name] < 0.0) | (columns[name] > TRIALS.limit) | (columns[name] != np.round(columns[name]))):
             raise InputError(path, name, "not all are numbers of trials", "give whole numbers, 0 or more")
-    return GivenDraws(*part_streams(columns), str(path), hashlib.sha256(data).hexdigest())
+    return GivenDraws(*part_streams(columns), str(path), hashlib.sha256(content).hexdigest())
+
+
+def _check_columns(path: Path, schema: pyarrow.Schema, campaign: Declared) -> None:
+    """Refuse columns that are missing, unknown, given twice or of no numbers."""
+    sampled = input_names(campaign)
+    numbers = (pyarrow.types.is_integer, pyarrow.types.is_floating, pyarrow.types.is_boolean)
+    for name in sampled:
+        if name not in schema.names:
+            raise InputError(path, name, "is drawn, and no column has it", "add the column")
+    for name, count in Counter(schema.names).items():
+        if stream_component(name) is None and name not in (TRIAL, *sampled, *campaign.derived):
+            known = [*sampled, *campaign.derived, STREAMS]
+            raise InputError(path, name, f"{campaign.file} draws and derives no such value", suggestion(name, known))
+        if count > 1:
+            raise InputError(path, name, "two columns of this name", "leave one of them out")
+        if not any(is_of(schema.field(name).type) for is_of in numbers):
+            raise InputError(path, name, "not a column of numbers", "give a number in every row")
 
 
 def _numbers(path: Path, table: pyarrow.Table, name: str) -> np.ndarray:
     """A column as finite doubles."""
-    try:
-        values = np.ascontiguousarray(table[name].to_numpy(), dtype=np.float64)
-    except (TypeError, ValueError, pyarrow.ArrowInvalid) as error:
-        raise InputError(path, name, "not a column of numbers", "give a number in every row") from error
+    values = np.ascontiguousarray(table[name].to_numpy(), dtype=np.float64)
     wrong = np.flatnonzero(~np.isfinite(values))
     if wrong.size:
         raise InputError(path, name, f"{values[wrong[0]]} in row {wrong[0]}", "give a finite number in every row")

@@ -17,12 +17,11 @@ from typing import Protocol
 
 import numpy as np
 
+from ...common.bounds import TABLE_TRIALS
 from ...common.errors import InputError
 from .declared import Columns, Declared, Design, designs_of, input_names
 from .generators import generator, generator_at, independent_draws, sample_columns, stream_of
 from .given import stream_component
-
-MOST = 10**6  # trials of a table
 
 
 class Draws(Protocol):
@@ -75,8 +74,8 @@ def draw_parts(campaign: Declared, size: int) -> Iterator[DrawTable]:
     InputError where the number of trials does not suit a design, or a table, or a derived value is not finite.
     """
     trials, seed, file = campaign.trials, campaign.seed, campaign.file
-    if trials > MOST:
-        problem = f"{trials} trials, of {MOST} at most that are drawn as one table"
+    if trials > TABLE_TRIALS.limit:
+        problem = f"{trials} trials, of {TABLE_TRIALS.limit:.0f} at most that are drawn as one table"
         raise InputError(file, "trials", problem, 'give fewer, or write draw_scheme = "counter", and other draws fly')
     ordered = sorted(campaign.draws, key=lambda draw: draw.names)
     designs = [kind.design(draws, trials, seed, file) for kind, draws in designs_of(ordered).items()]

@@ -15,7 +15,7 @@ import msgspec
 from ...common.atomic import write_atomically
 from ...common.bounds import INPUT_BYTES, TRIALS
 from ...common.errors import InputError
-from ...common.regular import read_regular
+from ...common.regular import check_folder, read_regular
 
 FILE = "manifest.json"
 CONTENTS = "files"  # the folder beside it
@@ -129,13 +129,15 @@ def read_manifest(folder: Path) -> Manifest:
     """The manifest in a folder, which anyone may have written. Raises InputError."""
     path = folder / FILE
     content = read_regular(path, WRITE, INPUT_BYTES.limit)
+    for written in (folder / "trials", folder / "traces", *folder.glob("traces/*")):
+        check_folder(written, "put a folder in its place")
     try:
         document = msgspec.json.decode(content, type=dict[str, msgspec.Raw])
         manifest = msgspec.json.decode(content, type=Manifest)
     except msgspec.ValidationError as error:
         problem, _, element = str(error).partition(" - at ")
         raise InputError(path, element.strip("`$."), f"{problem[:1].lower()}{problem[1:]}", SAME_VERSION) from error
-    except (msgspec.DecodeError, RecursionError) as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(path, "", f"not JSON: {error}", WRITE) from error
     unknown = sorted(set(document) - {field.name for field in fields(Manifest)})
     if unknown:

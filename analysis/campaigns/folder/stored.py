@@ -13,7 +13,9 @@ import numpy as np
 import pyarrow
 import pyarrow.compute
 
+from ...common.bounds import INPUT_BYTES
 from ...common.errors import InputError
+from ...common.regular import read_regular
 from ...runtime.system.names import split_name
 from ..fly.manifest import FILE as MANIFEST
 from ..fly.manifest import WRITE
@@ -172,9 +174,10 @@ def without_summary(document: SummaryDocument) -> Provenance:
 
 def read_summary(path: Path) -> SummaryDocument:
     """The content of summary.json. Raises InputError for what is none, or of an older version."""
+    content = read_regular(path, NEW_FOLDER, INPUT_BYTES.limit)
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-    except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
+        document = json.loads(content)
+    except (ValueError, RecursionError) as error:
         raise InputError(path, "", f"not JSON: {error}", NEW_FOLDER) from error
     variants = document.get("variants") if isinstance(document, dict) else None
     if not isinstance(variants, dict) or not variants:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ...common.bounds import TRIALS
 from ...common.errors import InputError, suggestion
 from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import Layer
@@ -128,6 +129,7 @@ class Campaign:
     def __post_init__(self) -> None:
         if self.trials < 1:
             raise InputError(self.file, "trials", f"{self.trials} trial(s)", "give 1 or more")
+        TRIALS.check(self.trials, self.file, "trials")
         for slot, fmus in self.compare.items():
             if not fmus or len(set(fmus)) != len(fmus) or "" in fmus:
                 raise InputError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Self
@@ -9,6 +10,7 @@ from typing import ClassVar, Self
 import numpy as np
 import scipy
 
+from ...common.bounds import GRID_POINTS
 from ...common.elementary import elementary
 from ...common.errors import InputError
 from ..draws.declared import Columns, Continuous, Design, Distribution, Draw, Independent
@@ -120,6 +122,8 @@ class Sobol(_UniformDesign):
 def read_ends(table: Table) -> tuple[float, float]:
     """The ends of an interval. Raises InputError."""
     low, high = table.get("low", number), table.get("high", number)
+    if not math.isfinite(high - low):
+        raise table.error("high", f"{high!r} is too far from low = {low!r} for doubles", "give a smaller interval")
     if not low < high:
         raise table.error("high", f"{high!r} is not above low = {low!r}", "give low < high, or fix the value in [set]")
     return low, high
@@ -175,6 +179,7 @@ class Grid(Discrete, Design):
         count = table.get("count", integer)
         if count < 2:
             raise table.error("count", f"{count} point(s)", "give 2 or more, both ends included")
+        GRID_POINTS.check(count, *table.where("count"))
         return cls(tuple(np.linspace(*read_ends(table), count).tolist()))
 
     @classmethod

@@ -19,6 +19,7 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...common.bounds import EXPRESSION_CHARACTERS
 from ...common.elementary import elementary
 from ...common.errors import InputError, suggestion
 
@@ -212,6 +213,7 @@ class Expression:
     def __init__(self, text: str, where: Where = ("expression", "")) -> None:
         self.text = " ".join(text.split())
         self.where = where
+        EXPRESSION_CHARACTERS.check(len(self.text), *where)
         translator = _Translator(self.text, where)
         if "#" in self.text:
             translator.refuse("a comment", "drop it, or put it outside the text")

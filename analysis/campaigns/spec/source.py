@@ -11,7 +11,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from ...common.bounds import CAMPAIGN_BYTES, CAMPAIGN_FILES
 from ...common.errors import InputError
+from ...common.regular import names_file, read_input
 from ...runtime.ssp.archive import SystemArchive
 from .table import Table
 
@@ -73,18 +75,18 @@ class CampaignSource:
 
 def read_source(raw: bytes, label: str, archive: SystemArchive | None = None) -> CampaignSource:
     """A campaign's file with those that it extends, perhaps in an ``archive``. Raises InputError, for a cycle too."""
-    return _read_source(raw, label, archive, ())
+    return _read_source(raw, label, archive, (), [label])
 
 
 def read_source_file(path: Path) -> CampaignSource:
     """A campaign's file by its path, with those that it extends. Raises InputError."""
-    try:
-        return read_source(path.read_bytes(), str(path))
-    except OSError as error:
-        raise InputError(path, "", error.strerror or str(error), "give a readable file") from error
+    return read_source(read_input(path, "give a campaign's file", CAMPAIGN_BYTES), str(path))
 
 
-def _read_source(raw: bytes, label: str, archive: SystemArchive | None, chain: tuple[str, ...]) -> CampaignSource:
+def _read_source(
+    raw: bytes, label: str, archive: SystemArchive | None, chain: tuple[str, ...], files: list[str]
+) -> CampaignSource:
+    """A file with those that it extends, which ``files`` collects; ``chain`` leads to it."""
     names = parse_toml(raw, label).get(EXTENDS, [])
     names = [names] if isinstance(names, str) else names
     if not isinstance(names, list) or not all(isinstance(name, str) and name for name in names):
@@ -99,7 +101,9 @@ def _read_source(raw: bytes, label: str, archive: SystemArchive | None, chain: t
         if other in (*chain, label):
             path = " -> ".join([*chain, label, other])
             raise InputError(label, EXTENDS, f"a cycle: {path}", "remove one of these")
-        extended.append(_read_source(content, other, archive, (*chain, label)))
+        CAMPAIGN_FILES.check(len(files), label, EXTENDS)
+        files.append(other)
+        extended.append(_read_source(content, other, archive, (*chain, label), files))
     return CampaignSource(label, raw, tuple(extended), names.index(HERE) if HERE in names else len(extended))
 
 
@@ -112,8 +116,8 @@ def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes,
             return archive.read(path, origin), f"{label}!{path}"
     else:
         file = Path(os.path.normpath(os.path.join(os.path.dirname(origin), name)))
-        if file.is_file():
-            return file.read_bytes(), str(file)
+        if names_file(file):
+            return read_input(file, "extend another file", CAMPAIGN_BYTES), str(file)
     known = [] if archive is None else archive.campaign_names()
     if archive is not None:
         path = archive.campaign_path(name)  # so that a copy of a system's campaign still extends what that did
@@ -127,12 +131,35 @@ def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes,
 
 def parse_toml(raw: bytes, label: str) -> dict[str, object]:
     """The content of a TOML file. Raises InputError."""
+    CAMPAIGN_BYTES.check(len(raw), label, "")
     try:
-        return tomllib.loads(raw.decode("utf-8"))
+        text = raw.decode("utf-8")
     except UnicodeDecodeError as error:
         raise InputError(label, f"byte {error.start}", "not UTF-8", "save the file as UTF-8") from error
-    except tomllib.TOMLDecodeError as error:
+    if LONG_NAME.search(text):
+        raise InputError(label, "", f"a name of more than {MOST_SEGMENTS} parts", "correct the file")
+    try:
+        content = tomllib.loads(text)
+        _check_integers(content, "", label)
+    except RecursionError as error:
+        raise InputError(label, "", "not TOML: too many arrays or tables in one another", "correct the file") from error
+    except ValueError as error:  # of integers of many thousand digits, too
+        if isinstance(error, InputError):
+            raise
         raise InputError(label, "", f"not TOML: {error}", "correct the file there") from error
+    return content
+
+
+def _check_integers(entry: object, name: str, label: str) -> None:
+    """Refuse integers of more bits than TOML's."""
+    if isinstance(entry, dict):
+        for key, inner in entry.items():
+            _check_integers(inner, f"{name}.{key}" if name else key, label)
+    elif isinstance(entry, list):
+        for index, inner in enumerate(entry):
+            _check_integers(inner, f"{name}[{index + 1}]", label)
+    elif isinstance(entry, int) and not -(2**63) <= entry < 2**63:
+        raise InputError(label, name, "an integer of more than 64 bits", "give a smaller number")
 
 
 def _merge(content: dict[str, object], later: Mapping[str, object], label: str) -> None:
@@ -151,6 +178,8 @@ FLAT = ("set", "derive", "compare")  # tables whose names have dots
 
 
 KEY = r"""(?:[A-Za-z0-9_-]+|"(?:[^"\\]|\\.)*"|'[^']*')"""
+MOST_SEGMENTS = 100  # of a name: it takes tomllib the square of their number
+LONG_NAME = re.compile(rf"""(?<![\w.-])(?>{KEY}(?:[ \t]*+\.[ \t]*+{KEY}){{{MOST_SEGMENTS}}})""")
 DOTTED = rf"{KEY}(?:\s*\.\s*{KEY})*"
 HEADER = re.compile(rf"\s*\[(?P<array>\[)?\s*(?P<name>{DOTTED})\s*\]")
 ENTRY = re.compile(rf"\s*(?P<name>{DOTTED})\s*=")

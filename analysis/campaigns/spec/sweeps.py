@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
+from ...common.bounds import GRID_POINTS
 from ...common.errors import InputError
 from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import SystemOptions
@@ -13,7 +14,6 @@ from ..draws.declared import Draw
 from .campaign import MAXIMUM_GROUPS, Campaign
 from .distributions import Grid
 
-MOST = 10_000  # points of a sweep
 ROUNDING = 1e-9  # of a step, within which the last value is the high end
 
 
@@ -83,8 +83,7 @@ def _values(name: str, text: str) -> tuple[float, ...]:
         problem = f"high = {high:g} is not above low = {low:g}"
         raise InputError(SINGLE, place, problem, "write low:high:step with low < high, or one value")
     steps = (high - low) / step + ROUNDING
-    if not steps < MOST:
-        raise InputError(SINGLE, place, f"more than {MOST} points", "give a longer step")
+    GRID_POINTS.check(steps, SINGLE, place)
     if steps < 1.0:
         raise InputError(SINGLE, place, f"the step {step:g} leaves low = {low:g} only", "give a shorter step")
     return tuple(low + k * step for k in range(math.floor(steps) + 1))

@@ -12,7 +12,9 @@ from typing import NoReturn
 from ....fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
 from ....fmus_src.paths import LAWS
 from ...common.atomic import write_atomically
+from ...common.bounds import CAMPAIGN_BYTES
 from ...common.errors import InputError, suggestion
+from ...common.regular import read_input
 from ...runtime.ssp.parameter_sets import write_parameter_set
 
 FORMAT, VERSION = "perilune-network-operator", 1
@@ -72,9 +74,7 @@ def find_law(name: str, folder: Path | None = None) -> Path:
 def read_law(path: Path) -> Law:
     """The law in a file. Raises InputError, for a wrong matrix with the cell: matrix[row,column], from 1."""
     try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(path, "", error.strerror or str(error), "give a readable file") from error
+        text = read_input(path, "give a law's file", CAMPAIGN_BYTES).decode("utf-8")
     except UnicodeDecodeError as error:
         raise InputError(path, f"byte {error.start}", "not UTF-8", "save the file as UTF-8") from error
     try:

@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-import io
-import lzma
+import os
 import posixpath
-import struct
 import warnings
-import zipfile
-import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
@@ -20,30 +16,18 @@ from urllib.parse import unquote
 from ....fmus_src.export.available import fmu_file
 from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
 from ....fmus_src.paths import IS_CHECKOUT, ROOT, SYSTEMS, own_fmus
-from ...common.bounds import ARCHIVE_BYTES, ARCHIVE_ENTRIES
+from ...common.bounds import ARCHIVE_BYTES, bound_of
 from ...common.errors import InputError, suggestion
-from ...common.regular import read_regular
+from ...common.regular import names_file, read_input
+from ...common.zips import ZippedFiles
 
 HOW_TO_BUILD = (
     "build_fmus.py builds this repository's, " if IS_CHECKOUT else ""
 ) + "perilune export FILE.py those of your own"
 OSP_DESCRIPTION = "OspSystemStructure.xml"
 FMU = ".fmu"
+OTHER = "give another file"
 DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
-
-# what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
-UNREADABLE = (
-    zipfile.BadZipFile,
-    zlib.error,
-    lzma.LZMAError,
-    struct.error,
-    EOFError,
-    OSError,
-    NotImplementedError,
-    RuntimeError,
-    ValueError,
-    OverflowError,
-)
 
 
 @dataclass(frozen=True)
@@ -79,7 +63,7 @@ class SystemArchive:
         return name if self._has(name) else posixpath.normpath(unquote(source))
 
     def _has(self, name: str) -> bool:
-        return name in self.files or (self._inside(name) and (self.path / name).is_file())
+        return name in self.files or (self._inside(name) and names_file(self.path / name))
 
     def _inside(self, name: str) -> bool:
         """Whether a name may be that of a file in the system's folder that `system_files` does not list."""
@@ -94,7 +78,7 @@ class SystemArchive:
         if name not in self.files:
             self.besides[name] = None
         content = self.files.get(name, self.path / name)
-        return content if isinstance(content, bytes) else content.read_bytes()
+        return content if isinstance(content, bytes) else read_input(content, OTHER, bound_of(name))
 
     def fmu(self, source: str, element: str, flavour: str) -> tuple[Callable[[], bytes], str]:
         """What reads an FMU's content, and its name in messages.
@@ -103,9 +87,9 @@ class SystemArchive:
         lies in.
         """
         if self.is_fmu:
-            return self.path.read_bytes, self.label
+            return read_fmu(self.path), self.label
         if fmu_asked(source) in self.elsewhere:
-            return self.elsewhere[fmu_asked(source)].read_bytes, source
+            return read_fmu(self.elsewhere[fmu_asked(source)]), source
         name = self._place(source)
         if self._has(name) or self.path.is_file() or not self._inside(name):
             return partial(self._content, name, element), f"{self.label}!{name}"
@@ -119,7 +103,7 @@ class SystemArchive:
                 raise InputError(self.label, element, problem, remedy)
             problem = f"no file {name} in the system, no {flavour} FMU of this repository, and none is built ({places})"
             raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
-        return path.read_bytes, str(path)
+        return read_fmu(path), str(path)
 
     def refuse_elsewhere(self, name: str, element: str) -> None:
         """Raise InputError where the system is one of a campaign's folder, which takes no files from other places."""
@@ -173,10 +157,10 @@ class SystemArchive:
                 _warn_of_another(name, content, label, option, suffix)
                 return content, label
         if parameters_asked(name) in self.elsewhere:
-            return self.elsewhere[parameters_asked(name)].read_bytes(), name
+            return read_input(self.elsewhere[parameters_asked(name)], OTHER, bound_of(suffix)), name
         self.refuse_elsewhere(name, option)
-        if Path(name).is_file():
-            return Path(name).read_bytes(), name
+        if os.path.lexists(name):
+            return read_input(name, OTHER, bound_of(suffix)), name
         known = sorted(Path(entry).name for entry in self.files if entry.endswith(suffix))
         raise InputError(
             self.label, option, f"no {name} in the system, nor a file of this name", suggestion(name, known)
@@ -198,7 +182,7 @@ def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix:
     if parent_process() is not None:
         return  # a worker: who started it has said so
     for path in dict.fromkeys((Path(name), Path(f"{name}{suffix}"))):
-        if path.is_file() and path.read_bytes() != content:
+        if names_file(path) and read_input(path, OTHER, bound_of(suffix)) != content:
             other = path if path.is_absolute() else f"./{path}"
             warnings.warn(
                 f"{option} {name}: read from {label}; another file of this name, {path} in the working folder, is not: "
@@ -206,6 +190,11 @@ def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix:
                 stacklevel=4,
             )
             return
+
+
+def read_fmu(path: Path) -> Callable[[], bytes]:
+    """What reads an FMU's file. It raises InputError."""
+    return partial(read_input, path, OTHER, ARCHIVE_BYTES)
 
 
 def fmu_asked(source: str) -> str:
@@ -221,28 +210,6 @@ def use_asked(name: str) -> str:
 def parameters_asked(name: str) -> str:
     """How it names a parameter set."""
     return f"parameters:{name}"
-
-
-def open_zip(data: bytes, label: str) -> zipfile.ZipFile:
-    """A zip archive whose every file reads back; raises InputError for anything else."""
-    try:
-        archive = zipfile.ZipFile(io.BytesIO(data))
-        entries = archive.infolist()
-    except UNREADABLE as error:
-        raise InputError(label, "archive", f"not a readable zip: {error}", "build or copy the file again") from error
-    ARCHIVE_ENTRIES.check(len(entries), label, "archive")
-    ARCHIVE_BYTES.check(sum(entry.file_size for entry in entries), label, "archive")
-    try:
-        broken = archive.testzip()
-    except UNREADABLE as error:
-        raise InputError(label, "archive", f"not a readable zip: {error}", "build or copy the file again") from error
-    if broken is not None:
-        raise InputError(label, broken, "damaged in the zip (checksum)", "build or copy the file again")
-    for name in archive.namelist():
-        parts = name.split("/")
-        if name.startswith("/") or ".." in parts or "\\" in name or ":" in parts[0]:
-            raise InputError(label, name, "a file name that leaves the archive's folder", "repack without it")
-    return archive
 
 
 def open_system(system: str | Path) -> SystemArchive:
@@ -263,9 +230,7 @@ def open_system(system: str | Path) -> SystemArchive:
         remedy = f"perilune export {text} builds them; fly the folder of a system that names them"
         raise InputError(text, "", "a file of blocks is no system", remedy)
     if path.is_file():
-        archive = open_zip(read_regular(path.resolve(), "give another file", ARCHIVE_BYTES.limit), text)
-        files = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
-        return SystemArchive(path.stem, text, path, files)
+        return SystemArchive(path.stem, text, path, ZippedFiles(read_input(path, OTHER, ARCHIVE_BYTES), text))
     raise InputError(text, "system", "neither a system, a folder nor a file", suggestion(text, system_names()))
 
 

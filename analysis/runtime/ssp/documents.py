@@ -13,7 +13,7 @@ from pathlib import Path
 import fmpy
 from lxml import etree
 
-from ...common.bounds import XML_BYTES
+from ...common.bounds import XML_BYTES, XML_TAGS
 from ...common.errors import InputError
 
 SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
@@ -92,9 +92,10 @@ def parse_xml(data: bytes, file: str) -> etree._Element:
     """Root element of an XML document; a DOCTYPE is refused before anything else is looked at."""
     refusal = InputError(file, "DOCTYPE", "a document type declaration is not accepted", "remove the <!DOCTYPE ...>")
     XML_BYTES.check(len(data), file, "")
+    XML_TAGS.check(data.count(b"<"), file, "")
     if b"<!DOCTYPE" in data.upper():
         raise refusal
-    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False)
+    parser = _parser()
     try:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
@@ -104,11 +105,34 @@ def parse_xml(data: bytes, file: str) -> etree._Element:
     return root
 
 
+def _parser(schema: etree.XMLSchema | None = None) -> etree.XMLParser:
+    return etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False, schema=schema)
+
+
+MOST_VIOLATIONS = 100  # of which lxml looks for the place, each time among all elements before it
+
+
+def check_violations(schema: etree.XMLSchema, document: bytes, file: str) -> bool:
+    """Whether a document, which is well-formed, violates a schema; raises InputError for very many violations."""
+    parser = _parser(schema)
+    try:
+        etree.fromstring(document, parser)
+    except etree.XMLSyntaxError as error:
+        number = len(parser.error_log)
+        if number > MOST_VIOLATIONS:
+            problem = f"{number} violations of its schema; the first: {error.msg}"
+            raise InputError(file, "", problem, "correct the file") from error
+        return True
+    return False
+
+
 def check_schema(element: etree._Element, kind: str, file: str) -> None:
     """Validate an element against the SSP 1.0 schema ``kind`` (ssd, ssv, ssm or ssb)."""
     schema = _schema(kind)
     # A copy: an inline parameter set is validated as a document of its own.
-    if not schema.validate(etree.ElementTree(element)):
+    if check_violations(schema, etree.tostring(element, with_tail=False), file) and not schema.validate(
+        etree.ElementTree(element)
+    ):
         first = schema.error_log[0]
         message = first.message
         for prefix, namespace in NAMESPACES.items():

@@ -21,11 +21,13 @@ from lxml import etree
 from ....fmus_src.own_digests import is_own
 from ...common.errors import InputError
 from ...common.scratch import make_folder
-from ..ssp.archive import open_zip
+from ...common.zips import REMEDY, UNREADABLE, open_zip, read_entry
 from ..ssp.conversions import Unit, units_of_fmu
-from ..ssp.documents import parse_xml
+from ..ssp.documents import check_violations, parse_xml
 
 DESCRIPTION = "modelDescription.xml"
+SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi2" / "fmi2ModelDescription.xsd"
+MANY_BYTES = 1_000_000  # of a description that may have many violations
 MOST_FLAWS = 3  # named in one line
 MOST_DESCRIPTIONS = 32  # kept at once
 
@@ -79,17 +81,11 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     archive = open_zip(data, label)
     if DESCRIPTION not in archive.namelist():
         raise InputError(label, DESCRIPTION, "not found", "give an FMU")
-    root = parse_xml(archive.read(DESCRIPTION), f"{label}!{DESCRIPTION}")
-    version = root.get("fmiVersion")
-    if version != "2.0":
-        raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0")
-    description, flaws = _read_description(archive.read(DESCRIPTION))
+    xml = read_entry(archive, DESCRIPTION, label)
+    _check_description(xml, label)
+    description, flaws = _read_description(xml)
     if description is None:
         raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "fix the FMU")
-    names = Counter(variable.name for variable in description.modelVariables)
-    twice = [name for name, count in names.items() if count > 1]
-    if twice:
-        raise InputError(label, str(twice[0]), "two variables of this name", "fix the FMU's modelDescription.xml")
     if flaws and strict:
         raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "fix the FMU, or simulate without `strict`")
     if description.coSimulation is None:
@@ -108,11 +104,29 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     fmu = Fmu(label, digest, description, folder, is_own=is_own(digest), flaws=list(flaws))
     # Others' may reach for any of their files: FMPy's remoting starts a server of binaries/win32 from binaries/win64.
     read_here = (DESCRIPTION, f"binaries/{fmpy.platform}/", "resources/")
-    archive.extractall(folder, [name for name in archive.namelist() if name.startswith(read_here) or not fmu.is_own])
+    names = [name for name in archive.namelist() if name.startswith(read_here) or not fmu.is_own]
+    try:
+        archive.extractall(folder, names)
+    except UNREADABLE as error:
+        raise InputError(label, "archive", f"damaged in the zip, or not unpacked: {error}", REMEDY) from error
     fmu.variables = {variable.name: variable for variable in description.modelVariables}
     fmu.units = units_of_fmu(description)
     weakref.finalize(fmu, shutil.rmtree, folder, ignore_errors=True)
     return fmu
+
+
+def _check_description(xml: bytes, label: str) -> None:
+    """Refuse another version than 2.0, a name twice, and far too many violations, each of which takes FMPy long."""
+    root = parse_xml(xml, f"{label}!{DESCRIPTION}")
+    version = root.get("fmiVersion")
+    if version != "2.0":
+        raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0")
+    names = Counter(variable.get("name") for variable in root.iterfind("ModelVariables/ScalarVariable"))
+    twice = next((name for name, count in names.items() if name is not None and count > 1), None)
+    if twice is not None:
+        raise InputError(label, str(twice), "two variables of this name", "fix the FMU's modelDescription.xml")
+    if len(xml) > MANY_BYTES:
+        check_violations(etree.XMLSchema(etree.parse(SCHEMA)), xml, f"{label}!{DESCRIPTION}")
 
 
 @lru_cache(maxsize=MOST_DESCRIPTIONS)

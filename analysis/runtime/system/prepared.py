@@ -12,7 +12,8 @@ from pathlib import Path
 from ....fmus_src.export.available import fmu_file, fmu_flavours
 from ....fmus_src.paths import FLAVOURS
 from ...common.errors import InputError, suggestion
-from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, open_system, parameters_asked, use_asked
+from ...common.regular import names_file
+from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, open_system, parameters_asked, read_fmu, use_asked
 from ..ssp.description import Component, System
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
@@ -134,7 +135,7 @@ def _prepare(
             key = use_asked(options.use[name])
             block = current(name, options.use[name])
             if key in archive.elsewhere:
-                read, label = archive.elsewhere[key].read_bytes, options.use[name]
+                read, label = read_fmu(archive.elsewhere[key]), options.use[name]
             else:
                 archive.refuse_elsewhere(options.use[name], f"`use` {name}")
                 read, label = locate_fmu(block, options.flavour, system=archive.path)
@@ -156,7 +157,7 @@ def _prepare(
 
     remarks: list[str] = []
     if archive.is_fmu:
-        description, remarks = describe_alone(open_fmu(archive.path.read_bytes, archive.label), options)
+        description, remarks = describe_alone(open_fmu(read_fmu(archive.path), archive.label), options)
     else:
         description = read_description(archive, options.variant)
     try:
@@ -222,13 +223,13 @@ def locate_fmu(
     """Likewise, with what reads the content; ``system`` is where one's own are looked for, too."""
     if name.endswith(".fmu") or Path(name).name != name:
         path = Path(name)
-        if not path.is_file():
+        if not names_file(path):
             raise InputError(option, name, "no such file", "give a block's name or the path of an .fmu")
-        return path.read_bytes, name
+        return read_fmu(path), name
     for candidate in FLAVOURS if flavour is None else (flavour,):
         file = fmu_file(name, candidate, system)
         if file is not None:
-            return file.read_bytes, str(file)
+            return read_fmu(file), str(file)
     raise InputError(option, name, "no such FMU is built", f"{suggestion(name, fmu_flavours())}; {HOW_TO_BUILD}")
 
 

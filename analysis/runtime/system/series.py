@@ -8,16 +8,18 @@ import io
 import math
 import os
 from array import array
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from ...common.bounds import INPUT_BYTES
 from ...common.errors import InputError
 from ...common.formulas import unquote_formula
+from ...common.regular import read_input
 
 TIME = "time"
 FORM = "write a comma-separated file whose first line is time and the inputs' names"
@@ -61,6 +63,8 @@ def read_series(given: Given) -> InputSeries:
         if wrong.size:
             row = int(wrong[0])
             raise InputError(series.file, series.place(row, name), f"{values[row]} is not finite", "give a number")
+    if not math.isfinite(float(series.time[-1]) - float(series.time[0])):
+        raise InputError(series.file, f"column {TIME}", "times too far from each other for doubles", "correct them")
     falls = np.flatnonzero(np.diff(series.time) < 0.0)
     if falls.size:
         row = int(falls[0]) + 1
@@ -70,10 +74,7 @@ def read_series(given: Given) -> InputSeries:
 
 
 def _of_file(path: str) -> InputSeries:
-    try:
-        content = Path(path).read_bytes()
-    except OSError as error:
-        raise InputError(path, "", error.strerror or str(error), "give a CSV file of inputs over time") from error
+    content = read_input(path, "give a CSV file of inputs over time", INPUT_BYTES)
     try:
         reader = csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""), skipinitialspace=True)
         names = [unquote_formula(name.strip()) for name in next(reader, [])]
@@ -103,8 +104,8 @@ def _check_names(file: str, place: str, names: Sequence[str]) -> None:
         raise InputError(file, "", "empty", FORM)
     if names[0] != TIME:
         raise InputError(file, place, f"the first column is {names[0]!r}, not {TIME}", FORM)
-    for name in names:
-        if names.count(name) > 1:
+    for name, count in Counter(names).items():
+        if count > 1:
             raise InputError(file, place, f"column {name} is there twice", "leave one of them out")
 
 

@@ -33,6 +33,8 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     if stop is None:
         raise InputError(experiment, "stopTime", "there is none", "give `stop_time`")
     start = description.start_time
+    if not math.isfinite(start):
+        raise InputError(experiment, "startTime", f"{start} is not finite", "correct it")
     step_option = ("`step`", f"{step:g}")
     stop_option = ("`stop_time`", f"{stop:g}") if options.stop_time is not None else (experiment, f"stopTime {stop:g}")
     duration = stop - start
@@ -43,9 +45,11 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
         requested = step_option if options.step is not None else stop_option
         raise InputError(*requested, problem, "give a longer `step` or earlier times")
     steps = round(duration / step) if duration / step < float("inf") else -1
-    if options.step is not None and 0.0 < duration * (1.0 + 1e-9) < step:
-        raise InputError(*step_option, f"longer than the simulation of {duration:g} s", "give a shorter `step`")
-    if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):
+    if 0.0 < duration * (1.0 + 1e-9) < step and (options.step is not None or options.stop_time is None):
+        problem = f"longer than the simulation of {duration:g} s"
+        requested = step_option if options.step is not None else (network.file, f"step {step:g}")
+        raise InputError(*requested, problem, "give a shorter `step`")
+    if steps < 0 or abs(steps * step - duration) > 1e-9 * max(min(step, duration), abs(stop)):
         problem = f"{duration:g} s from the start are not a whole number of steps of {step:g} s"
         remedy = f"for instance `stop_time` {start + max(1, steps) * step:.12g}"
         raise InputError(*stop_option, problem, remedy)

@@ -224,7 +224,7 @@ def test_success_is_required(parse):
 
 
 @pytest.mark.parametrize(
-    ("content", "says"), [(b"a = \n", "not TOML"), (b"\xff", "byte 0: not UTF-8"), (None, "No such file")]
+    ("content", "says"), [(b"a = \n", "not TOML"), (b"\xff", "byte 0: not UTF-8"), (None, "not found")]
 )
 def test_unreadable_files(tmp_path, content, says):
     path = tmp_path / "c.toml"

@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from perilune.analysis.campaigns.draws.table import BLOCK, MOST, CountedDraws, draw_parts, draw_table
+from perilune.analysis.campaigns.draws.table import BLOCK, CountedDraws, draw_parts, draw_table
 from perilune.analysis.campaigns.spec.checks import check_plan
 from perilune.analysis.campaigns.spec.plan import BatchPlan
+from perilune.analysis.common.bounds import TABLE_TRIALS
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
 
@@ -69,7 +70,7 @@ def test_a_table_in_parts_is_the_table(campaign, size):
 
 def test_a_table_has_an_end(campaign):
     with pytest.raises(InputError) as caught:
-        draw_table(campaign(RANDOM, trials=MOST + 1))
+        draw_table(campaign(RANDOM, trials=int(TABLE_TRIALS.default) + 1))
     says = "1000001 trials, of 1000000 at most that are drawn as one table"
     remedy = 'give fewer, or write draw_scheme = "counter", and other draws fly'
     assert str(caught.value) == f"test.toml: trials: {says}; {remedy}"

@@ -91,7 +91,7 @@ def test_a_sweep_takes_the_place_of_a_fixed_value(campaign):
         ("a.b=1:1:1", "high = 1 is not above low = 1"),
         ("a.b=1:inf:1", "not a sweep; write low:high:step with three numbers"),
         ("a.b=1:2:3", "the step 3 leaves low = 1 only"),
-        ("a.b=0:1:1e-12", "more than 10000 points"),
+        ("a.b=0:1:1e-12", "1e+12 points, at most 10000 are accepted"),
         ("a.b=1:7:1", "12 trials do not fill a grid of 7 points; give a multiple of 7: trials 7 or 14"),
         ("a.b=1:20:1", "12 trials do not fill a grid of 20 points; give a multiple of 20: trials 20"),
         ("mass=1:2:1", "a sweep of what is no component's; give component.variable"),

@@ -154,5 +154,5 @@ def test_laws_are_found_by_name_then_by_path(tmp_path):
     assert find_law(str(mine)) == mine
     with pytest.raises(InputError, match="no such law or file; use one of diveev_2013, diveev_2013_basic"):
         find_law("diveev")
-    with pytest.raises(InputError, match="give a readable file"):
+    with pytest.raises(InputError, match="a folder, not a regular file"):
         read_law(tmp_path)

@@ -59,7 +59,7 @@ def test_files_that_are_wrong(tmp_path, text, expected):
 
 
 def test_no_file_and_no_text(tmp_path):
-    with pytest.raises(InputError, match="No such file or directory; give a CSV file"):
+    with pytest.raises(InputError, match="not found; give a CSV file"):
         read_series(tmp_path / "none.csv")
     path = tmp_path / "inputs.csv"
     path.write_bytes(b"\xff\xfe\x00\x01")

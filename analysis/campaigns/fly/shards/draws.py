@@ -12,6 +12,7 @@ import pyarrow
 import pyarrow.parquet
 
 from ....common.errors import InputError
+from ....common.regular import check_regular
 from ...draws.table import DrawTable
 from ..manifest import COPY_AGAIN
 from .arrow import numpy_of
@@ -56,6 +57,7 @@ def read_draws(folder: Path, trials: int, names: list[str]) -> StoredDraws:
 
 @contextmanager
 def _open_draws(path: Path) -> Iterator[pyarrow.parquet.ParquetFile]:
+    check_regular(path, COPY_AGAIN)
     try:
         with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
             yield file

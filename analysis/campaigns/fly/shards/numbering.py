@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from ....common.bounds import SHARDS
 from ....common.errors import InputError
 
 LEAST, MOST, PARTS = 25, 5000, 40  # trials of a shard, and into how many a campaign is parted between these
+
+LONGEST = 40  # characters of a number or a span
 
 
 @dataclass(frozen=True)
@@ -43,7 +46,10 @@ def numbers_of(texts: Iterable[str]) -> list[int]:
     numbers: set[int] = set()
     for text in texts:
         first, dash, last = text.partition("-")
+        if len(text) > LONGEST:
+            raise InputError("shard", text, "neither a number nor a span of them", "give 3, or 0-7")
         if not first.isdecimal() or (dash and not last.isdecimal()) or int(last or first) < int(first):
             raise InputError("shard", text, "neither a number nor a span of them", "give 3, or 0-7")
+        SHARDS.check(int(last or first), "shard", text)
         numbers |= set(range(int(first), int(last or first) + 1))
     return sorted(numbers)

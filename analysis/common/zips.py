@@ -1,0 +1,87 @@
+"""Zip archives of unknown origin: checked by their directory, each file when it is read."""
+
+from __future__ import annotations
+
+import io
+import lzma
+import struct
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping
+
+from .bounds import ARCHIVE_BYTES, ARCHIVE_ENTRIES, bound_of
+from .errors import InputError
+
+END = b"PK\5\6"  # of the directory's last record
+REMEDY = "build or copy the file again"
+# what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
+UNREADABLE = (
+    zipfile.BadZipFile,
+    zlib.error,
+    lzma.LZMAError,
+    struct.error,
+    EOFError,
+    OSError,
+    NotImplementedError,
+    RuntimeError,
+    ValueError,
+    OverflowError,
+)
+
+
+def open_zip(packed: bytes, label: str) -> zipfile.ZipFile:
+    """A zip archive of which nothing is unpacked yet; raises InputError for anything else."""
+    end = packed.rfind(END)
+    if end >= 0:  # before zipfile makes an object of every entry; 65535 stands for as many or more
+        ARCHIVE_ENTRIES.check(int.from_bytes(packed[end + 10 : end + 12], "little"), label, "archive")
+    try:
+        archive = zipfile.ZipFile(io.BytesIO(packed))
+    except UNREADABLE as error:
+        raise InputError(label, "archive", f"not a readable zip: {error}", REMEDY) from error
+    entries = archive.infolist()
+    ARCHIVE_ENTRIES.check(len(entries), label, "archive")
+    ARCHIVE_BYTES.check(sum(entry.file_size for entry in entries), label, "archive")
+    checksums: dict[str, int] = {}
+    for entry in entries:
+        name, segments = entry.filename, entry.filename.split("/")
+        if name.startswith("/") or ".." in segments or "\\" in name or ":" in segments[0]:
+            raise InputError(label, name, "a file name that leaves the archive's folder", "repack without it")
+        if checksums.setdefault(name, entry.CRC) != entry.CRC:
+            raise InputError(label, name, "two files of this name, with different contents", "repack with one of them")
+    return archive
+
+
+def read_entry(archive: zipfile.ZipFile, name: str, label: str) -> bytes:
+    """One file of an archive; raises InputError where it is too large or damaged."""
+    bound_of(name).check(archive.getinfo(name).file_size, label, name)
+    try:
+        return archive.read(name)
+    except UNREADABLE as error:
+        raise InputError(label, name, f"damaged in the zip: {error}", REMEDY) from error
+
+
+class ZippedFiles(Mapping[str, bytes]):
+    """The files of an archive by name, unpacked one by one whenever they are read."""
+
+    def __init__(self, packed: bytes, label: str) -> None:
+        self._packed = packed
+        self._label = label
+        self._archive = open_zip(packed, label)
+        self._names = {name: None for name in self._archive.namelist() if not name.endswith("/")}
+
+    def __getitem__(self, name: str) -> bytes:
+        if name not in self._names:
+            raise KeyError(name)
+        return read_entry(self._archive, name, self._label)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __reduce__(self) -> tuple[type, tuple[bytes, str]]:
+        return ZippedFiles, (self._packed, self._label)
