@@ -12,7 +12,12 @@ from perilune.fmus_src.paths import ROOT
 from tests.fuzz import fmi, guided
 
 FOLDER = ROOT / "build" / "fuzz"
-RUNS = {"manifests": 1_000_000, "shards": 100_000, "fmi": 2_000_000}
+RUNS = {
+    "manifests": 1_000_000,
+    "shards": 100_000,
+    **dict.fromkeys(("systems", "parameter_sets", "campaigns", "descriptions"), 500_000),
+    "fmi": 2_000_000,
+}
 
 
 def main() -> int:

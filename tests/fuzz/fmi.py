@@ -12,7 +12,7 @@ from perilune.fmus_src.export.native_fmu import native_sources
 GUID = "by hand"
 FLAGS = ["-std=c99", "-O1", "-g", "-ffp-contract=off", "-fno-sanitize-recover=all"]
 SANITIZERS = "address,undefined,float-divide-by-zero,float-cast-overflow"
-LIMITS = ["-timeout=20", "-rss_limit_mb=1000", "-max_len=600"]  # s for one input, memory, bytes
+LIMITS = ["-timeout=20", "-rss_limit_mb=1000", "-max_len=600", "-len_control=0"]  # s for one input, memory, bytes
 
 
 def build(block: type[Block], folder: Path, *, guided: bool) -> Path:

@@ -5,9 +5,26 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from tests.fuzz import documents
 from tests.fuzz.folders import any_manifest, any_shard, make_folder
+from tests.support.builders import build_tiny_fmus
 
-TARGETS: dict[str, Callable[[Path], Callable[[], None]]] = {
+Target = Callable[[], None]
+
+
+def _of_document(make: Callable[[Path, Path], Target]) -> Callable[[Path], Target]:
+    def target(folder: Path) -> Target:
+        build_tiny_fmus(folder / "fmus")
+        return make(folder / "fmus", folder)
+
+    return target
+
+
+TARGETS: dict[str, Callable[[Path], Target]] = {
     "manifests": lambda folder: any_manifest(make_folder(folder / "campaign")),
     "shards": lambda folder: any_shard(make_folder(folder / "campaign")),
+    "systems": _of_document(documents.any_system),
+    "parameter_sets": _of_document(documents.any_parameter_set),
+    "campaigns": _of_document(documents.any_campaign),
+    "descriptions": _of_document(documents.any_description),
 }

@@ -161,7 +161,9 @@ def restore(
     )
     campaign = with_sweeps(read, manifest.campaign.get("sweep", {}))
     if not campaign.variants():
-        raise InputError(folder / FILE, "campaign", "it compares nothing, or has selected no variant of it", SAME_VERSION)
+        raise InputError(
+            folder / FILE, "campaign", "it compares nothing, or has selected no variant of it", SAME_VERSION
+        )
     options = _restore_options(manifest, folder)
     series = None
     if manifest.series is not None:

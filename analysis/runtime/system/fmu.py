@@ -7,7 +7,6 @@ import io
 import shutil
 import weakref
 import zipfile
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -23,11 +22,9 @@ from ...common.errors import InputError
 from ...common.scratch import make_folder
 from ...common.zips import REMEDY, UNREADABLE, open_zip, read_entry
 from ..ssp.conversions import Unit, units_of_fmu
-from ..ssp.documents import check_violations, parse_xml
+from ..ssp.documents import parse_xml
+from .fmu_description import DESCRIPTION, check_description
 
-DESCRIPTION = "modelDescription.xml"
-SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi2" / "fmi2ModelDescription.xsd"
-MANY_BYTES = 1_000_000  # of a description that may have many violations
 MOST_FLAWS = 3  # named in one line
 MOST_DESCRIPTIONS = 32  # kept at once
 
@@ -82,7 +79,7 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     if DESCRIPTION not in archive.namelist():
         raise InputError(label, DESCRIPTION, "not found", "give an FMU")
     xml = read_entry(archive, DESCRIPTION, label)
-    _check_description(xml, label)
+    check_description(xml, label)
     description, flaws = _read_description(xml)
     if description is None:
         raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "fix the FMU")
@@ -113,20 +110,6 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     fmu.units = units_of_fmu(description)
     weakref.finalize(fmu, shutil.rmtree, folder, ignore_errors=True)
     return fmu
-
-
-def _check_description(xml: bytes, label: str) -> None:
-    """Refuse another version than 2.0, a name twice, and far too many violations, each of which takes FMPy long."""
-    root = parse_xml(xml, f"{label}!{DESCRIPTION}")
-    version = root.get("fmiVersion")
-    if version != "2.0":
-        raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0")
-    names = Counter(variable.get("name") for variable in root.iterfind("ModelVariables/ScalarVariable"))
-    twice = next((name for name, count in names.items() if name is not None and count > 1), None)
-    if twice is not None:
-        raise InputError(label, str(twice), "two variables of this name", "fix the FMU's modelDescription.xml")
-    if len(xml) > MANY_BYTES:
-        check_violations(etree.XMLSchema(etree.parse(SCHEMA)), xml, f"{label}!{DESCRIPTION}")
 
 
 @lru_cache(maxsize=MOST_DESCRIPTIONS)

@@ -1,0 +1,74 @@
+"""What a modelDescription.xml must have for its FMU to be simulated; other rules of FMI that it breaks are flaws."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+
+import fmpy
+from lxml import etree
+
+from ...common.errors import InputError
+from ..ssp.documents import check_violations, parse_xml
+
+DESCRIPTION = "modelDescription.xml"
+SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi2" / "fmi2ModelDescription.xsd"
+MANY_BYTES = 1_000_000  # of a description that may have many violations
+FIX = f"fix the FMU's {DESCRIPTION}"
+VARIABLE = "ModelVariables/ScalarVariable"
+REQUIRED = {".": ("modelName", "guid"), "CoSimulation": ("modelIdentifier",), VARIABLE: ("name", "valueReference")}
+
+
+def _truth(text: str) -> bool:
+    return {"true": True, "1": True, "false": False, "0": False}[text.strip()]
+
+
+NUMBERS: dict[str, tuple[Callable[[str], object], str, tuple[str, ...]]] = {
+    "DefaultExperiment": (float, "a number", ("startTime", "stopTime", "tolerance", "stepSize")),
+    "CoSimulation": (float, "a number", ("fixedInternalStepSize",)),
+    VARIABLE: (int, "an integer", ("valueReference",)),
+    f"{VARIABLE}/Real": (float, "a number", ("start", "min", "max", "nominal")),
+    f"{VARIABLE}/Integer": (int, "an integer", ("start", "min", "max")),
+    f"{VARIABLE}/Enumeration": (int, "an integer", ("start", "min", "max")),
+    f"{VARIABLE}/Boolean": (_truth, "true or false", ("start",)),
+}  # attributes as they are read, where they are there
+
+
+def check_description(xml: bytes, label: str) -> None:
+    """Refuse another version than 2.0, names that are missing or given twice, numbers that are none, many violations.
+
+    Each violation takes FMPy long. Raises InputError, with the FMU's ``label``.
+    """
+    root = parse_xml(xml, f"{label}!{DESCRIPTION}")
+    version = root.get("fmiVersion")
+    if version != "2.0":
+        raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0")
+    for path, attributes in REQUIRED.items():
+        for element in root.iterfind(path):
+            for name in attributes:
+                if not element.get(name):
+                    raise InputError(label, _place(element), f"no attribute {name}", FIX)
+    for path, (read, kind, attributes) in NUMBERS.items():
+        for element in root.iterfind(path):
+            for name in attributes:
+                _check_number(element, name, read, kind, label)
+    names = Counter(variable.get("name") for variable in root.iterfind(VARIABLE))
+    twice = next((name for name, count in names.items() if count > 1), None)
+    if twice is not None:
+        raise InputError(label, str(twice), "two variables of this name", FIX)
+    if len(xml) > MANY_BYTES:
+        check_violations(etree.XMLSchema(etree.parse(SCHEMA)), xml, f"{label}!{DESCRIPTION}")
+
+
+def _check_number(element: etree._Element, name: str, read: Callable[[str], object], kind: str, label: str) -> None:
+    text = element.get(name)
+    if text is not None:
+        try:
+            read(text)
+        except (ValueError, KeyError):
+            raise InputError(label, f"{_place(element)}, {name}", f"{text!r} is not {kind}", FIX) from None
+
+
+def _place(element: etree._Element) -> str:
+    return f"{element.tag} (line {element.sourceline})"

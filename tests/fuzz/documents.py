@@ -1,0 +1,128 @@
+"""Systems, parameter sets, campaigns and descriptions of FMUs that were changed: accepted, or refused in one line.
+
+``fmus`` is a folder with the tiny FMUs of `tests/support/builders.py`, ``folder`` where files may be written.
+"""
+
+from __future__ import annotations
+
+import warnings
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+from hypothesis import given
+
+from perilune.analysis.campaigns.spec.checks import check_plan
+from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.reports.figures.reading import read_figures
+from perilune.analysis.runtime.ssp.archive import SystemArchive, open_system
+from perilune.analysis.runtime.ssp.parameter_sets import read_parameter_file
+from perilune.analysis.runtime.system.fmu import Fmu
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.analysis.stability.request.reading import read_declaration
+from tests.fuzz.changes import changed_text, changed_xml, flipped
+from tests.fuzz.originals import CAMPAIGN, SOURCE, SSD, SSV
+from tests.support.builders import pack
+
+SSD_NAME = "SystemStructure.ssd"
+Reader = Callable[[bytes], object]
+
+
+def check(read: Callable[[], object]) -> None:
+    """Let a reader accept, or refuse in one line; it warns of nothing."""
+    refusal = None
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        try:
+            read()
+        except InputError as error:
+            refusal = error
+    assert refusal is None or ("\n" not in str(refusal) and refusal.problem)
+
+
+def system_reader(fmus: Path, folder: Path) -> Reader:
+    """Reads a system's SSD, with its FMUs read once."""
+    archive = _good_system(fmus, folder)
+    loaded: dict[str, Fmu] = {}
+
+    def read(content: bytes) -> None:
+        files = {**{name: archive.files[name] for name in archive.files}, SSD_NAME: content}
+        changed = SystemArchive("good", "good.ssp", archive.path, files)
+        prepared = prepare_system(changed, SystemOptions(allow_unmatched=True, open_inputs="start"), loaded)
+        read_declaration(prepared.network.description)
+        read_figures(prepared)
+
+    return read
+
+
+def campaign_reader(fmus: Path, folder: Path) -> Reader:
+    """Reads a campaign of that system, and checks its plan."""
+    archive = _good_system(fmus, folder)
+
+    def read(content: bytes) -> None:
+        path = folder / "hostile.toml"
+        path.write_bytes(content)
+        check_plan(read_plan(archive.path, str(path), SystemOptions()))
+
+    return read
+
+
+def read_parameters(content: bytes) -> object:
+    """Reads a parameter set."""
+    return read_parameter_file(content, "a.ssv")
+
+
+def any_system(fmus: Path, folder: Path) -> Callable[[], None]:
+    """A system's SSD with something changed."""
+    read = system_reader(fmus, folder)
+
+    @given(content=changed_xml(SSD) | flipped(SSD))
+    def change(content: bytes) -> None:
+        check(lambda: read(content))
+
+    return change
+
+
+def any_parameter_set(_fmus: Path, _folder: Path) -> Callable[[], None]:
+    """A parameter set with something changed."""
+
+    @given(content=changed_xml(SSV) | flipped(SSV))
+    def change(content: bytes) -> None:
+        check(lambda: read_parameters(content))
+
+    return change
+
+
+def any_campaign(fmus: Path, folder: Path) -> Callable[[], None]:
+    """A campaign with something changed."""
+    read = campaign_reader(fmus, folder)
+
+    @given(content=changed_text(CAMPAIGN) | flipped(CAMPAIGN))
+    def change(content: bytes) -> None:
+        check(lambda: read(content))
+
+    return change
+
+
+def any_description(fmus: Path, folder: Path) -> Callable[[], None]:
+    """The modelDescription.xml of an FMU, with something changed."""
+    with zipfile.ZipFile(fmus / "native" / "whole.fmu") as good:
+        files = {name: good.read(name) for name in good.namelist()}
+    text = files.pop("modelDescription.xml").decode()
+    path = folder / "changed.fmu"
+
+    @given(content=changed_xml(text) | flipped(text))
+    def change(content: bytes) -> None:
+        with zipfile.ZipFile(path, "w") as archive:
+            for name, each in {**files, "modelDescription.xml": content}.items():
+                archive.writestr(name, each)
+        check(lambda: prepare_system(path, SystemOptions(open_inputs="start")))
+
+    return change
+
+
+def _good_system(fmus: Path, folder: Path) -> SystemArchive:
+    path = pack(folder / "good.ssp", fmus / "native", SSD, resources___a__ssv=SOURCE)
+    return open_system(path)

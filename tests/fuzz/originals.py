@@ -1,0 +1,86 @@
+"""Good documents that have a little of everything: a system, a parameter set, a campaign."""
+
+from __future__ import annotations
+
+from tests.hostile.campaigns import GOOD
+from tests.support.builders import (
+    component,
+    connection,
+    document,
+    external,
+    inline,
+    inline_mapping,
+    parameter_set,
+    system,
+)
+from tests.support.refused import GAIN, RAMP, WIRED
+
+MAPPED = inline_mapping(
+    '<ssm:MappingEntry source="a" target="ramp.slope">'
+    '<ssc:LinearTransformation factor="2" offset="1"/></ssm:MappingEntry>'
+)
+INNER = system(
+    component("gain", "gain", "input u Real m; output y Real m"),
+    declared="input in Real km; output out Real m",
+    connections=connection("in", "gain.u") + connection("gain.y", "out", "<ssc:LinearTransformation factor='2'/>"),
+    name="inner",
+)
+SSD = document(
+    system(
+        RAMP,
+        GAIN,
+        component("whole", "whole", "input n Integer; input b Boolean; output m Integer"),
+        INNER,
+        connections=WIRED
+        + connection("ramp.count", "whole.n")
+        + connection("ramp.flag", "whole.b")
+        + connection("gain.y", "inner.in"),
+        bindings=inline("ramp.start=Real:2 km; ramp.flag_at=Integer:3; ramp.inverted=Boolean:true")
+        + inline("a=Real:1", mapping=MAPPED)
+        + external("resources/a.ssv"),
+    )
+)
+SOURCE = parameter_set("ramp.first_count=Integer:3")
+SSV = parameter_set("ramp.start=Real:2 m; ramp.flag_at=Integer:3; a=Boolean:true; b=String:x; c=Enumeration:y")
+CAMPAIGN = (
+    GOOD
+    + """
+[derive]
+twice = "2 * ramp.slope"
+[set]
+"ramp.start" = 2.0
+[draw."ramp.flag_at"]
+distribution = "choice"
+values = [1, 2, 3]
+weights = [1, 2, 1]
+[draw.pair]
+distribution = "correlated_normal"
+names = ["one", "two"]
+mean = [0, 1]
+covariance = [[1, 0.5], [0.5, 1]]
+[metric.least]
+expression = "min(ramp.y, abs(ramp.y) ** 2)"
+reduction = "min"
+window = [0, 1]
+[group]
+by = "ramp.flag_at"
+[fault.stuck]
+connector = "ramp.y"
+kind = "bias"
+value = "twice"
+start = 0.5
+[record]
+final = ["ramp.y"]
+every = 2
+signals = ["ramp.y"]
+[requirement.high]
+expression = "end > 0"
+share = 0.5
+confidence = 0.9
+[scatter.s]
+x = "end"
+y = "least"
+[configuration.a]
+use = {}
+"""
+)
