@@ -44,10 +44,12 @@ class BuildWithFmus(build_py):
 
 
 class ReproducibleWheel(bdist_wheel):
-    """Adds the bill of materials, and gives all files the same dates and modes."""
+    """Adds the bill of materials, and gives all files the same dates and modes; not to an editable installation."""
 
     def write_wheelfile(self, wheelfile_base: str, generator: str | None = None) -> None:
         super().write_wheelfile(wheelfile_base, *() if generator is None else (generator,))
+        if "editable_wheel" in self.distribution.commands:
+            return
         bill = Path(wheelfile_base) / BILL
         bill.parent.mkdir()
         bill.write_text(write_bill(), encoding="utf-8")

@@ -2,7 +2,8 @@
 
     python -m benchmarks.crashes
 
-An FMU in C whose trial takes about a millisecond flies 200 trials, of which 20 end its process or none does.
+An FMU in C whose trial takes half a millisecond flies FEW and MANY trials, of which the difference is what a trial
+costs without the start of anything; and FEW of which a tenth ends its process.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from perilune.analysis.runtime.system.options import SystemOptions
 from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
 
 REPEATS = 5
+FEW, MANY = 200, 2000
 STEP = 1e-4  # s, of 1 s
 
 
@@ -29,22 +31,29 @@ def main() -> None:
         folder = Path(temporary)
         good = odd_fmu(folder, "good")
         bad = odd_fmu(folder, "bad", DEED=Deed.SEGFAULT, IN=Call.STEP, COUNTED=13)
-        for fmu in (good, bad):
-            (folder / f"{fmu.stem}.toml").write_text(COUNTS.format(name=fmu.stem, trials=200))
-        print("| 200 trials, workers | in this process, s | in children, s | 20 of them crash, s | a crash, s |")
-        print("|---|---|---|---|---|")
+        print("| workers | a trial here, ms | in a child, ms | start here, ms | of children, ms | a crash, ms |")
+        print("|---|---|---|---|---|---|")
         for workers in (1, 2):
-            here = batch(good, workers, in_process=True)
-            apart, crashing = batch(good, workers), batch(bad, workers)
-            crashes = crashing - apart
-            print(f"| {workers} | {here:.3f} | {apart:.3f} | {crashing:.3f} | {crashes / 20:.4f} |", flush=True)
+            (here, start_here), (apart, start_apart) = (costs(good, workers, in_process=each) for each in (True, False))
+            crash = (batch(bad, workers, FEW) - batch(good, workers, FEW)) / (FEW / 10)
+            cells = [f"{1e3 * here:.2f}", f"{1e3 * apart:.2f}"]
+            cells += [f"{1e3 * value:.0f}" for value in (start_here, start_apart, crash)]
+            print(f"| {workers} | {' | '.join(cells)} |", flush=True)
         print("\n| run | s |\n|---|---|")
         for text, options in (("in this process", ["--in-process"]), ("in a child", [])):
             print(f"| {text} | {statistics.median(run(good, options) for _ in range(REPEATS)):.3f} |", flush=True)
 
 
-def batch(fmu: Path, workers: int, *, in_process: bool = False) -> float:
-    """Median time (s) of a batch, the first one left out."""
+def costs(fmu: Path, workers: int, *, in_process: bool) -> tuple[float, float]:
+    """Time (s) of a trial, and what a batch takes besides its trials."""
+    few, many = (batch(fmu, workers, trials, in_process=in_process) for trials in (FEW, MANY))
+    trial = (many - few) / (MANY - FEW)
+    return trial, few - FEW * trial
+
+
+def batch(fmu: Path, workers: int, trials: int, *, in_process: bool = False) -> float:
+    """Median time (s) of a batch of so many trials, the first one left out."""
+    fmu.with_suffix(".toml").write_text(COUNTS.format(name=fmu.stem, trials=trials))
     options = SystemOptions(stop_time=1.0, step=STEP, in_process=in_process)
     times = []
     for _ in range(REPEATS + 1):
