@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from ...runtime.apart.opening import flies_here, open_simulation
-from ...runtime.apart.simulation import ApartSimulation
 from ...runtime.flight.base_simulation import BaseSimulation
 from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
 from ...runtime.flight.results import CRASHED, LOST, Flight, Result
@@ -177,9 +176,8 @@ class Flyer:
 
         An earlier flight may have harmed the process, and someone else may have killed it.
         """
-        if flight.status not in LOST or self.halted or not isinstance(simulation, ApartSimulation):
-            return False
-        return flight.status == CRASHED or simulation.flights > 1
+        is_lost = flight.status in LOST and not self.halted
+        return is_lost and (flight.status == CRASHED or simulation.flights > 1)
 
     def close(self) -> None:
         for simulation, _ in self._ready.values():

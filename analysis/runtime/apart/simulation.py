@@ -59,6 +59,7 @@ class ApartSimulation(BaseSimulation):
         self._types = {name: self.layout.types[name] for name in self.signal_names}
         self._values: dict[str, ParameterValue] = {}
         self._last: _Departure | None = None  # of the child, which has its values and faults
+        self._knows_verdicts = False  # whether the child does
         self._recorders: list[SharedRecorder] = []  # of the child
         self._turn = 0  # which of them takes the flight that is under way
         self._announced: deque[_Departure] = deque()  # under way, or to follow
@@ -82,7 +83,7 @@ class ApartSimulation(BaseSimulation):
         recorder = self._make_recorder(rows_between(-1, prepared.steps))
         recorder.enter(Phase.INSTANTIATION)
         self._recorders, self._turn = [recorder], 0
-        self.flights, self._last = 0, None
+        self.flights, self._last, self._knows_verdicts = 0, None, False
         level = None if self._log is None else self._log.level
         with closing(recorder):
             child = begin_child(
@@ -138,6 +139,7 @@ class ApartSimulation(BaseSimulation):
                 self._recall()
             departed = self._announced.popleft() if self._announced else self._depart(first, last, every, excitation)
             self._turn = departed.request.recorder
+            self.flights += first < 0
             self.recorder.halt[0] = self._is_halted
             flown = self._connection.hear(messages.Flown)
         except ChildEndedError as error:
@@ -186,7 +188,6 @@ class ApartSimulation(BaseSimulation):
         excited = excitation if excitation.size else None
         request = messages.Fly(recorder, first, last, every, values, None if is_known else faults, excited)
         self._connection.send(request)
-        self.flights += first < 0
         self._last = _Departure(request, dict(self._values), faults)
         return self._last
 
@@ -198,7 +199,8 @@ class ApartSimulation(BaseSimulation):
             self._connection.kill()
         if not self._connection.is_open:
             self._connection = self._begin()
-        elif self.flights == 1:
+        elif self._last is not None and not self._knows_verdicts:
+            self._knows_verdicts = True
             verdicts = find_verdicts(self.prepared)
             self._connection.send(messages.KnownVerdicts({key: (it.resets, it.reason) for key, it in verdicts.items()}))
 

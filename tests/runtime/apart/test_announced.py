@@ -5,6 +5,8 @@ Truth: the integral of the FMU's source, y(1 s) = gain u + count + mode.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,7 +15,7 @@ from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.runtime.apart.opening import open_simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
-from tests.support.foreign.odd_fmu import COUNTS, odd_fmu
+from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
 
 pytestmark = pytest.mark.flies
 U, COUNT, MODE = 0.5, 1, 1  # as the FMU declares them
@@ -68,3 +70,14 @@ def test_a_flight_that_is_interrupted_does_not_end_the_next_one(simulation):
     simulation.announce({"odd.gain": 1.0}, ())
     simulation.announce({"odd.gain": 3.0}, ())
     assert [last(simulation.run({"odd.gain": gain})) for gain in (1.0, 3.0)] == [2.5, 3.5]
+
+
+def test_who_hangs_in_a_new_process_hangs_once(tmp_path):
+    """The flights announced behind it count for nothing: it is the first of its process, and is not repeated."""
+    fmu = odd_fmu(tmp_path, DEED=Deed.HANG, IN=Call.STEP)
+    options = replace(OPTIONS, call_timeout=0.5)
+    with open_simulation(prepare_system(fmu, options), varied=["odd.gain"]) as opened:
+        for gain in (1.0, 3.0):
+            opened.announce({"odd.gain": gain}, ())
+        assert opened.run({"odd.gain": 1.0}).status == "hung"
+        assert opened.flights == 1
