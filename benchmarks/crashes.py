@@ -36,9 +36,9 @@ def main() -> None:
         for workers in (1, 2):
             (here, start_here), (apart, start_apart) = (costs(good, workers, in_process=each) for each in (True, False))
             crash = (batch(bad, workers, FEW) - batch(good, workers, FEW)) / (FEW / 10)
-            cells = [f"{1e3 * here:.2f}", f"{1e3 * apart:.2f}"]
-            cells += [f"{1e3 * value:.0f}" for value in (start_here, start_apart, crash)]
-            print(f"| {workers} | {' | '.join(cells)} |", flush=True)
+            columns = [f"{1e3 * here:.2f}", f"{1e3 * apart:.2f}"]
+            columns += [f"{1e3 * value:.0f}" for value in (start_here, start_apart, crash)]
+            print(f"| {workers} | {' | '.join(columns)} |", flush=True)
         print("\n| run | s |\n|---|---|")
         for text, options in (("in this process", ["--in-process"]), ("in a child", [])):
             print(f"| {text} | {statistics.median(run(good, options) for _ in range(REPEATS)):.3f} |", flush=True)

@@ -48,7 +48,7 @@ def check_description(xml: bytes, label: str) -> None:
         for element in root.iterfind(path):
             for name in attributes:
                 if not element.get(name):
-                    raise InputError(label, _place(element), f"no attribute {name}", FIX)
+                    raise InputError(label, _line_of(element), f"no attribute {name}", FIX)
     for path, (read, kind, attributes) in NUMBERS.items():
         for element in root.iterfind(path):
             for name in attributes:
@@ -67,8 +67,8 @@ def _check_number(element: etree._Element, name: str, read: Callable[[str], obje
         try:
             read(text)
         except (ValueError, KeyError):
-            raise InputError(label, f"{_place(element)}, {name}", f"{text!r} is not {kind}", FIX) from None
+            raise InputError(label, f"{_line_of(element)}, {name}", f"{text!r} is not {kind}", FIX) from None
 
 
-def _place(element: etree._Element) -> str:
+def _line_of(element: etree._Element) -> str:
     return f"{element.tag} (line {element.sourceline})"
