@@ -14,7 +14,7 @@ demo: .venv/ready
 
 test: .venv/ready lint build
 	-@[ "$$(id -u)" != 0 ] || ! command -v apt-get >/dev/null || $(MAKE) --no-print-directory browser emulator
-	$(BIN)/python -m pytest -n 2 --dist loadfile
+	MAKEFLAGS= $(BIN)/python -m pytest -n 2 --dist loadfile
 
 # What is proved without built FMUs: the mathematics, the language, expressions, laws, the arrows between rooms.
 QUICK := tests/campaigns/spec tests/campaigns/compare tests/export/judge tests/design/laws tests/mathlib tests/reports/common tests/test_architecture.py tests/common/test_errors.py

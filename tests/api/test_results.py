@@ -121,6 +121,7 @@ def test_a_law(tmp_path):
     assert [*perilune.validate(tmp_path / "law.ssv")] == [FileCheck(str(tmp_path / "law.ssv"), (), ())]
 
 
+@pytest.mark.slow
 def test_plans(tmp_path):
     plan = perilune.plan_hover_transfer()
     assert 77.0 < plan.programme.duration < 78.0  # Huang (2017): 78 s

@@ -108,6 +108,7 @@ def test_files_and_json(tmp_path, capsys):
     assert list(actual["variants"]) == ["analytic_guidance", "analytic_exact_guidance"]
     assert actual == json.loads((tmp_path / "out" / "summary.json").read_text())
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
+        ".lock",
         "draws.parquet",
         "files",
         "manifest.json",

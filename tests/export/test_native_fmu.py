@@ -36,6 +36,7 @@ def test_two_builds_are_byte_identical(tmp_path: Path) -> None:
     assert first == second
 
 
+@pytest.mark.slow
 def test_portable_builds_for_linux_and_windows_are_byte_identical(tmp_path: Path) -> None:
     pytest.importorskip("ziglang")
     paths = [

@@ -31,6 +31,7 @@ def test_every_step_is_counted(late, tmp_path, monkeypatch):
     assert bars.moves == [expected]
 
 
+@pytest.mark.slow
 def test_other_processes_tell_their_steps(exact_fmus, tmp_path, monkeypatch):
     bars = watched(monkeypatch, bar)
     ssd = LATE.ssd.replace('<Point name="there" time="20.0"/>', f'<Point name="there" time="20.0"/>{EARLIER}')

@@ -42,6 +42,7 @@ def test_the_indices_of_ishigami_and_of_a_sum():
     assert (result.total <= result.total_interval[1]).all()
 
 
+@pytest.mark.slow
 def test_intervals_cover():
     """Of quasi-random points, whose errors are smaller than the bootstrap's, which takes them for random ones."""
     repeats = either(200, 12)

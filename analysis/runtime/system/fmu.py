@@ -23,7 +23,7 @@ from ...common.scratch import make_folder
 from ...common.zips import REMEDY, UNREADABLE, open_zip, read_entry
 from ..ssp.conversions import Unit, units_of_fmu
 from ..ssp.documents import parse_xml
-from .fmu_description import DESCRIPTION, check_description
+from ..ssp.fmu_description import DESCRIPTION, check_description
 
 MOST_FLAWS = 3  # named in one line
 MOST_DESCRIPTIONS = 32  # kept at once

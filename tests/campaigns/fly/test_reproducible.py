@@ -40,7 +40,7 @@ def bits(table):
 
 
 @pytest.mark.parametrize(
-    ("flavour", "workers"), [("native", 2), ("native", 3), ("python", 2), *either([("python", 1)], [])]
+    ("flavour", "workers"), [("native", 2), ("native", 3), *either([("python", 1), ("python", 2)], [])]
 )
 def test_any_number_of_workers_in_either_flavour(reference, flavour, workers):
     assert bits(flown(flavour, workers=workers).table()) == bits(reference)

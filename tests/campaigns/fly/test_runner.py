@@ -121,7 +121,7 @@ def test_draws_are_written_first(tmp_path, monkeypatch):
     plan = read_plan(SYSTEM, "paper", SystemOptions(), trials=5)
     with pytest.raises(KeyboardInterrupt):
         run_batch(plan, workers=1, output=tmp_path / "out")
-    assert {path.name for path in (tmp_path / "out").iterdir()} == {"draws.parquet", "files", "manifest.json"}
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {".lock", "draws.parquet", "files", "manifest.json"}
     table = pyarrow.parquet.read_table(tmp_path / "out" / "draws.parquet")
     expected = draw_table(plan.campaign).columns
     assert {name: table[name].to_pylist() for name in expected} == {name: list(v) for name, v in expected.items()}

@@ -175,6 +175,7 @@ def test_no_room_for_the_programme():
         hover_study(VEHICLE, TRANSFER, duration=40.0)
 
 
+@pytest.mark.slow
 def test_a_plan_of_several_parts_tells_how_far_it_is(monkeypatch):
     bars = watched(monkeypatch, progress)
     hover_study(VEHICLE, TRANSFER, curves=True)

@@ -72,7 +72,11 @@ def waiting(tmp_path, words, **quirks):
     (tmp_path / "c.toml").write_text(CAMPAIGN)
     line = [text.format(fmu=fmu, campaign=tmp_path / "c.toml") for text in words]
     command = subprocess.Popen(
-        [sys.executable, "-m", "perilune", *line], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        [sys.executable, "-m", "perilune", *line],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        # a shell that runs the tests in the background hands SIGINT down as ignored
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     deadline = time.monotonic() + 60.0
     while time.monotonic() < deadline and command.poll() is None:

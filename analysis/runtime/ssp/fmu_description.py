@@ -10,7 +10,7 @@ import fmpy
 from lxml import etree
 
 from ...common.errors import InputError
-from ..ssp.documents import check_violations, parse_xml
+from .documents import check_violations, parse_xml
 
 DESCRIPTION = "modelDescription.xml"
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi2" / "fmi2ModelDescription.xsd"
