@@ -66,7 +66,21 @@ def test_a_study_states_them(crashing, tmp_path, study, arguments):
     assert words in str(result.to_json()["conditions"])
     assert result.to_json()["lost"] == {"crashed": count}
     result.report(tmp_path / "page.html")
-    assert words in (tmp_path / "page.html").read_text()
+    assert f"<strong>All numbers: {words}.</strong>" in (tmp_path / "page.html").read_text()
+
+
+@pytest.mark.parametrize("options", ["rare --samples 100", "worst --flights 100", "sensitivity --base 32"])
+def test_its_lines_on_the_terminal_state_them(crashing, options, capsys):
+    """The first one on standard output; as many as a study in Python counts, with two workers too."""
+    (fmu, campaign), (study, option, size) = crashing, options.split()
+    result = getattr(perilune, study)(fmu, campaign, **{option[2:]: int(size)}, **OPTIONS)
+    words = [study, str(fmu), "--campaign", str(campaign), option, size, *STEPS[:-1], "2"]
+    assert main(words) == 0
+    assert (
+        capsys.readouterr()
+        .out.splitlines()[0]
+        .endswith(f", {crashed_in(result)} crashed of {result.flights} simulations counted as failures")
+    )
 
 
 def test_a_comparison_notes_them(crashing, tmp_path, capsys):
