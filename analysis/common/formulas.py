@@ -7,10 +7,11 @@ QUOTE = "'"  # what follows it is text to a spreadsheet
 
 
 def quote_formula(name: str) -> str:
-    """The name with a quote mark before it if it would be a formula."""
-    return f"{QUOTE}{name}" if name.startswith(BEGINNINGS) else name
+    """The name with a quote mark before it if it would be a formula, or would be read as a quoted one."""
+    return f"{QUOTE}{name}" if name.lstrip(QUOTE).startswith(BEGINNINGS) else name
 
 
 def unquote_formula(text: str) -> str:
-    """The name that `quote_formula` was given."""
-    return text[1:] if text.startswith(QUOTE) and text[1:].startswith(BEGINNINGS) else text
+    """The name that `quote_formula` was given; one that was never quoted is returned as it is."""
+    is_quoted = text.startswith(QUOTE) and text.lstrip(QUOTE).startswith(BEGINNINGS)
+    return text[1:] if is_quoted else text

@@ -19,11 +19,12 @@ from tests.support.foreign.odd_fmu import odd_fmu
 NAMES = ["=cmd()", "+x", "-y", "@z"]
 
 
-@given(some.text() | some.sampled_from(NAMES))
+@given(some.text() | some.text("'=+-@x"))
 def test_names_come_back(name):
+    """All of them, so that no two are one column."""
     quoted = quote_formula(name)
     assert not quoted.startswith(("=", "+", "-", "@"))
-    assert name.startswith("'") or unquote_formula(quoted) == name
+    assert unquote_formula(quoted) == name
 
 
 @pytest.mark.flies

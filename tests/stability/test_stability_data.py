@@ -115,6 +115,16 @@ def test_responses_are_those_of_the_study_by_both_methods(studies, content, fold
     assert table == studies.late.loops[0].curve.value.tolist()
 
 
+def test_a_spreadsheet_takes_no_name_for_a_formula(studies, tmp_path):
+    """And every number still for a number."""
+    loop, *others = studies.late.loops
+    replace(studies.late, loops=(replace(loop, name="=cmd()"), *others)).write_data(tmp_path)
+    with (tmp_path / "responses.csv").open(encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["loop"] == "'=cmd()"]
+    assert min(float(row["real"]) for row in rows) < 0.0
+    assert json.loads((tmp_path / "loops.json").read_text())["loops"][0]["name"] == "=cmd()"
+
+
 def test_names_and_units_of_states_and_signals(content):
     late = named(content["loops"], "late")
     assert len(late["state_names"]) == len(late["state_units"]) == len(late["A"])

@@ -76,11 +76,8 @@ def test_its_lines_on_the_terminal_state_them(crashing, options, capsys):
     result = getattr(perilune, study)(fmu, campaign, **{option[2:]: int(size)}, **OPTIONS)
     words = [study, str(fmu), "--campaign", str(campaign), option, size, *STEPS[:-1], "2"]
     assert main(words) == 0
-    assert (
-        capsys.readouterr()
-        .out.splitlines()[0]
-        .endswith(f", {crashed_in(result)} crashed of {result.flights} simulations counted as failures")
-    )
+    first = capsys.readouterr().out.splitlines()[0]
+    assert first.endswith(f", {crashed_in(result)} crashed of {result.flights} simulations counted as failures")
 
 
 def test_a_comparison_notes_them(crashing, tmp_path, capsys):
