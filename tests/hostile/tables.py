@@ -108,6 +108,10 @@ DRAWS: dict[str, tuple[Callable[[], bytes], tuple[str, ...]]] = {
     "a header with escapes": (lambda: table(**{DRAW: [1.0], "\x1b[2J\u202e": [1.0]}), (r"\x1b[2J\u202e",)),
     "a stream of 1e300": (lambda: table(**{DRAW: [1.0], "streams_of": [1e300]}), ("streams_of",)),
     "a negative stream": (lambda: table(**{DRAW: [1.0], "streams_of": [-1.0]}), ("streams_of",)),
+    "a name that is not UTF-8": (
+        lambda: table(ramp__slope=[1.0]).replace(DRAW.encode(), b"ramp.slop\xff"),
+        (PARQUET, "not Parquet"),
+    ),
     "5 x 10^7 rows": (lambda: repeated(50_000_000), (PARQUET, "rows")),
     "10^4 columns": (lambda: repeated(10, 10_000), ("a1",)),
 }

@@ -102,7 +102,7 @@ def read_given(path: Path, campaign: Declared) -> GivenDraws:
         table = file.read()
     except OSError as error:  # Arrow's own errors of damaged files are such, too
         raise InputError(path, "", error.strerror or str(error), REMEDY) from error
-    except pyarrow.ArrowException as error:
+    except (UnicodeDecodeError, pyarrow.ArrowException) as error:  # the former of names of columns
         raise InputError(path, "", f"not Parquet: {error}", REMEDY) from error
     stream_columns = [name for name in table.column_names if stream_component(name) is not None]
     if not table.num_rows:
