@@ -16,6 +16,7 @@ RUNS = {
     "manifests": 1_000_000,
     "shards": 100_000,
     **dict.fromkeys(("systems", "parameter_sets", "campaigns", "descriptions"), 500_000),
+    **dict.fromkeys(("mappings", "inputs", "draws", "expressions", "archives"), 500_000),
     "fmi": 2_000_000,
 }
 

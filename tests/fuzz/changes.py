@@ -71,10 +71,15 @@ def changed_text(draw: Any, text: str) -> bytes:
     return "\n".join(lines).encode()
 
 
-@st.composite
-def flipped(draw: Any, text: str) -> bytes:
+def flipped(text: str) -> st.SearchStrategy[bytes]:
     """A document with a few bits changed."""
-    changed = bytearray(text.encode())
+    return flipped_bytes(text.encode())
+
+
+@st.composite
+def flipped_bytes(draw: Any, content: bytes) -> bytes:
+    """A file with a few bits changed."""
+    changed = bytearray(content)
     for position in draw(st.lists(st.integers(0, 8 * len(changed) - 1), min_size=1, max_size=3)):
         changed[position // 8] ^= 1 << position % 8
     return bytes(changed)

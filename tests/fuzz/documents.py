@@ -44,7 +44,7 @@ def check(read: Callable[[], object]) -> None:
 
 def system_reader(fmus: Path, folder: Path) -> Reader:
     """Reads a system's SSD, with its FMUs read once."""
-    archive = _good_system(fmus, folder)
+    archive = make_archive(fmus, folder)
     loaded: dict[str, Fmu] = {}
 
     def read(content: bytes) -> None:
@@ -59,7 +59,7 @@ def system_reader(fmus: Path, folder: Path) -> Reader:
 
 def campaign_reader(fmus: Path, folder: Path) -> Reader:
     """Reads a campaign of that system, and checks its plan."""
-    archive = _good_system(fmus, folder)
+    archive = make_archive(fmus, folder)
 
     def read(content: bytes) -> None:
         path = folder / "hostile.toml"
@@ -123,6 +123,7 @@ def any_description(fmus: Path, folder: Path) -> Callable[[], None]:
     return change
 
 
-def _good_system(fmus: Path, folder: Path) -> SystemArchive:
+def make_archive(fmus: Path, folder: Path) -> SystemArchive:
+    """A good system, as a file."""
     path = pack(folder / "good.ssp", fmus / "native", SSD, resources___a__ssv=SOURCE)
     return open_system(path)

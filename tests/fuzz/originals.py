@@ -1,4 +1,4 @@
-"""Good documents that have a little of everything: a system, a parameter set, a campaign."""
+"""Good documents that have a little of everything: a system, a parameter set, a mapping, a campaign, inputs."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from tests.support.builders import (
     external,
     inline,
     inline_mapping,
+    mapping,
     parameter_set,
     system,
 )
@@ -42,6 +43,13 @@ SSD = document(
 )
 SOURCE = parameter_set("ramp.first_count=Integer:3")
 SSV = parameter_set("ramp.start=Real:2 m; ramp.flag_at=Integer:3; a=Boolean:true; b=String:x; c=Enumeration:y")
+SSM = mapping(
+    '<ssm:MappingEntry source="ramp.start" target="x"/><ssm:MappingEntry source="a" target="y"><ssc:BooleanMapping>'
+    '<ssc:MapEntry source="true" target="false"/></ssc:BooleanMapping></ssm:MappingEntry>'
+    '<ssm:MappingEntry source="ramp.flag_at" target="z" suppressUnitConversion="true">'
+    '<ssc:LinearTransformation factor="2" offset="1"/></ssm:MappingEntry>'
+)
+SERIES = "time,gain.u,whole.b\n0,1.5,true\n0.5,-2,False\n0.5,1e3,1\n2,0,0\n"
 CAMPAIGN = (
     GOOD
     + """

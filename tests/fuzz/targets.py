@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from tests.fuzz import documents
+from tests.fuzz import documents, tables
 from tests.fuzz.folders import any_manifest, any_shard, make_folder
 from tests.support.builders import build_tiny_fmus
 
@@ -27,4 +27,9 @@ TARGETS: dict[str, Callable[[Path], Target]] = {
     "parameter_sets": _of_document(documents.any_parameter_set),
     "campaigns": _of_document(documents.any_campaign),
     "descriptions": _of_document(documents.any_description),
+    "mappings": _of_document(tables.any_mapping),
+    "inputs": _of_document(tables.any_series),
+    "draws": _of_document(tables.any_draws),
+    "expressions": _of_document(tables.any_expression),
+    "archives": _of_document(tables.any_archive),
 }

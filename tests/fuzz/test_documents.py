@@ -1,4 +1,4 @@
-"""Systems, parameter sets, campaigns and descriptions of FMUs with something changed.
+"""Documents, tables, expressions and archives with something changed.
 
 Truth: good documents; the reader raises nothing but an `InputError` in one line, whatever is changed in them.
 """
@@ -18,6 +18,7 @@ from tests.fuzz.documents import (
     system_reader,
 )
 from tests.fuzz.originals import CAMPAIGN, SSD, SSV
+from tests.fuzz.tables import any_archive, any_draws, any_expression, any_mapping, any_series
 from tests.support.lengths import either
 
 pytestmark = pytest.mark.flies
@@ -29,6 +30,10 @@ def test_the_originals_are_good(tiny_folder, tmp_path):
     assert read_parameters(SSV.encode())
 
 
-@pytest.mark.parametrize("target", [any_system, any_parameter_set, any_campaign, any_description])
+DOCUMENTS = [any_system, any_parameter_set, any_campaign, any_description]
+TABLES = [any_mapping, any_series, any_draws, any_expression, any_archive]
+
+
+@pytest.mark.parametrize("target", [*DOCUMENTS, *TABLES])
 def test_any_change(tiny_folder, tmp_path, target):
     settings(max_examples=either(4000, 350))(target(tiny_folder, tmp_path))()
