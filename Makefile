@@ -82,7 +82,8 @@ sanitize: .venv/ready
 	PERILUNE_LONG=1 PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py
 
 # What others may hand in, changed at random under atheris and libFuzzer (Debian's clang, installed as root): manifests,
-# shards, documents, tables, archives, and calls of native FMUs. It takes hours; FUZZ="--runs N" takes N of each, FUZZ="shards" one target.
+# shards, documents, tables, archives, and calls of native FMUs. It takes hours; FUZZ="--runs N" takes N of each,
+# FUZZ="shards" one target.
 ATHERIS := atheris==3.0.0
 FUZZ ?=
 
