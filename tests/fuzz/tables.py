@@ -49,11 +49,11 @@ def parquet(columns: dict[str, object]) -> bytes:
 def any_series(_fmus: Path, folder: Path) -> Target:
     """Inputs over time with a cell, or a bit, changed."""
     path = folder / "hostile.csv"
-    cells = [line.split(",") for line in SERIES.splitlines()]
+    entries = [line.split(",") for line in SERIES.splitlines()]
 
     @st.composite
     def changed_cells(draw: st.DrawFn) -> bytes:
-        rows = [list(row) for row in cells]
+        rows = [list(row) for row in entries]
         for _ in range(draw(st.integers(1, 3))):
             row = draw(st.sampled_from(rows))
             row[draw(st.integers(0, len(row) - 1))] = draw(JUNK | st.text(max_size=4))
