@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from .common.errors import EndedError, ExitStatus, InputError, UnwrittenError, call_by_flags, warn_in_one_line
-from .common.process import leave, steady_streams
+from .common.process import leave, open_closed_streams, steady_streams
 from .verbs.help import Parser, group_help, overview, verb_help
 from .verbs.options.parsing import add_verb, flags_of, read_parsed
 from .verbs.options.verb import Verb
@@ -135,6 +135,7 @@ def parser_of(given: Sequence[str]) -> Parser:
 
 def run() -> NoReturn:
     """The console script: `main`, then leave at once."""
+    open_closed_streams()
     warn_in_one_line()
     try:
         status = main()

@@ -75,6 +75,16 @@ def steady_streams() -> Iterator[Stream]:
             errors.flush()
 
 
+def open_closed_streams() -> None:
+    """Open the null device in place of standard input, output or error that a process was started without.
+
+    Files opened later would have their numbers, and what libraries print to them.
+    """
+    while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(descriptor, True)
+    os.close(descriptor)
+
+
 _farewells: list[Callable[[], object]] = []
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
 from tests.support.lengths import either
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -100,3 +101,14 @@ def test_standard_error_that_nobody_reads(tmp_path):
     )
     assert done.returncode == 1
     assert (tmp_path / "a.json").is_file()
+
+
+@pytest.mark.parametrize("options", ["", "--in-process"])
+def test_what_an_fmu_prints_gets_into_no_file_where_no_stream_is_open(options, tmp_path):
+    """Whatever the process opens first would else have the number of standard output."""
+    odd_fmu(tmp_path, DEED=Deed.PRINT, IN=Call.STEP)
+    words = f"{sys.executable} -m perilune run odd.fmu --stop-time 1 --step 0.25 {options} --report page.html --output"
+    for file, streams in (("open.csv", ">/dev/null 2>/dev/null"), ("closed.csv", "<&- >&- 2>&-")):
+        done = subprocess.run(["bash", "-c", f"{words} {file} {streams}"], cwd=tmp_path, timeout=100, check=False)
+        assert done.returncode == 0
+    assert (tmp_path / "closed.csv").read_bytes() == (tmp_path / "open.csv").read_bytes()
