@@ -24,6 +24,9 @@ ENDINGS = {
     "nonfinite": "Aborted: a component returned a value that is not finite.",
     "failed": "Aborted: an FMU reported an error or rejected a parameter.",
     "timed_out": "Aborted: wall-clock time limit exceeded.",
+    "crashed": "Aborted: an FMU ended its process.",
+    "hung": "Aborted: a call of an FMU did not return.",
+    "out_of_memory": "Aborted: the process of an FMU took more memory than it may.",
     "interrupted": "Aborted: interrupted from the keyboard.",
 }
 MOST_KEYS = 12  # final values listed where no signal has a known name

@@ -6,6 +6,7 @@ import pytest
 from perilune.analysis.reports.common.style import new_figure
 from perilune.analysis.reports.run_report import ENDINGS, write_run_report
 from perilune.analysis.reports.trajectory import _views
+from perilune.analysis.runtime.flight.results import LOST
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 from tests.support.pages.samples import DIGEST, run_result
 
@@ -91,7 +92,7 @@ def test_figures_are_labelled(page):
     assert "tilt, deg" in text_of(page)
 
 
-@pytest.mark.parametrize("status", ["nonfinite", "failed"])
+@pytest.mark.parametrize("status", ["nonfinite", "failed", *LOST])
 def test_a_run_that_broke_off_says_why(status, tmp_path):
     result = run_result(status=status, message="ship.tilt is nan at t = 24.5 s")
     result["ship.tilt"][-1] = np.nan

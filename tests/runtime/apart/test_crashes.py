@@ -66,6 +66,8 @@ def test_a_crash_in_the_initialisation_leaves_no_row(tmp_path):
     flight = perilune.simulate(odd_fmu(tmp_path, DEED=Deed.ABORT, IN=Call.INITIALISATION))
     assert (flight.status, flight.time.size) == ("crashed", 0)
     assert flight.message == "odd: in the initialisation: its process ended by SIGABRT"
+    flight.report(tmp_path / "page.html")
+    assert flight.message in (tmp_path / "page.html").read_text()
 
 
 FREEING = [
