@@ -45,7 +45,7 @@ def main() -> None:
 
 
 def costs(fmu: Path, workers: int, *, in_process: bool) -> tuple[float, float]:
-    """Time (s) of a trial, and what a batch takes besides its trials."""
+    """Time (s) of a trial, and what a batch takes apart from its trials."""
     few, many = (batch(fmu, workers, trials, in_process=in_process) for trials in (FEW, MANY))
     trial = (many - few) / (MANY - FEW)
     return trial, few - FEW * trial

@@ -22,7 +22,7 @@ RUNS = {
 
 
 def main() -> int:
-    """The exit status: 1 where something was found."""
+    """The exit status: 1 where a target failed."""
     parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
     parser.add_argument("name", nargs="?", choices=RUNS)
     parser.add_argument("--runs", type=int, metavar="N", help="inputs of each target")

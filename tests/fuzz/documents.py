@@ -11,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from hypothesis import given
+from hypothesis.strategies import SearchStrategy
 
 from perilune.analysis.campaigns.spec.checks import check_plan
 from perilune.analysis.campaigns.spec.plan import read_plan
@@ -28,6 +29,7 @@ from tests.support.builders import pack
 
 SSD_NAME = "SystemStructure.ssd"
 Reader = Callable[[bytes], object]
+Target = Callable[[], None]
 
 
 def check(read: Callable[[], object]) -> None:
@@ -74,53 +76,45 @@ def read_parameters(content: bytes) -> object:
     return read_parameter_file(content, "a.ssv")
 
 
-def any_system(fmus: Path, folder: Path) -> Callable[[], None]:
+def reads(contents: SearchStrategy[bytes], read: Reader) -> Target:
+    """A test of a reader with any of some contents."""
+
+    @given(content=contents)
+    def change(content: bytes) -> None:
+        check(lambda: read(content))
+
+    return change
+
+
+def any_system(fmus: Path, folder: Path) -> Target:
     """A system's SSD with something changed."""
-    read = system_reader(fmus, folder)
-
-    @given(content=changed_xml(SSD) | flipped(SSD))
-    def change(content: bytes) -> None:
-        check(lambda: read(content))
-
-    return change
+    return reads(changed_xml(SSD) | flipped(SSD), system_reader(fmus, folder))
 
 
-def any_parameter_set(_fmus: Path, _folder: Path) -> Callable[[], None]:
+def any_parameter_set(_fmus: Path, _folder: Path) -> Target:
     """A parameter set with something changed."""
-
-    @given(content=changed_xml(SSV) | flipped(SSV))
-    def change(content: bytes) -> None:
-        check(lambda: read_parameters(content))
-
-    return change
+    return reads(changed_xml(SSV) | flipped(SSV), read_parameters)
 
 
-def any_campaign(fmus: Path, folder: Path) -> Callable[[], None]:
+def any_campaign(fmus: Path, folder: Path) -> Target:
     """A campaign with something changed."""
-    read = campaign_reader(fmus, folder)
-
-    @given(content=changed_text(CAMPAIGN) | flipped(CAMPAIGN))
-    def change(content: bytes) -> None:
-        check(lambda: read(content))
-
-    return change
+    return reads(changed_text(CAMPAIGN) | flipped(CAMPAIGN), campaign_reader(fmus, folder))
 
 
-def any_description(fmus: Path, folder: Path) -> Callable[[], None]:
+def any_description(fmus: Path, folder: Path) -> Target:
     """The modelDescription.xml of an FMU, with something changed."""
     with zipfile.ZipFile(fmus / "native" / "whole.fmu") as good:
         files = {name: good.read(name) for name in good.namelist()}
     text = files.pop("modelDescription.xml").decode()
     path = folder / "changed.fmu"
 
-    @given(content=changed_xml(text) | flipped(text))
-    def change(content: bytes) -> None:
+    def read(content: bytes) -> None:
         with zipfile.ZipFile(path, "w") as archive:
             for name, each in {**files, "modelDescription.xml": content}.items():
                 archive.writestr(name, each)
-        check(lambda: prepare_system(path, SystemOptions(open_inputs="start")))
+        prepare_system(path, SystemOptions(open_inputs="start"))
 
-    return change
+    return reads(changed_xml(text) | flipped(text), read)
 
 
 def make_archive(fmus: Path, folder: Path) -> SystemArchive:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -20,10 +19,9 @@ from perilune.analysis.runtime.ssp.documents import read_document
 from perilune.analysis.runtime.ssp.parameter_sets import apply_mapping, read_parameter_file
 from perilune.analysis.runtime.system.series import read_series
 from tests.fuzz.changes import JUNK, changed_xml, flipped, flipped_bytes
-from tests.fuzz.documents import check, make_archive
+from tests.fuzz.documents import Target, check, make_archive, reads
 from tests.fuzz.originals import CAMPAIGN, SERIES, SSM, SSV
 
-Target = Callable[[], None]
 COLUMNS = ("ramp.slope", "ramp.flag_at", "one", "two", "streams_of", "streams_of.ramp", "trial", "twice")
 ARRAYS = st.sampled_from(
     [
@@ -59,12 +57,11 @@ def any_series(_fmus: Path, folder: Path) -> Target:
             row[draw(st.integers(0, len(row) - 1))] = draw(JUNK | st.text(max_size=4))
         return "\n".join(map(",".join, rows)).encode(errors="surrogatepass")
 
-    @given(content=changed_cells() | flipped(SERIES))
-    def change(content: bytes) -> None:
+    def read(content: bytes) -> None:
         path.write_bytes(content)
-        check(lambda: read_series(path))
+        read_series(path)
 
-    return change
+    return reads(changed_cells() | flipped(SERIES), read)
 
 
 def any_draws(_fmus: Path, folder: Path) -> Target:
@@ -75,23 +72,21 @@ def any_draws(_fmus: Path, folder: Path) -> Target:
     good: dict[str, object] = {name: pyarrow.array([1.0, 0.0]) for name in COLUMNS[:5]}
     changed = st.dictionaries(st.sampled_from(COLUMNS) | st.text(max_size=4), ARRAYS, max_size=3)
 
-    @given(content=changed.map(lambda columns: parquet(good | columns)) | flipped_bytes(parquet(good)))
-    def change(content: bytes) -> None:
+    def read(content: bytes) -> None:
         path.write_bytes(content)
-        check(lambda: read_given(path, campaign))
+        read_given(path, campaign)
 
-    return change
+    return reads(changed.map(lambda columns: parquet(good | columns)) | flipped_bytes(parquet(good)), read)
 
 
 def any_mapping(_fmus: Path, _folder: Path) -> Target:
     """A mapping of a parameter set with something changed."""
     values = read_parameter_file(SSV.encode(), "a.ssv")
 
-    @given(content=changed_xml(SSM) | flipped(SSM))
-    def change(content: bytes) -> None:
-        check(lambda: apply_mapping(values, read_document(content, "ssm", "a.ssm"), "a.ssm"))
+    def read(content: bytes) -> None:
+        apply_mapping(values, read_document(content, "ssm", "a.ssm"), "a.ssm")
 
-    return change
+    return reads(changed_xml(SSM) | flipped(SSM), read)
 
 
 def any_expression(_fmus: Path, _folder: Path) -> Target:
@@ -112,8 +107,4 @@ def any_archive(fmus: Path, folder: Path) -> Target:
     packed = make_archive(fmus, folder).path.read_bytes()
     tail = flipped_bytes(packed[-4096:]).map(lambda end: packed[:-4096] + end)
 
-    @given(content=tail | flipped_bytes(packed))
-    def change(content: bytes) -> None:
-        check(lambda: dict(ZippedFiles(content, "a.ssp")))
-
-    return change
+    return reads(tail | flipped_bytes(packed), lambda content: dict(ZippedFiles(content, "a.ssp")))

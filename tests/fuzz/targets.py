@@ -6,10 +6,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tests.fuzz import documents, tables
+from tests.fuzz.documents import Target
 from tests.fuzz.folders import any_manifest, any_shard, make_folder
 from tests.support.builders import build_tiny_fmus
-
-Target = Callable[[], None]
 
 
 def _of_document(make: Callable[[Path, Path], Target]) -> Callable[[Path], Target]:

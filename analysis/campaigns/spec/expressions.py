@@ -13,6 +13,7 @@ import ast
 import functools
 import math
 import textwrap
+import warnings
 from collections.abc import Callable, Mapping
 from typing import NoReturn
 
@@ -114,10 +115,17 @@ def path_name(node: ast.expr) -> str | None:
 def is_name(text: str) -> bool:
     """Whether ``text`` is a variable's name as expressions write it, without spaces and quotes."""
     try:
-        node = ast.parse(text, mode="eval").body
+        node = _parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return False
     return path_name(node) == text and '"' not in text
+
+
+def _parse(text: str) -> ast.expr:
+    """Raises SyntaxError, also where Python only warns: of ``1if x``, which later versions may not read."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        return ast.parse(text, mode="eval").body
 
 
 class _Translator:
@@ -220,7 +228,7 @@ class Expression:
         if "\0" in self.text:  # of which Python's parser says different things from version to version
             translator.refuse("a null character at the place of a plain one", "write plain characters")
         try:
-            body = translator.translate(ast.parse(self.text, mode="eval").body)
+            body = translator.translate(_parse(self.text))
             arguments = [ast.arg(slot) for slot in translator.slots.values()]
             function = ast.Lambda(ast.arguments([], arguments, None, [], [], None, []), body)
             code = compile(ast.fix_missing_locations(ast.Expression(function)), "<expression>", "eval")

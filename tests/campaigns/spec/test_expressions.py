@@ -146,6 +146,7 @@ def test_missing_name_is_named_with_the_known_ones():
     [
         ("", "invalid syntax"),
         ("x +", "invalid syntax"),
+        ("1if x else 2", "invalid decimal literal"),
         ("x.__class__()", "not a function"),
         ("__import__('os')", "not a function"),
         ("open(x)", "not a function"),

@@ -1,4 +1,4 @@
-"""Flights that a child is asked for ahead of time: each has its own values, whatever becomes of the one before.
+"""Flights that are announced to a child: each has its own values, whatever becomes of the one before.
 
 Truth: the integral of the FMU's source, y(1 s) = gain u + count + mode.
 """
@@ -28,7 +28,7 @@ values = [-1.0, 0.0, 1.0, 2.0]
 
 
 def test_an_error_is_of_its_own_trial(tmp_path):
-    """The FMU is broken after it, and the next flight, which is asked for already, has another process."""
+    """The FMU is broken after it, and the next flight, which is announced already, has another process."""
     fmu = odd_fmu(tmp_path, BREAKS=True)
     (tmp_path / "c.toml").write_text(COUNTS.format(name="odd", trials=60) + BREAKING)
     plan = read_plan(fmu, str(tmp_path / "c.toml"), OPTIONS)

@@ -45,7 +45,7 @@ class Begin:
 
 @dataclass(frozen=True)
 class Single:
-    """All that a child is told that was not forked, on its standard input.
+    """The order of a child that was not forked, on its standard input.
 
     ``channel`` and ``files`` are descriptors that it has inherited; on Windows ``channel`` is a socket shared with it.
     """
