@@ -1,4 +1,7 @@
-"""Fuzz everything, or one target: `python -m tests.fuzz [NAME] [--runs N]`; `make fuzz` has what it needs installed."""
+"""Fuzz everything, or one target: `python -m tests.fuzz [NAME] [--runs N] [--unguided]`.
+
+`make fuzz` has what it needs installed; targets of Python with random inputs (`--unguided`) need nothing.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ import time
 
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.paths import ROOT
-from tests.fuzz import fmi, guided
+from tests.fuzz import fmi, guided, unguided
 
 FOLDER = ROOT / "build" / "fuzz"
 RUNS = {
@@ -26,13 +29,16 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
     parser.add_argument("name", nargs="?", choices=RUNS)
     parser.add_argument("--runs", type=int, metavar="N", help="inputs of each target")
+    parser.add_argument("--unguided", action="store_true", help="one target of Python with random inputs")
     given = parser.parse_args()
+    if given.unguided and given.name in (None, "fmi"):
+        parser.error("--unguided: needs the name of a target of Python")
     if given.name is None:
         return max(_run(name, given.runs or runs) for name, runs in RUNS.items())
     runs = given.runs or RUNS[given.name]
     if given.name == "fmi":
         return _fuzz_fmus(runs)
-    guided.fuzz(given.name, FOLDER / given.name, runs)
+    (unguided if given.unguided else guided).fuzz(given.name, FOLDER / given.name, runs)
     return 0
 
 
