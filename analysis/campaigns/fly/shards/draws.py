@@ -16,7 +16,7 @@ from ....common.regular import check_regular
 from ...draws.table import DrawTable
 from ..manifest import COPY_AGAIN
 from .arrow import numpy_of
-from .files import DRAWS
+from .files import DRAWS, check_names
 
 
 @dataclass(frozen=True)
@@ -48,6 +48,7 @@ def read_draws(folder: Path, trials: int, names: list[str]) -> StoredDraws:
     path = folder / DRAWS
     with _open_draws(path) as file:
         there, rows = file.schema_arrow.names, file.metadata.num_rows
+    check_names(there, path)
     missing = [name for name in names if name not in there]
     if missing or rows < trials:
         problem = f"lacks column {missing[0]}" if missing else f"has {rows} rows for {trials}"

@@ -177,6 +177,7 @@ def check_rows(table: pyarrow.Table, variant: str, trials: range, names: Collect
 
     ``names`` are the columns that were read, None for all. Raises InputError.
     """
+    check_names(table.column_names, path)
     for name in (*IDENTITY, *(COLUMNS if names is None else names)):
         if name not in table.column_names:
             raise InputError(path, name, "no such column", NEW_FOLDER)
@@ -202,9 +203,17 @@ def read_table(path: Path, columns: Collection[str] | None = None) -> pyarrow.Ta
     try:
         with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
             names = file.schema_arrow.names
-            return file.read(names if columns is None else [name for name in names if name in columns])
+            table = file.read(names if columns is None else [name for name in names if name in columns])
     except (OSError, ValueError, pyarrow.ArrowException) as error:
         raise unreadable(path, error) from error
+    check_names(table.column_names, path)
+    return table
+
+
+def check_names(names: Sequence[str], path: Path) -> None:
+    """Refuse two columns of one name, which Arrow cannot tell apart. Raises InputError."""
+    if len(set(names)) < len(names):
+        raise InputError(path, max(names, key=names.count), "two columns have this name", NEW_FOLDER)
 
 
 def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:

@@ -57,6 +57,10 @@ SHARDS = {
         lambda table: with_column(table, "end_time", ["x"] * 25),
         "end_time: not a column of numbers",
     ),
+    "a name twice": (
+        lambda table: table.append_column("end_time", pyarrow.array(np.zeros(25))),
+        "end_time: two columns have this name",
+    ),
     "nothing in a column": (
         lambda table: with_column(table, "success", [None] * 25),
         "success: not a column of numbers",
