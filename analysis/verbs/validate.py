@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import ClassVar, Unpack, overload
 
-from fmpy.validation import validate_fmu
+from fmpy.validation import validate_model_description
 
 from ..campaigns.spec.file import SYNTHESIS, read_campaign
 from ..campaigns.spec.source import read_source_file
@@ -103,7 +103,7 @@ def _check(path: str, options: System) -> FileCheck:
             raise InputError(path, "system options", "it is no system, which they are for", "check it by itself")
         if path.endswith(".fmu"):
             fmu = load_fmu(_read(path), path)
-            violations = [f"{path}: modelDescription.xml: {' '.join(text.split())}" for text in validate_fmu(path)]
+            violations = [f"{path}: modelDescription.xml: {rule}" for rule in _broken_rules(fmu)]
             if options.strict:
                 problems += [f"{violation}; fix the FMU's modelDescription.xml" for violation in violations]
             else:
@@ -122,6 +122,16 @@ def _check(path: str, options: System) -> FileCheck:
     except InputError as error:
         problems.append(error.text)
     return FileCheck(path, tuple(problems), tuple(notes))
+
+
+def _broken_rules(fmu: Fmu) -> list[str]:
+    """What of the schema an FMU's description breaks; if nothing, what of FMI's rules for names and structure."""
+    return fmu.flaws or [
+        " ".join(rule.split())
+        for rule in validate_model_description(
+            fmu.description, validate_variable_names=True, validate_model_structure=True
+        )
+    ]
 
 
 def _check_system(path: str, options: System) -> list[str]:

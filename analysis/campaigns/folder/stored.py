@@ -97,7 +97,7 @@ class StoredBatch:
 
     def split_rows(self, name: str) -> tuple[str, str]:
         """Component and variable of a signal or parameter of any variant."""
-        return split_name(name, (component for fmus in self.document["fmus"].values() for component in fmus))
+        return split_name(name, {component for fmus in self.document["fmus"].values() for component in fmus})
 
     def trace(self, variant: str, trial: int, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
         """The kept signals of one flight, ``time`` (s) among them; of ``names`` those that there are, or all."""

@@ -184,7 +184,7 @@ class _Builder:
         """The inputs driven over time by component, those of system connectors last; first and count of each group."""
         groups: dict[str, list[str]] = {name: [] for name in (*self.names, "")}
         for name in self.network.driven:
-            groups[split_name(name, self.names)[0]].append(name)
+            groups[split_name(name, self.network.fmus)[0]].append(name)
         firsts = np.cumsum([0, *(len(group) for group in groups.values())]).tolist()
         ranges = [(first, len(group)) for first, group in zip(firsts, groups.values(), strict=False)]
         return [name for group in groups.values() for name in group], ranges

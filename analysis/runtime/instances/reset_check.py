@@ -186,14 +186,19 @@ def _set(slave: fmi2.FMU2Slave, fmu: Fmu, changes: dict[str, Number]) -> None:
 
 
 def _read(slave: fmi2.FMU2Slave, fmu: Fmu, causality: str) -> bytes:
-    """The values of variables; of those that cannot be read, that they cannot."""
-    content = b""
+    """The values of variables, type by type; of those that cannot be read, that they cannot."""
+    references: dict[str, list[int]] = {}
     for variable in fmu.variables.values():
         if variable.causality == causality and variable.type in CALLS:
-            try:
-                value = getattr(slave, CALLS[variable.type][1])([variable.valueReference])[0]
-            except FMICallException:
-                content += b"?"
-            else:
-                content += np.float64(value).tobytes()
-    return content
+            references.setdefault(CALLS[variable.type][1], []).append(variable.valueReference)
+    return b"".join(_get(getattr(slave, getter), each) for getter, each in references.items())
+
+
+def _get(getter: Callable[[list[int]], list[Number]], references: list[int]) -> bytes:
+    """Values of variables in one call, or each by itself where one of them cannot be read."""
+    try:
+        return np.array(getter(references), dtype=np.float64).tobytes()
+    except FMICallException:
+        if len(references) == 1:
+            return b"?"
+    return b"".join(_get(getter, [reference]) for reference in references)

@@ -6,13 +6,15 @@ A component's name holds dots where systems are nested, and a variable's where i
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable
+from collections.abc import Container, Iterable, Mapping, Set
 
 
-def split_name(name: str, components: Iterable[str]) -> tuple[str, str]:
-    """Component and variable of a name; the component is empty for the system's own connectors."""
-    owner = max((component for component in components if name.startswith(f"{component}.")), key=len, default="")
-    return owner, name.removeprefix(f"{owner}.") if owner else name
+def split_name(name: str, components: Mapping[str, object] | Set[str]) -> tuple[str, str]:
+    """Component and variable of a name, the longest component that fits; empty for the system's own connectors."""
+    owner, dot, _ = name.rpartition(".")
+    while dot and owner not in components:
+        owner, dot, _ = owner.rpartition(".")
+    return (owner, name[len(owner) + 1 :]) if dot else ("", name)
 
 
 def vectors(names: Iterable[str]) -> list[str]:
