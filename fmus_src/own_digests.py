@@ -16,7 +16,7 @@ from ..analysis.common.bounds import ARCHIVE_BYTES
 from ..analysis.common.errors import InputError
 from ..analysis.common.regular import read_input
 from ..analysis.common.zips import ZippedFiles
-from .paths import CACHE, FLAVOURS, shipped_fmu
+from .paths import CACHE, FLAVOURS, names_fmu, shipped_fmu
 
 SUMS = "SHA256SUMS"
 NOTED = CACHE / SUMS
@@ -40,13 +40,13 @@ def is_own(digest: str) -> bool:
 def has_foreign(path: Path) -> bool:
     """Whether a file, or a folder with its subfolders, has FMUs that Perilune has not built; False where unreadable."""
     try:
-        if path.suffix == ".fmu":
+        if names_fmu(path):
             return not is_own(_digest(read_input(path, "", ARCHIVE_BYTES)))
         if path.is_dir():
             return any(has_foreign(fmu) for fmu in path.glob("*/*.fmu"))
         if path.suffix == ".ssp":
             files = ZippedFiles(read_input(path, "", ARCHIVE_BYTES), path.name)
-            return not all(is_own(_digest(files[name])) for name in files if name.endswith(".fmu"))
+            return not all(is_own(_digest(files[name])) for name in files if names_fmu(name))
     except (OSError, InputError):
         pass
     return False

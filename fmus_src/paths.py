@@ -6,6 +6,7 @@ never written to.
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from platformdirs import user_cache_path
@@ -38,3 +39,8 @@ def own_fmus(name: str, flavour: str, system: Path | None) -> list[Path]:
         beside = system.resolve().parent / "build" / "fmus" / flavour / f"{name}.fmu"
         places += [beside] if beside not in places else []
     return places
+
+
+def names_fmu(name: str | os.PathLike[str]) -> bool:
+    """Whether a name is that of an FMU's file; some tools write the suffix in capitals."""
+    return os.fspath(name).lower().endswith(".fmu")

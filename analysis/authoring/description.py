@@ -138,7 +138,7 @@ def _component(prepared: PreparedSystem, name: str) -> dict[str, Any]:
 def connections(prepared: PreparedSystem) -> list[dict[str, Any]]:
     """What leads from where to where, the elements of a vector brought together."""
     by_ends: dict[tuple[str, str, str, str], dict[str, Any]] = {}
-    for link in prepared.network.driver.values():
+    for link in prepared.network.links():
         ends = []
         for node in (link.source, link.target):
             whole = ELEMENT.fullmatch(node.variable)

@@ -59,6 +59,7 @@ def _is_plain(link: Link) -> bool:
         and link.source.type_name == link.target.type_name == "Real"
         and link.target.kind == "input"
         and link.transformation == IDENTITY
+        and not link.added
     )
 
 

@@ -80,7 +80,7 @@ def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> 
 def _on_loops(prepared: PreparedSystem) -> set[str]:
     """The components whose outputs come back to them over connections."""
     readers: dict[str, set[str]] = {}
-    for link in prepared.network.driver.values():
+    for link in prepared.network.links():
         start = origin(prepared.network, link).component
         if start is not None and link.target.component is not None and not link.is_parameter:
             readers.setdefault(start, set()).add(link.target.component)

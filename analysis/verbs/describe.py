@@ -8,6 +8,7 @@ from typing import Any, Unpack
 
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
+from ...fmus_src.paths import names_fmu
 from ..authoring.campaign import describe_campaign
 from ..authoring.description import describe_system, variables_of
 from ..authoring.fits import blocks_of_slot, slots
@@ -56,7 +57,7 @@ def describe(what: FilePath, component: str | None = None, **options: Unpack[Des
             problem = "a campaign is described without a component and without other options"
             raise InputError("`campaign`", options["campaign"], problem, "leave them out")
         return Description(describe_campaign(name, options["campaign"]))
-    if name.endswith(".fmu") or name in catalogue() or name in fmu_flavours():
+    if names_fmu(name) or name in catalogue() or name in fmu_flavours():
         if component is not None:
             raise InputError("describe", component, "an FMU has no components", "name a system before it")
         return _describe_fmu(name, system)

@@ -9,6 +9,7 @@ from typing import ClassVar, Unpack, overload
 
 from fmpy.validation import validate_model_description
 
+from ...fmus_src.paths import names_fmu
 from ..campaigns.spec.file import SYNTHESIS, read_campaign
 from ..campaigns.spec.source import read_source_file
 from ..common.bounds import bound_of
@@ -32,9 +33,8 @@ from ..stability.request.reading import read_declaration
 from ..stability.request.request import Subject
 from .common.arguments import path_list
 from .common.description_text import wrap
-from .options.library import VALIDATE
+from .options.library import VALIDATE, ValidateOptions
 from .options.option import FilePath
-from .options.system import SystemOptions
 from .options.verb import verb
 
 FILES = (".ssv", ".json", ".toml")  # that are no systems
@@ -85,23 +85,26 @@ class Validation(Sequence[FileCheck]):
 
 
 @verb(VALIDATE)
-def validate(*paths: FilePath | Sequence[FilePath], **options: Unpack[SystemOptions]) -> Validation:
+def validate(*paths: FilePath | Sequence[FilePath], **options: Unpack[ValidateOptions]) -> Validation:
     """Check systems, FMUs, parameter sets, campaigns, laws: `perilune validate`.
 
-    They are given one by one or as a list; the result has a `FileCheck` for each. Of a system all variants are checked
-    unless ``variant`` names one; the options are those of `simulate`, for systems and FMUs alone.
+    They are given one by one or as a list; the result has a `FileCheck` for each. Of a system the variant is checked
+    that `simulate` would take, or ``all_variants``; the other options are those of `simulate`, for systems and FMUs
+    alone. Raises InputError for options that exclude each other.
     """
-    system = system_options(options)
-    return Validation(tuple(_check(path, system) for path in path_list(paths)))
+    system, all_variants = system_options(options), options["all_variants"]
+    if all_variants and system.variant is not None:
+        raise InputError("`all_variants`", str(system.variant), "a `variant` is given, too", "give one of the two")
+    return Validation(tuple(_check(path, system, all_variants) for path in path_list(paths)))
 
 
-def _check(path: str, options: System) -> FileCheck:
+def _check(path: str, options: System, all_variants: bool) -> FileCheck:
     notes: list[str] = []
     problems: list[str] = []
     try:
         if path.endswith(FILES) and replace(options, strict=False) != System():
             raise InputError(path, "system options", "it is no system, which they are for", "check it by itself")
-        if path.endswith(".fmu"):
+        if names_fmu(path):
             fmu = load_fmu(_read(path), path)
             violations = [f"{path}: modelDescription.xml: {rule}" for rule in _broken_rules(fmu)]
             if options.strict:
@@ -118,7 +121,7 @@ def _check(path: str, options: System) -> FileCheck:
             is_search = SYNTHESIS in read_source_file(Path(path)).table().content
             (read_synthesis if is_search else read_campaign)(Path(path))
         else:
-            notes += _check_system(path, options)
+            notes += _check_system(path, options, all_variants)
     except InputError as error:
         problems.append(error.text)
     return FileCheck(path, tuple(problems), tuple(notes))
@@ -134,11 +137,11 @@ def _broken_rules(fmu: Fmu) -> list[str]:
     ]
 
 
-def _check_system(path: str, options: System) -> list[str]:
-    """Notes on a system, of all its variants unless one is named. Raises InputError."""
+def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
+    """Notes on a variant of a system, or on all. Raises InputError."""
     notes: list[str] = []
-    variants = [None, *(name for name in open_system(path).variants() if name != DEFAULT_VARIANT)]
-    for variant in variants if options.variant is None else [options.variant]:
+    others = [name for name in open_system(path).variants() if name != DEFAULT_VARIANT] if all_variants else []
+    for variant in (options.variant, *others):
         subject = Subject(path, replace(options, variant=variant))
         prepared = prepare_system(path, subject.options, subject.fmus)
         _check_loops(subject, read_declaration(prepared.network.description))

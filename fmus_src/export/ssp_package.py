@@ -7,6 +7,7 @@ from pathlib import Path
 
 from lxml import etree
 
+from ..paths import names_fmu
 from .archive import write_zip
 
 SSD_NAMESPACE = "http://ssp-standard.org/SSP1/SystemStructureDescription"
@@ -26,7 +27,7 @@ def system_files(folder: Path) -> dict[str, Path]:
         name = path.relative_to(folder).as_posix()
         if not path.is_file() or name.startswith("."):
             continue
-        if path.parent == folder and path.suffix in (".ssd", ".fmu"):
+        if path.parent == folder and (path.suffix == ".ssd" or names_fmu(path)):
             files[name] = path
         elif path.parent == folder and path.suffix in RESOURCE_SUFFIXES:
             files[f"resources/{name}"] = path

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -77,6 +78,19 @@ DESCRIPTIONS: dict[str, tuple[Callable[[str], str | bytes], tuple[str, ...]]] = 
     "an identifier that leaves": (swap(IDENTIFIER, 'modelIdentifier="../../../tmp/evil"'), ("../../../tmp/evil",)),
     "an absolute identifier": (swap(IDENTIFIER, 'modelIdentifier="/tmp/evil"'), ("/tmp/evil",)),
     "no identifier": (swap(IDENTIFIER, 'modelIdentifier=""'), ("hostile.fmu",)),
+    **{
+        f"an unknown of {number}": (
+            lambda text, number=number: re.sub(r'<Unknown index="\d+"', f'<Unknown index="{number}"', text, count=1),
+            ("Unknown (line", "index", "is not the number of one of its"),
+        )
+        for number in ("0", "99", "-1", "9" * 5000, "one")
+    },
+    "a dependency on nothing": (
+        lambda text: re.sub(
+            r"<Unknown ", '<Unknown dependencies="1 99" ', re.sub(r' dependencies="[^"]*"', "", text), count=1
+        ),
+        ("Unknown (line", "dependencies", "99 is not the number"),
+    ),
     "a reference of 10^6 digits": (
         lambda text: text.replace('valueReference="0"', f'valueReference="{"9" * 1_000_000}"', 1),
         (DESCRIPTION,),

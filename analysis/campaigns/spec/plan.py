@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
+from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive, open_system
 from ...runtime.system.fault import Fault
@@ -212,7 +213,7 @@ def read_plan(
     raw, label = archive.campaign(campaign)
     source = read_source(raw, label, archive)
     read = parse_campaign(source.table())
-    if read.system.removesuffix(".ssp").removesuffix(".fmu") != archive.name:
+    if (read.system[:-4] if names_fmu(read.system) else read.system.removesuffix(".ssp")) != archive.name:
         raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
     changes: dict = {}
     if trials is not None:

@@ -101,7 +101,9 @@ def in_words(
     code, subject = outcome.code, outcome.subject
     status = STATUS[code]
     if code == codes.NONFINITE:
-        return status, f"{list(layout.slots)[subject]} is {buffers.values[subject]} at t = {time:g} s"
+        value = buffers.values[subject]
+        beyond = ", beyond the 32 bits of an Integer," if np.isfinite(value) else ""
+        return status, f"{list(layout.slots)[subject]} is {value}{beyond} at t = {time:g} s"
     if code == codes.UNMAPPED:
         name, value = list(layout.slots)[subject], buffers.values[subject]
         return status, f"{name}: its connection's mapping has no entry for {value:g}, at t = {time:g} s"

@@ -14,6 +14,7 @@ from .compiled import codes
 from .in_memory import Run, runs_in_memory, with_moves
 from .parameters import Texts
 
+Term = tuple[int, tuple[int, ...], int, int]  # of a connection: code, origins, source and target slot
 TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}
 FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES)}
 # Real, Integer (and Enumeration), Boolean, String: what sets parameters, what reads them back.
@@ -31,7 +32,7 @@ class InstructionList:
     ``ranges`` [component][get or set function 0..5] are (first, count) of slots, ``parameter_ranges``
     [component][type] the first parameter, how many there are, and how many of them, the first ones, are set again
     in initialisation mode and read back. ``connections`` [component] lists, for each
-    connection that feeds a component, in order, its instruction code, the component that its value
+    connection that feeds a component, in order, its instruction code, the components that the target's value
     comes from (-1: a system's constant input), source and target slot; the last entry is for
     system connectors.
     Connections and ``fault_slots`` are numbered as in the program's arrays; ``drives`` [component] are (first, count)
@@ -44,7 +45,7 @@ class InstructionList:
         instances: Sequence[Instance],
         ranges: np.ndarray,
         parameter_ranges: np.ndarray,
-        connections: Sequence[Sequence[tuple[int, int, int, int]]],
+        connections: Sequence[Sequence[Term]],
         fault_slots: Sequence[int],
         drives: Sequence[tuple[int, int]],
         texts: Texts,
@@ -116,12 +117,12 @@ class InstructionList:
     def connect(self, group: int, known: Collection[int] | None = None) -> None:
         """Values over the connections that feed a component; group -1: system connectors.
 
-        With ``known`` only those whose value comes from one of these components.
+        With ``known`` only those whose values come from these components alone.
         """
         group %= len(self.connections)
         run: list[int] = []
-        for number, (code, origin, source, target) in enumerate(self.connections[group], self.firsts[group]):
-            if known is not None and origin not in known:
+        for number, (code, origins, source, target) in enumerate(self.connections[group], self.firsts[group]):
+            if known is not None and any(origin not in known for origin in origins):
                 run = []
             elif code == codes.COPY:
                 # neighbouring slots copied to neighbouring slots are one instruction

@@ -23,7 +23,7 @@ from ..system.network import Link, Network, Node
 from ..system.prepared import PreparedSystem
 from ..system.schedule import origin
 from .compiled import arrays, codes
-from .instructions import InstructionList, write_instructions
+from .instructions import InstructionList, Term, write_instructions
 from .parameters import TYPE_KIND, Parameters, Texts
 
 KIND_NUMBERS = {"override": codes.OVERRIDE, "bias": codes.BIAS, "freeze": codes.FREEZE}
@@ -107,7 +107,7 @@ class _Builder:
         self.initial: list[float] = []
         self.types: dict[str, str] = {}
         self.units: dict[str, str | None] = {}
-        read = {link.source.name for link in network.driver.values()}
+        read = {link.source.name for link in network.links()}
         self.fetched = (
             None if wanted is None else read | set(wanted) | {injection.connector for injection in injections}
         )
@@ -194,7 +194,7 @@ class _Builder:
     ) -> tuple[arrays.Program, InstructionList]:
         driven, drives = self._drives()
         groups = self._links()
-        links = [link for group in groups for link in group]
+        links = [term for group in groups for link in group for term in (link, *link.added)]
         tables = [numbers(self.network, link) for link in links]
         firsts = np.cumsum([0, *(len(table) for table in tables)])
         flat = [entry for table in tables for entry in table]
@@ -205,7 +205,7 @@ class _Builder:
             [instances[name] for name in self.names],
             self.ranges,
             self.parameters.ranges,
-            [[self._connection(link) for link in group] for group in groups],
+            [[term for link in group for term in self._terms(link)] for group in groups],
             fault_slots,
             drives,
             self.texts,
@@ -242,11 +242,16 @@ class _Builder:
         )
         return program, collected
 
-    def _connection(self, link: Link) -> tuple[int, int, int, int]:
-        """What `InstructionList` needs to know of a connection."""
-        component = origin(self.network, link).component
-        number = -1 if component is None else self.numbers[component]
-        return _connection_code(link), number, self.slots[link.source.name], self.slots[link.target.name]
+    def _terms(self, link: Link) -> list[Term]:
+        """What `InstructionList` needs to know of a connection, and of those that are added to it."""
+        terms = [link, *link.added]
+        starts = [origin(self.network, term).component for term in terms]
+        origins = tuple(-1 if start is None else self.numbers[start] for start in starts)
+        target = self.slots[link.target.name]
+        codes_of = [_connection_code(link), *(codes.ADD for _ in link.added)]
+        return [
+            (code, origins, self.slots[term.source.name], target) for code, term in zip(codes_of, terms, strict=True)
+        ]
 
     def _fault_slot(self, injection: Injection) -> int:
         connector_type(self.network, injection.connector, ("connector", injection.connector))  # refuses all others

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 import os
 import posixpath
 import warnings
@@ -15,7 +16,7 @@ from urllib.parse import unquote
 
 from ....fmus_src.export.available import fmu_file
 from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
-from ....fmus_src.paths import IS_CHECKOUT, ROOT, SYSTEMS, own_fmus
+from ....fmus_src.paths import IS_CHECKOUT, ROOT, SYSTEMS, names_fmu, own_fmus
 from ...common.bounds import ARCHIVE_BYTES, bound_of
 from ...common.errors import InputError, suggestion
 from ...common.regular import names_file, read_input
@@ -25,8 +26,8 @@ HOW_TO_BUILD = (
     "build_fmus.py builds this repository's, " if IS_CHECKOUT else ""
 ) + "perilune export FILE.py those of your own"
 OSP_DESCRIPTION = "OspSystemStructure.xml"
-FMU = ".fmu"
 OTHER = "give another file"
+MOST_LEVELS = 2  # that the files of a system's folder may lie above it, as in config/ beside fmus/
 DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
 
 
@@ -51,7 +52,7 @@ class SystemArchive:
     @property
     def is_fmu(self) -> bool:
         """Whether it is an FMU alone, which no SSD describes."""
-        return self.path.suffix == FMU and self.path.is_file()
+        return names_fmu(self.path) and self.path.is_file()
 
     def read(self, name: str, element: str) -> bytes:
         """Content of a file the description refers to, at ``element``."""
@@ -60,20 +61,28 @@ class SystemArchive:
     def _place(self, source: str) -> str:
         """The archive name that a source means: a URI, so that %20 is a space unless a file has it in its name."""
         name = posixpath.normpath(source)
-        return name if self._has(name) else posixpath.normpath(unquote(source))
+        return name if self.has(name) else posixpath.normpath(unquote(source))
 
-    def _has(self, name: str) -> bool:
+    def has(self, name: str) -> bool:
+        """Whether there is a file of this archive name."""
         return name in self.files or (self._inside(name) and names_file(self.path / name))
 
     def _inside(self, name: str) -> bool:
-        """Whether a name may be that of a file in the system's folder that `system_files` does not list."""
-        return self.path.is_dir() and not _leaves(name)
+        """Whether a name may be that of a file in the system's folder, or near it, beyond those of `system_files`."""
+        return self.path.is_dir() and (not _leaves(name) or (self.known_digest is None and _levels_up(name) > 0))
+
+    def note(self) -> str | None:
+        """What is said of files that were read from a folder above the system's own one; None where none was."""
+        levels = max((_levels_up(name) for name in self.besides), default=0)
+        if not levels:
+            return None
+        return f"{self.label}: reads files of {self.path.parents[levels - 1]}, which lies above the system's folder"
 
     def _content(self, name: str, element: str) -> bytes:
-        if _leaves(name):
+        if name not in self.files and not self._inside(name) and _leaves(name):
             problem = f"{name} lies outside the system's {'folder' if self.path.is_dir() else 'archive'}"
             raise InputError(self.label, element, problem, "put the file inside and correct the reference")
-        if not self._has(name):
+        if not self.has(name):
             raise InputError(self.label, element, f"no file {name}", "add the file or correct the reference")
         if name not in self.files:
             self.besides[name] = None
@@ -91,7 +100,7 @@ class SystemArchive:
         if fmu_asked(source) in self.elsewhere:
             return read_fmu(self.elsewhere[fmu_asked(source)]), source
         name = self._place(source)
-        if self._has(name) or self.path.is_file() or not self._inside(name):
+        if self.has(name) or self.path.is_file() or not self._inside(name):
             return partial(self._content, name, element), f"{self.label}!{name}"
         self.refuse_elsewhere(name, element)
         path = fmu_file(Path(name).stem, flavour, self.path)
@@ -113,7 +122,7 @@ class SystemArchive:
 
     def is_own_file(self, source: str) -> bool:
         """Whether a source is a file of the system, not one of those that `fmu` finds elsewhere."""
-        return self.is_fmu or self._has(self._place(source))
+        return self.is_fmu or self.has(self._place(source))
 
     def variants(self) -> list[str]:
         """Names of the archive's SSDs, the default one included."""
@@ -222,7 +231,7 @@ def open_system(system: str | Path) -> SystemArchive:
         return _folder(path)
     if path.is_file() and (path.suffix == ".ssd" or path.name == OSP_DESCRIPTION):
         return _folder(path.parent, path.name)
-    if path.suffix == FMU:
+    if names_fmu(path):
         if not path.is_file():
             raise InputError(text, "file", "not found", "give the path of an .fmu")
         return SystemArchive(path.stem, text, path, {path.name: path})
@@ -242,6 +251,14 @@ def system_names() -> list[str]:
 def _leaves(name: str) -> bool:
     """Whether a normalised name leads out of the folder that it starts from."""
     return name.startswith(("/", "..")) or ":" in name.partition("/")[0]
+
+
+def _levels_up(name: str) -> int:
+    """How many folders above its own a name leads to, if the file may lie there: at most MOST_LEVELS; else 0."""
+    steps = name.split("/")
+    inside = list(itertools.dropwhile("..".__eq__, steps))
+    levels = len(steps) - len(inside)
+    return levels if levels <= MOST_LEVELS and inside and ":" not in inside[0] else 0
 
 
 def _folder(path: Path, description: str | None = None) -> SystemArchive:

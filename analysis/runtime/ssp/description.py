@@ -26,13 +26,19 @@ class Connector:
         return f"{name} (line {self.line})" if self.line else name
 
 
+Point = tuple[str | None, str]  # element, None for the system itself, and connector
+
+
 @dataclass(slots=True)
 class Connection:
-    start: tuple[str | None, str]
-    end: tuple[str | None, str]
+    """``added`` are further sources, whose values are added to that of ``start``: outputs of components, as that is."""
+
+    start: Point
+    end: Point
     suppress_unit_conversion: bool
     transformation: Transformation
     line: int
+    added: tuple[Point, ...] = ()
 
     def __str__(self) -> str:
         start, end = (".".join(part for part in point if part) for point in (self.start, self.end))

@@ -33,6 +33,7 @@ NUMBERS: dict[str, tuple[Callable[[str], object], str, tuple[str, ...]]] = {
     f"{VARIABLE}/Enumeration": (int, "an integer", ("start", "min", "max")),
     f"{VARIABLE}/Boolean": (_truth, "true or false", ("start",)),
 }  # attributes as they are read, where they are there
+INDICES = {"ModelStructure/*/Unknown": ("index", "dependencies"), f"{VARIABLE}/Real": ("derivative",)}
 
 
 def check_description(xml: bytes, label: str) -> None:
@@ -53,12 +54,25 @@ def check_description(xml: bytes, label: str) -> None:
         for element in root.iterfind(path):
             for name in attributes:
                 _check_number(element, name, read, kind, label)
+    _check_indices(root, label)
     names = Counter(variable.get("name") for variable in root.iterfind(VARIABLE))
     twice = next((name for name, count in names.items() if count > 1), None)
     if twice is not None:
         raise InputError(label, str(twice), "two variables of this name", FIX)
     if len(xml) > MANY_BYTES:
         check_violations(etree.XMLSchema(etree.parse(SCHEMA)), xml, f"{label}!{DESCRIPTION}")
+
+
+def _check_indices(root: etree._Element, label: str) -> None:
+    """Refuse numbers of variables, counted from 1, of which there are none."""
+    count = len(root.findall(VARIABLE))
+    for path, attributes in INDICES.items():
+        for element in root.iterfind(path):
+            for name in attributes:
+                for text in element.get(name, "").split():
+                    if not (text.isascii() and text.isdigit() and len(text) < 10 and 1 <= int(text) <= count):
+                        problem = f"{text[:20]} is not the number of one of its {count} variables"
+                        raise InputError(label, f"{_line_of(element)}, {name}", problem, FIX)
 
 
 def _check_number(element: etree._Element, name: str, read: Callable[[str], object], kind: str, label: str) -> None:

@@ -45,25 +45,35 @@ class Assignment:
         return f"{name} line {self.line}" if self.line else name
 
 
-def read_parameter_set(root: etree._Element, file: str) -> list[Assignment]:
-    """The values of a ParameterSet element, valid already or not."""
+Notes = list[str] | None  # collects flaws that others' files may have; None: they are refused
+
+
+def _flaw(notes: Notes, file: str, where: str, problem: str, effect: str, remedy: str) -> None:
+    """Note a flaw and what becomes of the value, or raise InputError."""
+    if notes is None:
+        raise InputError(file, where, problem, f"{remedy}, or allow it with `allow_unmatched`")
+    notes.append(f"{file}: {where}: {problem}: {effect}")
+
+
+def read_parameter_set(root: etree._Element, file: str, notes: Notes = None) -> list[Assignment]:
+    """The values of a ParameterSet element, valid already or not. Raises InputError."""
     check_schema(root, "ssv", file)
     units = units_of_document(root, "ssv")
     assignments: dict[str, Assignment] = {}
     for parameter in children(child(root, "ssv:Parameters"), "ssv:Parameter"):
         name, line = parameter.get("name", ""), parameter.sourceline
+        where = f"{name} (line {line})"
         if name in assignments:
-            raise InputError(file, f"{name} (line {line})", "given twice in one parameter set", "remove one")
+            _flaw(notes, file, where, "given twice in one parameter set", "this value is taken", "remove one")
         for item in parameter:
             if tag(item) == "Binary":
-                raise InputError(file, f"{name} (line {line})", "Binary values are not supported", "remove it")
+                raise InputError(file, where, "Binary values are not supported", "remove it")
             if tag(item) in ("Real", "Integer", "Boolean", "String", "Enumeration"):
                 unit_name = item.get("unit") or None
                 if unit_name is not None and unit_name not in units:
-                    raise InputError(
-                        file, f"{name} (line {line})", f"unit {unit_name} is not defined here", "add it under Units"
-                    )
-                value = parse_value(item.get("value", ""), tag(item), file, f"{name} (line {line})")
+                    problem, effect = f"unit {unit_name} is not defined here", "the value is taken without conversion"
+                    _flaw(notes, file, where, problem, effect, "add it under Units")
+                value = parse_value(item.get("value", ""), tag(item), file, where)
                 assignments[name] = Assignment(name, value, tag(item), units.get(unit_name or ""), file, line)
     return list(assignments.values())
 
@@ -84,20 +94,19 @@ def parse_value(text: str, type_name: str, file: str, element: str) -> Parameter
     return text
 
 
-def apply_mapping(assignments: list[Assignment], root: etree._Element, file: str) -> list[Assignment]:
-    """The assignments that a ParameterMapping passes on, under their target names."""
+def apply_mapping(
+    assignments: list[Assignment], root: etree._Element, file: str, notes: Notes = None
+) -> list[Assignment]:
+    """The assignments that a ParameterMapping passes on, under their target names. Raises InputError."""
     check_schema(root, "ssm", file)
     by_name = {assignment.name: assignment for assignment in assignments}
     mapped = []
     for entry in children(root, "ssm:MappingEntry"):
         source, line = entry.get("source", ""), entry.sourceline
         if source not in by_name:
-            raise InputError(
-                file,
-                f"{source} (line {line})",
-                "the parameter set has no such parameter",
-                "correct or remove the entry",
-            )
+            problem = "the parameter set has no such parameter"
+            _flaw(notes, file, f"{source} (line {line})", problem, "not applied", "correct or remove the entry")
+            continue
         origin = by_name[source]
         transformation = read_transformation(entry)
         check_type(transformation, origin.type_name, file, f"{source} (line {line})")
@@ -116,9 +125,9 @@ def apply_mapping(assignments: list[Assignment], root: etree._Element, file: str
     return mapped
 
 
-def read_parameter_file(data: bytes, file: str) -> list[Assignment]:
-    """The values of an .ssv document."""
-    return read_parameter_set(read_document(data, "ssv", file), file)
+def read_parameter_file(data: bytes, file: str, notes: Notes = None) -> list[Assignment]:
+    """The values of an .ssv document. Raises InputError."""
+    return read_parameter_set(read_document(data, "ssv", file), file, notes)
 
 
 def write_parameter_set(name: str, values: Mapping[str, float], description: str = "") -> bytes:
@@ -137,7 +146,9 @@ def write_parameter_set(name: str, values: Mapping[str, float], description: str
     return etree.tostring(root, encoding="UTF-8", xml_declaration=True, pretty_print=True)
 
 
-def read_binding(archive: SystemArchive, file: str, binding: Binding) -> tuple[list[Assignment], Sequence[Assignment]]:
+def read_binding(
+    archive: SystemArchive, file: str, binding: Binding, notes: Notes = None
+) -> tuple[list[Assignment], Sequence[Assignment]]:
     """The values of a binding of the document ``file``, the prefix put before their names and then mapped.
 
     With those that its mapping has no entry for, which are not applied (SSP 1.0, ParameterBindings). Raises InputError.
@@ -145,10 +156,10 @@ def read_binding(archive: SystemArchive, file: str, binding: Binding) -> tuple[l
     element = f"ParameterBinding (line {binding.line})"
     if binding.source is not None:
         source = f"{archive.label}!{binding.source}"
-        values = read_parameter_file(archive.read(binding.source, element), source)
+        values = read_parameter_file(archive.read(binding.source, element), source, notes)
     else:
         assert binding.inline is not None  # the reader refuses a binding with neither
-        values = read_parameter_set(binding.inline, file)
+        values = read_parameter_set(binding.inline, file, notes)
     values = [replace(value, name=binding.prefix + value.name) for value in values]
     entries = binding.mapping_inline
     if binding.mapping_source is not None:
@@ -157,4 +168,4 @@ def read_binding(archive: SystemArchive, file: str, binding: Binding) -> tuple[l
     if entries is None:
         return values, ()
     mapped = {entry.get("source") for entry in children(entries, "ssm:MappingEntry")}
-    return apply_mapping(values, entries, file), [value for value in values if value.name not in mapped]
+    return apply_mapping(values, entries, file, notes), [value for value in values if value.name not in mapped]

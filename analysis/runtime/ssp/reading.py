@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from lxml import etree
 
+from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError
 from .annotations import check_annotations, feedthrough_of_component
 from .archive import OSP_DESCRIPTION, SystemArchive
@@ -21,16 +24,17 @@ from .description import (
 )
 from .documents import child, children, read_document, tag
 from .experiment import Pace, pace_of_experiment, pace_of_system, step_of_component
-from .osp import Load, read_osp
+from .osp.structure import read_osp
 
+Load = Callable[[str, str], bytes]  # content of a file by name, and the element that names it
 FMU_TYPE = "application/x-fmu-sharedlibrary"
 
 
 def read_description(archive: SystemArchive, variant: str | None = None) -> Description:
     """The SSD of an archive, the default one or a variant's; raises InputError."""
     name = archive.description_name(variant)
-    read = read_osp if name == OSP_DESCRIPTION else read_ssd
-    return read(archive.read(name, "SSD"), f"{archive.label}/{name}", archive.read)
+    data, file = archive.read(name, "SSD"), f"{archive.label}/{name}"
+    return read_osp(data, file, archive) if name == OSP_DESCRIPTION else read_ssd(data, file, archive.read)
 
 
 def read_ssd(data: bytes, file: str, load: Load) -> Description:
@@ -118,7 +122,7 @@ class Reader:
             problem = 'implementation="ModelExchange" is not supported'
             raise self.refuse(element, name, problem, 'use a co-simulation FMU and write implementation="CoSimulation"')
         source = source_file(element.get("source", ""))
-        if not source.endswith(".fmu"):
+        if not names_fmu(source):
             raise self.refuse(element, name, f"source {source} is not an .fmu", "use an FMU as the component's source")
         if is_elsewhere(source):
             raise self.refuse(element, name, f"source {source} is on another machine", "name a file of the system")

@@ -10,7 +10,8 @@ from ...common.errors import InputError, suggestion
 from ..ssp.archive import SystemArchive
 from ..ssp.conversions import VALUE_TYPES, Transformation
 from ..ssp.description import Binding, Component, System
-from ..ssp.parameter_sets import Assignment, ParameterValue, SetValue, parse_value, read_binding
+from ..ssp.parameter_sets import Assignment, Notes, ParameterValue, SetValue, parse_value, read_binding
+from .names import split_name
 from .network import Link, Network, Node
 from .options import SystemOptions
 
@@ -35,7 +36,6 @@ class Settings:
     origins: dict[tuple[str, str], str] = field(default_factory=dict)
     node_origins: dict[str, str] = field(default_factory=dict)
     nodes: dict[str, float | str] = field(default_factory=dict)
-    unmatched: list[str] = field(default_factory=list)
     left_out: dict[str, str] = field(default_factory=dict)
     chosen: list[Assignment] = field(default_factory=list)
     replaced: dict[tuple[str, str], tuple[str, ParameterValue]] = field(default_factory=dict)
@@ -50,13 +50,15 @@ def collect_settings(
     fit its variable, and declared inputs that have neither connection nor value (unless they keep their starts).
     """
     settings, allow_unmatched = Settings(), options.allow_unmatched
+    notes = network.notes if allow_unmatched else None
     # Deeper systems first: the binding of an outer one wins.
     for path, system in sorted(network.systems.items(), key=lambda item: -item[0].count(".")):
         for element in system.elements.values():
             if isinstance(element, Component):
-                for assignment in _bound(network, settings, archive, element.bindings, f"{path}{element.name}."):
+                place = f"{path}{element.name}."
+                for assignment in _bound(network, settings, archive, element.bindings, place, notes):
                     _apply(network, settings, path, f"{element.name}.", assignment, allow_unmatched)
-        for assignment in _bound(network, settings, archive, system.bindings, path):
+        for assignment in _bound(network, settings, archive, system.bindings, path, notes):
             _apply(network, settings, path, "", assignment, allow_unmatched)
     settings.chosen = [part for given in assignments for part in _elements(network, given)]
     for assignment in settings.chosen:
@@ -99,12 +101,12 @@ def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
 
 
 def _bound(
-    network: Network, settings: Settings, archive: SystemArchive, bindings: list[Binding], place: str
+    network: Network, settings: Settings, archive: SystemArchive, bindings: list[Binding], place: str, notes: Notes
 ) -> list[Assignment]:
     """Assignments of parameter bindings in order; ``place`` stands before their names in the flat network."""
     assignments: list[Assignment] = []
     for binding in bindings:
-        values, without = read_binding(archive, network.file, binding)
+        values, without = read_binding(archive, network.file, binding, notes)
         assignments += values
         settings.left_out |= {place + value.name: f"{value.name} of {value.origin}" for value in without}
         if without:
@@ -119,13 +121,12 @@ def _resolve(network: Network, path: str, name: str) -> Node | tuple[str, str] |
     system: System = network.systems[path]
     if name in system.connectors:
         return network.nodes[path + name]
-    for element in system.elements.values():
-        if name.startswith(f"{element.name}."):
-            remainder = name[len(element.name) + 1 :]
-            if isinstance(element, Component):
-                return path + element.name, remainder
-            if isinstance(element, System):
-                return _resolve(network, f"{path}{element.name}.", remainder)
+    owner, remainder = split_name(name, system.elements)
+    element = system.elements.get(owner)
+    if isinstance(element, Component):
+        return path + owner, remainder
+    if isinstance(element, System):
+        return _resolve(network, f"{path}{owner}.", remainder)
     return None
 
 
@@ -133,7 +134,6 @@ def _apply(
     network: Network, settings: Settings, path: str, prefix: str, assignment: Assignment, allow_unmatched: bool
 ) -> None:
     target = _resolve(network, path, prefix + assignment.name)
-    known: list[str] = []
     problem = "matches no parameter"
     if isinstance(target, Node):
         if target.kind in SETTABLE:
@@ -146,7 +146,6 @@ def _apply(
         component, name = target
         fmu = network.fmus[component]
         variable = fmu.variables.get(name)
-        known = [f"{component}.{key}" for key, value in fmu.variables.items() if value.causality in SETTABLE]
         is_constant = variable is not None and variable.variability == "constant"
         has_start = variable is not None and (variable.causality in SETTABLE or variable.initial in ("exact", "approx"))
         if variable is not None and has_start and not is_constant:
@@ -163,17 +162,17 @@ def _apply(
         if variable is not None:
             problem += ": it is a constant" if is_constant else f": it is of causality {variable.causality}"
     if not allow_unmatched:
-        if len(network.fmus) == 1:
-            known = [
-                f"{component}.{key}"
-                for component, fmu in network.fmus.items()
-                for key, value in fmu.variables.items()
-                if value.causality in SETTABLE
-            ]
+        owners = list(network.fmus) if len(network.fmus) == 1 else [target[0]] if isinstance(target, tuple) else []
+        known = [
+            f"{owner}.{key}"
+            for owner in owners
+            for key, value in network.fmus[owner].variables.items()
+            if value.causality in SETTABLE
+        ]
         name = path + prefix + assignment.name
         remedy = suggestion(name, known) if known else suggestion(name.partition(".")[0], network.fmus)
         raise InputError(assignment.file, assignment.where, problem, f"{remedy}; `allow_unmatched` lets it pass")
-    settings.unmatched.append(f"{assignment.file}: {assignment.where}")
+    network.notes.append(f"{assignment.file}: {assignment.where}: {problem}: not applied")
 
 
 def _check_driven(network: Network, assignment: Assignment) -> None:

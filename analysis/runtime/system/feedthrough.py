@@ -122,8 +122,9 @@ def cut_loops(network: Network, feedthrough: Feedthrough) -> tuple[Feedthrough, 
     initial = {name: dict(outputs) for name, outputs in feedthrough.initial.items()}
     driven = {link.target.name: link for link in network.driver.values() if not link.is_parameter}
     readers: dict[str, list[str]] = {}
-    for link in driven.values():
-        readers.setdefault(link.source.name, []).append(link.target.name)
+    for link in network.links():
+        if not link.is_parameter:
+            readers.setdefault(link.source.name, []).append(link.target.name)
     cuts: dict[str, str] = {}
     for component in feedthrough.undeclared:
         for variable in sorted(set().union(*initial[component].values())):

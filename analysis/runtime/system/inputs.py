@@ -41,7 +41,7 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
         raise InputError(network.file, ", ".join(node.where for node in open_inputs), problem, remedy)
     without = {node.name for node in open_inputs}
     readers: dict[str, list[Link]] = {}
-    for link in network.driver.values():
+    for link in network.links():
         readers.setdefault(link.source.name, []).append(link)
     while open_inputs:
         node = open_inputs.pop()
@@ -57,7 +57,7 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
 
 def check_signals(network: Network, settings: Settings) -> None:
     """Refuse a signal that is read and never driven, and note what is declared in vain. Raises InputError."""
-    for link in network.driver.values():
+    for link in network.links():
         source = link.source
         is_signal = source.component is None and source.kind in ("inout", "output")
         if is_signal and source.name not in network.driver:

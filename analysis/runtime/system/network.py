@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
 
 from ...common.errors import InputError, suggestion
 from ..ssp.conversions import IDENTITY, Transformation, Unit, check_type
-from ..ssp.description import Component, Connection, Connector, Description, DictionaryReference, Element, System
+from ..ssp.description import (
+    Component,
+    Connection,
+    Connector,
+    Description,
+    DictionaryReference,
+    Element,
+    Point,
+    System,
+)
 from .fmu import Fmu
 
 SOURCES = ("output", "calculatedParameter")
 SINKS = ("input", "parameter")
+SUMMED = ("Real", "Integer")
 WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"))  # types of source and target that fit though they differ
 
 
@@ -38,12 +48,16 @@ class Node:
 
 @dataclass(slots=True)
 class Link:
-    """A connection between nodes, with unit conversion and transformation in one."""
+    """A connection between nodes, with unit conversion and transformation in one.
+
+    ``added`` are links with the same target, from components to a component, whose values are added to its own.
+    """
 
     source: Node
     target: Node
     transformation: Transformation
     line: int
+    added: list[Link] = field(default_factory=list)
 
     @property
     def where(self) -> str:
@@ -74,6 +88,12 @@ class Network:
         """The error of an element of the description."""
         return InputError(self.file, where, problem, remedy)
 
+    def links(self) -> Iterator[Link]:
+        """All links, those that are added to others behind them."""
+        for link in self.driver.values():
+            yield link
+            yield from link.added
+
     def components(self) -> list[tuple[str, Component]]:
         """Components with their flat names."""
         return [
@@ -101,7 +121,7 @@ def build_network(description: Description, load: Callable[[str, Component], Fmu
         for connection in system.connections:
             _connect(network, path, system, connection)
     _settle_types(network)
-    for link in network.driver.values():
+    for link in network.links():
         _check_link(network, link)
     return network
 
@@ -176,7 +196,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     return Node(name, kind, component, connector.name, variable.type, declared or own, connector.line, items)
 
 
-def _end(network: Network, path: str, system: System, point: tuple[str | None, str], connection: Connection) -> Node:
+def _end(network: Network, path: str, system: System, point: Point, connection: Connection) -> Node:
     """The node that one end of a connection names."""
     element_name, connector_name = point
     owner: Element = system
@@ -218,6 +238,25 @@ def _signal(network: Network, path: str, reference: DictionaryReference, signal:
 
 
 def _connect(network: Network, path: str, system: System, connection: Connection) -> None:
+    link = _link(network, path, system, connection)
+    if link.target.name in network.driver:
+        first = network.driver[link.target.name]
+        raise network.refuse(
+            connection.where,
+            f"{link.target.name} is driven twice, first by {first.source.name} (line {first.line})",
+            "remove one of the two connections",
+        )
+    link.added += [_link(network, path, system, replace(connection, start=start)) for start in connection.added]
+    end = _end(network, path, system, connection.end, connection)
+    backwards = next((term for term in (link, *link.added) if term.target is not end), None)
+    if link.added and backwards is not None:
+        problem = f"{backwards.target.name} is {backwards.target.kind}: it gives nothing to add"
+        raise network.refuse(connection.where, problem, "add outputs, and connect their sum with an input")
+    network.driver[link.target.name] = link
+
+
+def _link(network: Network, path: str, system: System, connection: Connection) -> Link:
+    """The link from the start of a connection, or from its end, if that is where values come from."""
     start = _end(network, path, system, connection.start, connection)
     end = _end(network, path, system, connection.end, connection)
     start_is_own, end_is_own = (point[0] is None for point in (connection.start, connection.end))
@@ -238,13 +277,6 @@ def _connect(network: Network, path: str, system: System, connection: Connection
             f"connects {start.kind} {start.name} with {end.kind} {end.name}",
             "connect parameters with parameters, and signals with signals",
         )
-    if end.name in network.driver:
-        first = network.driver[end.name]
-        raise network.refuse(
-            connection.where,
-            f"{end.name} is driven twice, first by {first.source.name} (line {first.line})",
-            "remove one of the two connections",
-        )
     transformation = connection.transformation
     if not connection.suppress_unit_conversion and start.unit and end.unit:
         if not start.unit.fits(end.unit):
@@ -254,7 +286,7 @@ def _connect(network: Network, path: str, system: System, connection: Connection
                 "correct the unit of one end",
             )
         transformation = transformation.after_units(start.unit.conversion_to(end.unit))
-    network.driver[end.name] = Link(start, end, transformation, connection.line)
+    return Link(start, end, transformation, connection.line)
 
 
 def _leads(start: Node, start_is_own: bool, end: Node, end_is_own: bool) -> bool:
@@ -272,7 +304,7 @@ def _settle_types(network: Network) -> None:
     changed = True
     while changed:
         changed = False
-        for link in network.driver.values():
+        for link in network.links():
             for here, there in ((link.source, link.target), (link.target, link.source)):
                 if here.type_name is None and there.type_name is not None:
                     here.type_name, here.enumeration, changed = there.type_name, there.enumeration, True
@@ -284,5 +316,7 @@ def _check_link(network: Network, link: Link) -> None:
         raise network.refuse(
             link.where, f"types do not fit: {source.type_name} and {target.type_name}", "connect variables of one type"
         )
+    if link.added and target.type_name not in SUMMED:
+        raise network.refuse(link.where, f"a sum of values of type {target.type_name}", "add Reals or Integers")
     if link.transformation != IDENTITY:
         check_type(link.transformation, target.type_name or "", network.file, link.where)

@@ -10,7 +10,7 @@ from functools import cache, partial
 from pathlib import Path
 
 from ....fmus_src.export.available import fmu_file, fmu_flavours
-from ....fmus_src.paths import FLAVOURS
+from ....fmus_src.paths import FLAVOURS, names_fmu
 from ...common.errors import InputError, suggestion
 from ...common.regular import names_file
 from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, open_system, parameters_asked, read_fmu, use_asked
@@ -174,13 +174,15 @@ def _prepare(
     _refuse_seconds(network)
     if series is not None:
         network.driven = find_driven(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
-    defaults = [each for name, (_, retired) in replaced.items() for each in retired.assignments(name)]
-    settings = collect_settings(network, archive, defaults + _assignments(archive, options, elsewhere), options)
+    assignments = [each for name, (_, retired) in replaced.items() for each in retired.assignments(name)]
+    assignments += _assignments(network, archive, options, elsewhere)
+    settings = collect_settings(network, archive, assignments, options)
     settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
     check_signals(network, settings)
     check_shared(network, settings)
     for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
+    network.notes += filter(None, [archive.note()])
     algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]
     feedthrough = find_feedthrough(network, options, algorithm, is_alone=archive.is_fmu)
     schedule = make_schedule(network, feedthrough, algorithm)
@@ -221,7 +223,7 @@ def locate_fmu(
     name: str, flavour: str | None, option: str = "`use`", system: Path | None = None
 ) -> tuple[Callable[[], bytes], str]:
     """Likewise, with what reads the content; ``system`` is where one's own are looked for, too."""
-    if name.endswith(".fmu") or Path(name).name != name:
+    if names_fmu(name) or Path(name).name != name:
         path = Path(name)
         if not names_file(path):
             raise InputError(option, name, "no such file", "give a block's name or the path of an .fmu")
@@ -234,14 +236,14 @@ def locate_fmu(
 
 
 def _assignments(
-    archive: SystemArchive, options: SystemOptions, elsewhere: dict[str, Callable[[], bytes]]
+    network: Network, archive: SystemArchive, options: SystemOptions, elsewhere: dict[str, Callable[[], bytes]]
 ) -> list[Assignment]:
     assignments: list[Assignment] = []
     for name in options.parameters:
         data, label = archive.parameter_set(name)
         if not label.startswith(f"{archive.label}!"):
             elsewhere[parameters_asked(name)] = partial(bytes, data)
-        assignments += read_parameter_file(data, label)
+        assignments += read_parameter_file(data, label, network.notes if options.allow_unmatched else None)
     return assignments + [single_value(name, value, options.places.get(name)) for name, value in options.set.items()]
 
 

@@ -71,7 +71,7 @@ def _arrange(network: Network, direct: Dependencies, *, cuts_any: bool, unsettle
     sources = [name for name in network.fmus if name not in follows]
     edges = [
         (start, link.target)
-        for link in network.driver.values()
+        for link in network.links()
         if link.target.component in follows and not link.is_parameter and link.target.name not in unsettled
         for start in [origin(network, link)]
         if start.component in follows
@@ -122,7 +122,7 @@ def _check_loops(network: Network, direct: Dependencies) -> None:
     graph: dict[str, set[str]] = {}
     # an input on which no output depends directly ends every path
     passed_on = {component: set().union(*outputs.values()) for component, outputs in direct.items()}
-    for link in network.driver.values():
+    for link in network.links():
         target = link.target
         if not link.is_parameter and (target.component is None or target.variable in passed_on[target.component]):
             graph.setdefault(link.target.name, set()).add(link.source.name)

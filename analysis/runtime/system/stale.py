@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ....fmus_src.export.available import fmu_file
 from ....fmus_src.export.sources import find_changed_source
-from ....fmus_src.paths import FLAVOURS, SYSTEMS
+from ....fmus_src.paths import FLAVOURS, SYSTEMS, names_fmu
 from ..ssp.archive import open_system
 from ..ssp.description import Component, System
 from ..ssp.parameter_sets import Assignment, SetValue, read_parameter_file
@@ -91,7 +91,7 @@ def report_fmus(system: str | Path, options: SystemOptions, compare: Mapping[str
 
 def _file(name: str, flavour: str | None, system: Path) -> Path | None:
     """The FMU that a name means where one is flown."""
-    if name.endswith(".fmu") or Path(name).name != name:
+    if names_fmu(name) or Path(name).name != name:
         return Path(name) if Path(name).is_file() else None
     files = (fmu_file(name, each, system) for each in (FLAVOURS if flavour is None else (flavour,)))
     return next((path for path in files if path is not None), None)

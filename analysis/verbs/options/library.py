@@ -65,11 +65,18 @@ DESCRIBE = Verb(
     },
 )
 
+
+class ValidateOptions(SystemOptions, total=False):
+    """Options of validate"""
+
+    all_variants: Annotated[bool, Option("check every SSD of an archive, not only the one that would be flown", False)]
+
+
 VALIDATE = Verb(
     "validate",
     "check systems, FMUs, parameter sets and campaigns",
     (PATHS,),
-    options=SystemOptions,
+    options=ValidateOptions,
     examples={"perilune validate lunar_landing": "a system; a folder, .ssp, .fmu, .ssv or campaign .toml likewise"},
 )
 

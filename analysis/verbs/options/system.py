@@ -58,7 +58,14 @@ class SystemOptions(TrustOptions, total=False):
         Literal["refuse", "start"],
         Option("unconnected inputs: refuse the system, or keep their start values", "refuse"),
     ]
-    allow_unmatched: Annotated[bool, Option("ignore unknown parameters of parameter sets", False)]
+    allow_unmatched: Annotated[
+        bool,
+        Option(
+            "accept, with a note, what parameter sets and mappings should not have: unknown names and units, "
+            "values given twice",
+            False,
+        ),
+    ]
     strict: Annotated[bool, Option("refuse FMUs whose descriptions violate rules of FMI", False)]
     feedthrough: Annotated[
         Sequence[str],

@@ -4,6 +4,7 @@ Truth: the same system in our way of writing, sample by sample; pencil and paper
 """
 
 import re
+import zipfile
 
 import numpy as np
 import pytest
@@ -24,12 +25,27 @@ from tests.support.builders import (
     parameter_set,
     retouched,
     system,
+    write_zip,
 )
 
 RAMP = component("ramp", "ramp", "output y Real m; output count Integer")
 GAIN = component("gain", "gain", "input u Real m; output y Real m")
 WIRED = connection("ramp.y", "gain.u")
 ROOT = "output out Real m"
+CAMPAIGN = """
+system = "{}"
+trials = 2
+seed = 1
+[draw."ramp.slope"]
+distribution = "uniform"
+low = 1.0
+high = 2.0
+[metric.end]
+expression = "ramp.y"
+reduction = "final"
+[success]
+expression = "end > 0"
+"""
 
 
 @pytest.fixture
@@ -240,7 +256,7 @@ def test_sources_that_go_up_and_stay_inside(tiny, tmp_path, plain):
     same(fly(folder / "SystemStructure.ssd"), plain)
 
 
-@pytest.mark.parametrize("source", ["../ramp.fmu", "models/../../ramp.fmu", "/ramp.fmu", "file:///ramp.fmu"])
+@pytest.mark.parametrize("source", ["../../../ramp.fmu", "/ramp.fmu", "file:///ramp.fmu"])
 def test_sources_that_leave_the_folder(tiny, tmp_path, source):
     folder = tmp_path / "system"
     folder.mkdir()
@@ -249,6 +265,31 @@ def test_sources_that_leave_the_folder(tiny, tmp_path, source):
     (folder / "SystemStructure.ssd").write_text(text)
     with pytest.raises(InputError, match=r"ramp \(line \d+\): .*ramp\.fmu lies outside the system's folder; put"):
         fly(folder)
+    with pytest.raises(InputError, match=r"ramp \(line \d+\): .*ramp\.fmu lies outside the system's archive; put"):
+        fly(pack(tmp_path / "s.ssp", tiny, text))
+
+
+@pytest.mark.parametrize(
+    ("folder", "source"), [("s", "../ramp.fmu"), ("s", "m/../../ramp.fmu"), ("s/t", "../../ramp.fmu")]
+)
+def test_files_above_a_folder(tiny, tmp_path, capsys, folder, source):
+    """Two levels at most, in a folder that the user names; said in a note; the campaign's folder has them, too."""
+    place = tmp_path / folder
+    place.mkdir(parents=True)
+    (tmp_path / "ramp.fmu").write_bytes((tiny / "ramp.fmu").read_bytes())
+    text = document(system(RAMP)).replace("resources/ramp.fmu", source)
+    (place / "SystemStructure.ssd").write_text(text)
+    expected = fly(pack(tmp_path / "plain.ssp", tiny, document(system(RAMP))))["ramp.y"]
+    np.testing.assert_array_equal(fly(place)["ramp.y"], expected)
+    assert main(["validate", str(place)]) == 0
+    assert f"reads files of {tmp_path}, which lies above the system's folder" in " ".join(
+        capsys.readouterr().out.split()
+    )
+    campaign = tmp_path / "c.toml"
+    campaign.write_text(CAMPAIGN.format(place.name))
+    assert main(["prepare", str(place), "--campaign", str(campaign), "--output", str(tmp_path / "out")]) == 0
+    (tmp_path / "ramp.fmu").unlink()
+    assert main(["shard", str(tmp_path / "out"), "0"]) == 0
     with pytest.raises(InputError, match=r"ramp \(line \d+\): .*ramp\.fmu lies outside the system's archive; put"):
         fly(pack(tmp_path / "s.ssp", tiny, text))
 
@@ -311,3 +352,31 @@ def test_messages_speak_of_the_file(tiny, tmp_path):
         fly(path)
     with pytest.raises(InputError, match=r"stop_time: 1\.2: 1\.2 s from the start"):
         fly(path, stop_time=1.2)
+
+
+def test_suffixes_in_capitals(tiny, tmp_path, plain, capsys):
+    """RAMP.FMU, as Windows tools write it: in an archive, beside an SSD, and by itself."""
+    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    text = document(root).replace("resources/ramp.fmu", "RAMP.FMU").replace("resources/gain.fmu", "resources/GAIN.FMU")
+    fmus = {"ramp.fmu": "RAMP.FMU", "gain.fmu": "resources/GAIN.FMU"}
+    contents = {new: (tiny / old).read_bytes() for old, new in fmus.items()}
+    archive = write_zip(tmp_path / "s.ssp", {"SystemStructure.ssd": text, **contents})
+    same(fly(archive), plain)
+    with zipfile.ZipFile(archive) as packed:
+        packed.extractall(tmp_path / "s")
+    same(fly(tmp_path / "s"), plain)
+    alone = [str(tmp_path / "s" / "RAMP.FMU"), "--stop-time", "1"]
+    assert main(["run", *alone]) == main(["validate", *alone]) == 0
+    with pytest.raises(InputError, match=r"x\.FMU: file: not found"):
+        fly(tmp_path / "x.FMU")
+
+
+def test_one_variant_is_validated_or_all(tiny, tmp_path, capsys):
+    good, bad = document(system(RAMP)), document(system(RAMP, bindings=inline("ramp.stort=Real:1")))
+    path = str(pack(tmp_path / "s.ssp", tiny, good, other__ssd=bad))
+    assert main(["validate", path]) == 0
+    assert main(["validate", path, "--variant", "other"]) == 2
+    assert main(["validate", path, "--all-variants"]) == 2
+    assert "other.ssd: ramp.stort" in " ".join(capsys.readouterr().err.split())
+    assert main(["validate", path, "--all-variants", "--variant", "other"]) == 2
+    assert "--all-variants" in capsys.readouterr().err

@@ -5,11 +5,11 @@ communication step. The loop knows nothing of algorithms; their order is in the 
 """
 
 # Every communication step.
-COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP, DRIVE = range(10)
-PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN = range(10, 15)
-SET_TEXT, GET_TEXT, COPY_TEXT = range(15, 18)
+COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP, DRIVE, ADD = range(11)
+PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN = range(11, 16)
+SET_TEXT, GET_TEXT, COPY_TEXT = range(16, 19)
 # Once, before a flight; behind all others, as those of Strings are behind those of numbers.
-PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(18, 26)
+PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(19, 27)
 IN_MEMORY = (PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN)  # whose ADDRESS is a place in the instance
 
 # Instruction columns. FIRST and COUNT are connections, faults, slots, parameters, Strings or driven inputs; a COPY

@@ -21,6 +21,7 @@ from ....common.compiler import compile_cached
 from . import arrays
 from .beginning import begin
 from .codes import (
+    ADD,
     ADDRESS,
     BIAS,
     CODE,
@@ -160,11 +161,19 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                     values[slot] = whole[slot]
             elif code == SET_WHOLE:
                 for slot in range(first, first + count):
+                    if not WHOLE_MIN <= values[slot] <= WHOLE_MAX:
+                        outcome[0] = NONFINITE
+                        outcome[1] = slot
+                        outcome[5] = k
+                        return rows
                     whole[slot] = np.int32(values[slot])
                 status = exchange(address, instance, reference, whole, first, count)
             elif code == TRANSFORM:
                 for c in range(first, first + count):
                     values[target[c]] = values[source[c]] * factor[c] + offset[c]
+            elif code == ADD:
+                for c in range(first, first + count):
+                    values[target[c]] += values[source[c]] * factor[c] + offset[c]
             elif code == MAP:
                 for c in range(first, first + count):
                     mapped = False

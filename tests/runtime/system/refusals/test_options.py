@@ -9,7 +9,20 @@ import re
 import pytest
 
 from perilune.analysis.cli import main
-from tests.support.builders import component, connection, document, inline, retouched, system
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
+from tests.support.builders import (
+    component,
+    connection,
+    document,
+    fly,
+    inline,
+    inline_mapping,
+    parameter_set,
+    retouched,
+    system,
+)
 from tests.support.refused import PLAIN, RAMP, ssp
 
 
@@ -53,6 +66,52 @@ def test_allow_unmatched_lets_parameters_pass(tmp_path, tiny, monkeypatch):
     monkeypatch.chdir(tmp_path)
     path = ssp(tmp_path, tiny, system(RAMP, bindings=inline("ramp.stort=Real:1; romp.x=Real:1")))
     assert main(["run", str(path), "--allow-unmatched", "--set", "a.b=1"]) == 0
+
+
+ENTRY = '<ssm:MappingEntry source="{}" target="ramp.start"/>'
+FLAWS = {
+    "unknown name": (
+        inline("ramp.start=Real:4; ramp.stort=Real:1"),
+        "ramp.stort (line",
+        "matches no parameter: not applied",
+    ),
+    "unknown unit": (
+        inline("ramp.start=Real:4 ell"),
+        "ramp.start (line",
+        "unit ell is not defined here: the value is taken",
+    ),
+    "twice": (
+        inline("ramp.start=Real:3; ramp.start=Real:4"),
+        "ramp.start (line",
+        "given twice in one parameter set: this",
+    ),
+    "mapping of nothing": (
+        inline("a=Real:4", mapping=inline_mapping(ENTRY.format("a") + ENTRY.format("b"))),
+        "b (line",
+        "has no such parameter: not applied",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FLAWS)
+def test_flaws_of_parameter_sets_are_noted(tmp_path, tiny, capsys, name):
+    """The values that are left are those of the set, in the FMU's own unit."""
+    bindings, *words = FLAWS[name]
+    path = ssp(tmp_path, tiny, system(RAMP, bindings=bindings))
+    with pytest.raises(InputError, match="allow_unmatched"):
+        fly(path)
+    assert fly(path, allow_unmatched=True)["ramp.y"][0] == 4.0
+    assert main(["validate", str(path), "--allow-unmatched"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert all(each in said for each in words), said
+
+
+def test_flaws_of_a_parameter_file_are_noted(tmp_path, tiny):
+    file = tmp_path / "a.ssv"
+    file.write_text(parameter_set("ramp.start=Real:4 ell"))
+    path = ssp(tmp_path, tiny, system(RAMP))
+    prepared = prepare_system(path, SystemOptions(parameters=(str(file),), allow_unmatched=True))
+    assert any("unit ell is not defined here" in note for note in prepared.network.notes)
 
 
 def test_stop_time_that_is_missing(tmp_path, tiny, refused):

@@ -1,0 +1,1 @@
+"""Systems as the Open Simulation Platform writes them."""

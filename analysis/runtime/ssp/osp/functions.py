@@ -1,0 +1,85 @@
+"""The functions of an OspSystemStructure.xml, all of them linear: what comes into one, what goes out of it.
+
+libcosim evaluates them at every communication point, between what is read and what is set.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lxml import etree
+
+from ..conversions import IDENTITY, Transformation
+from ..documents import tag
+
+Point = tuple[str, str]  # simulator and variable
+IN, OUT = "in", "out"
+MOST_INPUTS = 10_000
+
+
+class FunctionError(Exception):
+    """What is wrong with a function, and what to do."""
+
+    def __init__(self, problem: str, remedy: str) -> None:
+        super().__init__(problem, remedy)
+        self.problem, self.remedy = problem, remedy
+
+
+@dataclass
+class Function:
+    """The sum of its inputs, transformed; each signal has ``dimension`` variables, an input None until connected."""
+
+    name: str
+    dimension: int
+    transformation: Transformation
+    inputs: dict[str, list[Point] | None]
+
+    def connect_input(self, signal: str, points: list[Point]) -> None:
+        """Take the variables that an input is connected to. Raises FunctionError."""
+        if signal not in self.inputs:
+            raise FunctionError(f"{self.name} has no signal {signal}", f"use {', '.join(self.inputs)} or {OUT}")
+        if self.inputs[signal] is not None:
+            raise FunctionError(f"a second connection to {signal} of {self.name}", "remove one of them")
+        self.inputs[signal] = self._check(points)
+
+    def connect_output(self, points: list[Point]) -> list[tuple[Point, list[Point]]]:
+        """The variables that the output is connected to, each with those whose sum it gets. Raises FunctionError."""
+        sources = []
+        for signal, connected in self.inputs.items():
+            if connected is None:
+                raise FunctionError(f"nothing is connected to {signal} of {self.name}", "connect a variable to it")
+            sources.append(connected)
+        return list(zip(self._check(points), map(list, zip(*sources, strict=True)), strict=True))
+
+    def _check(self, points: list[Point]) -> list[Point]:
+        if len(points) != self.dimension:
+            problem = f"{len(points)} variables for a signal of {self.dimension} of {self.name}"
+            raise FunctionError(problem, "join as many")
+        return points
+
+
+def read_function(element: etree._Element) -> Function:
+    """A function of any kind that libcosim has: LinearTransformation, Sum or VectorSum. Raises FunctionError."""
+    name, kind = element.get("name", ""), tag(element)
+    if kind == "LinearTransformation":
+        gain = Transformation(_number(element, "factor", "1"), _number(element, "offset", "0"))
+        return Function(name, 1, gain, {IN: None})
+    if kind not in ("Sum", "VectorSum"):
+        raise FunctionError("functions of this kind are not supported", "use an FMU that does it")
+    inputs = {f"{IN}[{index}]": None for index in range(_count(element, "inputCount"))}
+    return Function(name, _count(element, "dimension") if kind == "VectorSum" else 1, IDENTITY, {**inputs})
+
+
+def _number(element: etree._Element, attribute: str, default: str) -> float:
+    text = element.get(attribute, default)
+    try:
+        return float(text)
+    except ValueError:
+        raise FunctionError(f"{attribute} {text!r} is not a number", "write one") from None
+
+
+def _count(element: etree._Element, attribute: str) -> int:
+    text = element.get(attribute, "1")
+    if not (text.isascii() and text.isdigit() and 0 < len(text) < 6 and 0 < int(text) <= MOST_INPUTS):
+        raise FunctionError(f"{attribute} {text!r} is not a number from 1 to {MOST_INPUTS}", "write one")
+    return int(text)

@@ -1,0 +1,41 @@
+"""OspModelDescription.xml: the groups of variables that connections name together."""
+
+from __future__ import annotations
+
+import itertools
+import posixpath
+from pathlib import PurePosixPath
+
+from ....common.zips import open_zip, read_entry
+from ..archive import SystemArchive
+from ..documents import parse_xml
+from ..fmu_description import DESCRIPTION
+
+SUFFIX = "_OspModelDescription.xml"
+
+
+def read_groups(archive: SystemArchive, source: str, element: str) -> dict[str, list[str]]:
+    """The names of variables by group, of the FMU ``source`` that ``element`` names.
+
+    The file is looked for where libcosim does: under the name of the FMU's model, beside the system's description,
+    then beside the FMU; and under the FMU's own file name. Raises InputError.
+    """
+    places = list(dict.fromkeys(_places(archive, source, element)))
+    place = next((place for place in places if archive.has(place)), places[0])
+    groups = parse_xml(archive.read(place, element), place).findall("{*}VariableGroups//*[@name]")
+    return {
+        group.get("name", ""): [variable.get("ref", "") for variable in group.iter("{*}Variable")] for group in groups
+    }
+
+
+def _places(archive: SystemArchive, source: str, element: str) -> list[str]:
+    names = [PurePosixPath(source).stem]
+    if archive.is_own_file(source):
+        names.insert(0, _model_name(archive.read(source, element), source))
+    folders = ("", posixpath.dirname(source))
+    return [posixpath.join(folder, f"{name}{SUFFIX}") for name, folder in itertools.product(names, folders)]
+
+
+def _model_name(fmu: bytes, label: str) -> str:
+    description = read_entry(open_zip(fmu, label), DESCRIPTION, label)
+    return str(parse_xml(description, f"{label}!{DESCRIPTION}").get("modelName", ""))
