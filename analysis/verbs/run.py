@@ -22,6 +22,7 @@ from ..reports.trajectory import trajectory_plot
 from ..runtime.apart.opening import open_simulation
 from ..runtime.flight import results
 from ..runtime.flight.interruptible import StuckError, fly
+from ..runtime.flight.selection import find_variables
 from ..runtime.instances.instance import Log
 from ..runtime.system.fault import Fault, faults_of
 from ..runtime.system.options import system_options
@@ -128,10 +129,11 @@ def simulate(system: FilePath, **options: Unpack[RunOptions]) -> Result:
     paths), ``parameters`` lists parameter sets (names of the system's, or paths), ``set`` maps ``component.variable``
     to values in SI units, and ``component.vector`` to lists of them; ``faults`` are `Fault` or their texts; ``step``
     and ``stop_time`` are in s. ``input`` are inputs over time: the path of a CSV file, a structured array or columns by
-    name, ``time`` (s) and unconnected inputs. ``log`` writes FMU messages from this level on to standard error;
-    ``timeout`` (s, wall clock) ends the simulation at its next communication point; ``require`` are expressions over
-    the last values, see `Result.problems`. Raises InputError, and TimeoutError where a step of an FMU does not return;
-    a simulation that fails comes back with its ``status``.
+    name, ``time`` (s) and unconnected inputs. ``record`` names further variables to record, such as local ones,
+    ``component.vector`` all its elements; of an FMU alone without the component. ``log`` writes FMU messages from this
+    level on to standard error; ``timeout`` (s, wall clock) ends the simulation at its next communication point;
+    ``require`` are expressions over the last values, see `Result.problems`. Raises InputError, and TimeoutError where a
+    step of an FMU does not return; a simulation that fails comes back with its ``status``.
     """
     series = options["input"]
     prepared = prepare_system(
@@ -139,9 +141,10 @@ def simulate(system: FilePath, **options: Unpack[RunOptions]) -> Result:
     )
     figures, faults, level = tuple(read_figures(prepared)), faults_of(options["faults"]), options["log"]
     log = None if level is None else Log(level)
+    more = find_variables(prepared.network, options["record"], is_alone=prepared.archive.is_fmu)
     with (
         chdir(Path.cwd()),
-        open_simulation(prepared, faults=faults, log=log) as simulation,
+        open_simulation(prepared, faults=faults, log=log, more=more) as simulation,
     ):  # an FMU may change the folder
         requirements = read_requirements(options["require"], [*simulation.signal_names, "time"])
         try:

@@ -10,11 +10,14 @@ import numpy as np
 
 from ...common.errors import InputError, suggestion
 from ...runtime.system.checks import check_fault
+from ...runtime.system.names import split_name
 from ...runtime.system.prepared import PreparedSystem
 from ..draws.given import ALL, stream_column
 from .faults import check_drawn
 from .metrics import names_needed
 from .plan import BatchPlan, with_streams
+
+OVER_TIME = ("output", "local", "calculatedParameter", "independent")  # causalities of what an FMU says itself
 
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
@@ -145,14 +148,15 @@ def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
     signals: list[str] = []
     constants: dict[str, float] = {}
     for name in sorted(needed):
-        if _is_signal(prepared, name) or _is_output(prepared, name):
+        if _is_signal(prepared, name) or _causality(prepared, name) in OVER_TIME:
             signals.append(name)
         elif name in recorded:
             known = [other for other in prepared.network.nodes if _is_signal(prepared, other)]
             raise InputError(campaign.file, f"record: {name}", "not a signal of the system", suggestion(name, known))
         else:
             constants[name] = _constant(plan, prepared, name)
-    statuses = [f"{name}.status" for name in prepared.network.fmus if _is_output(prepared, f"{name}.status")]
+    statuses = [f"{name}.status" for name in prepared.network.fmus]
+    statuses = [name for name in statuses if _causality(prepared, name) == "output"]
     return VariantNames(sorted({*plan.parameter_names(prepared), *plan.overlaid}), signals, statuses, constants)
 
 
@@ -166,12 +170,11 @@ def _is_signal(prepared: PreparedSystem, name: str) -> bool:
     return name in prepared.network.driver or name in prepared.settings.nodes
 
 
-def _is_output(prepared: PreparedSystem, name: str) -> bool:
-    return any(
-        name.startswith(f"{component}.")
-        and getattr(fmu.variables.get(name[len(component) + 1 :]), "causality", "") == "output"
-        for component, fmu in prepared.network.fmus.items()
-    )
+def _causality(prepared: PreparedSystem, name: str) -> str:
+    """That of an FMU's number or Boolean; nothing where there is none of this name."""
+    component, variable_name = split_name(name, prepared.network.fmus)
+    variable = prepared.network.fmus[component].variables.get(variable_name) if component else None
+    return "" if variable is None or variable.type == "String" else variable.causality
 
 
 def _constant(plan: BatchPlan, prepared: PreparedSystem, name: str) -> float:

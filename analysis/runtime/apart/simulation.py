@@ -54,7 +54,9 @@ class ApartSimulation(BaseSimulation):
     def __init__(self, prepared: PreparedSystem, **choices: Unpack[Choices]) -> None:
         super().__init__(prepared, **choices)
         injections = self._selection.injections(prepared.step)
-        self.layout = layout_of(prepared.network, self.settings, self._selection.wanted, injections)
+        self.layout = layout_of(
+            prepared.network, self.settings, self._selection.wanted, injections, self._selection.more
+        )
         self.signal_names = self._selection.signal_names(self.layout, prepared.network.file)
         self._types = {name: self.layout.types[name] for name in self.signal_names}
         self._values: dict[str, ParameterValue] = {}

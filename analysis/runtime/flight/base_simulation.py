@@ -23,12 +23,14 @@ NOTHING = np.zeros((0, 0))  # no excitation
 
 class Choices(TypedDict, total=False):
     """``varied`` names the parameters (``component.variable``) that flights may be given anew; ``wanted`` the signals
-    to record (None: all outputs, connected inputs and system connectors); ``faults`` those that fly unless `set_faults`
-    says otherwise; ``excited`` the connectors that `advance` may add signals to; ``log`` receives the FMUs' messages.
+    to record (None: all outputs, connected inputs and system connectors), ``more`` other variables to record;
+    ``faults`` those that fly unless `set_faults` says otherwise; ``excited`` the connectors that `advance` may add
+    signals to; ``log`` receives the FMUs' messages.
     """
 
     varied: Collection[str]
     wanted: Collection[str] | None
+    more: Sequence[str]
     faults: Sequence[Fault]
     excited: Sequence[str]
     log: Log | None
@@ -51,6 +53,7 @@ class BaseSimulation(ABC):
         self._selection = Selection(
             tuple(choices.get("varied", ())),
             None if wanted is None else tuple(wanted),
+            tuple(choices.get("more", ())),
             faults,
             tuple(choices.get("excited", ())),
         )

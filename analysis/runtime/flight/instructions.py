@@ -37,7 +37,8 @@ class InstructionList:
     system connectors.
     Connections and ``fault_slots`` are numbered as in the program's arrays; ``drives`` [component] are (first, count)
     of the inputs driven over time, the last entry of those of system connectors; ``texts`` has the places of Strings;
-    the parameters of ``one_by_one`` are read back each in a call of its own.
+    the parameters of ``one_by_one`` are read back each in a call of its own; ``recorded`` [component] are the pieces
+    (function, first slot, count) of variables that are read for the record only.
     """
 
     def __init__(
@@ -51,6 +52,7 @@ class InstructionList:
         texts: Texts,
         one_by_one: Collection[int] = (),
         references: Sequence[int] = (),
+        recorded: Sequence[Sequence[tuple[int, int, int]]] = (),
     ) -> None:
         self.instances = instances
         self.addresses = [(instance.address, instance.function_addresses()) for instance in instances]
@@ -63,6 +65,7 @@ class InstructionList:
         self.firsts = np.cumsum([0, *(len(group) for group in connections)]).tolist()
         self.fault_slots = fault_slots
         self.one_by_one = one_by_one
+        self.recorded = recorded
         self.texts = texts
         self.drives = drives
         self.rows: list[list[int]] = []
@@ -188,6 +191,13 @@ class InstructionList:
         if self.text_ranges[component][1][1]:
             self.call(codes.GET_TEXT, component, FUNCTION["GetString"], self.text_ranges[component][1])
 
+    def read(self, component: int) -> None:
+        """Outputs of a component, and what else of it is recorded, whose values may be anything."""
+        self.get(component)
+        for function, first, count in self.recorded[component] if self.recorded else ():
+            code = codes.READ_REAL if function == FUNCTION["GetReal"] else codes.GET_WHOLE
+            self.call(code, component, function, (first, count))
+
     def step(self, component: int, period: int = 1) -> None:
         """A step that ends with this communication step and begins ``period`` of them earlier."""
         self.call(codes.STEP, component, FUNCTION["DoStep"], (0, 0 if period == 1 else period))
@@ -229,21 +239,21 @@ class InstructionList:
         for component in range(len(self.instances)):
             self.parameters(component, 3)
         for component in range(len(self.instances)):
-            self.get(component)  # again: there are FMUs that compute outputs only when they leave initialisation
+            self.read(component)  # again: there are FMUs that compute outputs only when they leave initialisation
 
     def side_by_side(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
         """All stepped, with the inputs that they have, then all read: Jacobi's way."""
         for component in components:
             self.step(component, periods.get(component, 1))
         for component in components:
-            self.get(component)
+            self.read(component)
 
     def in_turn(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
         """Each with inputs of the end of its step."""
         for component in components:
             self.set(component)
             self.step(component, periods.get(component, 1))
-            self.get(component)
+            self.read(component)
 
     def hand_over(self, components: Sequence[int]) -> None:
         """The end of every communication point, the first one too: inputs for the next step, system connectors."""
@@ -287,7 +297,7 @@ def write_instructions(
 def write_ending(instructions: InstructionList, component: int) -> np.ndarray:
     """The instructions of a last row: the outputs of the FMU that asks for the end, carried on to all connectors."""
     instructions.rows = []
-    instructions.get(component)
+    instructions.read(component)
     for other in range(len(instructions.instances)):
         instructions.carry(other)
     instructions.connect(-1)

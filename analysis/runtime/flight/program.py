@@ -54,6 +54,7 @@ def of_excitation(connector: str, column: int) -> Injection:
 
 
 CAUSALITIES = ("input", "output")
+GETTERS = (1, 3, 5)  # of EXCHANGES
 EXCHANGES = FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
 
 
@@ -74,12 +75,14 @@ def build_program(
     instances: Mapping[str, Instance],
     wanted: Collection[str] | None,
     injections: Sequence[Injection],
+    more: Collection[str] = (),
 ) -> tuple[arrays.Program, InstructionList, Layout]:
-    """Arrays for the loop, and what writes instructions. ``wanted`` names what is recorded (None: everything).
+    """Arrays for the loop, and what writes instructions.
 
-    Only outputs that are connected or wanted are fetched.
+    ``wanted`` names what is recorded (None: all that is exchanged), ``more`` what else is. Only outputs that are
+    connected or recorded are fetched, and of other variables those that are named.
     """
-    builder = _Builder(prepared.network, settings, wanted, injections)
+    builder = _Builder(prepared.network, settings, wanted, injections, more)
     return *builder.program(prepared, instances), builder.layout()
 
 
@@ -88,14 +91,20 @@ def layout_of(
     settings: Settings,
     wanted: Collection[str] | None = None,
     injections: Sequence[Injection] = (),
+    more: Collection[str] = (),
 ) -> Layout:
     """Where everything of a flight will lie, before one flies; arguments as of `build_program`."""
-    return _Builder(network, settings, wanted, injections).layout()
+    return _Builder(network, settings, wanted, injections, more).layout()
 
 
 class _Builder:
     def __init__(
-        self, network: Network, settings: Settings, wanted: Collection[str] | None, injections: Sequence[Injection]
+        self,
+        network: Network,
+        settings: Settings,
+        wanted: Collection[str] | None,
+        injections: Sequence[Injection],
+        more: Collection[str],
     ) -> None:
         self.network = network
         self.settings = settings
@@ -109,9 +118,13 @@ class _Builder:
         self.units: dict[str, str | None] = {}
         read = {link.source.name for link in network.links()}
         self.fetched = (
-            None if wanted is None else read | set(wanted) | {injection.connector for injection in injections}
+            None
+            if wanted is None
+            else read | set(wanted) | set(more) | {injection.connector for injection in injections}
         )
+        self.named = {*(wanted or ()), *more}
         self.ranges = np.zeros((len(self.names), len(EXCHANGES), 2), dtype=np.int64)
+        self.recorded: list[list[tuple[int, int, int]]] = []  # by component: function, first and count of slots
         for index, name in enumerate(self.names):
             self._place_component(index, name)
         for node in network.nodes.values():
@@ -152,6 +165,21 @@ class _Builder:
                 initial = self._start(component, variable) if causality == "input" else np.nan
                 self._place(name, variable.valueReference, initial, variable.type, fmu.unit_of(variable))
             self.ranges[index, function] = first, len(self.references) - first
+        self.recorded.append(self._place_recorded(component) if self.named else [])
+
+    def _place_recorded(self, component: str) -> list[tuple[int, int, int]]:
+        """Slots of variables that are recorded and not exchanged."""
+        fmu = self.network.fmus[component]
+        reads = []
+        for kind, function in enumerate(GETTERS):
+            first = len(self.references)
+            for variable in fmu.variables.values():
+                name = f"{component}.{variable.name}"
+                if name in self.named and name not in self.slots and TYPE_KIND.get(variable.type) == kind:
+                    self._place(name, variable.valueReference, np.nan, variable.type, fmu.unit_of(variable))
+            if len(self.references) > first:
+                reads.append((function, first, len(self.references) - first))
+        return reads
 
     def _start(self, component: str, variable: ScalarVariable) -> float:
         """What an input is given while its source is not known yet: the value set for it, else its FMU's start."""
@@ -211,6 +239,7 @@ class _Builder:
             self.texts,
             {index for index, name in enumerate(self.names) if self.parameters.is_one_by_one(name)},
             self.references,
+            self.recorded,
         )
         instructions, reset_end, phases = write_instructions(
             collected, self.names, prepared.schedule, prepared.algorithm, prepared.periods

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from ...common.errors import InputError
+from ...common.errors import InputError, suggestion
 from ..ssp.parameter_sets import parse_value
 from ..system.assignments import Settings
 from ..system.checks import check_fault
 from ..system.fault import Fault
+from ..system.names import elements
 from ..system.network import Network
 from ..system.prepared import PreparedSystem
 from .parameters import Key
@@ -21,12 +22,13 @@ TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry roundi
 @dataclass(frozen=True)
 class Selection:
     """Parameters that flights may be given anew (``varied``, by ``component.variable``), signals to record (``wanted``,
-    None: all outputs, connected inputs and system connectors), ``faults``, and connectors that `advance` may add
-    signals to (``excited``).
+    None: all outputs, connected inputs and system connectors), other variables to record (``more``), ``faults``, and
+    connectors that `advance` may add signals to (``excited``).
     """
 
     varied: tuple[str, ...] = ()
     wanted: tuple[str, ...] | None = None
+    more: tuple[str, ...] = ()
     faults: tuple[Fault, ...] = ()
     excited: tuple[str, ...] = ()
 
@@ -57,10 +59,34 @@ class Selection:
 
     def signal_names(self, layout: Layout, file: str) -> list[str]:
         """What is recorded, in the order of the slots. Raises InputError for a wanted signal that is none."""
-        for name in self.wanted or ():
+        named = {*(self.wanted or ()), *self.more}
+        for name in named:
             if name not in layout.slots:
-                raise InputError(file, name, "no such signal", "name a connector as component.variable")
-        return [name for name in layout.slots if self.wanted is None or name in self.wanted]
+                raise InputError(file, name, "no such signal", "name a variable as component.variable")
+        return [name for name in layout.slots if self.wanted is None or name in named]
+
+
+def find_variables(network: Network, names: Sequence[str], *, is_alone: bool) -> list[str]:
+    """Variables of FMUs that are to be recorded, by ``component.variable``; the name of a vector is all its elements.
+
+    Of an FMU that flies alone the component may be left out. Raises InputError for names of none, and for Strings.
+    """
+    types = {
+        f"{component}.{variable.name}": variable.type
+        for component, fmu in network.fmus.items()
+        for variable in fmu.variables.values()
+    }
+    actual: dict[str, None] = {}
+    for name in names:
+        full = f"{next(iter(network.fmus))}.{name}" if is_alone else name
+        variables = elements(name, types) or elements(full, types)
+        if not variables:
+            known = types if not is_alone else [each.partition(".")[2] for each in types]
+            raise InputError("`record`", name, "no such variable", suggestion(name, known))
+        if any(types[variable] == "String" for variable in variables):
+            raise InputError("`record`", name, "a String, which is not recorded", "name numbers and Booleans")
+        actual |= dict.fromkeys(variables)
+    return list(actual)
 
 
 def check_replaced(declared: Sequence[Fault], faults: Sequence[Fault | None]) -> None:

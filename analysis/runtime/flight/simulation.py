@@ -48,7 +48,7 @@ class Simulation(BaseSimulation):
             self.instances[name] = instantiate(fmu, name, self._log)
         injections = self._selection.injections(prepared.step)
         self.program, self._instructions, self.layout = build_program(
-            prepared, self.settings, self.instances, self._selection.wanted, injections
+            prepared, self.settings, self.instances, self._selection.wanted, injections, self._selection.more
         )
         self.set_faults(self._faults)
         self.signal_names = self._selection.signal_names(self.layout, prepared.network.file)

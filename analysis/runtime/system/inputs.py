@@ -65,6 +65,9 @@ def check_signals(network: Network, settings: Settings) -> None:
     for node in network.nodes.values():
         if node.component is None and node.kind == "output" and node.name not in network.driver:
             network.notes.append(f"{node.name}: output without a source, not recorded")
+    has_outputs = any(each.causality == "output" for fmu in network.fmus.values() for each in fmu.variables.values())
+    if not has_outputs:
+        network.notes.append(f"{network.file}: no FMU has an output: name what `run` is to record with `record`")
     for component, fmu in network.fmus.items():
         for name, variable in fmu.variables.items():
             full = f"{component}.{name}"

@@ -30,6 +30,15 @@ SYSTEM = Argument(
 class RunOptions(SystemOptions, SimulationOptions, RequireOptions, total=False):
     """Options of run"""
 
+    record: Annotated[
+        Sequence[str],
+        Option(
+            "record any other variable too: a local one, a parameter; may be repeated",
+            (),
+            metavar="COMPONENT.VARIABLE",
+        ),
+    ]
+
 
 class FlightFiles(ReportFiles, total=False):
     """Files"""

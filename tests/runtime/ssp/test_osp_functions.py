@@ -10,7 +10,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.fault import parse_fault
 from tests.support.builders import fly
-from tests.support.osp import groups, joined, libcosim, simulator, structure, write_osp
+from tests.support.foreign.osp import groups, joined, libcosim, simulator, structure, write_osp
 
 
 @pytest.fixture
@@ -19,8 +19,8 @@ def folder(tiny_folder, tmp_path):
 
 
 def variable(name, kind="Variable"):
-    owner, _, own = name.partition(".")
-    return f'<{kind} simulator="{owner}" name="{own}"/>'
+    owner, _, variable_name = name.partition(".")
+    return f'<{kind} simulator="{owner}" name="{variable_name}"/>'
 
 
 def signal(start, end, group=""):
@@ -47,10 +47,10 @@ def test_a_gain(folder):
         signal("ramp.y", "f:in") + signal("f:out", "fast.u"),
         functions('<LinearTransformation name="f" factor="2" offset="-1"/>'),
     )
-    place = folder(text)
-    result = fly(place, stop_time=1)
+    path = folder(text)
+    result = fly(path, stop_time=1)
     np.testing.assert_array_equal(result["fast.u"], 2.0 * result["ramp.y"] - 1.0)
-    np.testing.assert_array_equal(result["fast.y"][1:], libcosim(place, ["fast.y"], 8)[:, 0])
+    np.testing.assert_array_equal(result["fast.y"][1:], libcosim(path, ["fast.y"], 8)[:, 0])
 
 
 def test_a_sum(folder):
@@ -64,10 +64,10 @@ def test_a_sum(folder):
         + joined("ramp.y", "slow.u"),
         functions('<Sum name="s" inputCount="3"/>'),
     )
-    place = folder(text)
-    result = fly(place, stop_time=2)
+    path = folder(text)
+    result = fly(path, stop_time=2)
     np.testing.assert_array_equal(result["fast.u"], result["ramp.y"] + result["ramp.y"] + result["other.y"])
-    np.testing.assert_array_equal(result["fast.y"][1:], libcosim(place, ["fast.y"], 16)[:, 0])
+    np.testing.assert_array_equal(result["fast.y"][1:], libcosim(path, ["fast.y"], 16)[:, 0])
     np.testing.assert_array_equal(result["slow.u"][::2], result["ramp.y"][::2])
 
 
@@ -93,13 +93,13 @@ def test_a_sum_of_vectors(folder):
         + signal("v:out", "sum.plug", "Group"),
         functions('<VectorSum name="v" inputCount="2" dimension="2"/>'),
     )  # fmt: skip
-    place = folder(text, cross_OspModelDescription=groups(port="ya yb", plug="a b"))
-    result = fly(place, stop_time=2)
+    path = folder(text, cross_OspModelDescription=groups(port="ya yb", plug="a b"))
+    result = fly(path, stop_time=2)
     for element in "ab":
         expected = result[f"one.y{element}"] + result[f"two.y{element}"]
         np.testing.assert_array_equal(result[f"sum.{element}"], expected)
     names = ["sum.ya", "sum.yb"]
-    np.testing.assert_array_equal(np.column_stack([result[name][1:] for name in names]), libcosim(place, names, 16))
+    np.testing.assert_array_equal(np.column_stack([result[name][1:] for name in names]), libcosim(path, names, 16))
 
 
 def test_a_fault_acts_on_the_sum(folder):
@@ -124,12 +124,12 @@ def test_a_sum_of_integers_has_32_bits(folder, capsys, first, row):
         signal("a.count", "s:in[0]") + signal("b.count", "s:in[1]") + signal("s:out", "whole.n"),
         functions('<Sum name="s" inputCount="2"/>'),
     )
-    place = folder(text)
+    path = folder(text)
     if row is None:
-        result = fly(place, stop_time=1)
+        result = fly(path, stop_time=1)
         np.testing.assert_array_equal(result["whole.n"], 2 * (first + np.arange(9)))
     else:
-        assert main(["run", str(place), "--stop-time", "1"]) == 1
+        assert main(["run", str(path), "--stop-time", "1"]) == 1
         said = " ".join(capsys.readouterr().err.split())
         assert f"whole.n is {2.0**31}, beyond the 32 bits of an Integer, at t = {row * 0.125:g} s" in said
 

@@ -274,20 +274,20 @@ def test_sources_that_leave_the_folder(tiny, tmp_path, source):
 )
 def test_files_above_a_folder(tiny, tmp_path, capsys, folder, source):
     """Two levels at most, in a folder that the user names; said in a note; the campaign's folder has them, too."""
-    place = tmp_path / folder
-    place.mkdir(parents=True)
+    system_folder = tmp_path / folder
+    system_folder.mkdir(parents=True)
     (tmp_path / "ramp.fmu").write_bytes((tiny / "ramp.fmu").read_bytes())
     text = document(system(RAMP)).replace("resources/ramp.fmu", source)
-    (place / "SystemStructure.ssd").write_text(text)
+    (system_folder / "SystemStructure.ssd").write_text(text)
     expected = fly(pack(tmp_path / "plain.ssp", tiny, document(system(RAMP))))["ramp.y"]
-    np.testing.assert_array_equal(fly(place)["ramp.y"], expected)
-    assert main(["validate", str(place)]) == 0
+    np.testing.assert_array_equal(fly(system_folder)["ramp.y"], expected)
+    assert main(["validate", str(system_folder)]) == 0
     assert f"reads files of {tmp_path}, which lies above the system's folder" in " ".join(
         capsys.readouterr().out.split()
     )
     campaign = tmp_path / "c.toml"
-    campaign.write_text(CAMPAIGN.format(place.name))
-    assert main(["prepare", str(place), "--campaign", str(campaign), "--output", str(tmp_path / "out")]) == 0
+    campaign.write_text(CAMPAIGN.format(system_folder.name))
+    assert main(["prepare", str(system_folder), "--campaign", str(campaign), "--output", str(tmp_path / "out")]) == 0
     (tmp_path / "ramp.fmu").unlink()
     assert main(["shard", str(tmp_path / "out"), "0"]) == 0
     with pytest.raises(InputError, match=r"ramp \(line \d+\): .*ramp\.fmu lies outside the system's archive; put"):

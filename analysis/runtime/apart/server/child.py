@@ -55,6 +55,7 @@ class _Pilot:
             prepared,
             varied=selection.varied,
             wanted=selection.wanted,
+            more=selection.more,
             faults=selection.faults,
             excited=selection.excited,
             log=None if task.log is None else Log(task.log, self._write),

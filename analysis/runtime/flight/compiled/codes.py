@@ -6,6 +6,7 @@ communication step. The loop knows nothing of algorithms; their order is in the 
 
 # Every communication step.
 COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP, DRIVE, ADD = range(11)
+READ_REAL = SET_REAL  # a call that passes Reals; a GET_REAL looks whether they are finite
 PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN = range(11, 16)
 SET_TEXT, GET_TEXT, COPY_TEXT = range(16, 19)
 # Once, before a flight; behind all others, as those of Strings are behind those of numbers.

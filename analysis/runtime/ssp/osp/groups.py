@@ -20,15 +20,15 @@ def read_groups(archive: SystemArchive, source: str, element: str) -> dict[str, 
     The file is looked for where libcosim does: under the name of the FMU's model, beside the system's description,
     then beside the FMU; and under the FMU's own file name. Raises InputError.
     """
-    places = list(dict.fromkeys(_places(archive, source, element)))
-    place = next((place for place in places if archive.has(place)), places[0])
-    groups = parse_xml(archive.read(place, element), place).findall("{*}VariableGroups//*[@name]")
+    candidates = list(dict.fromkeys(_candidates(archive, source, element)))
+    file = next((file for file in candidates if archive.has(file)), candidates[0])
+    groups = parse_xml(archive.read(file, element), file).findall("{*}VariableGroups//*[@name]")
     return {
         group.get("name", ""): [variable.get("ref", "") for variable in group.iter("{*}Variable")] for group in groups
     }
 
 
-def _places(archive: SystemArchive, source: str, element: str) -> list[str]:
+def _candidates(archive: SystemArchive, source: str, element: str) -> list[str]:
     names = [PurePosixPath(source).stem]
     if archive.is_own_file(source):
         names.insert(0, _model_name(archive.read(source, element), source))

@@ -46,10 +46,10 @@ def groups(**variables):
 def write_osp(folder, tiny_folder, text, fmus="", **others):
     """A folder as libcosim takes it: FMUs beside the file, or in a folder ``fmus`` from there; and other XML files."""
     folder.mkdir(parents=True, exist_ok=True)
-    place = folder / fmus
-    place.mkdir(parents=True, exist_ok=True)
+    fmu_folder = folder / fmus
+    fmu_folder.mkdir(parents=True, exist_ok=True)
     for name in ("ramp", "gain", "delay", "cross", "whole"):
-        (place / f"{name}.fmu").write_bytes((tiny_folder / "native" / f"{name}.fmu").read_bytes())
+        (fmu_folder / f"{name}.fmu").write_bytes((tiny_folder / "native" / f"{name}.fmu").read_bytes())
     (folder / "OspSystemStructure.xml").write_text(text)
     for name, content in others.items():
         (folder / f"{name}.xml").write_text(content)
