@@ -1,4 +1,4 @@
-"""Text of others on its way to a terminal, where none of its characters is an order."""
+"""Text of others on its way to a terminal, where none of its characters is an order, or to a spreadsheet's columns."""
 
 from __future__ import annotations
 
@@ -29,3 +29,18 @@ def visible_line(text: str, longest: int) -> str:
 def _escape(match: re.Match[str]) -> str:
     code = ord(match[0])
     return f"\\x{code:02x}" if code < 0x20 else f"\\u{code:04x}"
+
+
+FORMULAS = ("=", "+", "-", "@")  # beginnings of what a spreadsheet computes
+QUOTE = "'"  # what follows it is text to a spreadsheet
+
+
+def quote_formula(name: str) -> str:
+    """The name with a quote mark before it if it would be a formula, or would be read as a quoted one."""
+    return f"{QUOTE}{name}" if name.lstrip(QUOTE).startswith(FORMULAS) else name
+
+
+def unquote_formula(text: str) -> str:
+    """The name that `quote_formula` was given; one that was never quoted is returned as it is."""
+    is_quoted = text.startswith(QUOTE) and text.lstrip(QUOTE).startswith(FORMULAS)
+    return text[1:] if is_quoted else text

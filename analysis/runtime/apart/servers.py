@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import os
-import pickle
 import socket
 import subprocess
 import sys
@@ -18,7 +17,7 @@ from typing import Any
 
 from ...common.process import at_end
 from .protocol.orders import Begin, End, Ended, Forget, Learn, Look
-from .protocol.requests import receive_request, send_request
+from .protocol.requests import pack, receive_request, send_request
 from .started import StartedChild
 from .system.restriction import Restriction
 
@@ -121,7 +120,7 @@ class ServerProcess:
         identity = id(subject.owner)
         if identity not in self._keys:
             key = self._keys[identity] = next(_numbers)
-            content = pickle.dumps(subject.content, pickle.HIGHEST_PROTOCOL)
+            content = pack(subject.content)
             send_request(self._control, Learn(key, content, subject.locked))
             weakref.finalize(subject.owner, self._forget, identity).atexit = False
         while self._forgotten:

@@ -19,6 +19,7 @@ from ...common.scratch import make_folder
 from .protocol.messages import receive_frame
 from .protocol.orders import OUT_OF_MEMORY, Ended, Single
 from .protocol.printed import BLOCK, Printed
+from .protocol.requests import pack
 
 LOADING = 60.0  # s that it has to load what a flight takes
 GRACE = 1.0  # s that it has to end after it has closed its channel
@@ -46,7 +47,7 @@ class StartedChild:
             channel: int | bytes = theirs.fileno()
             if sys.platform == "win32":
                 channel = theirs.share(self._process.pid)
-            order = Single(channel, list(files), task, pickle.dumps(content, pickle.HIGHEST_PROTOCOL), locked)
+            order = Single(channel, list(files), task, pack(content), locked)
             assert self._process.stdin is not None
             with suppress(OSError), self._process.stdin as standard_input:  # it may have ended
                 standard_input.write(pickle.dumps(order, pickle.HIGHEST_PROTOCOL))

@@ -18,8 +18,8 @@ import pyarrow.parquet
 
 from ...common.atomic import whole_file, write_atomically
 from ...common.errors import suggestion
-from ...common.formulas import quote_formula
 from ...common.percent import short_percent
+from ...common.visible import quote_formula
 from ..ssp.parameter_sets import ParameterValue
 from ..system.assignments import Settings
 from ..system.fault import Fault

@@ -8,10 +8,11 @@ from typing import Unpack
 
 import numpy as np
 
+from ...common.collection import no_collection
 from ..instances.instance import Instance, instantiate
 from ..ssp.parameter_sets import ParameterValue
 from ..system.fault import Fault
-from ..system.prepared import PreparedSystem, no_collection
+from ..system.prepared import PreparedSystem
 from .base_simulation import NOTHING, BaseSimulation, Choices
 from .compiled import arrays, codes, loop
 from .endings import TERMINATED, Outcome, end_request, in_words

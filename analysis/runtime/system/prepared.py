@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import chdir, contextmanager
+from collections.abc import Callable, Mapping
+from contextlib import chdir
 from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from pathlib import Path
 
 from ....fmus_src.export.available import fmu_file, fmu_flavours
 from ....fmus_src.paths import FLAVOURS, names_fmu
+from ...common.collection import no_collection
 from ...common.errors import InputError, suggestion
 from ...common.regular import names_file
 from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, open_system, parameters_asked, read_fmu, use_asked
@@ -245,15 +245,3 @@ def _assignments(
             elsewhere[parameters_asked(name)] = partial(bytes, data)
         assignments += read_parameter_file(data, label, network.notes if options.allow_unmatched else None)
     return assignments + [single_value(name, value, options.places.get(name)) for name, value in options.set.items()]
-
-
-@contextmanager
-def no_collection() -> Iterator[None]:
-    """What is made inside has no cycles, and the collector would walk over all of it again and again."""
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()

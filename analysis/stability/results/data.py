@@ -19,7 +19,7 @@ import numpy as np
 from scipy.io import savemat
 
 from ...common.atomic import write_atomically
-from ...common.formulas import quote_formula
+from ...common.visible import quote_formula
 from .document import document, joint_margin, loop_margins
 from .report import JointReport, LoopReport, Orders, StabilityReport
 from .responses import StateSpace

@@ -12,8 +12,22 @@ import struct
 from collections.abc import Sequence
 from typing import Any
 
+from ....common.collection import no_collection
+
 LENGTH = struct.Struct("<I")
 MOST_FILES = 2
+
+
+def pack(content: Any) -> bytes:
+    """What children work on, as a pickle; a large system has a million objects."""
+    with no_collection():
+        return pickle.dumps(content, pickle.HIGHEST_PROTOCOL)
+
+
+def unpack(packed: bytes) -> Any:
+    """What `pack` was given."""
+    with no_collection():
+        return pickle.loads(packed)
 
 
 def send_request(channel: socket.socket, request: Any, descriptors: Sequence[int] = ()) -> None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import gc
 import itertools
 import os
-import pickle
 import resource
 import selectors
 import shutil
@@ -27,7 +26,7 @@ from ....common.process import leave
 from ....common.scratch import make_folder
 from ...flight.compiled import loop
 from ..protocol.orders import NEAR_MEMORY_LIMIT, OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
-from ..protocol.requests import receive_request, send_request
+from ..protocol.requests import receive_request, send_request, unpack
 from ..system.restriction import Restriction, restrict
 from ..system.system_calls import (
     adopt_orphans,
@@ -80,7 +79,7 @@ class FlightServer:
 
     def _do(self, request: Learn | Forget | Begin | Look | End, descriptors: list[int]) -> None:
         if isinstance(request, Learn):
-            self._subjects[request.key] = pickle.loads(request.content)
+            self._subjects[request.key] = unpack(request.content)
             loop.load(locked=request.locked)
             gc.collect()
             gc.freeze()

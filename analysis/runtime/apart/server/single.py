@@ -10,6 +10,7 @@ from ....common.process import leave
 from ...flight.compiled import loop
 from ..protocol.messages import Done, send_answer
 from ..protocol.orders import Single
+from ..protocol.requests import unpack
 from . import child
 
 
@@ -24,5 +25,5 @@ def main() -> None:
         channel = socket.socket(fileno=order.channel)
     loop.load(locked=order.locked)
     send_answer(channel, Done())
-    child.work(order.task, pickle.loads(order.content), channel, order.files)
+    child.work(order.task, unpack(order.content), channel, order.files)
     leave(0)
