@@ -1,8 +1,9 @@
-"""How time and memory grow with the size of a system: ten FMUs in rings, ten connections into each component.
+"""How time and memory grow with the size of a system: rings with ten connections into each component.
 
     python -m benchmarks.large_systems [COMPONENTS ...]
 
-Each size has a process of its own, which reads, checks and orders the system, instantiates its FMUs and flies one step.
+Two tables: ten FMUs of ours, each size in a process that reads, checks and orders the system, instantiates its FMUs and
+flies one step; one foreign FMU, with the whole command `perilune run` and what a component adds to the smallest ring.
 """
 
 from __future__ import annotations
@@ -14,9 +15,10 @@ import tempfile
 import time
 from pathlib import Path
 
-from tests.support.large_systems import WIDTH, build_mixers, large_system
+from tests.support.large_systems import WIDTH, build_mixers, foreign_mixer, large_system
 
 SIZES = (1250, 2500, 5000, 10_000)
+FOREIGN_SIZES = (1000, 3000, 10_000)
 MEASURED = """
 import json, resource, sys, time
 
@@ -36,11 +38,12 @@ print(json.dumps([imported - begin, checked - imported, started - checked, memor
 """
 
 
-def main(sizes: list[int]) -> None:
+def main(sizes: list[int], foreign_sizes: list[int]) -> None:
     """Print a row for each number of components."""
-    with tempfile.TemporaryDirectory() as place:
-        folder = Path(place)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
         build_mixers(folder)
+        _print_foreign(folder, foreign_sizes)
         print("| components | connections | read and checked, s | instantiated, s | whole process, s | MB |")
         print("|---|---|---|---|---|---|")
         for count in sizes:
@@ -55,5 +58,23 @@ def main(sizes: list[int]) -> None:
             print(row, flush=True)
 
 
+def _print_foreign(folder: Path, sizes: list[int]) -> None:
+    fmus = foreign_mixer(folder / "native", folder / "foreign")
+    print("| components | `perilune run`, s | ms a component beyond the first row |")
+    print("|---|---|---|")
+    seconds: dict[int, float] = {}
+    for count in sizes:
+        system = large_system(folder / f"foreign_{count}", fmus, count)
+        command = [Path(sys.executable).with_name("perilune"), "run", str(system), "--step", "0.1"]
+        begin = time.perf_counter()
+        subprocess.run(command, capture_output=True, check=True)
+        seconds[count] = time.perf_counter() - begin
+        first = sizes[0]
+        each = 1e3 * (seconds[count] - seconds[first]) / (count - first) if count > first else 0.0
+        print(f"| {count} | {seconds[count]:.1f} | {f'{each:.2f}' if each else ''} |", flush=True)
+    print()
+
+
 if __name__ == "__main__":
-    main([int(text) for text in sys.argv[1:]] or list(SIZES))
+    given = [int(text) for text in sys.argv[1:]]
+    main(given or list(SIZES), given or list(FOREIGN_SIZES))

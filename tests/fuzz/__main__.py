@@ -30,6 +30,7 @@ def main() -> int:
     parser.add_argument("name", nargs="?", choices=RUNS)
     parser.add_argument("--runs", type=int, metavar="N", help="inputs of each target")
     parser.add_argument("--unguided", action="store_true", help="one target of Python with random inputs")
+    parser.add_argument("--first", type=int, default=0, metavar="N", help="number of the first random input")
     given = parser.parse_args()
     if given.unguided and given.name in (None, "fmi"):
         parser.error("--unguided: needs the name of a target of Python")
@@ -38,7 +39,10 @@ def main() -> int:
     runs = given.runs or RUNS[given.name]
     if given.name == "fmi":
         return _fuzz_fmus(runs)
-    (unguided if given.unguided else guided).fuzz(given.name, FOLDER / given.name, runs)
+    if given.unguided:
+        unguided.fuzz(given.name, FOLDER / given.name, runs, given.first)
+    else:
+        guided.fuzz(given.name, FOLDER / given.name, runs)
     return 0
 
 

@@ -18,13 +18,13 @@ MOST_MEMORY = 2500  # MB
 EVERY = 10_000  # inputs from one line of the log to the next
 
 
-def fuzz(name: str, folder: Path, runs: int) -> None:
-    """So many inputs of a target of `targets`. Raises what the target raises, TimeoutError, and MemoryError."""
+def fuzz(name: str, folder: Path, runs: int, first: int = 0) -> None:
+    """So many inputs of a target of `targets`, from number ``first`` on. Raises what the target raises, TimeoutError, and MemoryError."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     one_input = TARGETS[name](folder).hypothesis.fuzz_one_input  # type: ignore[attr-defined]
     read = 0
-    for count, content in enumerate(_contents(runs), 1):
+    for count, content in enumerate(_contents(range(first, first + runs)), 1):
         begin = time.monotonic()
         try:
             read += one_input(content) is not None
@@ -38,8 +38,8 @@ def fuzz(name: str, folder: Path, runs: int) -> None:
             _report(count, read)
 
 
-def _contents(runs: int) -> Iterator[bytes]:
-    for seed in range(runs):
+def _contents(seeds: range) -> Iterator[bytes]:
+    for seed in seeds:
         yield random.Random(seed).randbytes(LONGEST)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 from perilune.fmus_src.export.own_blocks import build_own_blocks
+from tests.support.builders import retouched
 
 KINDS = 10
 WIDTH = 10  # connections into each component
@@ -39,8 +40,18 @@ def build_mixers(folder: Path) -> list[Path]:
     return build_own_blocks(file, folder, ["native"], ["linux64"])
 
 
+def foreign_mixer(fmus: Path, folder: Path) -> Path:
+    """A folder with the first of the FMUs, changed so that Perilune has not built it."""
+    folder.mkdir()
+    return retouched(fmus / "mixer0.fmu", folder / "mixer0.fmu", lambda text: f"{text}<!-- foreign -->").parent
+
+
 def large_system(path: Path, fmus: Path, count: int) -> Path:
-    """Write a folder with ``count`` components, each fed with WIDTH connections by the one before it."""
+    """Write a folder with ``count`` components of the FMUs in turn, each fed with WIDTH connections by the one before it.
+
+    ``fmus`` has some of the FMUs of `build_mixers`, the first ones.
+    """
+    kinds = len(list(fmus.glob("*.fmu")))
     path.mkdir(parents=True)
     shutil.copytree(fmus, path / "resources")
     numbers = range(1, WIDTH + 1)
@@ -51,7 +62,7 @@ def large_system(path: Path, fmus: Path, count: int) -> Path:
     )
     components = (
         f'<ssd:Component name="c{n}" type="application/x-fmu-sharedlibrary" implementation="CoSimulation" '
-        f"source={quoteattr(f'resources/mixer{n % KINDS}.fmu')}><ssd:Connectors>{connectors}</ssd:Connectors>"
+        f"source={quoteattr(f'resources/mixer{n % kinds}.fmu')}><ssd:Connectors>{connectors}</ssd:Connectors>"
         "</ssd:Component>\n"
         for n in range(count)
     )
