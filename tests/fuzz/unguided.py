@@ -19,7 +19,10 @@ EVERY = 10_000  # inputs from one line of the log to the next
 
 
 def fuzz(name: str, folder: Path, runs: int, first: int = 0) -> None:
-    """So many inputs of a target of `targets`, from number ``first`` on. Raises what the target raises, TimeoutError, and MemoryError."""
+    """So many inputs of a target of `targets`, from number ``first`` on.
+
+    Raises what the target raises, TimeoutError, and MemoryError.
+    """
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     one_input = TARGETS[name](folder).hypothesis.fuzz_one_input  # type: ignore[attr-defined]

@@ -47,7 +47,7 @@ def foreign_mixer(fmus: Path, folder: Path) -> Path:
 
 
 def large_system(path: Path, fmus: Path, count: int) -> Path:
-    """Write a folder with ``count`` components of the FMUs in turn, each fed with WIDTH connections by the one before it.
+    """Write a folder of ``count`` components, the FMUs in turn, each fed with WIDTH connections by the one before it.
 
     ``fmus`` has some of the FMUs of `build_mixers`, the first ones.
     """

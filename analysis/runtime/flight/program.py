@@ -273,14 +273,15 @@ class _Builder:
 
     def _terms(self, link: Link) -> list[Term]:
         """What `InstructionList` needs to know of a connection, and of those that are added to it."""
-        terms = [link, *link.added]
-        starts = [origin(self.network, term).component for term in terms]
-        origins = tuple(-1 if start is None else self.numbers[start] for start in starts)
-        target = self.slots[link.target.name]
-        codes_of = [_connection_code(link), *(codes.ADD for _ in link.added)]
-        return [
-            (code, origins, self.slots[term.source.name], target) for code, term in zip(codes_of, terms, strict=True)
-        ]
+        origins = tuple([self._number(term) for term in (link, *link.added)])
+        slots, target = self.slots, self.slots[link.target.name]
+        terms = [(_connection_code(link), origins, slots[link.source.name], target)]
+        return terms + [(codes.ADD, origins, slots[term.source.name], target) for term in link.added]
+
+    def _number(self, link: Link) -> int:
+        """The number of the component that a value comes from, -1 of a system's input."""
+        component = origin(self.network, link).component
+        return -1 if component is None else self.numbers[component]
 
     def _fault_slot(self, injection: Injection) -> int:
         connector_type(self.network, injection.connector, ("connector", injection.connector))  # refuses all others
