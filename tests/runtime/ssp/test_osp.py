@@ -104,6 +104,10 @@ def test_groups_of_variables(folder):
         (CHAIN.replace(">0.125<", ">ten<"), r"BaseStepSize is not a positive number of seconds"),
         (CHAIN.replace("fixedStep", "ecco"), r"ecco is not flown here"),
         (
+            CHAIN.replace("<Connections>", "<VariableConnections/><Connections>"),
+            r"VariableConnections \(line \d+\): is not part of an OspSystemStructure 0\.1",
+        ),
+        (
             CHAIN.replace("<Simulators>", '<Functions><Product name="s"/></Functions><Simulators>'),
             "use an FMU that does it",
         ),

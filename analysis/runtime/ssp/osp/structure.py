@@ -21,6 +21,7 @@ from .functions import OUT, Function, FunctionError, Point, read_function
 from .groups import read_groups
 
 NAMESPACE = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
+PARTS = ("StartTime", "EndTime", "BaseStepSize", "Algorithm", "Simulators", "Functions", "Connections")
 VARIABLES, SIGNALS = ("Variable", "VariableGroup"), ("Signal", "SignalGroup")
 
 
@@ -44,6 +45,9 @@ class _Reader:
         if root.tag != f"{{{NAMESPACE}}}OspSystemStructure":
             problem = f"{root.tag} is not an OspSystemStructure of {NAMESPACE}"
             raise InputError(self.file, f"line {root.sourceline}", problem, "give an OspSystemStructure.xml")
+        for element in root.iterchildren(etree.Element):
+            if tag(element) not in PARTS:  # of drafts before 0.1, or of later versions
+                raise self.refuse(element, "is not part of an OspSystemStructure 0.1", f"use {', '.join(PARTS)}")
         algorithm = root.find("{*}Algorithm")
         if algorithm is not None and (algorithm.text or "").strip() != "fixedStep":
             raise self.refuse(algorithm, f"{(algorithm.text or '').strip()} is not flown here", "write fixedStep")
