@@ -21,7 +21,7 @@ from .functions import OUT, Function, FunctionError, Point, read_function
 from .groups import read_groups
 
 NAMESPACE = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
-PARTS = ("StartTime", "EndTime", "BaseStepSize", "Algorithm", "Simulators", "Functions", "Connections")
+ELEMENTS = ("StartTime", "EndTime", "BaseStepSize", "Algorithm", "Simulators", "Functions", "Connections")
 VARIABLES, SIGNALS = ("Variable", "VariableGroup"), ("Signal", "SignalGroup")
 
 
@@ -46,8 +46,8 @@ class _Reader:
             problem = f"{root.tag} is not an OspSystemStructure of {NAMESPACE}"
             raise InputError(self.file, f"line {root.sourceline}", problem, "give an OspSystemStructure.xml")
         for element in root.iterchildren(etree.Element):
-            if tag(element) not in PARTS:  # of drafts before 0.1, or of later versions
-                raise self.refuse(element, "is not part of an OspSystemStructure 0.1", f"use {', '.join(PARTS)}")
+            if tag(element) not in ELEMENTS:  # of drafts before 0.1, or of later versions
+                raise self.refuse(element, "is not part of an OspSystemStructure 0.1", f"use {', '.join(ELEMENTS)}")
         algorithm = root.find("{*}Algorithm")
         if algorithm is not None and (algorithm.text or "").strip() != "fixedStep":
             raise self.refuse(algorithm, f"{(algorithm.text or '').strip()} is not flown here", "write fixedStep")
