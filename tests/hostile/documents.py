@@ -29,9 +29,15 @@ def numbered(name: str) -> str:
     return " ".join(f'{name.format(n=number)}="a{number}"' for number in range(100_000))
 
 
-def texts(text: str, reference: str) -> dict[str, tuple[Content, tuple[str, ...]]]:
-    """Hostile forms of a good document; ``reference`` is an attribute's text in it that they replace."""
-    doctype, malformed, invalid = ("DOCTYPE", "remove"), ("line", "not well-formed XML"), ("line", "not valid SSP")
+INVALID = ("line", "not valid SSP")
+
+
+def texts(text: str, reference: str, invalid: tuple[str, ...] = INVALID) -> dict[str, tuple[Content, tuple[str, ...]]]:
+    """Hostile forms of a good document; ``reference`` is an attribute's text in it that they replace.
+
+    ``invalid`` is said of elements that it should not have.
+    """
+    doctype, malformed = ("DOCTYPE", "remove"), ("line", "not well-formed XML")
     return {
         "a billion laughs": (with_doctype(text, f'<!ENTITY a0 "ha">{ENTITIES}'), doctype),
         "quadratic entities": (lambda: with_doctype(text, f'<!ENTITY a "{"a" * 100_000}">'), doctype),

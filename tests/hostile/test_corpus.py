@@ -15,14 +15,29 @@ import pytest
 
 from perilune.analysis.common.visible import CONTROLS
 from perilune.fmus_src.paths import ROOT
-from tests.hostile import archives, campaigns, documents, expressions, fmus, folders, kinds, systems, tables, values
+from tests.hostile import (
+    archives,
+    campaigns,
+    documents,
+    expressions,
+    fmus,
+    folders,
+    kinds,
+    more_documents,
+    systems,
+    tables,
+    values,
+)
 from tests.hostile.fmus import SPOOF
 from tests.hostile.server import DEADLINE, Server
 from tests.support.lengths import either
 from tests.support.refused import ONE_LINE
 
 pytestmark = pytest.mark.flies
-SUBJECTS = (archives, campaigns, documents, expressions, fmus, folders, kinds, systems, tables, values)
+SUBJECTS = (
+    *(archives, campaigns, documents, expressions, fmus, folders, kinds, more_documents, systems),
+    *(tables, values),
+)
 CASES = {name: case for subject in SUBJECTS for name, case in subject.CASES.items()}
 TRIED = list(CASES)[:: either(1, 5)]  # all of them under `make long`
 MEMORY = 400_000_000  # bytes
