@@ -14,6 +14,7 @@ from .errors import InputError
 
 END = b"PK\5\6"  # of the directory's last record
 REMEDY = "build or copy the file again"
+BACKSLASH = "repack it with / between the names of folders"
 # what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
 UNREADABLE = (
     zipfile.BadZipFile,
@@ -44,7 +45,9 @@ def open_zip(packed: bytes, label: str) -> zipfile.ZipFile:
     checksums: dict[str, int] = {}
     for entry in entries:
         name, segments = entry.filename, entry.filename.split("/")
-        if name.startswith("/") or ".." in segments or "\\" in name or ":" in segments[0]:
+        if "\\" in name:
+            raise InputError(label, name, "a backslash in a file name, which zip archives do not have", BACKSLASH)
+        if name.startswith("/") or ".." in segments or ":" in segments[0]:
             raise InputError(label, name, "a file name that leaves the archive's folder", "repack without it")
         if checksums.setdefault(name, entry.CRC) != entry.CRC:
             raise InputError(label, name, "two files of this name, with different contents", "repack with one of them")

@@ -25,6 +25,7 @@ from ..runtime.flight.interruptible import StuckError, fly
 from ..runtime.flight.selection import find_variables
 from ..runtime.instances.instance import Log
 from ..runtime.system.fault import Fault, faults_of
+from ..runtime.system.inputs import missing_outputs
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
 from ..runtime.system.series import read_series
@@ -87,7 +88,8 @@ class Result(results.Result):
     def lines(self) -> list[str]:
         """What `perilune run` prints."""
         faults = [faults_line(self.faults)] if self.faults else []
-        lines = [*flight_lines(self.prepared, self.figures, self), *note_lines(self.prepared), *faults]
+        notes = [*note_lines(self.prepared), *([] if self.signals else missing_outputs(self.prepared.network))]
+        lines = [*flight_lines(self.prepared, self.figures, self), *notes, *faults]
         return [on_one_line(line) for line in lines]
 
     def problems(self) -> list[str]:

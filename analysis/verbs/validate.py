@@ -24,6 +24,7 @@ from ..runtime.apart.resets import find_verdict
 from ..runtime.ssp.archive import DEFAULT_VARIANT, open_system
 from ..runtime.ssp.parameter_sets import read_parameter_file
 from ..runtime.system.fmu import Fmu, load_fmu
+from ..runtime.system.inputs import missing_outputs
 from ..runtime.system.options import SystemOptions as System
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import prepare_system
@@ -111,7 +112,8 @@ def _check(path: str, options: System, all_variants: bool) -> FileCheck:
                 problems += [f"{violation}; fix the FMU's modelDescription.xml" for violation in violations]
             else:
                 notes += violations
-            notes += prepare_system(path, options, {path: fmu}).remarks
+            prepared = prepare_system(path, options, {path: fmu})
+            notes += [*prepared.remarks, *missing_outputs(prepared.network)]
             notes += _reset_notes(fmu, path, options)
         elif path.endswith(".ssv"):
             read_parameter_file(_read(path), path)
@@ -148,7 +150,7 @@ def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
         read_figures(prepared)
         bound = find_bound(prepared)
         notes += [f"bound: {bound.reason}"] if isinstance(bound, MissingBound) else []
-        notes += [*prepared.retired, *prepared.network.notes]
+        notes += [*prepared.retired, *prepared.network.notes, *missing_outputs(prepared.network)]
         notes += [f"{connection}: read one step late" for connection in prepared.schedule.late]
         for component, fmu in prepared.network.fmus.items():
             notes += _reset_notes(fmu, component, options)

@@ -55,6 +55,13 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
                 open_inputs.append(link.target)
 
 
+def missing_outputs(network: Network) -> list[str]:
+    """A note on a system of whose FMUs none has an output, so that nothing is recorded unless it is named."""
+    if any(variable.causality == "output" for fmu in network.fmus.values() for variable in fmu.variables.values()):
+        return []
+    return [f"{network.file}: no FMU has an output: name what `run` is to record with `record`"]
+
+
 def check_signals(network: Network, settings: Settings) -> None:
     """Refuse a signal that is read and never driven, and note what is declared in vain. Raises InputError."""
     for link in network.links():
@@ -65,9 +72,6 @@ def check_signals(network: Network, settings: Settings) -> None:
     for node in network.nodes.values():
         if node.component is None and node.kind == "output" and node.name not in network.driver:
             network.notes.append(f"{node.name}: output without a source, not recorded")
-    has_outputs = any(each.causality == "output" for fmu in network.fmus.values() for each in fmu.variables.values())
-    if not has_outputs:
-        network.notes.append(f"{network.file}: no FMU has an output: name what `run` is to record with `record`")
     for component, fmu in network.fmus.items():
         for name, variable in fmu.variables.items():
             full = f"{component}.{name}"

@@ -94,7 +94,7 @@ BROKEN_FMUS = {
     "slip": (lambda tiny: zipped(fmu_files(tiny) | {"../evil": b"x"}), ["../evil", "leaves the archive's folder"]),
     "deep slip": (lambda tiny: zipped(fmu_files(tiny) | {"a/../../evil": b"x"}), ["leaves the archive's folder"]),
     "absolute": (lambda tiny: zipped(fmu_files(tiny) | {"/tmp/evil": b"x"}), ["leaves the archive's folder"]),
-    "backslash": (lambda tiny: zipped(fmu_files(tiny) | {"..\\evil": b"x"}), ["leaves the archive's folder"]),
+    "backslash": (lambda tiny: zipped(fmu_files(tiny) | {"..\\evil": b"x"}), ["a backslash in a file name"]),
     "drive": (lambda tiny: zipped(fmu_files(tiny) | {"C:evil": b"x"}), ["leaves the archive's folder"]),
     "doctype": (
         lambda tiny: described(tiny, lambda text: text.replace("<fmiModel", f"{DOCTYPE}<fmiModel")),
