@@ -11,6 +11,7 @@ from pathlib import Path
 
 import control
 import numpy as np
+from scipy.optimize import brentq
 
 from tests.support.builders import component, connection, document, inline, pack, system
 from tests.support.loops.sampled_loops import delay, held
@@ -204,3 +205,12 @@ def relay_loop(relay: Path) -> ExactSystem:
     plant = held(control.tf(1.0, [1.0, 0.0, 0.0]), step)
     loop = compensator * plant * delay(samples, step)
     return ExactSystem("relay_loop", ring(parts, step, 1800.0, stability), loop, step)
+
+
+def end_of_stability(low: float = 1.2, high: float = 2.0) -> float:
+    """The derivative gain (s) from which on the late double integrator is unstable, by python-control."""
+
+    def largest(gain: float) -> float:
+        return np.max(abs(late_double_integrator(derivative=gain).closed)) - 1.0
+
+    return float(brentq(largest, low, high, rtol=1e-9))
