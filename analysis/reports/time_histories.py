@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from ..campaigns.verdicts.order_statistics import quantiles
 from ..runtime.flight.results import Result
-from ..runtime.system.names import elements
+from ..runtime.ssp.names import elements
 from .common.panels import Panel, panel, swatch
 from .common.quantities import display_factor, label_with_unit, number
 from .common.signals import SignalGroup, distinct, signal_groups, states_and_commands

@@ -16,7 +16,7 @@ import pyarrow.compute
 from ...common.bounds import INPUT_BYTES
 from ...common.errors import InputError
 from ...common.regular import read_regular
-from ...runtime.system.names import split_name
+from ...runtime.ssp.names import split_name
 from ..fly.manifest import FILE as MANIFEST
 from ..fly.manifest import WRITE
 from ..fly.metadata import Provenance, batch_digest

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...common.errors import InputError, suggestion
+from ...runtime.ssp.names import split_name
 from ...runtime.system.checks import check_fault
-from ...runtime.system.names import split_name
 from ...runtime.system.prepared import PreparedSystem
 from ..draws.given import ALL, stream_column
 from .faults import check_drawn

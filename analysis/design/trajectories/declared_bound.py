@@ -12,7 +12,7 @@ from lxml import etree
 
 from ...common.errors import InputError
 from ...runtime.ssp.annotations import AnnotationReader
-from ...runtime.system.names import split_name
+from ...runtime.ssp.names import split_name
 from ...runtime.system.prepared import PreparedSystem, prepare_system
 from .point_mass import PointMassProblem, landing_problem, transfer_problem
 from .vehicle import Landing, Transfer, Vehicle

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...runtime.flight.results import Result
-from ...runtime.system.names import split_name
+from ...runtime.ssp.names import split_name
 
 STATES = (
     "position", "relative_position", "altitude", "height", "central_angle", "longitude", "latitude", "velocity",

@@ -11,7 +11,7 @@ from ...common.errors import suggestion
 from ...runtime.flight.program import layout_of
 from ...runtime.ssp.annotations import AnnotationReader
 from ...runtime.ssp.conversions import Unit
-from ...runtime.system.names import elements, split_name
+from ...runtime.ssp.names import elements, split_name
 from ...runtime.system.prepared import PreparedSystem
 from .declared import Rows, Signal
 

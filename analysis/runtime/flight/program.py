@@ -13,12 +13,12 @@ from fmpy.model_description import ScalarVariable
 from ..instances.instance import Instance
 from ..instances.library import FUNCTION_NAMES
 from ..ssp.conversions import IDENTITY
+from ..ssp.names import split_name
 from ..system.assignments import Settings, numbers
 from ..system.checks import connector_type
 from ..system.fault import Fault
 from ..system.fmu import Fmu
 from ..system.inputs import Drive
-from ..system.names import split_name
 from ..system.network import Link, Network, Node
 from ..system.prepared import PreparedSystem
 from ..system.schedule import origin

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from ...common.errors import InputError, suggestion
+from ..ssp.names import elements
 from ..ssp.parameter_sets import parse_value
 from ..system.assignments import Settings
 from ..system.checks import check_fault
 from ..system.fault import Fault
-from ..system.names import elements
 from ..system.network import Network
 from ..system.prepared import PreparedSystem
 from .parameters import Key

@@ -1,1 +1,1 @@
-"""What is written: archives and SSP documents, read into plain values; no FMU is opened here."""
+"""What is written: archives and SSP documents, read into plain values, and names in them; no FMU is opened here."""

@@ -10,8 +10,8 @@ from ...common.errors import InputError, suggestion
 from ..ssp.archive import SystemArchive
 from ..ssp.conversions import VALUE_TYPES, Transformation
 from ..ssp.description import Binding, Component, System
+from ..ssp.names import split_name
 from ..ssp.parameter_sets import Assignment, Notes, ParameterValue, SetValue, parse_value, read_binding
-from .names import split_name
 from .network import Link, Network, Node
 from .options import SystemOptions
 

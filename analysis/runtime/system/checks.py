@@ -9,9 +9,9 @@ from fmpy import read_model_description
 from ....fmus_src.export.available import fmu_flavours
 from ...common.errors import InputError, suggestion
 from ..ssp.description import Component
+from ..ssp.names import split_name
 from .assignments import Settings
 from .fault import Fault, number_text
-from .names import split_name
 from .network import Network
 
 MOST = 6  # FMUs that are named

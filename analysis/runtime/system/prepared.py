@@ -21,9 +21,10 @@ from .alone import describe_alone
 from .assignments import Settings, collect_settings, single_value
 from .checks import check_samples, check_shared, unfit
 from .feedthrough import find_feedthrough
+from .flattening import build_network
 from .fmu import Fmu, load_fmu
 from .inputs import Drive, check_signals, drive_inputs, find_driven, settle_open_inputs
-from .network import Network, build_network
+from .network import Network
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from .schedule import Schedule, make_schedule
 from .series import InputSeries

@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.runtime.system.names import split_name
+from perilune.analysis.runtime.ssp.names import split_name
 
 NAMES = st.text("ab.", max_size=8)
 

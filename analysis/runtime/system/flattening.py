@@ -1,0 +1,244 @@
+"""A description flattened, its connectors and connections checked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from ...common.errors import suggestion
+from ..ssp.conversions import IDENTITY, Unit, check_type
+from ..ssp.description import (
+    Component,
+    Connection,
+    Connector,
+    Description,
+    DictionaryReference,
+    Element,
+    Point,
+    System,
+)
+from .fmu import Fmu
+from .network import Link, Network, Node
+
+SOURCES = ("output", "calculatedParameter")
+SINKS = ("input", "parameter")
+SUMMED = ("Real", "Integer")
+WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"))  # types of source and target that fit though they differ
+
+
+def build_network(description: Description, load: Callable[[str, Component], Fmu]) -> Network:
+    """Flatten a description and check every connector and connection.
+
+    ``load(name, component)`` gives the FMU of a component by its flat name. Raises InputError.
+    """
+    network = Network(description)
+    _walk(network, description.system, "")
+    for name, component in network.components():
+        if name in network.fmus:
+            raise network.refuse(f"{name} (line {component.line})", "two components have this name", "rename one")
+        network.fmus[name] = load(name, component)
+        for connector in component.connectors.values():
+            _add(network, _component_node(network, name, connector))
+    for path, system in network.systems.items():
+        for connection in system.connections:
+            _connect(network, path, system, connection)
+    _settle_types(network)
+    for link in network.links():
+        _check_link(network, link)
+    return network
+
+
+def _walk(network: Network, system: System, path: str) -> None:
+    network.systems[path] = system
+    for connector in system.connectors.values():
+        _add(network, _plain_node(network, path + connector.name, connector))
+    for dictionary, signals in system.dictionaries.items():
+        for signal in signals.values():
+            _add(network, _plain_node(network, f"{path}{dictionary}.{signal.name}", signal))
+    for element in system.elements.values():
+        if isinstance(element, System):
+            _walk(network, element, f"{path}{element.name}.")
+
+
+def _add(network: Network, node: Node) -> None:
+    if node.name in network.nodes:
+        raise network.refuse(node.where, "two connectors have this name", "rename one")
+    network.nodes[node.name] = node
+
+
+def _unit(network: Network, name: str, fmu: Fmu | None, connector: Connector) -> Unit | None:
+    """The unit that a connector, by its flat name, declares: one of the SSD, or of the FMU behind it."""
+    unit = connector.unit
+    if unit is None:
+        return None
+    known = network.description.units.get(unit) or (fmu.units.get(unit) if fmu is not None else None)
+    if known is None:
+        raise network.refuse(connector.at(name), f"unit {unit} is not defined", "define it under Units of the SSD")
+    return known
+
+
+def _plain_node(network: Network, name: str, connector: Connector) -> Node:
+    unit = _unit(network, name, None, connector)
+    items = network.description.enumerations.get(connector.enumeration or "", {})
+    return Node(name, connector.kind, None, connector.name, connector.type_name, unit, connector.line, items)
+
+
+def _component_node(network: Network, component: str, connector: Connector) -> Node:
+    """A component's connector, checked against the variable of its FMU."""
+    fmu = network.fmus[component]
+    name = f"{component}.{connector.name}"
+    variable = fmu.variables.get(connector.name)
+    if variable is None:
+        remedy = f"correct the connector or use another FMU; {suggestion(connector.name, fmu.variables)}"
+        raise network.refuse(connector.at(name), f"{fmu.label} has no variable of this name", remedy)
+    kind = connector.kind or variable.causality
+    if variable.causality != kind:
+        raise network.refuse(
+            connector.at(name),
+            f"is {variable.causality} in {fmu.label}, {kind} here" + (f" ({fmu.flaws[0]})" if fmu.flaws else ""),
+            "correct the connector's kind or use another FMU",
+        )
+    if connector.type_name not in (None, variable.type):
+        raise network.refuse(
+            connector.at(name),
+            f"is {variable.type} in {fmu.label}, {connector.type_name} here",
+            "correct the connector's type or use another FMU",
+        )
+    own = fmu.units.get(fmu.unit_of(variable) or "")
+    declared = _unit(network, name, fmu, connector)
+    if own and declared and not own.is_same(declared):
+        raise network.refuse(
+            connector.at(name),
+            f"unit is {own.differs_from(declared)} in {fmu.label}, {declared.differs_from(own)} here",
+            "correct the connector's unit or use another FMU",
+        )
+    items = {}
+    if variable.type == "Enumeration" and variable.declaredType is not None:
+        items = {item.name: int(item.value) for item in variable.declaredType.items or ()}
+    return Node(name, kind, component, connector.name, variable.type, declared or own, connector.line, items)
+
+
+def _end(network: Network, path: str, system: System, point: Point, connection: Connection) -> Node:
+    """The node that one end of a connection names."""
+    element_name, connector_name = point
+    owner: Element = system
+    prefix = path
+    if element_name is not None:
+        if element_name not in system.elements:
+            raise network.refuse(
+                connection.where, f"no element {element_name}", suggestion(element_name, system.elements)
+            )
+        owner = system.elements[element_name]
+        prefix = f"{path}{element_name}."
+    if connector_name not in owner.connectors:
+        raise network.refuse(
+            connection.where,
+            f"{owner.name} declares no connector {connector_name}",
+            suggestion(connector_name, owner.connectors),
+        )
+    if isinstance(owner, DictionaryReference):
+        return _signal(network, path, owner, connector_name, connection.where)
+    return network.nodes[prefix + connector_name]
+
+
+def _signal(network: Network, path: str, reference: DictionaryReference, signal: str, where: str) -> Node:
+    """The node of a dictionary's signal; the dictionary is the nearest of its name above the reference."""
+    level = path
+    while True:
+        system = network.systems[level]
+        if reference.dictionary in system.dictionaries:
+            if signal not in system.dictionaries[reference.dictionary]:
+                raise network.refuse(
+                    where,
+                    f"dictionary {reference.dictionary} has no signal {signal}",
+                    suggestion(signal, system.dictionaries[reference.dictionary]),
+                )
+            return network.nodes[f"{level}{reference.dictionary}.{signal}"]
+        if not level:
+            raise network.refuse(where, f"no signal dictionary {reference.dictionary}", "declare it")
+        level = level[: level.rstrip(".").rfind(".") + 1]
+
+
+def _connect(network: Network, path: str, system: System, connection: Connection) -> None:
+    link = _link(network, path, system, connection)
+    if link.target.name in network.driver:
+        first = network.driver[link.target.name]
+        raise network.refuse(
+            connection.where,
+            f"{link.target.name} is driven twice, first by {first.source.name} (line {first.line})",
+            "remove one of the two connections",
+        )
+    link.added += [_link(network, path, system, replace(connection, start=start)) for start in connection.added]
+    end = _end(network, path, system, connection.end, connection)
+    backwards = next((term for term in (link, *link.added) if term.target is not end), None)
+    if link.added and backwards is not None:
+        problem = f"{backwards.target.name} is {backwards.target.kind}: it gives nothing to add"
+        raise network.refuse(connection.where, problem, "add outputs, and connect their sum with an input")
+    network.driver[link.target.name] = link
+
+
+def _link(network: Network, path: str, system: System, connection: Connection) -> Link:
+    """The link from the start of a connection, or from its end, if that is where values come from."""
+    start = _end(network, path, system, connection.start, connection)
+    end = _end(network, path, system, connection.end, connection)
+    start_is_own, end_is_own = (point[0] is None for point in (connection.start, connection.end))
+    if not _leads(start, start_is_own, end, end_is_own):
+        if not _leads(end, end_is_own, start, start_is_own):
+            problem = f"{start.name} is {start.kind} and {end.name} is {end.kind}: neither gives what the other takes"
+            raise network.refuse(connection.where, problem, "connect an output with an input")
+        start, end = end, start  # the standard gives the ends of a connection no direction
+    if "calculatedParameter" in (start.kind, end.kind):
+        raise network.refuse(
+            connection.where,
+            "calculated parameters are not passed on yet",
+            "remove the connection and give the value in a parameter set",
+        )
+    if "parameter" in (start.kind, end.kind) and start.kind != end.kind:
+        raise network.refuse(
+            connection.where,
+            f"connects {start.kind} {start.name} with {end.kind} {end.name}",
+            "connect parameters with parameters, and signals with signals",
+        )
+    transformation = connection.transformation
+    if not connection.suppress_unit_conversion and start.unit and end.unit:
+        if not start.unit.fits(end.unit):
+            raise network.refuse(
+                connection.where,
+                f"units do not fit: {start.unit.name} and {end.unit.name}",
+                "correct the unit of one end",
+            )
+        transformation = transformation.after_units(start.unit.conversion_to(end.unit))
+    return Link(start, end, transformation, connection.line)
+
+
+def _leads(start: Node, start_is_own: bool, end: Node, end_is_own: bool) -> bool:
+    """Whether values can go from one node to another.
+
+    Seen from inside a system its own inputs are sources and its outputs are sinks.
+    """
+    starts = SINKS if start_is_own else SOURCES
+    ends = SOURCES if end_is_own else SINKS
+    return start.kind in (*starts, "inout") and end.kind in (*ends, "inout")
+
+
+def _settle_types(network: Network) -> None:
+    """System connectors without a declared type take that of what drives or reads them."""
+    changed = True
+    while changed:
+        changed = False
+        for link in network.links():
+            for here, there in ((link.source, link.target), (link.target, link.source)):
+                if here.type_name is None and there.type_name is not None:
+                    here.type_name, here.enumeration, changed = there.type_name, there.enumeration, True
+
+
+def _check_link(network: Network, link: Link) -> None:
+    source, target = link.source, link.target
+    if source.type_name != target.type_name and (source.type_name, target.type_name) not in WIDENED:
+        raise network.refuse(
+            link.where, f"types do not fit: {source.type_name} and {target.type_name}", "connect variables of one type"
+        )
+    if link.added and target.type_name not in SUMMED:
+        raise network.refuse(link.where, f"a sum of values of type {target.type_name}", "add Reals or Integers")
+    if link.transformation != IDENTITY:
+        check_type(link.transformation, target.type_name or "", network.file, link.where)
