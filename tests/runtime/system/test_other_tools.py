@@ -4,7 +4,6 @@ Truth: the same system in our way of writing, sample by sample; pencil and paper
 """
 
 import re
-import zipfile
 
 import numpy as np
 import pytest
@@ -25,27 +24,12 @@ from tests.support.builders import (
     parameter_set,
     retouched,
     system,
-    write_zip,
 )
 
 RAMP = component("ramp", "ramp", "output y Real m; output count Integer")
 GAIN = component("gain", "gain", "input u Real m; output y Real m")
 WIRED = connection("ramp.y", "gain.u")
 ROOT = "output out Real m"
-CAMPAIGN = """
-system = "{}"
-trials = 2
-seed = 1
-[draw."ramp.slope"]
-distribution = "uniform"
-low = 1.0
-high = 2.0
-[metric.end]
-expression = "ramp.y"
-reduction = "final"
-[success]
-expression = "end > 0"
-"""
 
 
 @pytest.fixture
@@ -92,29 +76,6 @@ def test_an_empty_element_is_the_system_itself(tiny, tmp_path, plain):
     wires = WIRED + connection("gain.y", "out").replace('endConnector="out"', 'endElement="" endConnector="out"')
     assert 'endElement=""' in wires
     same(fly(pack(tmp_path / "s.ssp", tiny, document(system(RAMP, GAIN, connections=wires, declared=ROOT)))), plain)
-
-
-def test_fmus_beside_the_description(tiny, tmp_path, plain):
-    folder = tmp_path / "beside"
-    folder.mkdir()
-    for name in ("ramp", "gain"):
-        (folder / f"{name} one.fmu").write_bytes((tiny / f"{name}.fmu").read_bytes())
-    root = system(
-        component("ramp", "ramp%20one", "output y Real m"),
-        component("gain", "gain one", "input u Real m; output y Real m"),
-        connections=WIRED + connection("gain.y", "out"),
-        declared=ROOT,
-    )
-    text = document(root).replace("resources/ramp", "ramp").replace("resources/gain", "./x/../gain")
-    (folder / "SystemStructure.ssd").write_text(text)
-    same(fly(folder), plain)
-
-
-def test_encoded_sources_in_an_archive(tiny, tmp_path, plain):
-    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
-    text = document(root).replace("resources/gain.fmu", "resources/the%20gain.fmu")
-    fmu = {"resources/the gain.fmu": (tiny / "gain.fmu").read_bytes()}
-    same(fly(pack(tmp_path / "s.ssp", tiny, text, **fmu)), plain)
 
 
 def test_a_signal_dictionary_with_inout(tiny, tmp_path, plain):
@@ -243,71 +204,6 @@ def test_flaws_are_remarks_unless_strict(tiny, tmp_path, capsys, plain, name, va
         assert re.search(rf'ramp\.fmu.*modelDescription\.xml.*[Vv]ariable "{name}".*; fix', capsys.readouterr().err)
 
 
-def test_sources_that_go_up_and_stay_inside(tiny, tmp_path, plain):
-    folder = tmp_path / "system"
-    (folder / "models" / "deep").mkdir(parents=True)
-    (folder / "models" / "ramp.fmu").write_bytes((tiny / "ramp.fmu").read_bytes())
-    (folder / "models" / "gain.fmu").write_bytes((tiny / "gain.fmu").read_bytes())
-    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
-    text = document(root).replace("resources/ramp.fmu", "models/deep/../ramp.fmu")
-    text = text.replace("resources/gain.fmu", "./models/gain.fmu")
-    (folder / "SystemStructure.ssd").write_text(text)
-    same(fly(folder), plain)
-    same(fly(folder / "SystemStructure.ssd"), plain)
-
-
-@pytest.mark.parametrize("source", ["../../../ramp.fmu", "/ramp.fmu", "file:///ramp.fmu"])
-def test_sources_that_leave_the_folder(tiny, tmp_path, source):
-    folder = tmp_path / "system"
-    folder.mkdir()
-    (tmp_path / "ramp.fmu").write_bytes((tiny / "ramp.fmu").read_bytes())
-    text = document(system(RAMP)).replace("resources/ramp.fmu", source)
-    (folder / "SystemStructure.ssd").write_text(text)
-    with pytest.raises(InputError, match=r"ramp \(line \d+\): .*ramp\.fmu lies outside the system's folder; put"):
-        fly(folder)
-    with pytest.raises(InputError, match=r"ramp \(line \d+\): .*ramp\.fmu lies outside the system's archive; put"):
-        fly(pack(tmp_path / "s.ssp", tiny, text))
-
-
-@pytest.mark.parametrize(
-    ("folder", "source"), [("s", "../ramp.fmu"), ("s", "m/../../ramp.fmu"), ("s/t", "../../ramp.fmu")]
-)
-def test_files_above_a_folder(tiny, tmp_path, capsys, folder, source):
-    """Two levels at most, in a folder that the user names; said in a note; the campaign's folder has them, too."""
-    system_folder = tmp_path / folder
-    system_folder.mkdir(parents=True)
-    (tmp_path / "ramp.fmu").write_bytes((tiny / "ramp.fmu").read_bytes())
-    text = document(system(RAMP)).replace("resources/ramp.fmu", source)
-    (system_folder / "SystemStructure.ssd").write_text(text)
-    expected = fly(pack(tmp_path / "plain.ssp", tiny, document(system(RAMP))))["ramp.y"]
-    np.testing.assert_array_equal(fly(system_folder)["ramp.y"], expected)
-    assert main(["validate", str(system_folder)]) == 0
-    assert f"reads files of {tmp_path}, which lies above the system's folder" in " ".join(
-        capsys.readouterr().out.split()
-    )
-    campaign = tmp_path / "c.toml"
-    campaign.write_text(CAMPAIGN.format(system_folder.name))
-    assert main(["prepare", str(system_folder), "--campaign", str(campaign), "--output", str(tmp_path / "out")]) == 0
-    (tmp_path / "ramp.fmu").unlink()
-    assert main(["shard", str(tmp_path / "out"), "0"]) == 0
-    with pytest.raises(InputError, match=r"ramp \(line \d+\): .*ramp\.fmu lies outside the system's archive; put"):
-        fly(pack(tmp_path / "s.ssp", tiny, text))
-
-
-def test_an_fmu_in_a_process_of_its_own_is_the_fmu(tiny, tmp_path, plain):
-    """libcosim, Ecos and Vico: proxyfmu://localhost?file=x.fmu."""
-    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
-    fmus = {f"resources___{name}__fmu": (tiny / f"{name}.fmu").read_bytes() for name in ("ramp", "gain")}
-    text = document(root).replace('"resources/gain.fmu"', '"proxyfmu://localhost?file=resources/gain.fmu"')
-    same(fly(pack(tmp_path / "s.ssp", tiny, text, **fmus)), plain)
-    text = text.replace("localhost?", "127.0.0.1:9090?")
-    same(fly(pack(tmp_path / "s.ssp", tiny, text, **fmus)), plain)
-    with pytest.raises(
-        InputError, match=r"gain \(line \d+\): source proxyfmu://lab\?file=.* is on another machine; name"
-    ):
-        fly(pack(tmp_path / "s.ssp", tiny, text.replace("127.0.0.1:9090?", "lab?"), **fmus))
-
-
 def test_what_a_mapping_leaves_out_is_said(tiny, tmp_path, capsys):
     """OMSimulator applies it under its own name; SSP 1.0, ParameterBindings: non-mapped values are not applied."""
     entry = inline_mapping('<ssm:MappingEntry source="a" target="factor"/>')
@@ -352,23 +248,6 @@ def test_messages_speak_of_the_file(tiny, tmp_path):
         fly(path)
     with pytest.raises(InputError, match=r"stop_time: 1\.2: 1\.2 s from the start"):
         fly(path, stop_time=1.2)
-
-
-def test_suffixes_in_capitals(tiny, tmp_path, plain, capsys):
-    """RAMP.FMU, as Windows tools write it: in an archive, beside an SSD, and by itself."""
-    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
-    text = document(root).replace("resources/ramp.fmu", "RAMP.FMU").replace("resources/gain.fmu", "resources/GAIN.FMU")
-    fmus = {"ramp.fmu": "RAMP.FMU", "gain.fmu": "resources/GAIN.FMU"}
-    contents = {new: (tiny / old).read_bytes() for old, new in fmus.items()}
-    archive = write_zip(tmp_path / "s.ssp", {"SystemStructure.ssd": text, **contents})
-    same(fly(archive), plain)
-    with zipfile.ZipFile(archive) as packed:
-        packed.extractall(tmp_path / "s")
-    same(fly(tmp_path / "s"), plain)
-    alone = [str(tmp_path / "s" / "RAMP.FMU"), "--stop-time", "1"]
-    assert main(["run", *alone]) == main(["validate", *alone]) == 0
-    with pytest.raises(InputError, match=r"x\.FMU: file: not found"):
-        fly(tmp_path / "x.FMU")
 
 
 def test_one_variant_is_validated_or_all(tiny, tmp_path, capsys):
