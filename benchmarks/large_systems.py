@@ -2,8 +2,9 @@
 
     python -m benchmarks.large_systems [COMPONENTS ...]
 
-Two tables: ten FMUs of ours, each size in a process that reads, checks and orders the system, instantiates its FMUs and
-flies one step; one foreign FMU, with the whole command `perilune run` and what a component adds to the smallest ring.
+Three tables: ten FMUs of ours, each size in a process that reads, checks and orders the system, instantiates its FMUs
+and flies one step; one foreign FMU, with the whole command `perilune run` and what a component adds to the smallest
+ring; a foreign FMU of 10^5 variables, with the whole commands `run` and `validate`.
 """
 
 from __future__ import annotations
@@ -15,10 +16,11 @@ import tempfile
 import time
 from pathlib import Path
 
-from tests.support.large_systems import WIDTH, build_mixers, foreign_mixer, large_system
+from tests.support.large_systems import WIDTH, build_mixers, foreign_mixer, large_system, wide_fmu
 
 SIZES = (1250, 2500, 5000, 10_000)
 FOREIGN_SIZES = (1000, 3000, 10_000)
+VARIABLES = 100_000
 MEASURED = """
 import json, resource, sys, time
 
@@ -44,6 +46,7 @@ def main(sizes: list[int], foreign_sizes: list[int]) -> None:
         folder = Path(name)
         build_mixers(folder)
         _print_foreign(folder, foreign_sizes)
+        _print_wide(folder)
         print("| components | connections | read and checked, s | instantiated, s | whole process, s | MB |")
         print("|---|---|---|---|---|---|")
         for count in sizes:
@@ -65,14 +68,26 @@ def _print_foreign(folder: Path, sizes: list[int]) -> None:
     seconds: dict[int, float] = {}
     for count in sizes:
         system = large_system(folder / f"foreign_{count}", fmus, count)
-        command = [Path(sys.executable).with_name("perilune"), "run", str(system), "--step", "0.1"]
-        begin = time.perf_counter()
-        subprocess.run(command, capture_output=True, check=True)
-        seconds[count] = time.perf_counter() - begin
+        seconds[count] = _time("run", system)
         first = sizes[0]
         each = 1e3 * (seconds[count] - seconds[first]) / (count - first) if count > first else 0.0
         print(f"| {count} | {seconds[count]:.1f} | {f'{each:.2f}' if each else ''} |", flush=True)
     print()
+
+
+def _print_wide(folder: Path) -> None:
+    wide = wide_fmu(folder / "native", folder / "wide.fmu", VARIABLES)
+    print("| variables | `perilune run`, s | `perilune validate`, s |")
+    print("|---|---|---|")
+    print(f"| {VARIABLES} | {_time('run', wide):.1f} | {_time('validate', wide):.1f} |\n", flush=True)
+
+
+def _time(verb: str, path: Path) -> float:
+    """Seconds of a command of `perilune` on a system or an FMU."""
+    command = [Path(sys.executable).with_name("perilune"), verb, str(path), "--step", "0.1", "--stop-time", "0.1"]
+    begin = time.perf_counter()
+    subprocess.run(command, capture_output=True, check=True)
+    return time.perf_counter() - begin
 
 
 if __name__ == "__main__":

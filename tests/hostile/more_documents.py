@@ -63,7 +63,7 @@ CASES |= {
     )
     for name, (content, words) in texts(OSP, "ramp.fmu", ("line", "is not part of an OspSystemStructure")).items()
 }
-UNREAD: tuple[str, ...] = ("elements beside the groups are not read",)
+UNREAD: tuple[str, ...] = ("other elements than groups are not read",)
 CASES |= {
     f"OSP groups: {name}": Case(
         folder_with(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
@@ -44,6 +45,21 @@ def foreign_mixer(fmus: Path, folder: Path) -> Path:
     """A folder with the first of the FMUs, changed so that Perilune has not built it."""
     folder.mkdir()
     return retouched(fmus / "mixer0.fmu", folder / "mixer0.fmu", lambda text: f"{text}<!-- foreign -->").parent
+
+
+def wide_fmu(fmus: Path, path: Path, count: int) -> Path:
+    """A foreign FMU with ``count`` more local variables than the first of the FMUs has, all of its first output."""
+
+    def widen(text: str) -> str:
+        output = re.search(r'<ScalarVariable name="y\[1\]" valueReference="(\d+)"', text)
+        assert output is not None
+        more = (
+            f'<ScalarVariable name="v[{k}]" valueReference="{output[1]}" causality="local"><Real/></ScalarVariable>\n'
+            for k in range(1, count + 1)
+        )
+        return text.replace("</ModelVariables>", f"{''.join(more)}</ModelVariables>")
+
+    return retouched(fmus / "mixer0.fmu", path, widen)
 
 
 def large_system(path: Path, fmus: Path, count: int) -> Path:

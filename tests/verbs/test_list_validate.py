@@ -6,6 +6,7 @@ Truth: the catalogue, the folders on disk, documents broken in one place.
 import json
 
 import pytest
+from fmpy.validation import validate_fmu
 
 from perilune.analysis.cli import main
 from perilune.fmus_src.catalogue import catalogue
@@ -76,3 +77,16 @@ def test_every_problem_has_its_line(tiny_folder, tmp_path, capsys, monkeypatch):
     for name, line in zip(names[1:], lines, strict=True):
         assert line.startswith(f"perilune: {name}"), line
         assert "; " in line
+
+
+@pytest.mark.parametrize("name", ["a.b[1,2].c_", "der(slope)", "'q !'", "slo pe", "1slope", "a[x]", "a..b", "a[1][2]"])
+def test_rules_of_names_are_those_of_fmpy(tiny, tmp_path, capsys, name):
+    """FMPy is asked about names that are not plainly right; all together it says the same."""
+    path = tmp_path / "named.fmu"
+    retouched(tiny / "ramp.fmu", path, lambda text: text.replace('name="slope"', f'name="{name}"'))
+    assert main(["validate", str(path), "--stop-time", "1"]) == 0
+    said = "".join(capsys.readouterr().out.split())
+    expected = validate_fmu(str(path))
+    assert ("naming convention" in "".join(expected)) == (name in ("slo pe", "1slope", "a[x]", "a..b", "a[1][2]"))
+    assert all("".join(rule.split()) in said for rule in expected)
+    assert ("modelDescription.xml" in said) == bool(expected)

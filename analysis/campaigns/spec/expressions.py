@@ -124,7 +124,8 @@ def is_name(text: str) -> bool:
 def _parse(text: str) -> ast.expr:
     """Raises SyntaxError, also where Python only warns: of ``1if x``, which later versions may not read."""
     with warnings.catch_warnings():
-        warnings.simplefilter("error")
+        for category in (SyntaxWarning, DeprecationWarning):  # the latter before Python 3.12
+            warnings.simplefilter("error", category)
         return ast.parse(text, mode="eval").body
 
 

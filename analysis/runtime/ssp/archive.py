@@ -27,7 +27,7 @@ HOW_TO_BUILD = (
 ) + "perilune export FILE.py those of your own"
 OSP_DESCRIPTION = "OspSystemStructure.xml"
 OTHER = "give another file"
-MOST_LEVELS = 2  # that the files of a system's folder may lie above it, as in config/ beside fmus/
+MOST_LEVELS = 2  # that the files of a system's folder may lie above it, as in config/ next to fmus/
 DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
 
 

@@ -25,24 +25,7 @@ from tests.support.builders import (
     retouched,
     system,
 )
-
-RAMP = component("ramp", "ramp", "output y Real m; output count Integer")
-GAIN = component("gain", "gain", "input u Real m; output y Real m")
-WIRED = connection("ramp.y", "gain.u")
-ROOT = "output out Real m"
-
-
-@pytest.fixture
-def plain(tiny, tmp_path):
-    """The gain's output and the system's own, as we write the system."""
-    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
-    return fly(pack(tmp_path / "plain.ssp", tiny, document(root)))
-
-
-def same(result, plain):
-    for name in ("gain.y", "out"):
-        np.testing.assert_array_equal(result[name], plain[name])
-    assert plain["gain.y"].tolist() == [3.0 * (1.0 + 0.5 * n) for n in range(5)]
+from tests.support.foreign.plain_system import GAIN, RAMP, ROOT, WIRED, same
 
 
 def test_connections_have_no_direction(tiny, tmp_path, plain):

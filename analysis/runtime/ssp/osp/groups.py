@@ -17,8 +17,8 @@ SUFFIX = "_OspModelDescription.xml"
 def read_groups(archive: SystemArchive, source: str, element: str) -> dict[str, list[str]]:
     """The names of variables by group, of the FMU ``source`` that ``element`` names.
 
-    The file is looked for where libcosim does: under the name of the FMU's model, beside the system's description,
-    then beside the FMU; and under the FMU's own file name. Raises InputError.
+    The file is looked for where libcosim does: under the name of the FMU's model, in the folder of the system's
+    description, then in that of the FMU; and under the FMU's own file name. Raises InputError.
     """
     candidates = list(dict.fromkeys(_candidates(archive, source, element)))
     file = next((file for file in candidates if archive.has(file)), candidates[0])

@@ -82,9 +82,9 @@ class _Reader:
     def simulator(self, element: etree._Element) -> None:
         name, source = element.get("name", ""), source_file(element.get("source", ""))
         if not names_fmu(source):
-            raise self.refuse(element, f"source {source} of {name} is not an .fmu", "name an FMU beside the file")
+            raise self.refuse(element, f"source {source} of {name} is not an .fmu", "name the file of an FMU")
         if is_elsewhere(source):
-            raise self.refuse(element, f"source {source} of {name} is on another machine", "name a file beside this")
+            raise self.refuse(element, f"source {source} of {name} is on another machine", "name a file of this system")
         if name in self.system.elements:
             raise self.refuse(element, f"a second one of the name {name}", "rename one")
         values = element.findall("{*}InitialValues/{*}InitialValue")

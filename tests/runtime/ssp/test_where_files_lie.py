@@ -19,11 +19,8 @@ from tests.support.builders import (
     system,
     write_zip,
 )
+from tests.support.foreign.plain_system import GAIN, RAMP, ROOT, WIRED, same
 
-RAMP = component("ramp", "ramp", "output y Real m; output count Integer")
-GAIN = component("gain", "gain", "input u Real m; output y Real m")
-WIRED = connection("ramp.y", "gain.u")
-ROOT = "output out Real m"
 CAMPAIGN = """
 system = "{}"
 trials = 2
@@ -38,19 +35,6 @@ reduction = "final"
 [success]
 expression = "end > 0"
 """
-
-
-@pytest.fixture
-def plain(tiny, tmp_path):
-    """The gain's output and the system's own, as we write the system."""
-    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
-    return fly(pack(tmp_path / "plain.ssp", tiny, document(root)))
-
-
-def same(result, plain):
-    for name in ("gain.y", "out"):
-        np.testing.assert_array_equal(result[name], plain[name])
-    assert plain["gain.y"].tolist() == [3.0 * (1.0 + 0.5 * n) for n in range(5)]
 
 
 def test_fmus_beside_the_description(tiny, tmp_path, plain):
