@@ -15,6 +15,7 @@ from ...common.atomic import write_atomically
 from ...common.percent import percent
 from ..interactive.embedded import Embedded
 from .quantities import MINUS, display_unit, in_shown_unit, number
+from .relative_paths import with_relative_paths
 from .svg import Drawing
 
 FOLDER = Path(__file__).parent
@@ -68,10 +69,9 @@ def render_page(template: Path, **content: Any) -> str:
 
 def answering(figure: Drawing, embedded: Embedded) -> Markup:
     """A figure whose values the page's script shows at the cursor."""
+    svg = Markup(with_relative_paths(figure.svg))
     number = embedded.add_figure(figure.charts)
-    if number is None:
-        return figure.svg
-    return Markup('<svg data-figure="{}" {}').format(number, figure.svg.removeprefix("<svg "))
+    return svg if number is None else Markup('<svg data-figure="{}" {}').format(number, svg.removeprefix("<svg "))
 
 
 def write_page(path: Path, template: Path, **content: Any) -> None:

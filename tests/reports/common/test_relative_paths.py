@@ -1,0 +1,74 @@
+"""Paths of SVG are as short as they may be, and go through the same points.
+
+Truth: matplotlib's points; a browser's arithmetic of relative commands, done here with decimal numbers.
+"""
+
+import re
+from decimal import Decimal
+
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from perilune.analysis.reports.common.relative_paths import relative_path, with_relative_paths
+
+NUMBERS = st.integers(-99999, 99999).map(lambda hundredths: f"{Decimal(hundredths) / 100:.2f}")
+SIZES = {"M": 2, "L": 2, "Q": 4, "C": 6}
+
+
+def absolute(path):
+    """Commands with their points (hundredths) of an absolute path of matplotlib."""
+    commands, letter, numbers = [], "", []
+    for token in path.split():
+        if token.isalpha():
+            letter = token
+            if letter == "Z":
+                commands.append(("Z", ()))
+            continue
+        numbers.append(int(Decimal(token) * 100))
+        if len(numbers) == SIZES[letter]:
+            commands.append((letter, tuple(numbers)))
+            numbers = []
+    return commands
+
+
+def followed(path):
+    """The same of a relative path, as the grammar of SVG reads it."""
+    commands, letter, numbers, at, start = [], "", [], [0, 0], [0, 0]
+    for token in re.findall(r"[a-z]|-?(?:\d+(?:\.\d+)?|\.\d+)", path):
+        if token.isalpha():
+            letter = token
+            if letter == "z":
+                commands.append(("Z", ()))
+                at = list(start)
+            continue
+        numbers.append(int(Decimal(token) * 100))
+        if len(numbers) == SIZES[letter.upper()]:
+            points = [number + at[axis % 2] for axis, number in enumerate(numbers)]
+            commands.append((letter.upper(), tuple(points)))
+            at = points[-2:]
+            if letter == "m":
+                start, letter = list(at), "l"
+            numbers = []
+    return commands
+
+
+@st.composite
+def paths(draw):
+    text = ""
+    for letter in ["M", *draw(st.lists(st.sampled_from("MLLLQCZ"), max_size=20))]:
+        text += f"{letter} " + " ".join(draw(NUMBERS) for _ in range(SIZES.get(letter, 0))) + " "
+    return text
+
+
+@given(paths())
+@example("M 0.00 0.00 L 0.05 -0.05 L 0.10 0.10 Z L 1.00 1.00 ")
+def test_the_same_points(path):
+    short = relative_path(path)
+    assert followed(short) == absolute(path)
+
+
+def test_only_paths_of_absolute_commands_are_changed():
+    svg = '<svg><path d="M 1 2 \nL 3.005 4 "/><path d="M 1e-5 2"/><path id="d" d="m 1 2"/><text> d="M 1 2"</text></svg>'
+    assert with_relative_paths(svg) == (
+        '<svg><path d="m1 2l2 2"/><path d="M 1e-5 2"/><path id="d" d="m 1 2"/><text> d="M 1 2"</text></svg>'
+    )
