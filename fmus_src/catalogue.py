@@ -50,6 +50,11 @@ def _catalogue() -> dict[str, type[Block]]:
     return blocks
 
 
+def kind_of(block: type[Block]) -> str:
+    """The kind that a block of the catalogue lies with: plants, sensors, ..."""
+    return block.__module__.split(".")[-2]
+
+
 def blocks_in_file(path: Path) -> list[type[Block]]:
     """The blocks defined in a Python file outside the repository.
 

@@ -1,0 +1,158 @@
+"""Lays a system out: forward edges by ELK, loops back below, systems inside it first. Lengths in px."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from typing import Any
+
+from .elk import Engine
+from .graph import Block, Edge, PortKey, Side
+from .loops import add_loops
+from .order import order_blocks
+from .placement import Placed, Placement, Point, Route, Terminal
+from .shapes import HEADER, LINE, MARGIN, TERMINAL, Label, port_label, shape_of
+
+ARROW = 12.0  # of a terminal, next to its label
+INNER = 14.0  # between a system's frame and what is inside
+
+
+def lay_out(system: Block) -> Placement:
+    """The whole system. Raises what V8 raises."""
+    engine = Engine()
+    try:
+        return _System(engine, system, is_whole=True).placement()
+    finally:
+        engine.close()
+
+
+class _System:
+    def __init__(self, engine: Engine, system: Block, *, is_whole: bool) -> None:
+        self.engine = engine
+        self.system = system
+        self.is_whole = is_whole
+        self.notes = _notes(system)
+        self.nodes: list[dict[str, Any]] = []
+        self.ids: dict[PortKey, str] = {}
+
+    def placement(self) -> Placement:
+        boxes = [self.block(number, block) for number, block in enumerate(self.system.blocks)]
+        terminals = self.terminals()
+        forward, back = self.split()
+        edges = [
+            {"id": f"e{number}", "sources": [self.ids[edge.source]], "targets": [self.ids[edge.target]]}
+            for number, edge in enumerate(forward)
+        ]
+        result = self.engine.lay_out(self.nodes, edges)
+        placement = Placement(result["width"], result["height"])
+        for node, placed in zip(result["children"], boxes, strict=False):
+            placed.x, placed.y, placed.width, placed.height = (node[name] for name in ("x", "y", "width", "height"))
+            ports = {port["id"]: (node["x"] + port["x"], node["y"] + port["y"]) for port in node["ports"]}
+            placed.ports = {key: ports[self.ids[key]] for key in placed.shape.labels}
+            placement.blocks.append(placed)
+        for node, terminal in zip(result["children"][len(boxes) :], terminals, strict=True):
+            port = node["ports"][0]
+            terminal.x, terminal.y = node["x"], node["y"]
+            terminal.point = (node["x"] + port["x"], node["y"] + port["y"])
+            placement.terminals.append(terminal)
+        for edge, line in zip(forward, result["edges"], strict=True):
+            (section,) = line["sections"]
+            bends = [section["startPoint"], *section.get("bendPoints", []), section["endPoint"]]
+            placement.routes.append(Route(edge, [(bend["x"], bend["y"]) for bend in bends]))
+            placement.junctions += [(point["x"], point["y"]) for point in line.get("junctionPoints", [])]
+        placement.junctions = list(dict.fromkeys(placement.junctions))
+        add_loops(placement, back)
+        return placement
+
+    def block(self, number: int, block: Block) -> Placed:
+        """A block and its node; a system inside is laid out first."""
+        shape = shape_of(block, self.notes)
+        node: dict[str, Any] = {"id": f"b{number}"}
+        placed = Placed(block, shape, 0.0, 0.0, shape.width, shape.height, {})
+        positions: dict[PortKey, Point] = {}
+        if block.blocks:
+            placed.inner = _System(self.engine, block, is_whole=False).placement()
+            head = HEADER + shape.foot
+            placed.width = max(shape.width, placed.inner.width)
+            placed.height = head + placed.inner.height + INNER
+            placed.origin = ((placed.width - placed.inner.width) / 2.0, head)
+            for terminal in placed.inner.terminals:
+                x = 0.0 if terminal.key.side is Side.IN else placed.width
+                positions[terminal.key] = (x, terminal.point[1] + head)
+            node |= {"width": placed.width, "height": placed.height}
+            node["layoutOptions"] = {"elk.portConstraints": "FIXED_POS"}
+        else:
+            node["layoutOptions"] = {
+                "elk.portConstraints": "FIXED_SIDE",
+                "elk.portAlignment.default": "BEGIN",
+                "elk.nodeSize.constraints": "[PORTS, MINIMUM_SIZE]",
+                "elk.nodeSize.minimum": f"({shape.width}, {shape.height})",
+            }
+            margins = f"[top={HEADER + LINE / 2.0},left=0,bottom={shape.foot + LINE / 2.0},right=0]"
+            node["individualSpacings"] = {
+                "elk.spacing.portPort": str(LINE),
+                "elk.spacing.portsSurrounding": margins,
+            }
+        node["ports"] = [self.port(key, positions.get(key)) for key in shape.labels]
+        self.nodes.append(node)
+        return placed
+
+    def port(self, key: PortKey, position: Point | None = None) -> dict[str, Any]:
+        self.ids[key] = f"p{len(self.ids)}"
+        port: dict[str, Any] = {"id": self.ids[key], "width": 0, "height": 0}
+        port["layoutOptions"] = {"elk.port.side": "WEST" if key.side is Side.IN else "EAST"}
+        return port if position is None else port | {"x": position[0], "y": position[1]}
+
+    def terminals(self) -> list[Terminal]:
+        """The system's connectors: at its frame, or anywhere where it is the whole, which has no frame."""
+        drawn = self.system.drawn_ports()
+        labels = {key: self.terminal_label(key) for key in drawn}
+        widths = {side: max((labels[key].width for key in drawn if key.side is side), default=0.0) for side in Side}
+        terminals = []
+        for key, port in drawn.items():
+            width = (labels[key].width if self.is_whole else widths[key.side]) + ARROW + MARGIN
+            terminals.append(Terminal(key, port, labels[key], 0.0, 0.0, width, TERMINAL, (0.0, 0.0)))
+            inside = PortKey(key.block, Side.OUT if key.side is Side.IN else Side.IN, key.name)
+            point = (width if key.side is Side.IN else 0.0, TERMINAL / 2.0)
+            self.ids[key] = f"p{len(self.ids)}"
+            node: dict[str, Any] = {"id": f"t{len(terminals)}", "width": width, "height": TERMINAL}
+            node["ports"] = [self.port(inside, point) | {"id": self.ids[key]}]
+            node["layoutOptions"] = {"elk.portConstraints": "FIXED_POS"}
+            if not self.is_whole:
+                layer = "FIRST_SEPARATE" if key.side is Side.IN else "LAST_SEPARATE"
+                node["layoutOptions"]["elk.layered.layering.layerConstraint"] = layer
+            self.nodes.append(node)
+        return terminals
+
+    def terminal_label(self, key: PortKey) -> Label:
+        port = self.system.ports[key]
+        note = self.notes.get(key, "")
+        return port_label(PortKey(key.block, Side.OUT, key.name), port, "") if not note else port_label(key, port, note)
+
+    def split(self) -> tuple[list[Edge], list[Edge]]:
+        """The edges from left to right, and the loops back."""
+        numbers = {block.path: number for number, block in enumerate(self.system.blocks)}
+        inner = [edge for edge in self.system.edges if edge.source.block in numbers and edge.target.block in numbers]
+        arcs = [(numbers[edge.source.block], numbers[edge.target.block]) for edge in inner]
+        positions = order_blocks(len(numbers), arcs)
+        back = {
+            edge
+            for edge, (source, target) in zip(inner, arcs, strict=True)
+            if positions[source] >= positions[target]
+        }
+        edges = self.system.edges
+        return [edge for edge in edges if edge not in back], [edge for edge in edges if edge in back]
+
+
+def _notes(system: Block) -> dict[PortKey, str]:
+    """What is said at the ports that edges enter; of several edges into one port with the block that each is from."""
+    names = {block.path: block.name for block in system.blocks} | {system.path: ""}
+    by_target: dict[PortKey, list[Edge]] = defaultdict(list)
+    for edge in system.edges:
+        by_target[edge.target].append(edge)
+    notes = {}
+    for key, edges in by_target.items():
+        texts = [f"{names[edge.source.block]} {edge.note}".strip() if len(edges) > 1 else edge.note for edge in edges]
+        notes[key] = "; ".join(filter(None, texts))
+    return notes
+
+
