@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from perilune.analysis.authoring.fits import blocks_of_slot, slots
 from perilune.fmus_src.block import Block
-from perilune.fmus_src.catalogue import KINDS, catalogue, kind_of
+from perilune.fmus_src.catalogue import KINDS, catalogue
 
 from .blocks import slots_of
 from .markdown import escaped, prose, table
 from .variables import inputs, outputs, parameters
+
+
+def kind_of(block: type[Block]) -> str:
+    """The kind that a block lies with: plants, sensors, ..."""
+    return block.__module__.split(".")[-2]
 
 
 def catalogue_page() -> str:

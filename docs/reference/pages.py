@@ -6,14 +6,14 @@ import re
 from pathlib import Path
 from typing import Any
 
-from perilune.fmus_src.catalogue import KINDS, catalogue, kind_of
+from perilune.fmus_src.catalogue import KINDS, catalogue
 from perilune.fmus_src.export.judge.subset_table import LANGUAGE_PAGE
 from perilune.fmus_src.paths import ROOT
 
 from .blocks import block_page
 from .interface import interface_pages
 from .kernel import kernel_page
-from .lists import catalogue_page, slots_page
+from .lists import catalogue_page, kind_of, slots_page
 from .verbs import verbs_page
 
 FRONT = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}

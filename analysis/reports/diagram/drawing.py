@@ -1,7 +1,7 @@
 """The diagram as SVG: text stays text, the same bytes every time. Lengths in px.
 
-Groups of class ``block`` and ``edge`` say in ``data-signals`` which signals are theirs, as JSON: a block's, or those that
-an edge takes its values from, in the order of ``data-targets``, those that it gives them to. A parameter in the list of a
+Groups of class ``block`` and ``edge`` say in ``data-signals`` which signals are theirs, as JSON: a block's, or those from
+which an edge takes its values, in the order of ``data-targets``, to which it gives them. A parameter in the list of a
 block is a group of class ``parameter`` with both.
 """
 
@@ -17,7 +17,7 @@ from ...common.visible import on_one_line, visible
 from ..common import style
 from .graph import Block, Edge, PortKey, Side
 from .placement import Placed, Placement, Point, Terminal
-from .shapes import HEADER, LINE, LIST_LINE, LIST_SIZE, MARGIN, NAME_SIZE, TEXT_SIZE, Label, plain
+from .shapes import HEADER, LIST_LINE, LIST_SIZE, MARGIN, NAME_SIZE, TEXT_SIZE, Label, plain
 from .text import text_width
 
 INK, FAINT, PAPER = (f"var(--diagram-{name}, {colour})" for name, colour in (
@@ -68,24 +68,15 @@ def _draw_system(parent: etree._Element, placement: Placement, origin: Point, ou
         _draw_frame(group, placed, colours[placed.block.path])
     for route in placement.routes:
         _draw_edge(group, route.edge, route.points, colours.get(route.edge.source.block, FAINT))
-    for x, y in placement.junctions:
-        attributes = {"cx": _number(x), "cy": _number(y), "r": "2"}
-        etree.SubElement(group, "circle", attributes | {"fill": _colour_at(placement, colours, (x, y))})
+    for source, (x, y) in placement.junctions():
+        attributes = {"cx": _number(x), "cy": _number(y), "r": "2", "fill": colours.get(source.block, FAINT)}
+        etree.SubElement(group, "circle", attributes)
     for placed in placement.blocks:
         _draw_text(group, placed)
         if placed.inner is not None:
             _draw_system(group, placed.inner, (placed.x + placed.origin[0], placed.y + placed.origin[1]), colours)
     for terminal in placement.terminals:
         _draw_terminal(group, terminal)
-
-
-def _colour_at(placement: Placement, colours: dict[str, str], point: Point) -> str:
-    """The colour of the line that parts at a junction."""
-    for route in placement.routes:
-        for (x0, y0), (x1, y1) in route.segments():
-            if min(x0, x1) <= point[0] <= max(x0, x1) and min(y0, y1) <= point[1] <= max(y0, y1):
-                return colours.get(route.edge.source.block, FAINT)
-    return FAINT
 
 
 def _draw_frame(parent: etree._Element, placed: Placed, colour: str) -> None:
@@ -123,7 +114,7 @@ def _draw_text(parent: etree._Element, placed: Placed) -> None:
             _draw_port(group, key, label, placed.ports[key], is_open=not block.ports[key].is_connected)
     top = placed.bottom - shape.foot if placed.inner is None else placed.y + HEADER
     for item in shape.items:
-        y = top + item.line * LIST_LINE + 8.0
+        y = top + item.line * LIST_LINE + LIST_SIZE
         if item.edge is None:
             _text(group, item.text, placed.x + item.x, y, LIST_SIZE, style.VERMILION)
             continue

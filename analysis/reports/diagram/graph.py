@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
 
-
 MOST_OPEN = 30  # ports of a side that are drawn though nothing is connected to them
 
 
@@ -48,19 +47,23 @@ class Port:
 class Edge:
     """One or more connections from one port to another; ``pairs`` are source and target of each by flat names.
 
-    ``elements`` says which elements are connected where it is not the whole vector, ``change`` what happens to
-    values on their way: a conversion of units, a transformation, a sum.
+    ``elements`` are those of both ends that are connected, such as ``[1..2]``; both are empty where they are the whole
+    vectors in order, and that of a scalar is. ``change`` is what happens to values on their way: a conversion of
+    units, a transformation, a sum.
     """
 
     source: PortKey
     target: PortKey
     pairs: tuple[tuple[str, str], ...]
-    elements: str
+    elements: tuple[str, str]
     change: str
 
     @property
     def note(self) -> str:
-        return ", ".join(filter(None, (self.elements, self.change)))
+        """The elements and the change in words; empty for whole vectors that arrive as they are."""
+        source, target = self.elements
+        elements = source if source == target else f"{source} → {target}".strip()
+        return ", ".join(filter(None, (elements, self.change)))
 
 
 @dataclass

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Sequence
 from typing import Any
 
 from .elk import Engine
 from .graph import Block, Edge, PortKey, Side
-from .loops import add_loops
+from .lanes import join_rows
 from .order import order_blocks
 from .placement import Placed, Placement, Point, Route, Terminal
+from .rows import columns_of, cut_into_rows
 from .shapes import HEADER, LINE, MARGIN, TERMINAL, Label, port_label, shape_of
 
 ARROW = 12.0  # of a terminal, next to its label
@@ -31,42 +33,60 @@ class _System:
         self.system = system
         self.is_whole = is_whole
         self.notes = _notes(system)
-        self.nodes: list[dict[str, Any]] = []
+        self.nodes: dict[int, dict[str, Any]] = {}  # by the identity of the box
         self.ids: dict[PortKey, str] = {}
 
     def placement(self) -> Placement:
-        boxes = [self.block(number, block) for number, block in enumerate(self.system.blocks)]
-        terminals = self.terminals()
+        """The system laid out, in rows if it would be wider than a page."""
+        boxes: list[Placed | Terminal] = [self.block(block) for block in self.system.blocks]
+        boxes += self.terminals()
         forward, back = self.split()
-        edges = [
+        whole = self.place(boxes, forward)
+        rows = self.rows(whole)
+        if len(rows) == 1:
+            return join_rows([whole], back)
+        homes = {key: number for number, row in enumerate(rows) for box in row for key in box.ports}
+        inside = [[edge for edge in forward if homes[edge.source] == homes[edge.target] == number]
+                  for number in range(len(rows))]  # fmt: skip
+        placements = [self.place(row, edges) for row, edges in zip(rows, inside, strict=True)]
+        between = [edge for edge in forward if homes[edge.source] != homes[edge.target]]
+        return join_rows(placements, [*between, *back])
+
+    def rows(self, whole: Placement) -> list[list[Placed | Terminal]]:
+        """The boxes of each row; a system inside another is one row, with terminals at both sides."""
+        columns = columns_of(whole)
+        numbers = {key: number for number, column in enumerate(columns) for box in column.boxes for key in box.ports}
+        arcs = [(numbers[route.edge.source], numbers[route.edge.target]) for route in whole.routes]
+        rows = cut_into_rows(columns, arcs) if self.is_whole else [range(len(columns))]
+        return [[box for number in row for box in columns[number].boxes] for row in rows]
+
+    def place(self, boxes: Sequence[Placed | Terminal], edges: Sequence[Edge]) -> Placement:
+        """Boxes laid out with edges between them from left to right."""
+        lines = [
             {"id": f"e{number}", "sources": [self.ids[edge.source]], "targets": [self.ids[edge.target]]}
-            for number, edge in enumerate(forward)
+            for number, edge in enumerate(edges)
         ]
-        result = self.engine.lay_out(self.nodes, edges)
+        result = self.engine.lay_out([self.nodes[id(box)] for box in boxes], lines)
         placement = Placement(result["width"], result["height"])
-        for node, placed in zip(result["children"], boxes, strict=False):
-            placed.x, placed.y, placed.width, placed.height = (node[name] for name in ("x", "y", "width", "height"))
-            ports = {port["id"]: (node["x"] + port["x"], node["y"] + port["y"]) for port in node["ports"]}
-            placed.ports = {key: ports[self.ids[key]] for key in placed.shape.labels}
-            placement.blocks.append(placed)
-        for node, terminal in zip(result["children"][len(boxes) :], terminals, strict=True):
-            port = node["ports"][0]
-            terminal.x, terminal.y = node["x"], node["y"]
-            terminal.point = (node["x"] + port["x"], node["y"] + port["y"])
-            placement.terminals.append(terminal)
-        for edge, line in zip(forward, result["edges"], strict=True):
+        for node, box in zip(result["children"], boxes, strict=True):
+            box.x, box.y, box.width, box.height = (node[name] for name in ("x", "y", "width", "height"))
+            points = {port["id"]: (node["x"] + port["x"], node["y"] + port["y"]) for port in node["ports"]}
+            if isinstance(box, Placed):
+                box.ports = {key: points[self.ids[key]] for key in box.shape.labels}
+                placement.blocks.append(box)
+            else:
+                box.point = points[self.ids[box.key]]
+                placement.terminals.append(box)
+        for edge, line in zip(edges, result["edges"], strict=True):
             (section,) = line["sections"]
             bends = [section["startPoint"], *section.get("bendPoints", []), section["endPoint"]]
             placement.routes.append(Route(edge, [(bend["x"], bend["y"]) for bend in bends]))
-            placement.junctions += [(point["x"], point["y"]) for point in line.get("junctionPoints", [])]
-        placement.junctions = list(dict.fromkeys(placement.junctions))
-        add_loops(placement, back)
         return placement
 
-    def block(self, number: int, block: Block) -> Placed:
+    def block(self, block: Block) -> Placed:
         """A block and its node; a system inside is laid out first."""
         shape = shape_of(block, self.notes)
-        node: dict[str, Any] = {"id": f"b{number}"}
+        node: dict[str, Any] = {"id": f"b{len(self.nodes)}"}
         placed = Placed(block, shape, 0.0, 0.0, shape.width, shape.height, {})
         positions: dict[PortKey, Point] = {}
         if block.blocks:
@@ -93,7 +113,7 @@ class _System:
                 "elk.spacing.portsSurrounding": margins,
             }
         node["ports"] = [self.port(key, positions.get(key)) for key in shape.labels]
-        self.nodes.append(node)
+        self.nodes[id(placed)] = node
         return placed
 
     def port(self, key: PortKey, position: Point | None = None) -> dict[str, Any]:
@@ -120,7 +140,7 @@ class _System:
             if not self.is_whole:
                 layer = "FIRST_SEPARATE" if key.side is Side.IN else "LAST_SEPARATE"
                 node["layoutOptions"]["elk.layered.layering.layerConstraint"] = layer
-            self.nodes.append(node)
+            self.nodes[id(terminals[-1])] = node
         return terminals
 
     def terminal_label(self, key: PortKey) -> Label:
@@ -135,9 +155,7 @@ class _System:
         arcs = [(numbers[edge.source.block], numbers[edge.target.block]) for edge in inner]
         positions = order_blocks(len(numbers), arcs)
         back = {
-            edge
-            for edge, (source, target) in zip(inner, arcs, strict=True)
-            if positions[source] >= positions[target]
+            edge for edge, (source, target) in zip(inner, arcs, strict=True) if positions[source] >= positions[target]
         }
         edges = self.system.edges
         return [edge for edge in edges if edge not in back], [edge for edge in edges if edge in back]
@@ -154,5 +172,3 @@ def _notes(system: Block) -> dict[PortKey, str]:
         texts = [f"{names[edge.source.block]} {edge.note}".strip() if len(edges) > 1 else edge.note for edge in edges]
         notes[key] = "; ".join(filter(None, texts))
     return notes
-
-

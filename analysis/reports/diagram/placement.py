@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import groupby, pairwise
 
 from .graph import Block, Edge, Port, PortKey
 from .shapes import Label, Shape
@@ -31,10 +31,15 @@ class Placed:
     def bottom(self) -> float:
         return self.y + self.height
 
+    def move(self, x: float, y: float) -> None:
+        """Move it with its ports."""
+        self.x, self.y = self.x + x, self.y + y
+        self.ports = {key: (px + x, py + y) for key, (px, py) in self.ports.items()}
+
 
 @dataclass
 class Terminal:
-    """A connector of the system itself, at ``point`` of its label."""
+    """A connector of the system itself; an edge ends at its ``point``."""
 
     key: PortKey
     port: Port
@@ -49,6 +54,14 @@ class Terminal:
     def bottom(self) -> float:
         return self.y + self.height
 
+    @property
+    def ports(self) -> dict[PortKey, Point]:
+        return {self.key: self.point}
+
+    def move(self, x: float, y: float) -> None:
+        """Move it with its point."""
+        self.x, self.y, self.point = self.x + x, self.y + y, (self.point[0] + x, self.point[1] + y)
+
 
 @dataclass
 class Route:
@@ -58,21 +71,65 @@ class Route:
     points: list[Point]
 
     def segments(self) -> Iterator[Segment]:
+        """The straight pieces of the line."""
         return pairwise(self.points)
 
 
 @dataclass
 class Placement:
-    """A system; ``junctions`` are the points at which lines from one port part."""
+    """A system, or a row of its blocks."""
 
     width: float
     height: float
     blocks: list[Placed] = field(default_factory=list)
     terminals: list[Terminal] = field(default_factory=list)
     routes: list[Route] = field(default_factory=list)
-    junctions: list[Point] = field(default_factory=list)
 
     @property
     def boxes(self) -> list[Placed | Terminal]:
         """What lines go around."""
         return [*self.blocks, *self.terminals]
+
+    def ports(self) -> dict[PortKey, Point]:
+        """The points at which edges end."""
+        return {key: point for box in self.boxes for key, point in box.ports.items()}
+
+    def move(self, x: float, y: float) -> None:
+        """Move everything."""
+        for box in self.boxes:
+            box.move(x, y)
+        for route in self.routes:
+            route.points = [(px + x, py + y) for px, py in route.points]
+
+    def stretch(self, strips: Sequence[tuple[float, float]]) -> None:
+        """Insert empty strips, each at an abscissa and of a width; ends of edges stay at their ports."""
+
+        def shift(x: float) -> float:
+            return sum(width for position, width in strips if x >= position)
+
+        for box in self.boxes:
+            box.move(shift(box.x), 0.0)
+        ends = self.ports()
+        for route in self.routes:
+            inner = [(x + shift(x), y) for x, y in route.points[1:-1]]
+            route.points = [ends[route.edge.source], *inner, ends[route.edge.target]]
+        self.width += sum(width for _, width in strips)
+
+    def junctions(self) -> Iterator[tuple[PortKey, Point]]:
+        """The points at which lines from one port part, with this port."""
+        ordered = sorted(self.routes, key=lambda route: route.edge.source)
+        for source, routes in groupby(ordered, key=lambda route: route.edge.source):
+            segments = list(dict.fromkeys(segment for route in routes for segment in route.segments()))
+            for point in dict.fromkeys(point for segment in segments for point in segment):
+                if len({way for segment in segments for way in _ways(point, segment)}) > 2:
+                    yield source, point
+
+
+def _ways(point: Point, segment: Segment) -> Iterator[Point]:
+    """The directions, as signs, in which a segment leads away from a point on it."""
+    (x0, y0), (x1, y1) = segment
+    x, y = point
+    if min(x0, x1) <= x <= max(x0, x1) and min(y0, y1) <= y <= max(y0, y1):
+        for end_x, end_y in segment:
+            if (end_x, end_y) != point:
+                yield float((end_x > x) - (end_x < x)), float((end_y > y) - (end_y < y))

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import replace
+from pathlib import PurePosixPath
 
-from ....fmus_src.catalogue import catalogue, kind_of
+from ....fmus_src.catalogue import block_kinds
 from ...runtime.ssp.conversions import IDENTITY, Transformation
 from ...runtime.ssp.description import Component, Connection, DictionaryReference, Element, Point, System
 from ...runtime.system.fault import Fault
@@ -16,7 +17,7 @@ from ...runtime.system.prepared import PreparedSystem
 from .graph import Block, Edge, Port, PortKey, Side
 
 ELEMENT = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
-FOREIGN, SYSTEM, DICTIONARY = "foreign FMU", "system", "signal dictionary"
+CUSTOM, FOREIGN, SYSTEM, DICTIONARY = "", "foreign FMU", "system", "signal dictionary"
 MOST_RANGES = 3  # of elements, beyond which only their number is given
 Vectors = dict[str, list[str]]  # the indices of a vector's elements, in their order
 
@@ -24,13 +25,6 @@ Vectors = dict[str, list[str]]  # the indices of a vector's elements, in their o
 def read_graph(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Block:
     """The whole system as a block with its components inside."""
     return _Reader(prepared, faults).system(prepared.network.description.system, "", prepared.archive.name)
-
-
-@dataclass
-class _Bundle:
-    """Connections between the same two ports, with the same change."""
-
-    nodes: list[tuple[Node, Node]] = field(default_factory=list)
 
 
 class _Reader:
@@ -47,11 +41,10 @@ class _Reader:
         for element in system.elements.values():
             block.blocks.append(self.element(element, path))
         inner = {each.name: each for each in block.blocks}
-        bundles: dict[tuple[PortKey, PortKey, str, bool], _Bundle] = {}
+        bundles: dict[tuple[PortKey, PortKey, str, bool], list[tuple[Node, Node]]] = {}
         for connection in system.connections:
             for start in (connection.start, *connection.added):
-                single = Connection(start, connection.end, connection.suppress_unit_conversion,
-                                    connection.transformation, connection.line)  # fmt: skip
+                single = replace(connection, start=start, added=())
                 (source, source_node), (target, target_node) = orient(self.network, path, system, single)
                 is_parameter = target_node.kind in ("parameter", "calculatedParameter")
                 ends = (
@@ -59,12 +52,11 @@ class _Reader:
                     self.key(block, inner, target, target_node, Side.IN),
                 )
                 change = _change(single, source_node, target_node, is_sum=bool(connection.added))
-                bundle = bundles.setdefault((*ends, change, is_parameter), _Bundle())
-                bundle.nodes.append((source_node, target_node))
+                bundles.setdefault((*ends, change, is_parameter), []).append((source_node, target_node))
         blocks = {block.path: block, **{each.path: each for each in block.blocks}}
-        for (source_key, target_key, change, is_parameter), bundle in bundles.items():
-            elements = self.elements(source_key, target_key, bundle.nodes)
-            pairs = tuple((source.name, target.name) for source, target in bundle.nodes)
+        for (source_key, target_key, change, is_parameter), nodes in bundles.items():
+            elements = self.elements(source_key, target_key, nodes)
+            pairs = tuple((source_node.name, target_node.name) for source_node, target_node in nodes)
             edge = Edge(source_key, target_key, pairs, elements, change)
             if is_parameter:
                 blocks[target_key.block].parameters.append(edge)
@@ -83,9 +75,11 @@ class _Reader:
         else:
             assert isinstance(element, Component)
             fmu = self.network.fmus[name]
-            own = catalogue().get(fmu.name) if fmu.is_own else None
-            kind = kind_of(own) if own is not None else "" if fmu.is_own else FOREIGN
-            block = Block(name, element.name, kind, fmu.name, fmu.description.description or "")
+            kind = block_kinds().get(fmu.name, CUSTOM) if fmu.is_own else FOREIGN
+            model = fmu.name
+            if name in self.prepared.options.use:
+                model += f", replaces {PurePosixPath(element.source).stem}"
+            block = Block(name, element.name, kind, model, fmu.description.description or "")
             block.faults = [str(fault) for fault in self.faults if self.owner(fault) == name]
         self.add_ports(block, element, f"{name}.")
         return block
@@ -123,17 +117,14 @@ class _Reader:
             side = Side.IN if side is Side.OUT else Side.OUT
         return PortKey(block.path if element is None else inner[element].path, side, f"{name}[]" if is_vector else name)
 
-    def elements(self, source: PortKey, target: PortKey, nodes: Sequence[tuple[Node, Node]]) -> str:
-        """Which elements of two vectors are connected; empty where it is all of both, in their order."""
-        ends = []
+    def elements(self, source: PortKey, target: PortKey, nodes: Sequence[tuple[Node, Node]]) -> tuple[str, str]:
+        """The elements of two ports that are connected; empty where they are all of both, in their order."""
+        texts, is_whole = [], True
         for key, variables in zip((source, target), zip(*nodes, strict=True), strict=True):
             indices = [match[2] for node in variables if (match := ELEMENT.fullmatch(node.variable))]
-            whole = self.vectors[key.block].get(key.name.removesuffix("[]"), []) if indices else []
-            ends.append((indices, indices == whole))
-        if all(is_whole for _, is_whole in ends):
-            return ""
-        texts = [f"[{ranges(indices)}]" if indices else "" for indices, _ in ends]
-        return texts[0] if texts[0] == texts[1] else f"{texts[0]} → {texts[1]}".strip()
+            texts.append(f"[{ranges(indices)}]" if indices else "")
+            is_whole &= not indices or indices == self.vectors[key.block][key.name.removesuffix("[]")]
+        return ("", "") if is_whole else (texts[0], texts[1])
 
 
 def base_name(variable: str) -> tuple[str, bool]:
@@ -196,6 +187,6 @@ def _transformation(transformation: Transformation) -> str:
     if transformation.table:
         return "mapped"
     factor = "" if transformation.factor == 1.0 else f"· {transformation.factor:g}"
-    sign = "+" if transformation.offset > 0.0 else "−"
+    sign = "+" if transformation.offset > 0.0 else "\u2212"
     offset = f"{sign} {abs(transformation.offset):g}" if transformation.offset else ""
     return " ".join(filter(None, (factor, offset)))

@@ -17,7 +17,7 @@ HEADER = 36.0  # height of a block's head: name and model
 MARGIN = 8.0  # between a block's side and its text
 GAP = 14.0  # between the labels of inputs and outputs
 TERMINAL = 16.0  # height of a system's connector
-SEPARATOR = ", "
+DIMENSIONLESS = "1"  # a unit that is not written
 
 
 @dataclass(frozen=True)
@@ -71,15 +71,16 @@ def shape_of(block: Block, notes: dict[PortKey, str]) -> Shape:
     width = max(both, head, text_width(plain(block.model), TEXT_SIZE), *fault_widths(block)) + 2 * MARGIN
     items = list(_items(block, width))
     lines = max((item.line for item in items), default=-1) + 1
-    foot = lines * LIST_LINE + (8.0 if lines else 0.0)
+    foot = lines * LIST_LINE + 4.0
     rows = max(sum(key.side is side for key in labels) for side in Side)
-    return Shape(width, HEADER + rows * LINE + foot + 6.0, foot, labels, items)
+    return Shape(width, HEADER + rows * LINE + foot, foot, labels, items)
 
 
 def port_label(key: PortKey, port: Port, note: str) -> Label:
     """What is written at a port: its unit where values leave or nothing is connected, else what happens to them."""
     has_unit = key.side is Side.OUT or not port.is_connected
-    return Label(plain(port.label), plain(note or (port.unit or "" if has_unit else "")))
+    unit = port.unit if has_unit and port.unit not in (None, DIMENSIONLESS) else ""
+    return Label(plain(port.label), plain(note or unit or ""))
 
 
 def fault_text(fault: str) -> str:
@@ -94,9 +95,12 @@ def fault_widths(block: Block) -> Iterable[float]:
 
 def parameter_text(edge: Edge) -> str:
     """A parameter that another one gives: its name, and the other's where it differs."""
-    target, source = (f"{key.name.removesuffix('[]')}" for key in (edge.target, edge.source))
+    source, target = (
+        key.name.removesuffix("[]") + elements
+        for key, elements in zip((edge.source, edge.target), edge.elements, strict=True)
+    )
     text = target if source == target else f"{target} = {source}"
-    return plain(f"{text} ({edge.note})" if edge.note else text, 2 * LONGEST)
+    return plain(f"{text} ({edge.change})" if edge.change else text, 2 * LONGEST)
 
 
 def _items(block: Block, width: float) -> Iterable[Item]:
@@ -107,7 +111,7 @@ def _items(block: Block, width: float) -> Iterable[Item]:
         yield Item(fault_text(fault), MARGIN, line)
     x = width
     for number, edge in enumerate(block.parameters, 1):
-        text = parameter_text(edge) + (SEPARATOR.rstrip() if number < len(block.parameters) else "")
+        text = parameter_text(edge) + ("," if number < len(block.parameters) else "")
         length = text_width(text, LIST_SIZE)
         if x + length > width - MARGIN:
             line, x = line + 1, MARGIN
