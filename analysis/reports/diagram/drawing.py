@@ -1,8 +1,8 @@
 """The diagram as SVG: text stays text, the same bytes every time. Lengths in px.
 
-Groups of class ``block`` and ``edge`` say in ``data-signals`` which signals are theirs, as JSON: a block's, or those from
-which an edge takes its values, in the order of ``data-targets``, to which it gives them. A parameter in the list of a
-block is a group of class ``parameter`` with both.
+Groups of class ``block`` and ``edge`` say in ``data-signals`` which signals are theirs, as JSON: a block's, or those
+from which an edge takes its values, in the order of ``data-targets``, to which it gives them. A parameter in the list
+of a block is a group of class ``parameter`` with both.
 """
 
 from __future__ import annotations
@@ -52,6 +52,7 @@ def draw(system: Block, placement: Placement) -> Markup:
             "viewBox": f"{_number(-BORDER)} {_number(-BORDER)} {_number(width)} {_number(height)}",
             "width": _number(width),
             "height": _number(height),
+            "style": f"--wide: {_number(width)}px",
             "font-family": FONT,
         },
     )
@@ -93,7 +94,7 @@ def _draw_edge(parent: etree._Element, edge: Edge, points: Sequence[Point], colo
     group = etree.SubElement(parent, "g", attributes | {"data-targets": _json(b for _, b in edge.pairs)})
     _title(group, edge_text(edge))
     line = "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points)
-    etree.SubElement(group, "path", {"d": line, "fill": "none", "stroke": colour})
+    etree.SubElement(group, "path", {"d": line, "fill": "none", "stroke": colour, "shape-rendering": "crispEdges"})
     x, y = points[-1]
     head = f"M{_number(x)} {_number(y)}l{_number(-ARROW)} -2.5v5z"
     etree.SubElement(group, "path", {"d": head, "fill": colour})

@@ -14,6 +14,7 @@ from ...runtime.system.fault import Fault
 from ...runtime.system.flattening import orient
 from ...runtime.system.network import Node
 from ...runtime.system.prepared import PreparedSystem
+from ..common.quantities import declared_unit
 from .graph import Block, Edge, Port, PortKey, Side
 
 ELEMENT = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
@@ -175,7 +176,7 @@ def _change(connection: Connection, source: Node, target: Node, *, is_sum: bool)
     """What happens to a value on its way; empty where it arrives as it is."""
     units = ""
     if source.unit and target.unit and not source.unit.is_same(target.unit):
-        units = f"{source.unit.name} → {target.unit.name}"
+        units = f"{declared_unit(source.unit.name)} → {declared_unit(target.unit.name)}"
         if connection.suppress_unit_conversion:
             units += ", not converted"
     return ", ".join(filter(None, (units, _transformation(connection.transformation), "added" if is_sum else "")))

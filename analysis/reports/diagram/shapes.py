@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from ...common.visible import on_one_line, visible
+from ..common.quantities import declared_unit
 from .graph import Block, Edge, Port, PortKey, Side
 from .text import shorten, text_width
 
@@ -17,7 +18,6 @@ HEADER = 36.0  # height of a block's head: name and model
 MARGIN = 8.0  # between a block's side and its text
 GAP = 14.0  # between the labels of inputs and outputs
 TERMINAL = 16.0  # height of a system's connector
-DIMENSIONLESS = "1"  # a unit that is not written
 
 
 @dataclass(frozen=True)
@@ -79,8 +79,7 @@ def shape_of(block: Block, notes: dict[PortKey, str]) -> Shape:
 def port_label(key: PortKey, port: Port, note: str) -> Label:
     """What is written at a port: its unit where values leave or nothing is connected, else what happens to them."""
     has_unit = key.side is Side.OUT or not port.is_connected
-    unit = port.unit if has_unit and port.unit not in (None, DIMENSIONLESS) else ""
-    return Label(plain(port.label), plain(note or unit or ""))
+    return Label(plain(port.label), plain(note or (declared_unit(port.unit) if has_unit else "")))
 
 
 def fault_text(fault: str) -> str:
