@@ -14,7 +14,7 @@ from ...runtime.system.prepared import PreparedSystem
 from ..common.page import Table, exact
 from ..common.quantities import declared_unit, display_unit
 from .drawing import draw
-from .elk import MISSING, is_available
+from .elk import MISSING, Engine, is_available
 from .graph import Block, Edge, PortKey
 from .layout import lay_out
 from .reading import read_graph
@@ -41,7 +41,8 @@ def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diag
         return Diagram(system, None, f"No block diagram: {limits}.")
     if not is_available():
         return Diagram(system, None, MISSING)
-    return Diagram(system, draw(system, lay_out(system)))
+    with Engine() as engine:
+        return Diagram(system, draw(system, lay_out(system, engine)))
 
 
 def block_table(system: Block) -> Table:

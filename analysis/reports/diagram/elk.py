@@ -33,16 +33,19 @@ def is_available() -> bool:
 
 
 class Engine:
-    """ELK loaded once, for several layouts."""
+    """ELK loaded once, for several layouts; a context."""
 
     def __init__(self) -> None:
         self.context = MiniRacer()
         self.context.eval(BUNDLE.read_text(encoding="utf-8"))
 
+    def __enter__(self) -> Engine:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.context.close()
+
     def lay_out(self, nodes: list[dict[str, Any]], edges: list[dict[str, Any]]) -> dict[str, Any]:
         """A graph of ELK's JSON with the positions of its nodes and ports, and the points of its edges."""
         graph = {"id": "root", "layoutOptions": OPTIONS, "children": nodes, "edges": edges}
         return json.loads(self.context.call("layOut", json.dumps(graph)))
-
-    def close(self) -> None:
-        self.context.close()

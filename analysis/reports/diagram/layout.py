@@ -18,13 +18,9 @@ ARROW = 12.0  # of a terminal, next to its label
 INNER = 14.0  # between a system's frame and what is inside
 
 
-def lay_out(system: Block) -> Placement:
+def lay_out(system: Block, engine: Engine) -> Placement:
     """The whole system. Raises what V8 raises."""
-    engine = Engine()
-    try:
-        return _System(engine, system, is_whole=True).placement()
-    finally:
-        engine.close()
+    return _System(engine, system, is_whole=True).placement()
 
 
 class _System:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import groupby, pairwise
+from itertools import pairwise
 
 from .graph import Block, Edge, Port, PortKey
 from .shapes import Label, Shape
@@ -116,13 +117,19 @@ class Placement:
         self.width += sum(width for _, width in strips)
 
     def junctions(self) -> Iterator[tuple[PortKey, Point]]:
-        """The points at which lines from one port part, with this port."""
-        ordered = sorted(self.routes, key=lambda route: route.edge.source)
-        for source, routes in groupby(ordered, key=lambda route: route.edge.source):
-            segments = list(dict.fromkeys(segment for route in routes for segment in route.segments()))
-            for point in dict.fromkeys(point for segment in segments for point in segment):
-                if len({way for segment in segments for way in _ways(point, segment)}) > 2:
-                    yield source, point
+        """The points at which lines from one port part, or those into one port meet, with the port they are from."""
+        seen: dict[Point, PortKey] = {}
+        for end in ("source", "target"):
+            groups: dict[PortKey, list[Route]] = defaultdict(list)
+            for route in self.routes:
+                groups[getattr(route.edge, end)].append(route)
+            for routes in groups.values():
+                segments = list(dict.fromkeys(segment for route in routes for segment in route.segments()))
+                for point in dict.fromkeys(point for segment in segments for point in segment):
+                    if len({way for segment in segments for way in _ways(point, segment)}) > 2:
+                        seen.setdefault(point, routes[0].edge.source)
+        for point, source in seen.items():
+            yield source, point
 
 
 def _ways(point: Point, segment: Segment) -> Iterator[Point]:

@@ -68,7 +68,9 @@ def shape_of(block: Block, notes: dict[PortKey, str]) -> Shape:
     widths = {side: max((labels[key].width for key in labels if key.side is side), default=0.0) for side in Side}
     both = sum(widths.values()) + (GAP if all(widths.values()) else 0.0)
     head = text_width(plain(block.name), NAME_SIZE, is_bold=True) + GAP + text_width(block.kind_label, LIST_SIZE)
-    width = max(both, head, text_width(plain(block.model), TEXT_SIZE), *fault_widths(block)) + 2 * MARGIN
+    entries = [fault_text(fault) for fault in block.faults] + [f"{parameter_text(edge)}," for edge in block.parameters]
+    longest = max((text_width(text, LIST_SIZE) for text in entries), default=0.0)
+    width = max(both, head, text_width(plain(block.model), TEXT_SIZE), longest) + 2.0 * MARGIN
     items = list(_items(block, width))
     lines = max((item.line for item in items), default=-1) + 1
     foot = lines * LIST_LINE + 4.0
@@ -85,11 +87,6 @@ def port_label(key: PortKey, port: Port, note: str) -> Label:
 def fault_text(fault: str) -> str:
     """A fault as its block shows it."""
     return plain(f"fault: {fault}", 2 * LONGEST)
-
-
-def fault_widths(block: Block) -> Iterable[float]:
-    """The widths of a block's faults, which have a line each."""
-    return [text_width(fault_text(fault), LIST_SIZE) for fault in block.faults]
 
 
 def parameter_text(edge: Edge) -> str:
