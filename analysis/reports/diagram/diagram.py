@@ -19,7 +19,7 @@ from .graph import Block, Edge, PortKey
 from .layout import lay_out
 from .reading import read_graph
 
-MOST_BLOCKS, MOST_EDGES = 300, 1500  # beyond which nobody reads a diagram
+MAX_BLOCKS, MAX_EDGES = 300, 1500  # beyond which nobody reads a diagram
 
 
 @dataclass(frozen=True)
@@ -36,8 +36,8 @@ def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diag
     system = read_graph(prepared, faults)
     blocks = sum(1 for _ in system.all_blocks()) - 1
     edges = sum(1 for _ in system.all_edges())
-    if blocks > MOST_BLOCKS or edges > MOST_EDGES:
-        limits = f"it would have {blocks} blocks and {edges} connections, more than {MOST_BLOCKS} or {MOST_EDGES}"
+    if blocks > MAX_BLOCKS or edges > MAX_EDGES:
+        limits = f"it would have {blocks} blocks and {edges} connections, more than {MAX_BLOCKS} or {MAX_EDGES}"
         return Diagram(system, None, f"No block diagram: {limits}.")
     if not is_available():
         return Diagram(system, None, MISSING)
@@ -51,8 +51,8 @@ def block_table(system: Block) -> Table:
     for block in system.all_blocks():
         if block is system:
             continue
-        drawn = block.drawn_ports()
-        others = [_text(port.label) for key, port in block.ports.items() if key not in drawn]
+        visible_ports = block.visible_ports()
+        others = [_text(port.label) for key, port in block.ports.items() if key not in visible_ports]
         rows.append(
             [_text(block.path), _text(block.model), block.kind_label, _text(block.description), ", ".join(others)]
         )
@@ -79,8 +79,8 @@ def parameter_table(prepared: PreparedSystem, system: Block) -> Table:
     for name, given_to in targets.items():
         node = prepared.network.nodes[name]
         unit = node.unit.name if node.unit else None
-        value = exact(prepared.settings.nodes.get(name), unit, 6)
-        rows.append([_text(name), value, display_unit(unit), _text(", ".join(given_to))])
+        setting = exact(prepared.settings.nodes.get(name), unit, 6)
+        rows.append([_text(name), setting, display_unit(unit), _text(", ".join(given_to))])
     return Table(("parameter", "value", "unit", "given to"), rows, (1,))
 
 

@@ -82,7 +82,7 @@ def _draw_system(parent: etree._Element, placement: Placement, origin: Point, ou
 
 def _draw_frame(parent: etree._Element, placed: Placed, colour: str) -> None:
     frame = {"x": placed.x, "y": placed.y, "width": placed.width, "height": placed.height, "rx": 3.0}
-    attributes = {name: _number(value) for name, value in frame.items()}
+    attributes = {name: _number(length) for name, length in frame.items()}
     fill = "none" if placed.inner is not None else PAPER
     etree.SubElement(parent, "rect", attributes | {"fill": fill, "stroke": colour, "stroke-width": "1.2"})
     head = f"M{_number(placed.x)} {_number(placed.y + HEADER - 4.0)}h{_number(placed.width)}"
@@ -146,7 +146,7 @@ def _draw_terminal(parent: etree._Element, terminal: Terminal) -> None:
     attributes = {"class": "terminal", "data-signals": _json(terminal.port.signals)}
     group = etree.SubElement(parent, "g", attributes)
     frame = {"x": terminal.x, "y": terminal.y, "width": terminal.width, "height": terminal.height, "rx": 8.0}
-    numbers = {name: _number(value) for name, value in frame.items()}
+    numbers = {name: _number(length) for name, length in frame.items()}
     etree.SubElement(group, "rect", numbers | {"fill": PAPER, "stroke": FAINT})
     x = terminal.x + (terminal.width - terminal.label.width) / 2.0
     _draw_label(group, terminal.label, x, terminal.y + terminal.height / 2.0 + 0.35 * TEXT_SIZE)
@@ -196,6 +196,6 @@ def _json(names: Iterable[str]) -> str:
     return json.dumps(list(names), separators=(",", ":"))
 
 
-def _number(value: float) -> str:
+def _number(length: float) -> str:
     """A length to hundredths of a px."""
-    return f"{round(value, 2) + 0.0:g}" if abs(value) < 1e4 else f"{value:.2f}"
+    return f"{round(length, 2) + 0.0:g}" if abs(length) < 1e4 else f"{length:.2f}"

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
 
-MOST_OPEN = 30  # ports of a side that are drawn though nothing is connected to them
+MAX_OPEN = 30  # ports of a side that are drawn though nothing is connected to them
 
 
 class Side(StrEnum):
@@ -102,18 +102,18 @@ class Block:
         """The kind of one block: plant, sensor, guidance."""
         return self.kind.removesuffix("s")
 
-    def drawn_ports(self) -> dict[PortKey, Port]:
+    def visible_ports(self) -> dict[PortKey, Port]:
         """The ports that the diagram shows: those connected, and some inputs that are not.
 
         Of a block to which nothing is connected they are the first ones of both sides.
         """
         is_alone = not any(port.is_connected for port in self.ports.values())
-        drawn, room = {}, dict.fromkeys(Side, MOST_OPEN)
+        chosen, room = {}, dict.fromkeys(Side, MAX_OPEN)
         for key, port in self.ports.items():
             if not port.is_connected and (is_alone or key.side is Side.IN):
                 room[key.side] -= 1
                 if room[key.side] < 0:
                     continue
             if port.is_connected or is_alone or key.side is Side.IN:
-                drawn[key] = port
-        return drawn
+                chosen[key] = port
+        return chosen

@@ -137,7 +137,7 @@ class _Lanes:
         return groups
 
     def add_channel(self) -> float:
-        """Assign vertical lines on the left to groups that reach other rows; the least abscissa of all."""
+        """Assign vertical lines on the left to groups that reach other rows; the fewest abscissa of all."""
 
         def rows_apart(group: _Group) -> int:
             return max(abs(self.lane_row(edge) - group.row) for edge in group.edges)

@@ -37,14 +37,14 @@ class _System:
         boxes: list[Placed | Terminal] = [self.block(block) for block in self.system.blocks]
         boxes += self.terminals()
         forward, back = self.split()
-        whole = self.place(boxes, forward)
+        whole = self.arrange(boxes, forward)
         rows = self.rows(whole)
         if len(rows) == 1:
             return join_rows([whole], back)
         homes = {key: number for number, row in enumerate(rows) for box in row for key in box.ports}
         inside = [[edge for edge in forward if homes[edge.source] == homes[edge.target] == number]
                   for number in range(len(rows))]  # fmt: skip
-        placements = [self.place(row, edges) for row, edges in zip(rows, inside, strict=True)]
+        placements = [self.arrange(row, edges) for row, edges in zip(rows, inside, strict=True)]
         between = [edge for edge in forward if homes[edge.source] != homes[edge.target]]
         return join_rows(placements, [*between, *back])
 
@@ -56,7 +56,7 @@ class _System:
         rows = cut_into_rows(columns, arcs) if self.is_whole else [range(len(columns))]
         return [[box for number in row for box in columns[number].boxes] for row in rows]
 
-    def place(self, boxes: Sequence[Placed | Terminal], edges: Sequence[Edge]) -> Placement:
+    def arrange(self, boxes: Sequence[Placed | Terminal], edges: Sequence[Edge]) -> Placement:
         """Boxes laid out with edges between them from left to right."""
         lines = [
             {"id": f"e{number}", "sources": [self.ids[edge.source]], "targets": [self.ids[edge.target]]}
@@ -120,11 +120,11 @@ class _System:
 
     def terminals(self) -> list[Terminal]:
         """The system's connectors: at its frame, or anywhere where it is the whole, which has no frame."""
-        drawn = self.system.drawn_ports()
-        labels = {key: self.terminal_label(key) for key in drawn}
-        widths = {side: max((labels[key].width for key in drawn if key.side is side), default=0.0) for side in Side}
+        visible = self.system.visible_ports()
+        labels = {key: self.terminal_label(key) for key in visible}
+        widths = {side: max((labels[key].width for key in visible if key.side is side), default=0.0) for side in Side}
         terminals = []
-        for key, port in drawn.items():
+        for key, port in visible.items():
             width = (labels[key].width if self.is_whole else widths[key.side]) + ARROW + MARGIN
             terminals.append(Terminal(key, port, labels[key], 0.0, 0.0, width, TERMINAL, (0.0, 0.0)))
             inside = PortKey(key.block, Side.OUT if key.side is Side.IN else Side.IN, key.name)

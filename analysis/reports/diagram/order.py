@@ -11,7 +11,7 @@ MUCH = 2  # times as many loops back as another order has: then the description'
 def order_blocks(count: int, arcs: Sequence[Arc]) -> list[int]:
     """Positions of blocks numbered from 0; an arc for each edge, from block to block.
 
-    The order of the description, which is how its author thinks of the system, unless it has at least `MUCH` times as
+    The order of the description, which is how its author thinks of the system, unless it has at fewest `MUCH` times as
     many loops back as that of `short_loops`.
     """
     other = short_loops(count, arcs)

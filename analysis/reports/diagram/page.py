@@ -8,13 +8,15 @@ from ...runtime.system.prepared import PreparedSystem
 from ..common.page import write_page
 from .diagram import block_table, connection_table, make_diagram, parameter_table
 
+TEMPLATE = Path(__file__).with_name("system.html")
+
 
 def write_system_page(prepared: PreparedSystem, path: Path) -> None:
     """Write one self-contained HTML page about a prepared system; the same system gives the same bytes."""
     diagram = make_diagram(prepared)
     write_page(
         path,
-        Path(__file__).with_name("system.html"),
+        TEMPLATE,
         title=prepared.archive.name,
         file=prepared.network.file,
         step=prepared.step,

@@ -72,7 +72,7 @@ class Route:
     points: list[Point]
 
     def segments(self) -> Iterator[Segment]:
-        """The straight pieces of the line."""
+        """The straight spans of the line."""
         return pairwise(self.points)
 
 

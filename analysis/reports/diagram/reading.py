@@ -19,7 +19,7 @@ from .graph import Block, Edge, Port, PortKey, Side
 
 ELEMENT = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 CUSTOM, FOREIGN, SYSTEM, DICTIONARY = "", "foreign FMU", "system", "signal dictionary"
-MOST_RANGES = 3  # of elements, beyond which only their number is given
+MAX_RANGES = 3  # of elements, beyond which only their number is given
 Vectors = dict[str, list[str]]  # the indices of a vector's elements, in their order
 
 
@@ -164,7 +164,7 @@ def ranges(indices: Sequence[str]) -> str:
             joined[-1] = (joined[-1][0], number)
         else:
             joined.append((number, number))
-    if len(joined) > MOST_RANGES:
+    if len(joined) > MAX_RANGES:
         return f"{len(indices)} elements"
     return ", ".join(
         each if isinstance(each, str) else str(each[0]) if each[0] == each[1] else f"{each[0]}..{each[1]}"

@@ -64,7 +64,7 @@ def plain(text: str, longest: int = LONGEST) -> str:
 
 def shape_of(block: Block, notes: dict[PortKey, str]) -> Shape:
     """The shape of a component; ``notes`` are the remarks on what enters a port."""
-    labels = {key: port_label(key, port, notes.get(key, "")) for key, port in block.drawn_ports().items()}
+    labels = {key: port_label(key, port, notes.get(key, "")) for key, port in block.visible_ports().items()}
     widths = {side: max((labels[key].width for key in labels if key.side is side), default=0.0) for side in Side}
     both = sum(widths.values()) + (GAP if all(widths.values()) else 0.0)
     head = text_width(plain(block.name), NAME_SIZE, is_bold=True) + GAP + text_width(block.kind_label, LIST_SIZE)

@@ -29,7 +29,7 @@ def native(tiny_folder):
 
 
 @pytest.fixture
-def drawn(native, tmp_path):
+def figure(native, tmp_path):
     """The diagram of a system, packed with further files, and its table of connections."""
 
     def draw(root, faults=(), files=None, **options):
@@ -46,7 +46,7 @@ def texts(drawing):
     return [text for text, _ in drawing.labels]
 
 
-def test_a_system_inside_another(drawn):
+def test_a_system_inside_another(figure):
     inner = system(
         GAIN, DELAY, name="inner", declared="input x Real m; output z Real m; parameter k Real 1",
         connections=connection("x", "gain.u") + connection("gain.y", "delay.u") + connection("delay.y", "z")
@@ -58,7 +58,7 @@ def test_a_system_inside_another(drawn):
         connections=connection("ramp.y", "inner.x") + connection("inner.z", "after.u") + connection("after.y", "result")
         + connection("k", "inner.k") + connection("begin", "ramp.start"),
     )  # fmt: skip
-    drawing, _ = drawn(root, set={"k": 2.0, "begin": 1.0})
+    drawing, _ = figure(root, set={"k": 2.0, "begin": 1.0})
     assert Counter(drawing.connections()) == Counter([
         ("ramp.y", "inner.x"), ("inner.x", "inner.gain.u"), ("inner.gain.y", "inner.delay.u"),
         ("inner.delay.y", "inner.z"), ("inner.z", "after.u"), ("after.y", "result"), ("k", "inner.k"),
@@ -76,7 +76,7 @@ def test_a_system_inside_another(drawn):
         assert ends[first][1][1] == pytest.approx(ends[second][0][1], abs=EXACT)  # level where they meet at the frame
 
 
-def test_a_signal_dictionary(drawn):
+def test_a_signal_dictionary(figure):
     entry = '<ssb:DictionaryEntry name="length"><ssc:Real unit="m"/></ssb:DictionaryEntry>'
     extra = (
         f'<ssd:SignalDictionaries><ssd:SignalDictionary name="bus"><ssb:SignalDictionary version="1.0">{entry}'
@@ -87,15 +87,15 @@ def test_a_signal_dictionary(drawn):
         RAMP, DELAY, f"{bus}</ssd:SignalDictionaryReference>",
         connections=connection("ramp.y", "signals.length") + connection("signals.length", "delay.u"), extra=extra,
     )  # fmt: skip
-    drawing, rows = drawn(root)
+    drawing, rows = figure(root)
     assert Counter(drawing.connections()) == Counter([("ramp.y", "bus.length"), ("bus.length", "delay.u")])
     assert [row[:2] for row in rows] == [["ramp.y", "signals.length"], ["signals.length", "delay.u"]]
 
 
-def test_what_happens_on_the_way(drawn):
+def test_what_happens_on_the_way(figure):
     gain = component("gain", "kilometre_gain", "input u Real km; output y Real km")
     wire = connection("ramp.y", "gain.u", '<ssc:LinearTransformation factor="2" offset="-7"/>')
-    drawing, rows = drawn(system(RAMP, gain, connections=wire))
+    drawing, rows = figure(system(RAMP, gain, connections=wire))
     assert rows[0][-1] == "m → km, · 2 \N{MINUS SIGN} 7"
     assert rows[0][-1] in texts(drawing)
 
@@ -105,10 +105,10 @@ def test_elements_of_vectors(native, tmp_path):
     build_mixers(tmp_path)
     whole = "; ".join(f"{kind} {name}[{k}] Real 1" for kind, name in (("input", "u"), ("output", "y")) for k in
                       range(1, 11))  # fmt: skip
-    parts = [component(name, f"mixer{number}", whole) for number, name in enumerate(("a", "b", "c"))]
+    mixers = [component(name, f"mixer{number}", whole) for number, name in enumerate(("a", "b", "c"))]
     wires = [("a.y[3]", "b.u[1]"), ("a.y[4]", "b.u[2]"), ("c.y[10]", "b.u[10]"), ("b.y[1]", "a.u[1]")]
     wires += [(f"b.y[{11 - k}]", f"c.u[{k}]") for k in range(1, 11)]
-    root = system(*parts, connections="".join(connection(*wire) for wire in wires))
+    root = system(*mixers, connections="".join(connection(*wire) for wire in wires))
     fmus = {f"resources/mixer{k}.fmu": (tmp_path / "native" / f"mixer{k}.fmu").read_bytes() for k in range(3)}
     path = pack(tmp_path / "system.ssp", native, document(root), **fmus)
     diagram = make_diagram(prepare_system(path, SystemOptions(open_inputs="start")))
@@ -145,15 +145,15 @@ def test_an_fmu_alone_has_its_ports(native):
     assert {"u", "y"} <= {text for text, _ in drawing.labels_of("gain")}
 
 
-def test_faults_are_in_their_block(drawn):
+def test_faults_are_in_their_block(figure):
     root = system(RAMP, GAIN, connections=connection("ramp.y", "gain.u"))
-    drawing, _ = drawn(root, faults=[parse_fault("gain.u=bias:3@0.5..0.75")])
+    drawing, _ = figure(root, faults=[parse_fault("gain.u=bias:3@0.5..0.75")])
     assert any("u=bias:3@0.5..0.75" in text for text, _ in drawing.labels_of("gain"))
     assert not any("bias" in text for text, _ in drawing.labels_of("ramp"))
 
 
-def test_what_is_in_a_slot(drawn, native):
+def test_what_is_in_a_slot(figure, native):
     slot = component("gain", "gain", "input u Real m; output y Real m")
     root = system(RAMP, slot, connections=connection("ramp.y", "gain.u"))
-    drawing, _ = drawn(root, use={"gain": str(native / "delay.fmu")})
+    drawing, _ = figure(root, use={"gain": str(native / "delay.fmu")})
     assert "delay, replaces gain" in [text for text, _ in drawing.labels_of("gain")]

@@ -37,7 +37,7 @@ def folder_of(tmp_path_factory):
 
 
 @pytest.fixture(scope="module", params=[*system_names(), "ring"])
-def drawn(request, folder_of):
+def figure(request, folder_of):
     """The SSD's root, and the diagram."""
     folder = folder_of(request.param)
     prepared = prepare_system(folder)
@@ -46,8 +46,8 @@ def drawn(request, folder_of):
     return etree.parse(folder / "SystemStructure.ssd").getroot(), Drawing(str(svg))
 
 
-def test_every_connection_is_drawn_once(drawn):
-    ssd, drawing = drawn
+def test_every_connection_is_there_once(figure):
+    ssd, drawing = figure
     assert Counter(drawing.connections()) == Counter(
         tuple(
             ".".join(filter(None, (each.get(f"{end}Element"), each.get(f"{end}Connector")))) for end in ("start", "end")
@@ -57,13 +57,13 @@ def test_every_connection_is_drawn_once(drawn):
     assert sorted(drawing.blocks) == sorted(each.get("name") for each in ssd.iter("{*}Component"))
 
 
-def test_nothing_is_over_anything_else(drawn):
-    assert_readable(drawn[1])
+def test_nothing_is_over_anything_else(figure):
+    assert_readable(figure[1])
 
 
-def test_lines_end_at_their_ports(drawn):
+def test_lines_end_at_their_ports(figure):
     """At the left of the target and at the right of the source, level with the label of the port."""
-    _, drawing = drawn
+    _, drawing = figure
     for line in drawing.lines:
         for end, (x, y) in enumerate((line.points[0], line.points[-1])):
             names = [pair[end] for pair in line.connections]
@@ -81,9 +81,9 @@ def test_lines_end_at_their_ports(drawn):
                 assert any(f"[{len(names)}]" in text for text in labels)
 
 
-def test_loops_back_are_below_their_blocks(drawn):
+def test_loops_back_are_below_their_blocks(figure):
     """A line that goes to the left does so below the block that it comes from."""
-    _, drawing = drawn
+    _, drawing = figure
     loops = 0
     for line in drawing.lines:
         back = [end for start, end in zip(line.points, line.points[1:], strict=False) if end[0] < start[0] - EXACT]
@@ -93,8 +93,8 @@ def test_loops_back_are_below_their_blocks(drawn):
     assert loops > 0
 
 
-def test_parameters_are_in_the_block_that_they_are_given_to(drawn):
-    _, drawing = drawn
+def test_parameters_are_in_the_block_that_they_are_given_to(figure):
+    _, drawing = figure
     for group in drawing.root.iter("{*}g"):
         if group.get("class") == "parameter":
             owner = group.getparent().get("data-block")

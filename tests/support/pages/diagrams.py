@@ -88,8 +88,8 @@ class Drawing:
     def _offset(self, element: etree._Element) -> tuple[float, float]:
         x = y = 0.0
         for parent in element.iterancestors():
-            if moved := re.fullmatch(r"translate\((\S+) (\S+)\)", parent.get("transform", "")):
-                x, y = x + float(moved[1]), y + float(moved[2])
+            if shift := re.fullmatch(r"translate\((\S+) (\S+)\)", parent.get("transform", "")):
+                x, y = x + float(shift[1]), y + float(shift[2])
         return x, y
 
     def _rect(self, element: etree._Element) -> Box:

@@ -7,7 +7,7 @@ from hypothesis import strategies
 from perilune.analysis.reports.diagram.graph import Block, Edge, Port, PortKey, Side
 
 KINDS = ("plants", "sensors", "guidance", "", "foreign FMU")
-MOST_BLOCKS, MOST_PORTS = 7, 4
+MAX_BLOCKS, MAX_PORTS = 7, 4
 
 
 def block_of(name: str, inputs: dict[str, str], outputs: dict[str, str], path: str = "", kind: str = "") -> Block:
@@ -33,8 +33,8 @@ def connect(system: Block, source: tuple[str, str], target: tuple[str, str], cha
 @strategies.composite
 def graphs(draw: strategies.DrawFn) -> Block:
     """A system of some blocks and any edges, loops of one block included; no port is driven twice."""
-    count = draw(strategies.integers(1, MOST_BLOCKS))
-    sizes = strategies.integers(0, MOST_PORTS)
+    count = draw(strategies.integers(1, MAX_BLOCKS))
+    sizes = strategies.integers(0, MAX_PORTS)
     system = Block("", "any", "system")
     for number in range(count):
         ins, outs = draw(sizes), draw(sizes)
