@@ -14,7 +14,7 @@ from ...runtime.system.prepared import PreparedSystem
 from ..common.page import Table, exact
 from ..common.quantities import declared_unit, display_unit
 from .drawing import draw
-from .elk import MISSING, Engine, is_available
+from .elk import MISSING, Engine
 from .graph import Block, Edge, PortKey
 from .layout import lay_out
 from .reading import read_graph
@@ -39,9 +39,10 @@ def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diag
     if blocks > MAX_BLOCKS or edges > MAX_EDGES:
         limits = f"it would have {blocks} blocks and {edges} connections, more than {MAX_BLOCKS} or {MAX_EDGES}"
         return Diagram(system, None, f"No block diagram: {limits}.")
-    if not is_available():
+    engine = Engine.load()
+    if engine is None:
         return Diagram(system, None, MISSING)
-    with Engine() as engine:
+    with engine:
         return Diagram(system, draw(system, lay_out(system, engine)))
 
 

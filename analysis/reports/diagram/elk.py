@@ -7,10 +7,9 @@ from typing import Any
 
 from py_mini_racer import MiniRacer
 
-from ....fmus_src.paths import BUILD
+from ..interactive.bundles import read_bundle
 
-BUNDLE = BUILD / "web" / "bundles" / "layout.js"  # which build_web.py makes of web/layout.ts
-MISSING = "No block diagram: the bundle that lays it out is not built. Run `make web` where npm is available."
+MISSING = "No block diagram: what lays it out is not built (npm was not available). Run `make web`, then this again."
 OPTIONS = {
     "elk.algorithm": "layered",
     "elk.direction": "RIGHT",
@@ -27,17 +26,18 @@ OPTIONS = {
 }
 
 
-def is_available() -> bool:
-    """Whether the bundle is built."""
-    return BUNDLE.is_file()
-
-
 class Engine:
-    """ELK loaded once, for several layouts; a context."""
+    """ELK loaded once, for several layouts; a context. ``script`` is the bundle of web/layout.ts."""
 
-    def __init__(self) -> None:
+    def __init__(self, script: str) -> None:
         self.context = MiniRacer()
-        self.context.eval(BUNDLE.read_text(encoding="utf-8"))
+        self.context.eval(script)
+
+    @classmethod
+    def load(cls) -> Engine | None:
+        """The engine; None where its bundle was not built."""
+        script = read_bundle("layout")
+        return None if script is None else cls(script)
 
     def __enter__(self) -> Engine:
         return self

@@ -2,17 +2,20 @@
 
 import pytest
 
-from perilune.analysis.reports.diagram.elk import Engine, is_available
+from perilune.analysis.reports.diagram.elk import Engine
+from perilune.analysis.reports.interactive.bundles import read_bundle
 
 
 @pytest.fixture(scope="session")
-def layout_bundle() -> None:
-    """Needed: `make web`."""
-    if not is_available():
+def layout_bundle() -> str:
+    """The script: `make web`."""
+    script = read_bundle("layout")
+    if script is None:
         pytest.skip("no layout bundle")
+    return script
 
 
 @pytest.fixture(scope="module")
 def engine(layout_bundle):
-    with Engine() as loaded:
+    with Engine(layout_bundle) as loaded:
         yield loaded

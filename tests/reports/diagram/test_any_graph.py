@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from perilune.analysis.reports.diagram import rows
 from perilune.analysis.reports.diagram.drawing import draw
 from perilune.analysis.reports.diagram.layout import lay_out
-from tests.support.pages.diagrams import EXACT, Drawing, assert_readable
-from tests.support.pages.graphs import graphs
+from tests.support.diagrams.geometry import EXACT, Drawing, assert_readable
+from tests.support.diagrams.graphs import graphs
 
 
 @given(graph=graphs(), widest=st.sampled_from([150.0, 300.0, 1360.0]))

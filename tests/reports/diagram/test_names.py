@@ -16,8 +16,8 @@ from perilune.analysis.reports.diagram.drawing import draw
 from perilune.analysis.reports.diagram.layout import lay_out
 from perilune.analysis.reports.diagram.page import TEMPLATE
 from perilune.analysis.reports.diagram.text import shorten
-from tests.support.pages.diagrams import Drawing, assert_readable
-from tests.support.pages.graphs import block_of, connect
+from tests.support.diagrams.geometry import Drawing, assert_readable
+from tests.support.diagrams.graphs import block_of, connect
 
 HOSTILE = (
     "</script><script>alert(1)</script>", "<!--", "]]>", "&amp;", '"quoted"', "it's", "a\u2028b", "a\u2029b",

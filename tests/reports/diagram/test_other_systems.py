@@ -12,9 +12,9 @@ from perilune.analysis.runtime.system.fault import parse_fault
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import component, connection, connectors, document, pack, system
+from tests.support.diagrams.geometry import EXACT, Drawing, assert_readable
 from tests.support.foreign.osp import simulator, structure, write_osp
 from tests.support.large_systems import build_mixers
-from tests.support.pages.diagrams import EXACT, Drawing, assert_readable
 
 pytestmark = pytest.mark.usefixtures("fmus", "layout_bundle")
 RAMP = component("ramp", "ramp", "output y Real m; output count Integer; output flag Boolean; parameter start Real m")

@@ -12,7 +12,8 @@ from lxml import etree
 from matplotlib import image
 
 from perilune.analysis.cli import main
-from perilune.analysis.reports.diagram import elk
+from perilune.analysis.reports.diagram.elk import MISSING
+from perilune.analysis.reports.interactive import bundles
 from perilune.fmus_src.paths import SYSTEMS
 from tests.support.pages.browser import start
 from tests.support.pages.checks import assert_self_contained, parse, text_of
@@ -58,12 +59,12 @@ def test_tables_have_every_block_and_connection(page_of):
 
 
 def test_without_the_bundle_a_sentence_says_so(monkeypatch, tmp_path):
-    monkeypatch.setattr(elk, "BUNDLE", tmp_path / "layout.js")
+    monkeypatch.setattr(bundles, "BUNDLES", tmp_path)
     page = tmp_path / "page.html"
     assert main(["describe", SMALL, "--report", str(page)]) == 0
     text = page.read_text(encoding="utf-8")
     assert "<svg" not in text
-    assert elk.MISSING in text_of(text)
+    assert MISSING in text_of(text)
     assert len(parse(text).xpath("//table")) == 2
 
 

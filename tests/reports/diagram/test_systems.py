@@ -13,8 +13,8 @@ from perilune.analysis.reports.diagram.diagram import make_diagram
 from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.fmus_src.paths import SYSTEMS
+from tests.support.diagrams.geometry import EXACT, Drawing, assert_readable
 from tests.support.large_systems import build_mixers, large_system
-from tests.support.pages.diagrams import EXACT, Drawing, assert_readable
 
 pytestmark = pytest.mark.usefixtures("fmus", "layout_bundle")
 RING = 60
