@@ -19,7 +19,7 @@ from .graph import Block, Edge, PortKey
 from .layout import lay_out
 from .reading import read_graph
 
-MAX_BLOCKS, MAX_EDGES = 300, 1500  # beyond which nobody reads a diagram
+MAX_BLOCKS, MAX_EDGES = 200, 1000  # beyond which nobody reads a diagram
 
 
 @dataclass(frozen=True)

@@ -52,7 +52,7 @@ def draw(system: Block, placement: Placement) -> Markup:
             "viewBox": f"{_number(-BORDER)} {_number(-BORDER)} {_number(width)} {_number(height)}",
             "width": _number(width),
             "height": _number(height),
-            "style": f"--wide: {_number(width)}px",
+            "style": f"--wide: {_number(width)}px; background: {PAPER}",
             "font-family": FONT,
         },
     )

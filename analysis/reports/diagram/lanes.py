@@ -56,7 +56,7 @@ class _Lanes:
         self.rows = rows
         self.edges = edges
         self.homes = {key: number for number, row in enumerate(rows) for key in row.ports()}
-        self.first = {key for row in rows for box in columns_of(row)[0].boxes for key in box.ports}
+        self.first = {key for row in rows for box in columns_of(row.boxes)[0].boxes for key in box.ports}
         self.stubs: dict[Stub, float] = {}
         for number in range(len(rows)):
             self.widen(number)
@@ -102,7 +102,7 @@ class _Lanes:
         stubs |= dict.fromkeys((edge.target, self.way_in(edge)) for edge in self.edges)
         strips: list[tuple[float, float]] = []
         shift = 0.0
-        for column in columns_of(row):
+        for column in columns_of(row.boxes):
             here = {key for box in column.boxes for key in box.ports}
             for leaves in (False, True):
                 chosen = [

@@ -49,12 +49,22 @@ class _System:
         return join_rows(placements, [*between, *back])
 
     def rows(self, whole: Placement) -> list[list[Placed | Terminal]]:
-        """The boxes of each row; a system inside another is one row, with terminals at both sides."""
-        columns = columns_of(whole)
+        """The boxes of each row; a system inside another is one row, with terminals at both sides.
+
+        A terminal of the whole is in the row of the first block that it is connected to.
+        """
+        columns = columns_of(whole.blocks)
+        if not self.is_whole or not columns:
+            return [whole.boxes]
         numbers = {key: number for number, column in enumerate(columns) for box in column.boxes for key in box.ports}
-        arcs = [(numbers[route.edge.source], numbers[route.edge.target]) for route in whole.routes]
-        rows = cut_into_rows(columns, arcs) if self.is_whole else [range(len(columns))]
-        return [[box for number in row for box in columns[number].boxes] for row in rows]
+        ends = [(route.edge.source, route.edge.target) for route in whole.routes]
+        arcs = [(numbers[source], numbers[target]) for source, target in ends if {source, target} <= numbers.keys()]
+        cut = cut_into_rows(columns, arcs)
+        rows = [[box for number in row for box in columns[number].boxes] for row in cut]
+        for terminal in whole.terminals:
+            others = [key for pair in ends if terminal.key in pair for key in pair if key in numbers]
+            rows[next((k for k, row in enumerate(cut) if others and numbers[others[0]] in row), 0)].append(terminal)
+        return rows
 
     def arrange(self, boxes: Sequence[Placed | Terminal], edges: Sequence[Edge]) -> Placement:
         """Boxes laid out with edges between them from left to right."""

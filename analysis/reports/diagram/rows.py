@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
-from .placement import Placed, Placement, Terminal
+from .placement import Placed, Terminal
 
 WIDEST = 1360.0  # of a row of several columns
 
@@ -20,10 +20,10 @@ class Column:
     boxes: list[Placed | Terminal]
 
 
-def columns_of(placement: Placement) -> list[Column]:
-    """The columns of a placement from left to right."""
+def columns_of(boxes: Iterable[Placed | Terminal]) -> list[Column]:
+    """The columns that boxes are in, from left to right."""
     columns: list[Column] = []
-    for box in sorted(placement.boxes, key=lambda box: box.x):
+    for box in sorted(boxes, key=lambda box: box.x):
         if columns and box.x < columns[-1].right:
             columns[-1].right = max(columns[-1].right, box.x + box.width)
             columns[-1].boxes.append(box)
