@@ -19,16 +19,21 @@ from .graph import Block, Edge, PortKey
 from .layout import lay_out
 from .reading import read_graph
 
+MAX_NAMED = 20  # outputs of a block without connection
 MAX_BLOCKS, MAX_EDGES = 200, 1000  # beyond which nobody reads a diagram
+
+SHEET = 700.0  # px, the width of a sheet that stands upright
+BROAD = 1.6  # of a diagram's height, from which width on it is larger on a sheet on its side
 
 
 @dataclass(frozen=True)
 class Diagram:
-    """A diagram, or why there is none; ``system`` is its graph."""
+    """A diagram, or why there is none; ``system`` is its graph, ``is_broad``: it is printed on a sheet on its side."""
 
     system: Block
     svg: Markup | None
     missing: str = ""
+    is_broad: bool = False
 
 
 def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diagram:
@@ -43,21 +48,23 @@ def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diag
     if engine is None:
         return Diagram(system, None, MISSING)
     with engine:
-        return Diagram(system, draw(system, lay_out(system, engine)))
+        placement = lay_out(system, engine)
+    is_broad = placement.width > max(SHEET, BROAD * placement.height)
+    return Diagram(system, draw(system, placement), is_broad=is_broad)
 
 
 def block_table(system: Block) -> Table:
-    """The blocks with their FMUs, and the outputs that are not drawn since nothing is connected to them."""
+    """The blocks with their FMUs, and their other outputs, which are not drawn since nothing is connected to them."""
     rows = []
     for block in system.all_blocks():
         if block is system:
             continue
         visible_ports = block.visible_ports()
         others = [_text(port.label) for key, port in block.ports.items() if key not in visible_ports]
-        rows.append(
-            [_text(block.path), _text(block.model), block.kind_label, _text(block.description), ", ".join(others)]
-        )
-    return Table(("block", "FMU", "kind", "description", "not drawn: without connection"), rows, ())
+        more = [f"and {len(others) - MAX_NAMED} more"] if len(others) > MAX_NAMED else []
+        names = ", ".join([*others[:MAX_NAMED], *more])
+        rows.append([_text(block.path), _text(block.model), block.kind_label, _text(block.description), names])
+    return Table(("block", "FMU", "kind", "description", "other outputs"), rows, ())
 
 
 def connection_table(system: Block) -> Table:

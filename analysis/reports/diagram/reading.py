@@ -9,7 +9,7 @@ from pathlib import PurePosixPath
 
 from ....fmus_src.catalogue import block_kinds
 from ...runtime.ssp.conversions import IDENTITY, Transformation
-from ...runtime.ssp.description import Component, Connection, DictionaryReference, Element, Point, System
+from ...runtime.ssp.description import Component, Connection, Connector, DictionaryReference, Element, Point, System
 from ...runtime.system.fault import Fault
 from ...runtime.system.flattening import orient
 from ...runtime.system.network import Node
@@ -20,6 +20,7 @@ from .graph import Block, Edge, Port, PortKey, Side
 ELEMENT = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 CUSTOM, FOREIGN, SYSTEM, DICTIONARY = "", "foreign FMU", "system", "signal dictionary"
 MAX_RANGES = 3  # of elements, beyond which only their number is given
+SIDES = {"input": (Side.IN,), "output": (Side.OUT,), "inout": tuple(Side)}  # by the kind of a connector
 Vectors = dict[str, list[str]]  # the indices of a vector's elements, in their order
 
 
@@ -90,20 +91,27 @@ class _Reader:
         return "" if node is None else node.component or ""
 
     def add_ports(self, block: Block, element: Element, path: str) -> None:
-        """The ports of an element; those of a dictionary's signals are on both sides."""
+        """The connectors of an element, on both sides for a dictionary's signals; an FMU's other outputs, too."""
         sizes = self.sizes(block, element)
         self.vectors[block.path] = sizes
-        for connector in element.connectors.values():
-            node = self.network.nodes.get(path + connector.name)
-            kind = connector.kind if node is None else node.kind
-            sides = {"input": (Side.IN,), "output": (Side.OUT,), "inout": tuple(Side)}.get(kind, ())
-            for side in sides:
-                name, is_vector = base_name(connector.name)
-                unit = connector.unit if node is None or node.unit is None else node.unit.name
+        declared = {name: self.kind_and_unit(connector, path) for name, connector in element.connectors.items()}
+        if isinstance(element, Component):
+            fmu = self.network.fmus[block.path]
+            outputs = (each for each in fmu.variables.values() if each.causality == "output")
+            declared |= {each.name: ("output", fmu.unit_of(each)) for each in outputs if each.name not in declared}
+        for connector_name, (kind, unit) in declared.items():
+            name, is_vector = base_name(connector_name)
+            for side in SIDES.get(kind, ()):
                 key = PortKey(block.path, side, f"{name}[]" if is_vector else name)
                 size = size_text(sizes[name]) if is_vector else ""
                 port = block.ports.setdefault(key, Port(name, size, unit, []))
-                port.signals.append(path + connector.name)
+                port.signals.append(path + connector_name)
+
+    def kind_and_unit(self, connector: Connector, path: str) -> tuple[str, str | None]:
+        node = self.network.nodes.get(path + connector.name)
+        if node is None:
+            return connector.kind, connector.unit
+        return node.kind, node.unit.name if node.unit else connector.unit
 
     def sizes(self, block: Block, element: Element) -> Vectors:
         """The vectors of an element: of all variables of an FMU, not only of those that are declared connectors."""

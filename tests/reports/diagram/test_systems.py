@@ -3,15 +3,19 @@
 Truth: the connections of the SSD as lxml reads them, and the geometry of the SVG.
 """
 
+import inspect
 import json
 from collections import Counter
+from pathlib import Path
 
 import pytest
 from lxml import etree
 
+import perilune
 from perilune.analysis.reports.diagram.diagram import make_diagram
 from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.fmus_src.catalogue import block_kinds, catalogue
 from perilune.fmus_src.paths import SYSTEMS
 from tests.support.diagrams.geometry import EXACT, Drawing, assert_readable
 from tests.support.large_systems import build_mixers, large_system
@@ -91,6 +95,21 @@ def test_loops_back_are_below_their_blocks(figure):
         source = drawing.blocks[line.connections[0][0].partition(".")[0]]
         assert all(y > source.bottom for _, y in back)
     assert loops > 0
+
+
+@pytest.mark.parametrize("name", ["lunar_descent_2d", "lunar_landing"])
+def test_every_recorded_signal_is_that_of_a_block(name):
+    drawing = Drawing(str(make_diagram(prepare_system(name)).svg))
+    groups = drawing.root.xpath("//*[@class='block' or @class='terminal']")
+    signals = [signal for group in groups for signal in json.loads(group.get("data-signals"))]
+    assert len(signals) == len(set(signals))
+    assert set(perilune.simulate(name, stop_time=1.0).signals) <= set(signals)
+
+
+def test_the_kind_of_a_block_is_that_of_its_file():
+    assert {name: block_kinds()[name] for name in catalogue()} == {
+        name: Path(inspect.getfile(block)).parent.name for name, block in catalogue().items()
+    }
 
 
 def test_parameters_are_in_the_block_that_they_are_given_to(figure):
