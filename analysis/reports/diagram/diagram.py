@@ -55,7 +55,7 @@ def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diag
 
 def block_table(system: Block) -> Table:
     """The blocks with their FMUs, and their other outputs, which are not drawn since nothing is connected to them."""
-    rows = []
+    rows: list[list[Markup | str]] = []
     for block in system.all_blocks():
         if block is system:
             continue
@@ -63,7 +63,8 @@ def block_table(system: Block) -> Table:
         others = [_text(port.label) for key, port in block.ports.items() if key not in visible_ports]
         more = [f"and {len(others) - MAX_NAMED} more"] if len(others) > MAX_NAMED else []
         names = ", ".join([*others[:MAX_NAMED], *more])
-        rows.append([_text(block.path), _text(block.model), block.kind_label, _text(block.description), names])
+        description = Markup('<span class="long">{}</span>').format(_text(block.description))
+        rows.append([_text(block.path), _text(block.model), block.kind_label, description, names])
     return Table(("block", "FMU", "kind", "description", "other outputs"), rows, ())
 
 

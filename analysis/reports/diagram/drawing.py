@@ -32,6 +32,7 @@ COLOURS = {
     "sequencing": style.SKY,
 }
 FONT = "'DejaVu Sans', Verdana, 'Segoe UI', sans-serif"
+WARNING = "#a84300"  # of faults
 BORDER = 2.0  # around the whole
 ARROW = 6.0  # length of an arrow's head
 TO_LABEL = 10.0  # from a port to its label
@@ -103,7 +104,7 @@ def _draw_edge(parent: etree._Element, edge: Edge, points: Sequence[Point], colo
 def _draw_text(parent: etree._Element, placed: Placed) -> None:
     """What is written in a block."""
     block, shape = placed.block, placed.shape
-    signals = [signal for port in block.ports.values() for signal in port.signals]
+    signals = [signal for key, port in block.ports.items() if not key.entry for signal in port.signals]
     group = etree.SubElement(parent, "g", {"class": "block", "data-block": block.path, "data-signals": _json(signals)})
     _title(group, "\n".join(filter(None, [f"{block.path}: {block.model}", block.description])))
     left, right = placed.x + MARGIN, placed.x + placed.width - MARGIN
@@ -117,7 +118,7 @@ def _draw_text(parent: etree._Element, placed: Placed) -> None:
     for item in shape.items:
         y = top + item.line * LIST_LINE + LIST_SIZE
         if item.edge is None:
-            _text(group, item.text, placed.x + item.x, y, LIST_SIZE, style.VERMILION)
+            _text(group, item.text, placed.x + item.x, y, LIST_SIZE, WARNING)
             continue
         entry = etree.SubElement(group, "g", {"class": "parameter"})
         entry.set("data-signals", _json(source for source, _ in item.edge.pairs))

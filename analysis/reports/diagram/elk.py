@@ -1,4 +1,7 @@
-"""The layout engine: ELK, the Eclipse Layout Kernel, in V8. Lengths in px."""
+"""The layout engine: ELK, the Eclipse Layout Kernel, in V8. Lengths in px.
+
+V8 gets sizes, sides and identifiers of ours: no text of a system enters it.
+"""
 
 from __future__ import annotations
 

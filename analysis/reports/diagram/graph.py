@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -18,11 +18,15 @@ class Side(StrEnum):
 
 
 class PortKey(NamedTuple):
-    """A port of a block by the block's path; a vector ``x`` has the name ``x[]``, which no scalar has."""
+    """A port of a block by the block's path; a vector ``x`` has the name ``x[]``, which no scalar has.
+
+    What several other ports lead to, such as the elements of a vector or the terms of a sum, has an ``entry`` for each.
+    """
 
     block: str
     side: Side
     name: str
+    entry: int = 0
 
 
 @dataclass
@@ -85,6 +89,12 @@ class Block:
     faults: list[str] = field(default_factory=list)
     blocks: list[Block] = field(default_factory=list)
     edges: list[Edge] = field(default_factory=list)
+
+    def add_entry(self, key: PortKey, number: int) -> PortKey:
+        """The key of the entry of this number to a port, which gets it if it has not."""
+        entry = key._replace(entry=number)
+        self.ports.setdefault(entry, replace(self.ports[key]))
+        return entry
 
     def all_blocks(self) -> Iterator[Block]:
         """The block, and those inside it."""

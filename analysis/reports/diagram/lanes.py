@@ -154,6 +154,11 @@ class _Lanes:
         tops = [0.0]
         for number, row in enumerate(self.rows):
             obstacles = [(box.x, box.x + box.width, box.bottom) for box in row.boxes]
+            bottoms = {key: box.bottom for box in row.boxes for key in box.ports}
+            for (key, _), x in self.stubs.items():
+                if key in bottoms:  # between a port and its vertical line
+                    left, right = sorted((x, self.ports[key][0]))
+                    obstacles.append((left, right, bottoms[key]))
             for route in row.routes:
                 obstacles += [(min(a[0], b[0]), max(a[0], b[0]), max(a[1], b[1])) for a, b in route.segments()]
             bottom = max(bottom for _, _, bottom in obstacles)

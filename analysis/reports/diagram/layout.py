@@ -168,13 +168,11 @@ class _System:
 
 
 def _notes(system: Block) -> dict[PortKey, str]:
-    """What is said at the ports that edges enter; of several edges into one port with the block that each is from."""
+    """What is said at the ports that edges enter; where a port has several entries, with the block each is from."""
     names = {block.path: block.name for block in system.blocks} | {system.path: ""}
-    by_target: dict[PortKey, list[Edge]] = defaultdict(list)
+    shared = {edge.target._replace(entry=0) for edge in system.edges if edge.target.entry}
+    notes: dict[PortKey, list[str]] = defaultdict(list)
     for edge in system.edges:
-        by_target[edge.target].append(edge)
-    notes = {}
-    for key, edges in by_target.items():
-        texts = [f"{names[edge.source.block]} {edge.note}".strip() if len(edges) > 1 else edge.note for edge in edges]
-        notes[key] = "; ".join(filter(None, texts))
-    return notes
+        origin = names[edge.source.block] if edge.target._replace(entry=0) in shared else ""
+        notes[edge.target].append(" ".join(filter(None, (origin, edge.note))))
+    return {key: "; ".join(filter(None, texts)) for key, texts in notes.items()}

@@ -55,6 +55,7 @@ class _Reader:
                 )
                 change = _change(single, source_node, target_node, is_sum=bool(connection.added))
                 bundles.setdefault((*ends, change, is_parameter), []).append((source_node, target_node))
+        entries: dict[PortKey, list[PortKey]] = {}  # to a port, by the ports that lead to it
         blocks = {block.path: block, **{each.path: each for each in block.blocks}}
         for (source_key, target_key, change, is_parameter), nodes in bundles.items():
             elements = self.elements(source_key, target_key, nodes)
@@ -63,8 +64,12 @@ class _Reader:
             if is_parameter:
                 blocks[target_key.block].parameters.append(edge)
             else:
-                block.edges.append(edge)
-                for key in (source_key, target_key):
+                sources = entries.setdefault(target_key, [])
+                if source_key not in sources:
+                    sources.append(source_key)
+                entry = blocks[target_key.block].add_entry(target_key, sources.index(source_key))
+                block.edges.append(replace(edge, target=entry))
+                for key in (source_key, entry):
                     blocks[key.block].ports[key].is_connected = True
         return block
 

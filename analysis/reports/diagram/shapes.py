@@ -10,10 +10,10 @@ from ..common.quantities import declared_unit
 from .graph import Block, Edge, Port, PortKey, Side
 from .text import shorten, text_width
 
-NAME_SIZE, TEXT_SIZE, LIST_SIZE = 11.0, 9.0, 8.0
+NAME_SIZE, TEXT_SIZE, LIST_SIZE = 11.0, 9.0, 9.0
 LONGEST = 40  # characters of a label
 LINE = 13.0  # between ports
-LIST_LINE = 11.0
+LIST_LINE = 12.0
 HEADER = 36.0  # height of a block's head: name and model
 MARGIN = 8.0  # between a block's side and its text
 GAP = 14.0  # between the labels of inputs and outputs

@@ -73,7 +73,7 @@ def test_lines_end_at_their_ports(figure):
             names = [pair[end] for pair in line.connections]
             block, _, variable = names[0].partition(".")
             if not variable:
-                box = drawing.terminals[names[0]]
+                (box,) = drawing.terminals[names[0]]
                 assert y == pytest.approx((box.top + box.bottom) / 2.0, abs=EXACT)
                 assert x == pytest.approx(box.left if end else box.right, abs=EXACT)
                 continue

@@ -65,10 +65,10 @@ class Drawing:
             texts = [self._label(each) for each in group.iter(f"{SVG}text")]
             inside = [frame for frame in self.frames if all(frame.holds(text) for text in texts)]
             self.blocks[group.get("data-block")] = min(inside, key=lambda box: box.right - box.left)
-        self.terminals = {
-            json.loads(group.get("data-signals"))[0]: self._rect(group.find(f"{SVG}rect"))
-            for group in self._groups("terminal")
-        }
+        self.terminals: dict[str, list[Box]] = {}
+        for group in self._groups("terminal"):
+            name = json.loads(group.get("data-signals"))[0]
+            self.terminals.setdefault(name, []).append(self._rect(group.find(f"{SVG}rect")))
 
     def labels_of(self, block: str) -> list[tuple[str, Box]]:
         """The labels inside a block."""
@@ -117,7 +117,8 @@ class Drawing:
 
 def assert_readable(drawing: Drawing) -> None:
     """Lines are orthogonal and cross no block, blocks and labels do not overlap, no line covers that of other ports."""
-    blocks = [*drawing.blocks.values(), *drawing.terminals.values()]
+    terminals = [box for boxes in drawing.terminals.values() for box in boxes]
+    blocks = [*drawing.blocks.values(), *terminals]
     for one, other in combinations(blocks, 2):
         assert not one.overlaps(other) or one.holds(other) or other.holds(one)
     for (text, one), (other_text, other) in combinations(drawing.labels, 2):
@@ -134,7 +135,7 @@ def assert_readable(drawing: Drawing) -> None:
             for name, block in drawing.blocks.items():
                 inside = any(target.startswith(f"{name}.") for pair in line.connections for target in pair)
                 assert not _crosses(segment, block) or (inside and _is_frame(drawing, block)), (line, name)
-            for block in drawing.terminals.values():
+            for block in terminals:
                 assert not _crosses(segment, block)
     for one, other in combinations(drawing.lines, 2):
         if one.points[0] != other.points[0] and one.points[-1] != other.points[-1]:
