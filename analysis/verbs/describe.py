@@ -16,7 +16,6 @@ from ..authoring.description import describe_system, variables_of
 from ..authoring.fits import blocks_of_slot, slots
 from ..common.errors import InputError, suggestion
 from ..common.visible import on_one_line
-from ..reports.diagram.page import write_system_page
 from ..runtime.ssp.archive import system_names
 from ..runtime.system.alone import describe_alone
 from ..runtime.system.fmu import load_fmu
@@ -40,6 +39,8 @@ class Description(NoProblems, dict[str, Any]):
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune describe --report`: one HTML file. Raises InputError for what has no diagram."""
+        from ..reports.diagram.page import write_system_page  # half of what describe would take to start
+
         if self.prepare is None:
             problem = "only a system and an FMU have a block diagram"
             raise InputError("`report`", os.fspath(path), problem, "describe one of them, or leave it out")

@@ -34,6 +34,7 @@ COLOURS = {
 FONT = "'DejaVu Sans', Verdana, 'Segoe UI', sans-serif"
 WARNING = "#a84300"  # of faults
 BORDER = 2.0  # around the whole
+POINTED = "7"  # width of what a pointer hits of a line
 ARROW = 6.0  # length of an arrow's head
 TO_LABEL = 10.0  # from a port to its label
 
@@ -96,6 +97,7 @@ def _draw_edge(parent: etree._Element, edge: Edge, points: Sequence[Point], colo
     _title(group, edge_text(edge))
     line = "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points)
     etree.SubElement(group, "path", {"d": line, "fill": "none", "stroke": colour, "shape-rendering": "crispEdges"})
+    etree.SubElement(group, "path", {"d": line, "fill": "none", "stroke": "transparent", "stroke-width": POINTED})
     x, y = points[-1]
     head = f"M{_number(x)} {_number(y)}l{_number(-ARROW)} -2.5v5z"
     etree.SubElement(group, "path", {"d": head, "fill": colour})

@@ -12,6 +12,7 @@ from lxml import etree
 from matplotlib import image
 
 from perilune.analysis.cli import main
+from perilune.analysis.reports.diagram import diagram
 from perilune.analysis.reports.diagram.elk import MISSING
 from perilune.analysis.reports.interactive import bundles
 from perilune.fmus_src.paths import SYSTEMS
@@ -65,6 +66,15 @@ def test_without_the_bundle_a_sentence_says_so(monkeypatch, tmp_path):
     text = page.read_text(encoding="utf-8")
     assert "<svg" not in text
     assert MISSING in text_of(text)
+    assert len(parse(text).xpath("//table")) == 2
+
+
+def test_a_system_too_large_to_read_has_tables(monkeypatch, tmp_path):
+    monkeypatch.setattr(diagram, "MAX_BLOCKS", 3)
+    page = tmp_path / "page.html"
+    assert main(["describe", SMALL, "--report", str(page)]) == 0
+    text = page.read_text(encoding="utf-8")
+    assert "4 blocks and 9 connections, more than 3 or" in text_of(text)
     assert len(parse(text).xpath("//table")) == 2
 
 
