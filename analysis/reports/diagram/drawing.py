@@ -8,6 +8,7 @@ of a block is a group of class ``parameter`` with both.
 from __future__ import annotations
 
 import json
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 
 from lxml import etree
@@ -16,8 +17,9 @@ from markupsafe import Markup
 from ...common.visible import on_one_line, visible
 from ..common import style
 from .graph import Block, Edge, PortKey, Side
-from .placement import Placed, Placement, Point, Terminal
+from .placement import Placed, Placement, Point, Route, Segment, Terminal
 from .shapes import HEADER, LIST_LINE, LIST_SIZE, MARGIN, NAME_SIZE, TEXT_SIZE, Label, plain
+from .strokes import uncovered
 from .text import text_width
 
 INK, FAINT, PAPER = (f"var(--diagram-{name}, {colour})" for name, colour in (
@@ -69,8 +71,11 @@ def _draw_system(parent: etree._Element, placement: Placement, origin: Point, ou
     colours = outer | {placed.block.path: COLOURS.get(placed.block.kind, FAINT) for placed in placement.blocks}
     for placed in placement.blocks:
         _draw_frame(group, placed, colours[placed.block.path])
+    earlier: dict[PortKey, list[Segment]] = defaultdict(list)
     for route in placement.routes:
-        _draw_edge(group, route.edge, route.points, colours.get(route.edge.source.block, FAINT))
+        source = route.edge.source
+        _draw_edge(group, route, earlier[source], colours.get(source.block, FAINT))
+        earlier[source] += route.segments()
     for source, (x, y) in placement.junctions():
         attributes = {"cx": _number(x), "cy": _number(y), "r": "2", "fill": colours.get(source.block, FAINT)}
         etree.SubElement(group, "circle", attributes)
@@ -91,16 +96,23 @@ def _draw_frame(parent: etree._Element, placed: Placed, colour: str) -> None:
     etree.SubElement(parent, "path", {"d": head, "stroke": colour, "stroke-width": "0.6"})
 
 
-def _draw_edge(parent: etree._Element, edge: Edge, points: Sequence[Point], colour: str) -> None:
-    attributes = {"class": "edge", "data-signals": _json(a for a, _ in edge.pairs)}
-    group = etree.SubElement(parent, "g", attributes | {"data-targets": _json(b for _, b in edge.pairs)})
-    _title(group, edge_text(edge))
-    line = "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points)
-    etree.SubElement(group, "path", {"d": line, "fill": "none", "stroke": colour, "shape-rendering": "crispEdges"})
-    etree.SubElement(group, "path", {"d": line, "fill": "none", "stroke": "transparent", "stroke-width": POINTED})
-    x, y = points[-1]
+def _draw_edge(parent: etree._Element, route: Route, earlier: Iterable[Segment], colour: str) -> None:
+    """An edge: its line without what ``earlier`` lines of its port cover, and the whole of it to be pointed at."""
+    attributes = {"class": "edge", "data-signals": _json(a for a, _ in route.edge.pairs)}
+    group = etree.SubElement(parent, "g", attributes | {"data-targets": _json(b for _, b in route.edge.pairs)})
+    _title(group, edge_text(route.edge))
+    stretches = "".join(map(_path, uncovered(route.points, earlier)))
+    line = {"d": stretches, "fill": "none", "stroke": colour}
+    etree.SubElement(group, "path", line)
+    x, y = route.points[-1]
     head = f"M{_number(x)} {_number(y)}l{_number(-ARROW)} -2.5v5z"
     etree.SubElement(group, "path", {"d": head, "fill": colour})
+    whole = {"class": "whole-line", "d": _path(route.points), "fill": "none", "color": colour}
+    etree.SubElement(group, "path", whole | {"stroke": "transparent", "stroke-width": POINTED})
+
+
+def _path(points: Sequence[Point]) -> str:
+    return "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points)
 
 
 def _draw_text(parent: etree._Element, placed: Placed) -> None:

@@ -108,7 +108,7 @@ class Drawing:
         return list(zip(sources, targets, strict=True))
 
     def _line(self, group: etree._Element) -> Line:
-        path = next(each for each in group.iter(f"{SVG}path") if each.get("fill") == "none")
+        path = next(each for each in group.iter(f"{SVG}path") if each.get("class") == "whole-line")
         dx, dy = self._offset(path)
         numbers = [float(number) for number in re.findall(r"-?[\d.]+(?:e-?\d+)?", path.get("d"))]
         points = tuple((x + dx, y + dy) for x, y in zip(numbers[::2], numbers[1::2], strict=True))
