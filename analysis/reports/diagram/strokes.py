@@ -26,13 +26,13 @@ def _free(segment: Segment, earlier: Iterable[Segment]) -> Iterator[Segment]:
     axis = 0 if segment[0][1] == segment[1][1] else 1
     start, end = segment[0][axis], segment[1][axis]
     across = segment[0][1 - axis]
-    taken = sorted(
+    covered = sorted(
         tuple(sorted((one[axis], other[axis])))
         for one, other in earlier
         if one[1 - axis] == other[1 - axis] == across and one != other
     )
     free, position = [], min(start, end)
-    for low, high in taken:
+    for low, high in covered:
         if low > position:
             free.append((position, min(low, max(start, end))))
         position = max(position, high)
