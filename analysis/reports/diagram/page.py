@@ -14,11 +14,12 @@ TEMPLATE = Path(__file__).with_name("system.html")
 def write_system_page(prepared: PreparedSystem, path: Path) -> None:
     """Write one self-contained HTML page about a prepared system; the same system gives the same bytes."""
     diagram = make_diagram(prepared)
+    name, file = prepared.archive.name, Path(prepared.network.file).name
     write_page(
         path,
         TEMPLATE,
-        title=prepared.archive.name,
-        file=prepared.network.file,
+        title=name,
+        file=file if prepared.archive.is_fmu else f"{name}/{file}",
         step=prepared.step,
         stop_time=prepared.start + prepared.steps * prepared.step,
         algorithm=prepared.algorithm,
