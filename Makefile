@@ -43,7 +43,7 @@ web: .venv/ready
 	$(BIN)/python build_web.py $(WEB)
 
 # The documentation as a site, build/site/index.html: it needs no server and no network. Broken links fail.
-docs: .venv/ready web
+docs: build
 	$(BIN)/python build_docs.py
 
 # What one installs elsewhere with pip: build/wheel/perilune-VERSION-py3-none-any.whl, native FMUs of all platforms inside.

@@ -6,16 +6,18 @@ import ast
 import importlib
 import inspect
 import pkgutil
+import re
 from functools import cache
 from pathlib import Path
 from types import ModuleType
 
-from .block import Block
+from .block import Block, snake_case
 from .user_modules import import_file
 from .variables import DeclarationError
 
 HERE = Path(__file__).parent
 KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")
+CLASS = re.compile(r"^class (\w+)", re.MULTILINE)
 
 
 def blocks_of(module: ModuleType) -> list[type[Block]]:
@@ -48,6 +50,17 @@ def _catalogue() -> dict[str, type[Block]]:
                     )
                 blocks[block.fmu_name] = block
     return blocks
+
+
+@cache
+def block_kinds() -> dict[str, str]:
+    """The kind of every block of the repository by FMU name, without importing a block; of its other classes, too."""
+    return {
+        snake_case(name): kind
+        for kind in KINDS
+        for path in sorted((HERE / kind).glob("*.py"))
+        for name in CLASS.findall(path.read_text(encoding="utf-8"))
+    }
 
 
 def blocks_in_file(path: Path) -> list[type[Block]]:

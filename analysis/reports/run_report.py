@@ -11,6 +11,7 @@ import numpy as np
 from ..runtime.flight.results import Result
 from .common.page import write_page
 from .common.signals import distinct, signal_groups
+from .diagram.diagram import Diagram
 from .figures.declared import Figure
 from .figures.figure_sections import figure_sections, joint_findings
 from .figures.limits import Verdict, limit_document
@@ -33,10 +34,12 @@ MOST_KEYS = 12  # final values listed where no signal has a known name
 KEY_VECTORS = ("position", "velocity")
 
 
-def write_run_report(result: Result, path: Path, title: str, figures: Sequence[Figure] = ()) -> None:
+def write_run_report(
+    result: Result, path: Path, title: str, figures: Sequence[Figure] = (), diagram: Diagram | None = None
+) -> None:
     """Write one self-contained HTML page about a run; the same result gives the same bytes.
 
-    ``figures`` are those that the SSD declares, see figures/reading.py.
+    ``figures`` are those that the SSD declares, see figures/reading.py; ``diagram`` is that of the system.
     """
     limits = limits_by_verdict(figures, result)
     write_page(
@@ -55,6 +58,7 @@ def write_run_report(result: Result, path: Path, title: str, figures: Sequence[F
         joint=joint_findings(figures, result),
         sections=figure_sections(figures, result),
         histories=time_histories(result),
+        diagram=diagram,
         signals=signal_table(result),
         components=[
             ("system", result.provenance["system"], result.provenance["system_sha256"]),

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any, Unpack
 
@@ -19,7 +21,7 @@ from ..runtime.system.alone import describe_alone
 from ..runtime.system.fmu import load_fmu
 from ..runtime.system.options import SystemOptions as System
 from ..runtime.system.options import system_options
-from ..runtime.system.prepared import locate_fmu, prepare_system
+from ..runtime.system.prepared import PreparedSystem, locate_fmu, prepare_system
 from .common.description_text import description_lines
 from .options.library import DESCRIBE, DescribeOptions
 from .options.option import FilePath
@@ -28,7 +30,21 @@ from .result import NoProblems
 
 
 class Description(NoProblems, dict[str, Any]):
-    """What a system, an FMU, a component or a slot has, by key; see `describe`."""
+    """What a system, an FMU, a component or a slot has, by key; see `describe`.
+
+    ``prepare`` makes ready what has a block diagram: a system, or an FMU that is simulated alone.
+    """
+
+    prepare: Callable[[], PreparedSystem] | None = None
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune describe --report`: one HTML file. Raises InputError for what has no diagram."""
+        from ..reports.diagram.page import write_system_page  # half of what describe would take to start
+
+        if self.prepare is None:
+            problem = "only a system and an FMU have a block diagram"
+            raise InputError("`report`", os.fspath(path), problem, "describe one of them, or leave it out")
+        write_system_page(self.prepare(), Path(path))
 
     def lines(self) -> list[str]:
         """What `perilune describe` prints."""
@@ -73,7 +89,7 @@ def _describe_fmu(name: str, options: System) -> Description:
     read, label = locate_fmu(name, options.flavour, "describe")
     fmu = load_fmu(read(), label)
     alone, _ = describe_alone(fmu, options)
-    return Description(
+    described = Description(
         fmu=fmu.name,
         file=label,
         description=fmu.description.description or "",
@@ -87,6 +103,8 @@ def _describe_fmu(name: str, options: System) -> Description:
         },
         variables=variables_of(fmu),
     )
+    described.prepare = partial(prepare_system, label, options)
+    return described
 
 
 def _describe_slot(name: str) -> Description:
@@ -106,9 +124,12 @@ def _describe_slot(name: str) -> Description:
 
 
 def _describe_system(name: str, component: str | None, options: System) -> Description:
-    document = describe_system(prepare_system(name, options))
+    prepared = prepare_system(name, options)
+    document = describe_system(prepared)
     if component is None:
-        return Description(document)
+        described = Description(document)
+        described.prepare = lambda: prepared
+        return described
     components = {entry["name"]: entry for entry in document["components"]}
     if component not in components:
         raise InputError("describe", component, "no such component", suggestion(component, components))

@@ -13,6 +13,7 @@ from ..campaigns.spec.expressions import Expression
 from ..campaigns.tables import faults_line
 from ..common.visible import on_one_line
 from ..reports.common.notebook import Grid, notebook_view, value_text
+from ..reports.diagram.diagram import make_diagram
 from ..reports.figures.declared import Band, Figure, Limits
 from ..reports.figures.limits import limit_document, limit_rows
 from ..reports.figures.reading import read_figures
@@ -59,7 +60,8 @@ class Result(results.Result):
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune run --report`: one HTML file."""
-        write_run_report(self, Path(path), self.system, self.figures)
+        diagram = make_diagram(self.prepared, faults_of(self.faults))
+        write_run_report(self, Path(path), self.system, self.figures, diagram)
 
     def plot(self, name: str, *more: str) -> Plot:
         """Signals over time, a panel for each name; a vector's elements share one. Raises KeyError."""

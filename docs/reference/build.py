@@ -14,6 +14,7 @@ from typing import Any
 from perilune.analysis.common.errors import InputError
 from perilune.fmus_src.paths import BUILD, PACKAGE, ROOT
 
+from .diagrams import add_diagrams
 from .formulas import typeset
 from .links import broken_links
 from .pages import derived_pages, reference_navigation
@@ -46,6 +47,7 @@ def build_site(output: Path, sources: Path) -> None:
         path = sources / "docs" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
+    add_diagrams(sources / "docs")
     for path in (sources / "docs").rglob("*.md"):
         path.write_text(typeset(path.read_text(encoding="utf-8")), encoding="utf-8")
     settings = site_settings()

@@ -18,8 +18,13 @@ def display_unit(unit: str | None) -> str:
     """A unit as it is shown: ``m/s2`` is m/s², radians (per second) are degrees, ``1`` and None are nothing."""
     if unit is None or unit == "1":
         return ""
-    if RADIANS.fullmatch(unit):
-        unit = unit.replace("rad", "deg")
+    return declared_unit(unit.replace("rad", "deg") if RADIANS.fullmatch(unit) else unit)
+
+
+def declared_unit(unit: str | None) -> str:
+    """A connector's unit, radians too: ``rad/s2`` is rad/s², ``1`` and None are nothing."""
+    if unit is None or unit == "1":
+        return ""
     return POWER.sub(lambda power: power.group(1).translate(SUPERSCRIPTS), unit).replace(".", "·")
 
 

@@ -177,16 +177,28 @@ def _connect(network: Network, path: str, system: System, connection: Connection
     network.driver[link.target.name] = link
 
 
-def _link(network: Network, path: str, system: System, connection: Connection) -> Link:
-    """The link from the start of a connection, or from its end, if that is where values come from."""
+def orient(
+    network: Network, path: str, system: System, connection: Connection
+) -> tuple[tuple[Point, Node], tuple[Point, Node]]:
+    """Source and target of a connection with their nodes: the standard gives its ends no direction.
+
+    ``path`` is that of the ``system`` in which the connection stands. Raises InputError.
+    """
     start = _end(network, path, system, connection.start, connection)
     end = _end(network, path, system, connection.end, connection)
     start_is_own, end_is_own = (point[0] is None for point in (connection.start, connection.end))
-    if not _leads(start, start_is_own, end, end_is_own):
-        if not _leads(end, end_is_own, start, start_is_own):
-            problem = f"{start.name} is {start.kind} and {end.name} is {end.kind}: neither gives what the other takes"
-            raise network.refuse(connection.where, problem, "connect an output with an input")
-        start, end = end, start  # the standard gives the ends of a connection no direction
+    forwards = (connection.start, start), (connection.end, end)
+    if _leads(start, start_is_own, end, end_is_own):
+        return forwards
+    if not _leads(end, end_is_own, start, start_is_own):
+        problem = f"{start.name} is {start.kind} and {end.name} is {end.kind}: neither gives what the other takes"
+        raise network.refuse(connection.where, problem, "connect an output with an input")
+    return forwards[1], forwards[0]
+
+
+def _link(network: Network, path: str, system: System, connection: Connection) -> Link:
+    """The link from the start of a connection, or from its end, if that is where values come from."""
+    (_, start), (_, end) = orient(network, path, system, connection)
     if "calculatedParameter" in (start.kind, end.kind):
         raise network.refuse(
             connection.where,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Annotated, Literal, TypedDict
 
 from .option import FilePath, Option
-from .system import SystemOptions
+from .system import ReportFiles, SystemOptions
 from .verb import Argument, Verb
 
 PATHS = Argument(
@@ -57,8 +57,10 @@ DESCRIBE = Verb(
         Argument("component", "COMPONENT", "of a system: one component with all its variables", optional=True),
     ),
     options=DescribeOptions,
+    files=ReportFiles,
     examples={
         "perilune describe lunar_landing": "components, connections, values, compatible FMUs",
+        "perilune describe lunar_landing --report blocks.html": "the block diagram, with tables of its connections",
         "perilune describe lunar_landing guidance": "one component with all its variables",
         "perilune describe terminal_guidance": "a slot: connectors, parameters, its FMUs",
         "perilune describe entry_attitude --campaign cases": "a campaign, each value with file and line",

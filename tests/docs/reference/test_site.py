@@ -9,9 +9,12 @@ import re
 from itertools import pairwise
 
 import pytest
+from lxml import html
 
 from docs.reference.build import build_site
 from docs.reference.links import broken_links
+from perilune.analysis.reports.diagram.elk import MISSING
+from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.paths import ROOT
 from tests.support.documented import PAGES
@@ -63,7 +66,7 @@ def test_tables_are_read_alike_everywhere(page):
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory):
+def site(fmus, tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
     build_site(folder / "site", folder / "sources")
     return folder / "site"
@@ -77,6 +80,14 @@ def test_it_is_complete(site):
     signature = (site / "reference" / "python" / "flying.html").read_text(encoding="utf-8")
     assert "stop_time" in signature
     assert 'id="perilune.simulate"' in signature
+    for name in system_names():
+        page = (site / "systems" / f"{name}.html").read_text(encoding="utf-8")
+        image = site / "images" / "diagrams" / f"{name}.svg"
+        if image.is_file():
+            assert f'src="../images/diagrams/{name}.svg"' in page
+            assert image.read_text(encoding="utf-8").startswith("<svg ")
+        else:
+            assert MISSING.replace("`", "") in html.fromstring(page).text_content()
 
 
 @pytest.mark.slow

@@ -1,0 +1,101 @@
+"""What a page shows of the structure of a system: its block diagram, and tables of blocks and connections."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from markupsafe import Markup
+
+from ...common.visible import on_one_line, visible
+from ...runtime.system.fault import Fault
+from ...runtime.system.prepared import PreparedSystem
+from ..common.page import Table, exact
+from ..common.quantities import declared_unit, display_unit
+from .drawing import draw
+from .elk import MISSING, Engine
+from .graph import Block, Edge, PortKey
+from .layout import lay_out
+from .reading import read_graph
+
+MAX_NAMED = 20  # outputs of a block without connection
+MAX_BLOCKS, MAX_EDGES = 200, 1000  # beyond which nobody reads a diagram
+
+SHEET = 700.0  # px, the width of a sheet that stands upright
+BROAD = 1.6  # of a diagram's height, from which width on it is larger on a sheet on its side
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """A diagram, or why there is none; ``system`` is its graph, ``is_broad``: it is printed on a sheet on its side."""
+
+    system: Block
+    svg: Markup | None
+    missing: str = ""
+    is_broad: bool = False
+
+
+def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diagram:
+    """The diagram of a prepared system, with the faults that its run has. No FMU is loaded."""
+    system = read_graph(prepared, faults)
+    blocks = sum(1 for _ in system.all_blocks()) - 1
+    edges = sum(1 for _ in system.all_edges())
+    if blocks > MAX_BLOCKS or edges > MAX_EDGES:
+        limits = f"it would have {blocks} blocks and {edges} connections, more than {MAX_BLOCKS} or {MAX_EDGES}"
+        return Diagram(system, None, f"No block diagram: {limits}.")
+    engine = Engine.load()
+    if engine is None:
+        return Diagram(system, None, MISSING)
+    with engine:
+        placement = lay_out(system, engine)
+    is_broad = placement.width > max(SHEET, BROAD * placement.height)
+    return Diagram(system, draw(system, placement), is_broad=is_broad)
+
+
+def block_table(system: Block) -> Table:
+    """The blocks with their FMUs, and their other outputs, which are not drawn since nothing is connected to them."""
+    rows: list[list[Markup | str]] = []
+    for block in system.all_blocks():
+        if block is system:
+            continue
+        visible_ports = block.visible_ports()
+        others = [_text(port.label) for key, port in block.ports.items() if key not in visible_ports]
+        more = [f"and {len(others) - MAX_NAMED} more"] if len(others) > MAX_NAMED else []
+        names = ", ".join([*others[:MAX_NAMED], *more])
+        description = Markup('<span class="long">{}</span>').format(_text(block.description))
+        rows.append([_text(block.path), _text(block.model), block.kind_label, description, names])
+    return Table(("block", "FMU", "kind", "description", "other outputs"), rows, ())
+
+
+def connection_table(system: Block) -> Table:
+    """The edges of the diagram: from where to where, how many connections, unit, what happens on the way."""
+    ports = {key: port for block in system.all_blocks() for key, port in block.ports.items()}
+    rows = []
+    for edge in system.all_edges():
+        ends = [_text(f"{key.block}.{ports[key].label}" if key.block else ports[key].label) for key in _ends(edge)]
+        rows.append([*ends, str(len(edge.pairs)), declared_unit(ports[edge.source].unit), _text(edge.note)])
+    return Table(("from", "to", "elements", "unit", "on the way"), rows, (2,))
+
+
+def parameter_table(prepared: PreparedSystem, system: Block) -> Table:
+    """The parameters that a system gives to its blocks, with their values; a dash where no value is set."""
+    targets: dict[str, list[str]] = defaultdict(list)
+    for block in system.all_blocks():
+        for source, target in (pair for edge in block.parameters for pair in edge.pairs):
+            targets[source].append(target)
+    rows = []
+    for name, given_to in targets.items():
+        node = prepared.network.nodes[name]
+        unit = node.unit.name if node.unit else None
+        setting = exact(prepared.settings.nodes.get(name), unit, 6)
+        rows.append([_text(name), setting, display_unit(unit), _text(", ".join(given_to))])
+    return Table(("parameter", "value", "unit", "given to"), rows, (1,))
+
+
+def _ends(edge: Edge) -> tuple[PortKey, PortKey]:
+    return edge.source, edge.target
+
+
+def _text(text: str) -> str:
+    return on_one_line(visible(text))

@@ -1,0 +1,206 @@
+"""The graph of a prepared system: of what its description says, without any FMU loaded."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from pathlib import PurePosixPath
+
+from ....fmus_src.catalogue import block_kinds
+from ...runtime.ssp.conversions import IDENTITY, Transformation
+from ...runtime.ssp.description import Component, Connection, Connector, DictionaryReference, Element, Point, System
+from ...runtime.system.fault import Fault
+from ...runtime.system.flattening import orient
+from ...runtime.system.network import Node
+from ...runtime.system.prepared import PreparedSystem
+from ..common.quantities import declared_unit
+from .graph import Block, Edge, Port, PortKey, Side
+
+ELEMENT = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
+CUSTOM, FOREIGN, SYSTEM, DICTIONARY = "", "foreign FMU", "system", "signal dictionary"
+MAX_RANGES = 3  # of elements, beyond which only their number is given
+SIDES = {"input": (Side.IN,), "output": (Side.OUT,), "inout": tuple(Side)}  # by the kind of a connector
+Vectors = dict[str, list[str]]  # the indices of a vector's elements, in their order
+
+
+def read_graph(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Block:
+    """The whole system as a block with its components inside."""
+    return _Reader(prepared, faults).system(prepared.network.description.system, "", prepared.archive.name)
+
+
+class _Reader:
+    def __init__(self, prepared: PreparedSystem, faults: Sequence[Fault]) -> None:
+        self.prepared = prepared
+        self.network = prepared.network
+        self.faults = faults
+        self.vectors: dict[str, Vectors] = {}
+
+    def system(self, system: System, path: str, name: str) -> Block:
+        """A system; ``path`` ends with a dot, or is empty for the whole."""
+        block = Block(path.removesuffix("."), name, SYSTEM)
+        self.add_ports(block, system, path)
+        for element in system.elements.values():
+            block.blocks.append(self.element(element, path))
+        inner = {each.name: each for each in block.blocks}
+        bundles: dict[tuple[PortKey, PortKey, str, bool], list[tuple[Node, Node]]] = {}
+        for connection in system.connections:
+            for start in (connection.start, *connection.added):
+                single = replace(connection, start=start, added=())
+                (source, source_node), (target, target_node) = orient(self.network, path, system, single)
+                is_parameter = target_node.kind in ("parameter", "calculatedParameter")
+                ends = (
+                    self.key(block, inner, source, source_node, Side.OUT),
+                    self.key(block, inner, target, target_node, Side.IN),
+                )
+                change = _change(single, source_node, target_node, is_sum=bool(connection.added))
+                bundles.setdefault((*ends, change, is_parameter), []).append((source_node, target_node))
+        entries: dict[PortKey, list[PortKey]] = {}  # to a port, by the ports that lead to it
+        blocks = {block.path: block, **{each.path: each for each in block.blocks}}
+        for (source_key, target_key, change, is_parameter), nodes in bundles.items():
+            elements = self.elements(source_key, target_key, nodes)
+            pairs = tuple((source_node.name, target_node.name) for source_node, target_node in nodes)
+            edge = Edge(source_key, target_key, pairs, elements, change)
+            if is_parameter:
+                blocks[target_key.block].parameters.append(edge)
+            else:
+                sources = entries.setdefault(target_key, [])
+                if source_key not in sources:
+                    sources.append(source_key)
+                entry = blocks[target_key.block].add_entry(target_key, sources.index(source_key))
+                block.edges.append(replace(edge, target=entry))
+                for key in (source_key, entry):
+                    blocks[key.block].ports[key].is_connected = True
+        return block
+
+    def element(self, element: Element, path: str) -> Block:
+        name = path + element.name
+        if isinstance(element, System):
+            return self.system(element, f"{name}.", element.name)
+        if isinstance(element, DictionaryReference):
+            block = Block(name, element.name, DICTIONARY, element.dictionary)
+        else:
+            assert isinstance(element, Component)
+            fmu = self.network.fmus[name]
+            kind = block_kinds().get(fmu.name, CUSTOM) if fmu.is_own else FOREIGN
+            model = fmu.name
+            if name in self.prepared.options.use:
+                model += f", replaces {PurePosixPath(element.source).stem}"
+            block = Block(name, element.name, kind, model, fmu.description.description or "")
+            block.faults = [str(fault) for fault in self.faults if self.owner(fault) == name]
+        self.add_ports(block, element, f"{name}.")
+        return block
+
+    def owner(self, fault: Fault) -> str:
+        node = self.network.nodes.get(fault.name)
+        return "" if node is None else node.component or ""
+
+    def add_ports(self, block: Block, element: Element, path: str) -> None:
+        """The connectors of an element, on both sides for a dictionary's signals; an FMU's other outputs, too."""
+        sizes = self.sizes(block, element)
+        self.vectors[block.path] = sizes
+        declared = {name: self.kind_and_unit(connector, path) for name, connector in element.connectors.items()}
+        if isinstance(element, Component):
+            fmu = self.network.fmus[block.path]
+            outputs = (each for each in fmu.variables.values() if each.causality == "output")
+            declared |= {each.name: ("output", fmu.unit_of(each)) for each in outputs if each.name not in declared}
+        for connector_name, (kind, unit) in declared.items():
+            name, is_vector = base_name(connector_name)
+            for side in SIDES.get(kind, ()):
+                key = PortKey(block.path, side, f"{name}[]" if is_vector else name)
+                size = size_text(sizes[name]) if is_vector else ""
+                port = block.ports.setdefault(key, Port(name, size, unit, []))
+                port.signals.append(path + connector_name)
+
+    def kind_and_unit(self, connector: Connector, path: str) -> tuple[str, str | None]:
+        node = self.network.nodes.get(path + connector.name)
+        if node is None:
+            return connector.kind, connector.unit
+        return node.kind, node.unit.name if node.unit else connector.unit
+
+    def sizes(self, block: Block, element: Element) -> Vectors:
+        """The vectors of an element: of all variables of an FMU, not only of those that are declared connectors."""
+        fmu = self.network.fmus.get(block.path) if isinstance(element, Component) else None
+        return vectors_of(element.connectors if fmu is None else fmu.variables)
+
+    def key(self, block: Block, inner: dict[str, Block], point: Point, node: Node, side: Side) -> PortKey:
+        """The port that one end of a connection is; seen from inside, a system's inputs are sources."""
+        element, connector = point
+        name, is_vector = base_name(connector)
+        if element is None:
+            side = Side.IN if side is Side.OUT else Side.OUT
+        return PortKey(block.path if element is None else inner[element].path, side, f"{name}[]" if is_vector else name)
+
+    def elements(self, source: PortKey, target: PortKey, nodes: Sequence[tuple[Node, Node]]) -> tuple[str, str]:
+        """The elements of two ports that are connected; empty where they are all of both, in their order."""
+        texts, is_whole = [], True
+        for key, variables in zip((source, target), zip(*nodes, strict=True), strict=True):
+            indices = [match[2] for node in variables if (match := ELEMENT.fullmatch(node.variable))]
+            texts.append(f"[{ranges(indices)}]" if indices else "")
+            is_whole &= not indices or indices == self.vectors[key.block][key.name.removesuffix("[]")]
+        return ("", "") if is_whole else (texts[0], texts[1])
+
+
+def base_name(variable: str) -> tuple[str, bool]:
+    """The name without indices, and whether it had some."""
+    match = ELEMENT.fullmatch(variable)
+    return (match[1], True) if match else (variable, False)
+
+
+def vectors_of(names: Iterable[str]) -> Vectors:
+    """The indices of each vector's elements."""
+    vectors: Vectors = {}
+    for name in names:
+        if match := ELEMENT.fullmatch(name):
+            vectors.setdefault(match[1], []).append(match[2])
+    return vectors
+
+
+def size_text(indices: Sequence[str]) -> str:
+    """The size of a vector with these elements: ``3``, ``2,3``; ``0..2`` where it is not counted from 1."""
+    if "," in indices[0]:
+        rows = [tuple(map(int, index.split(","))) for index in indices]
+        return ",".join(str(max(column)) for column in zip(*rows, strict=False))
+    numbers = [int(index) for index in indices]
+    return str(len(numbers)) if numbers == list(range(1, len(numbers) + 1)) else ranges(indices)
+
+
+def ranges(indices: Sequence[str]) -> str:
+    """Indices with neighbours joined: ``1..3, 5``; only their number where these are many."""
+    joined: list[tuple[int, int] | str] = []
+    for index in indices:
+        if "," in index:
+            joined.append(index)
+            continue
+        number = int(index)
+        if joined and isinstance(joined[-1], tuple) and joined[-1][1] == number - 1:
+            joined[-1] = (joined[-1][0], number)
+        else:
+            joined.append((number, number))
+    if len(joined) > MAX_RANGES:
+        return f"{len(indices)} elements"
+    return ", ".join(
+        each if isinstance(each, str) else str(each[0]) if each[0] == each[1] else f"{each[0]}..{each[1]}"
+        for each in joined
+    )
+
+
+def _change(connection: Connection, source: Node, target: Node, *, is_sum: bool) -> str:
+    """What happens to a value on its way; empty where it arrives as it is."""
+    units = ""
+    if source.unit and target.unit and not source.unit.is_same(target.unit):
+        units = f"{declared_unit(source.unit.name)} → {declared_unit(target.unit.name)}"
+        if connection.suppress_unit_conversion:
+            units += ", not converted"
+    return ", ".join(filter(None, (units, _transformation(connection.transformation), "added" if is_sum else "")))
+
+
+def _transformation(transformation: Transformation) -> str:
+    if transformation == IDENTITY:
+        return ""
+    if transformation.table:
+        return "mapped"
+    factor = "" if transformation.factor == 1.0 else f"· {transformation.factor:g}"
+    sign = "+" if transformation.offset > 0.0 else "\u2212"
+    offset = f"{sign} {abs(transformation.offset):g}" if transformation.offset else ""
+    return " ".join(filter(None, (factor, offset)))

@@ -1,0 +1,74 @@
+"""Columns of blocks, cut into rows below each other where they would be wider than a page. Lengths in px."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+
+from .placement import Placed, Terminal
+
+WIDEST = 1360.0  # of a row of several columns
+
+
+@dataclass
+class Column:
+    """Boxes one above the other, between the abscissas ``left`` and ``right``; no other box is between these."""
+
+    left: float
+    right: float
+    boxes: list[Placed | Terminal]
+
+
+def columns_of(boxes: Iterable[Placed | Terminal]) -> list[Column]:
+    """The columns that boxes are in, from left to right."""
+    columns: list[Column] = []
+    for box in sorted(boxes, key=lambda box: box.x):
+        if columns and box.x < columns[-1].right:
+            columns[-1].right = max(columns[-1].right, box.x + box.width)
+            columns[-1].boxes.append(box)
+        else:
+            columns.append(Column(box.x, box.x + box.width, [box]))
+    return columns
+
+
+def cut_into_rows(columns: Sequence[Column], arcs: Sequence[tuple[int, int]]) -> list[range]:
+    """The columns of each row: as few rows as `WIDEST` allows, with as many edges as possible inside rows.
+
+    ``arcs`` are the columns that each edge connects. Of equally good cuts the one with rows of the most equal widths
+    is taken. Dynamic programming over the end of each row.
+    """
+    count = len(columns)
+    inside = _edges_inside(count, arcs)
+    begins_of_rows: list[dict[int, int]] = []  # for each number of rows: by its last row's end, its begin
+    costs: dict[int, tuple[int, float]] = {0: (0, 0.0)}  # by end: edges inside, negative; squares of widths
+    while count not in costs:
+        following: dict[int, tuple[int, float]] = {}
+        begins: dict[int, int] = {}
+        for begin, (edges, squares) in costs.items():
+            for end in range(begin + 1, count + 1):
+                width = columns[end - 1].right - columns[begin].left
+                if width > WIDEST and end > begin + 1:
+                    break
+                cost = (edges - inside[begin][end], squares + width * width)
+                if end not in following or cost < following[end]:
+                    following[end], begins[end] = cost, begin
+        costs = following
+        begins_of_rows.append(begins)
+    rows, end = [], count
+    for begins in reversed(begins_of_rows):
+        rows.append(range(begins[end], end))
+        end = begins[end]
+    return rows[::-1]
+
+
+def _edges_inside(count: int, arcs: Sequence[tuple[int, int]]) -> list[list[int]]:
+    """[begin][end]: how many edges are between columns from begin to before end."""
+    table = [[0] * (count + 1) for _ in range(count + 1)]
+    for arc in arcs:
+        table[min(arc)][max(arc) + 1] += 1
+    for begin in range(count - 1, -1, -1):
+        table[begin] = [
+            total + longer for total, longer in zip(accumulate(table[begin]), table[begin + 1], strict=True)
+        ]
+    return table
