@@ -16,6 +16,7 @@ def scene_notes(scene: Scene, result: Result) -> list[str]:
     return [
         f"Frame: {scene.frame or 'of the signals'}; {axes}.",
         f"To scale, along the body's axes: {sizes}.",
+        *(f"Dashed line: {line.name}." for line in scene.lines),
         *(note for body in scene.bodies for note in _body_notes(body, result)),
         "Marks, lines and paths have a constant width on the screen; the light is not the Sun's.",
         *scene.notes,
@@ -36,8 +37,13 @@ def _body_notes(body: Body, result: Result) -> list[str]:
 def _plume(body: Body, thrust: Thrust, result: Result) -> str:
     largest = number(largest_magnitude(thrust.signal.values(result)))
     unit = display_unit(thrust.signal.unit_name)
-    length = f"{number(max(body.size))} m at {largest} {unit}".rstrip()
+    length = f"{number(plume_length(body))} m at {largest} {unit}".rstrip()
     return f"Plume: its length is proportional to {thrust.signal.label}, {length}."
+
+
+def plume_length(body: Body) -> float:
+    """How long (m) the plume of the largest thrust of a run is drawn."""
+    return 2.0 * max(body.size)
 
 
 def largest_magnitude(values: np.ndarray) -> float:

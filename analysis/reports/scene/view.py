@@ -17,7 +17,7 @@ from ..common.round_body import track_normal
 from ..common.style import COLOURS
 from ..figures.declared import Signal
 from ..figures.scene.declared import GROUND, Body, Jets, Line, Scene, Site
-from .notes import largest_magnitude, scene_notes
+from .notes import largest_magnitude, plume_length, scene_notes
 from .poses import Pose, compute_poses
 
 Numbers = Sequence[float]
@@ -25,10 +25,14 @@ Numbers = Sequence[float]
 
 @dataclass(frozen=True)
 class ThrustView:
-    """A force: its values in ``unit``, the largest magnitude, where it acts and along which direction (body)."""
+    """A force: its values in ``unit``, where it acts and along which direction (body), and its plume's ``length`` (m).
+
+    The plume has this length at the ``largest`` magnitude.
+    """
 
     values: np.ndarray
     largest: float
+    length: float
     unit: str
     label: str
     at: Numbers
@@ -159,6 +163,7 @@ def _body(body: Body, pose: Pose, origin: np.ndarray, colour: str, result: Resul
             ThrustView(
                 values=(values := thrust.signal.values(result)[0]),
                 largest=largest_magnitude(values),
+                length=plume_length(body),
                 unit=display_unit(thrust.signal.unit_name),
                 label=thrust.signal.label,
                 at=thrust.at,
