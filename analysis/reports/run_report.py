@@ -14,6 +14,9 @@ from .common.signals import distinct, signal_groups
 from .figures.declared import Figure
 from .figures.figure_sections import figure_sections, joint_findings
 from .figures.limits import Verdict, limit_document
+from .figures.scene.declared import Scene
+from .scene.notes import scene_notes
+from .scene.view import scene_view
 from .time_histories import time_histories
 from .trajectory import trajectory_panels, trajectory_reading
 
@@ -39,6 +42,7 @@ def write_run_report(result: Result, path: Path, title: str, figures: Sequence[F
     ``figures`` are those that the SSD declares, see figures/reading.py.
     """
     limits = limits_by_verdict(figures, result)
+    scene = next((figure for figure in figures if isinstance(figure, Scene)), None)
     write_page(
         path,
         Path(__file__).with_name("run_report.html"),
@@ -53,6 +57,8 @@ def write_run_report(result: Result, path: Path, title: str, figures: Sequence[F
         trajectory=trajectory_panels(result),
         trajectory_reading=trajectory_reading(result),
         joint=joint_findings(figures, result),
+        scene=scene_view(scene, result) if scene is not None else None,
+        scene_notes=scene_notes(scene, result) if scene is not None else [],
         sections=figure_sections(figures, result),
         histories=time_histories(result),
         signals=signal_table(result),

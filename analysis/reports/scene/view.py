@@ -17,7 +17,7 @@ from ..common.round_body import track_normal
 from ..common.style import COLOURS
 from ..figures.declared import Signal
 from ..figures.scene.declared import GROUND, Body, Jets, Line, Scene, Site
-from .notes import largest_magnitude, plume_length, scene_notes
+from .notes import largest_magnitude, plume_length
 from .poses import Pose, compute_poses
 
 Numbers = Sequence[float]
@@ -107,7 +107,6 @@ class SceneView:
     bodies: Sequence[BodyView]
     sites: Sequence[SiteView]
     lines: Sequence[LineView]
-    notes: Sequence[str]
 
 
 def scene_view(scene: Scene, result: Result) -> SceneView | None:
@@ -131,7 +130,6 @@ def scene_view(scene: Scene, result: Result) -> SceneView | None:
         ],
         sites=[_site(site, origin, colours[site.name], result) for site in scene.sites],
         lines=[_line(line, result) for line in scene.lines],
-        notes=scene_notes(scene, result),
     )
 
 
