@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | checks | figures | bench | sanitize | fuzz | elementary | processors | browser | emulator | windows | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | bench | sanitize | fuzz | elementary | processors | browser | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # On a terminal pip shows what it does, in a log nothing.
@@ -9,10 +9,11 @@ QUIET := $(shell [ -t 2 ] || echo --quiet)
 unexport PYTHONDONTWRITEBYTECODE
 test quick long long-campaigns explore: export OPENBLAS_NUM_THREADS = 1
 
-demo: .venv/ready
+demo: .venv/ready web
 	$(BIN)/python -m docs.figures.demo
 
-test: .venv/ready lint build
+test: WEB := --tools
+test: .venv/ready lint build web
 	-@[ "$$(id -u)" != 0 ] || ! command -v apt-get >/dev/null || $(MAKE) --no-print-directory browser emulator
 	MAKEFLAGS= $(BIN)/python -m pytest -n 2 --dist loadfile
 
@@ -34,11 +35,15 @@ CAMPAIGNS := tests/campaigns tests/studies
 long-campaigns: build
 	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $(CAMPAIGNS)
 
-build: .venv/ready
+build: .venv/ready web
 	$(BIN)/python build_fmus.py
 
+# The scripts of report pages, bundled from web/ with packages of the npm registry; without it pages are static.
+web: .venv/ready
+	$(BIN)/python build_web.py $(WEB)
+
 # The documentation as a site, build/site/index.html: it needs no server and no network. Broken links fail.
-docs: .venv/ready
+docs: .venv/ready web
 	$(BIN)/python build_docs.py
 
 # What one installs elsewhere with pip: build/wheel/perilune-VERSION-py3-none-any.whl, native FMUs of all platforms inside.
@@ -136,4 +141,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build docs wheel notebooks explore gains checks bench large sanitize fuzz processors emulator windows browser lint clean
+.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks bench large sanitize fuzz processors emulator windows browser lint clean

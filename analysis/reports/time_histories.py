@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from ..campaigns.verdicts.order_statistics import quantiles
 from ..runtime.flight.results import Result
 from ..runtime.ssp.names import elements
+from .common.lines import plot_quantity
 from .common.panels import Panel, panel, swatch
 from .common.quantities import display_factor, label_with_unit, number
 from .common.signals import SignalGroup, distinct, signal_groups, states_and_commands
@@ -77,7 +78,8 @@ def time_histories(result: Result) -> Histories:
         selected = [group for group in unfolded if group.component == component]
         if selected:
             name = f"history{position}-first"
-            first.append(ComponentHistory(component, _panels(selected, result, name), _legend(selected), [], []))
+            panels = _panels(selected, result, name, reduced=False)
+            first.append(ComponentHistory(component, panels, _legend(selected), [], []))
         others = [group for group in members if group not in unfolded]
         remainder.append(_fold_history(component, others, originals, result, position))
     return Histories(first, [history for history in remainder if not history.is_empty], bool(named))
@@ -97,7 +99,7 @@ def _fold_history(
     final = result.final()
     return ComponentHistory(
         component=component,
-        panels=_panels(varying, result, f"history{position}"),
+        panels=_panels(varying, result, f"history{position}", reduced=True),
         legend=_legend(varying),
         constant=[(group.label, [final[name] for name in group.names], group.unit) for group in constant],
         copies=[(group.label, original.label) for group, original in copies],
@@ -109,8 +111,8 @@ def _is_constant(group: SignalGroup, result: Result) -> bool:
     return bool(np.all(values == values[:, :1]))
 
 
-def _panels(groups: list[SignalGroup], result: Result, name: str) -> list[Panel]:
-    """A panel for each: Real signals first, grouped by unit, units in order of appearance."""
+def _panels(groups: list[SignalGroup], result: Result, name: str, *, reduced: bool) -> list[Panel]:
+    """A panel for each: Real signals first, grouped by unit, units in order of appearance; ``reduced`` to envelopes."""
     kinds = [(not group.is_real, group.unit) for group in groups]
     first = {kind: index for index, kind in reversed(list(enumerate(kinds)))}
     ranked = sorted(groups, key=lambda group: (not group.is_real, first[not group.is_real, group.unit]))
@@ -121,6 +123,7 @@ def _panels(groups: list[SignalGroup], result: Result, name: str) -> list[Panel]
             f"{group.label} over time",
             partial(draw_history, group=group, result=result),
             HEIGHT,
+            reduced=reduced,
         )
         for index, group in enumerate(ranked)
     ]
@@ -134,19 +137,17 @@ def _legend(groups: list[SignalGroup]) -> list[tuple[Markup, str]]:
 
 def draw_history(axes: Axes, group: SignalGroup, result: Result) -> None:
     """One panel: a scalar or a vector over time; Integers and Booleans as steps."""
-    values = np.where(np.isfinite(group.values(result)), group.values(result), np.nan) * display_factor(group.unit)
+    values = group.values(result)
     style = "default" if group.is_real else "steps-post"
-    for index, row in enumerate(values):
-        colour, dashes, _ = look(index)
-        marker = "." if np.count_nonzero(np.isfinite(row)) == 1 else ""
-        axes.plot(result.time, row, color=colour, linestyle=dashes, drawstyle=style, marker=marker)
+    for index, (name, row) in enumerate(zip(group.names, values, strict=True)):
+        plot_quantity(axes, result.time, row, name, group.unit, index, drawstyle=style)
     axes.set_xlabel("time, s")
     plain_ticks(axes, x=5, y=4, whole_y=not group.is_real)
     if group.type == "Boolean":
         axes.set_yticks([0, 1], ["false", "true"])
         axes.set_ylim(-0.15, 1.15)
     elif group.is_real:
-        _clip_spikes(axes, values)
+        _clip_spikes(axes, display_factor(group.unit) * values)
 
 
 def _clip_spikes(axes: Axes, values: np.ndarray) -> None:

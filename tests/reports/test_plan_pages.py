@@ -16,7 +16,7 @@ from perilune.analysis.design.trajectories.vehicle import Landing, Margins, Tran
 from perilune.analysis.reports.plan_pages import write_hover_page, write_landing_page
 from tests.support.lengths import either
 from tests.support.pages.browser import start
-from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of, without_policy
 
 ENGINE = 4707.192
 VEHICLE = Vehicle(600.0, 0.0, 300.0, ENGINE, ENGINE / 15.0, math.radians(1.0))
@@ -116,7 +116,8 @@ def test_page_renders(browser, pages, tmp_path, name, width, height):
 @pytest.mark.parametrize("name", ["hover", "landing"])
 def test_nothing_overflows(browser, pages, tmp_path, name):
     measured = tmp_path / "measured.html"
-    measured.write_text(pages[name].read_text(encoding="utf-8").replace("</body>", MEASURE), encoding="utf-8")
+    text = without_policy(pages[name].read_text(encoding="utf-8"))
+    measured.write_text(text.replace("</body>", MEASURE), encoding="utf-8")
     dom = start(browser, measured, tmp_path, "--window-size=500,2000", "--dump-dom")
     assert re.search(r"<body[^>]* data-overflow=\"0\"", dom)
     assert re.search(r"<body[^>]* data-wide=\"\"", dom)

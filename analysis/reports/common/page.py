@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,7 +13,9 @@ from markupsafe import Markup
 
 from ...common.atomic import write_atomically
 from ...common.percent import percent
+from ..interactive.embedded import Embedded
 from .quantities import MINUS, display_unit, in_shown_unit, number
+from .svg import Drawing
 
 FOLDER = Path(__file__).parent
 
@@ -48,15 +51,26 @@ def render_page(template: Path, **content: Any) -> str:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
+    embedded = Embedded()
     environment.filters |= {
+        "answering": partial(answering, embedded=embedded),
         "exact": exact,
         "unit": display_unit,
         "number": number,
         "breakable": breakable,
         "percent": percent,
     }
-    style = Markup((FOLDER / "page.css").read_text(encoding="utf-8"))
-    return environment.get_template(template.name).render(style=style, **content)
+    styles = (FOLDER / "page.css", FOLDER.parent / "interactive" / "interactive.css")
+    style = Markup("".join(path.read_text(encoding="utf-8") for path in styles))
+    return environment.get_template(template.name).render(style=style, embedded=embedded, **content)
+
+
+def answering(figure: Drawing, embedded: Embedded) -> Markup:
+    """A figure whose values the page's script shows at the cursor."""
+    number = embedded.add_figure(figure.charts)
+    if number is None:
+        return figure.svg
+    return Markup('<svg data-figure="{}" {}').format(number, figure.svg.removeprefix("<svg "))
 
 
 def write_page(path: Path, template: Path, **content: Any) -> None:

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .style import WIDTH, Look, house_style, new_figure
-from .svg import inline_svg
+from .svg import Drawing, inline_svg
 
 PANEL_WIDTH = 3.4  # in; three in the page's column
 PANEL_HEIGHT = 2.5  # in
@@ -27,7 +27,7 @@ class Panel(NamedTuple):
     """A figure with its heading: a label, which has a look where it is a contender's."""
 
     label: str
-    figure: Markup
+    figure: Drawing
 
 
 def panel(
@@ -37,19 +37,24 @@ def panel(
     draw: Callable[[Axes], None],
     height: float = PANEL_HEIGHT,
     width: float = PANEL_WIDTH,
+    *,
+    reduced: bool = False,
 ) -> Panel:
-    """A panel that ``draw`` draws, sizes in inches; ``name`` must differ between the figures of a page."""
+    """A panel that ``draw`` draws, sizes in inches; ``name`` must differ between the figures of a page.
+
+    ``reduced``: the page has only envelopes of its lines.
+    """
     with house_style():
         figure = new_figure(height, width)
         draw(figure.subplots())
-        return Panel(label, inline_svg(figure, name, description))
+        return Panel(label, inline_svg(figure, name, description, reduced=reduced))
 
 
 class Widths(NamedTuple):
     """A figure as wide as the page, and the same for a narrow screen; the page shows one of the two."""
 
-    wide: Markup
-    slim: Markup
+    wide: Drawing
+    slim: Drawing
 
 
 def both_widths(

@@ -6,13 +6,15 @@ import io
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib
 from lxml import etree
 from markupsafe import Markup
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
+
+from ..interactive.charts import Chart, read_charts
 
 IMAGE_DPI = 200  # of what is no vector
 
@@ -57,12 +59,23 @@ DECIMALS = re.compile(r"(\.\d\d)\d+")  # beyond hundredths of a point
 REFERENCE = re.compile(r"url\(#([^)]+)\)")
 
 
-def inline_svg(figure: Figure, name: str, description: str, *, kind: str = "") -> Markup:
+class Drawing(NamedTuple):
+    """A figure as an <svg> element, and what it shows as data."""
+
+    svg: Markup
+    charts: list[Chart | None]
+
+    def __html__(self) -> str:
+        return self.svg
+
+
+def inline_svg(figure: Figure, name: str, description: str, *, kind: str = "", reduced: bool = False) -> Drawing:
     """A figure as an <svg> element for a page.
 
     Every id is prefixed with ``name``, which must differ between the figures of a page;
     ``description`` is what a screen reader says. Text stays text: it can be searched and copied. Coordinates are
     cut to hundredths of a point. The figure is as wide as what it stands in; ``kind`` is a class more, for the style.
+    ``reduced``: the page has only envelopes of its lines.
     """
     root = etree.fromstring(svg_bytes(figure, name, text_as_paths=False), etree.XMLParser(resolve_entities=False))
     for unwanted in (*root.iter(f"{SVG}metadata"), *root.iter(f"{SVG}style")):
@@ -86,4 +99,4 @@ def inline_svg(figure: Figure, name: str, description: str, *, kind: str = "") -
     root.set("role", "img")
     root.set("aria-label", description)
     root.set("class", f"figure {kind}".rstrip())
-    return Markup(etree.tostring(root, encoding="unicode"))
+    return Drawing(Markup(etree.tostring(root, encoding="unicode")), read_charts(figure, reduced=reduced))

@@ -8,10 +8,11 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 
 from ...runtime.flight.results import Result
+from ..common.lines import plot_quantity
 from ..common.page import exact
 from ..common.panels import HALF_WIDTH, Panel, panel
 from ..common.quantities import display_factor, display_unit
-from ..common.style import FAINT, GREEN, INK, look
+from ..common.style import FAINT, GREEN, INK
 from .declared import Band, Signal
 from .section import HEIGHT, Section, history_panel, legend_of, range_text, seconds, sentence
 
@@ -55,9 +56,8 @@ def band_section(band: Band, result: Result, name: str) -> Section:
     zoom = None if low is None or high is None else _zoom_limits(values, low, high)
 
     def draw(axes: Axes, limits: tuple[float, float] | None = None) -> None:
-        for index, line in enumerate(values):
-            style = look(index)
-            axes.plot(time, line, color=style.colour, linestyle=style.dashes, marker="." if time.size == 1 else "")
+        for index, (element, line) in enumerate(zip(band.signal.names, band.values(result), strict=True)):
+            plot_quantity(axes, time, line, element, band.signal.unit_name, index)
         _shade(axes, low, high)
         for begin, end in _spans(band, result):
             axes.axvspan(begin, end, color=FAINT, alpha=0.35, linewidth=0.0)
@@ -102,9 +102,8 @@ def _against(band: Band, result: Result, other: Signal, name: str, limits: tuple
     unit = display_unit(other.unit_name)
 
     def draw(axes: Axes) -> None:
-        for index, line in enumerate(band.plot_values(result)):
-            style = look(index)
-            axes.plot(across, line, color=style.colour, linestyle=style.dashes)
+        for index, (element, line) in enumerate(zip(band.signal.names, band.values(result), strict=True)):
+            plot_quantity(axes, across, line, element, band.signal.unit_name, index, time=result.time)
         _shade(axes, *limits)
         if decades:
             axes.set_xscale("log")

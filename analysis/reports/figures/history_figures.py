@@ -11,10 +11,11 @@ from matplotlib.axes import Axes
 
 from ...common.percent import short_percent
 from ...runtime.flight.results import Result
+from ..common.lines import plot_quantity
 from ..common.page import data, exact
 from ..common.panels import Panel
 from ..common.quantities import display_factor, display_unit
-from ..common.style import BLUE, FAINT, ORANGE, look
+from ..common.style import FAINT, ORANGE
 from .declared import Curve, Error
 from .section import (
     Section,
@@ -38,8 +39,8 @@ def error_section(error: Error, result: Result, name: str) -> Section:
     """The section of an error; ``name`` must differ between the figures of a page."""
     chosen, rows = select_rows(error.rows, result)
     time = result.time[rows]
-    values = np.where(chosen, error.estimate.plot_values(result) - error.truth.plot_values(result), np.nan)[:, rows]
-    stated = np.zeros_like(values) if error.sigma is None else error.sigma.plot_values(result)[:, rows]
+    values = np.where(chosen, error.estimate.values(result) - error.truth.values(result), np.nan)[:, rows]
+    stated = np.zeros_like(values) if error.sigma is None else error.sigma.values(result)[:, rows]
     sigma = np.where(stated > 0.0, stated, np.nan)
     panels: list[Panel] = []
     findings: list[Markup] = []
@@ -57,19 +58,20 @@ def error_section(error: Error, result: Result, name: str) -> Section:
 def _panels(
     error: Error, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, name: str
 ) -> list[Panel]:
-    unit = display_unit(error.estimate.unit_name)
+    unit_name = error.estimate.unit_name
+    unit, factor = display_unit(unit_name), display_factor(unit_name)
     description = f"{error.title}: {label or error.estimate.label} over time"
     head = f"{label}, " if label else ""
 
     def draw(axes: Axes, reach: float | None = None) -> None:
         rows = np.linspace(0, time.size - 1, min(time.size, MOST_ROWS)).round().astype(int)
         for times, shade in zip(SIGMAS, (0.20, 0.40), strict=True):
-            half = times * sigma[rows]
+            half = factor * times * sigma[rows]
             axes.fill_between(time[rows], -half, half, color=ORANGE, alpha=shade, linewidth=0.0)
         axes.axhline(0.0, color=FAINT, linewidth=0.8)
-        axes.plot(time, values, color=BLUE, marker="." if time.size == 1 else "")
+        plot_quantity(axes, time, values, label or error.title, unit_name)
         if reach is not None:
-            axes.set_ylim(-reach, reach)
+            axes.set_ylim(-factor * reach, factor * reach)
 
     panels = [history_panel(capital(f"{head}time history"), f"{name}-whole", description, unit, time, draw)]
     reach = _final_range(values, sigma)
@@ -125,7 +127,7 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
     """The section of curves; ``name`` must differ between the figures of a page."""
     chosen, rows = select_rows(curve.rows, result)
     time = result.time[rows]
-    values = [np.where(chosen, signal.plot_values(result)[0], np.nan)[rows] for signal in curve.signals]
+    values = [np.where(chosen, signal.values(result)[0], np.nan)[rows] for signal in curve.signals]
     unit_name = curve.signals[0].unit_name
     unit = display_unit(unit_name)
 
@@ -134,10 +136,8 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
             if limit is not None:
                 axes.axhline(display_factor(unit_name) * limit, color=FAINT, linewidth=0.9, linestyle=(0, (5, 3)))
         for index in which:
-            style = look(index if curve.together else 0)
-            axes.plot(
-                time, values[index], color=style.colour, linestyle=style.dashes, marker="." if time.size == 1 else ""
-            )
+            position = index if curve.together else 0
+            plot_quantity(axes, time, values[index], curve.signals[index].label, unit_name, position)
 
     notes = [_curve_caption(curve, unit), *curve.notes]
     if len(values) == 1 or curve.together:

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...runtime.flight.results import Result
+from ..common.lines import plot_path
 from ..common.panels import both_widths, far, is_slim
 from ..common.quantities import display_unit, label_with_unit
 from ..common.style import BLUE, INK, look, plain_ticks
@@ -31,7 +32,7 @@ def path_section(path: Path, result: Result, name: str) -> Section:
 
     def draw(figure: Figure) -> None:
         axes = figure.subplots()
-        axes.plot(scales[0] * x, scales[1] * y, color=BLUE, marker="." if x.size == 1 else "")
+        plot_path(axes, scales[0] * x, scales[1] * y, path.y.label, result.time[rows])
         axes.plot(scales[0] * x[-1], scales[1] * y[-1], "o", markersize=6, markerfacecolor="white", color=BLUE)
         for index, point in enumerate(path.points, 1):
             _draw_point(axes, point, (scales[0] * line(point.x), scales[1] * line(point.y)), index)

@@ -36,6 +36,7 @@ ELSEWHERE = {
     "job=$(sbatch ": "likewise",
     "perilune docs": "tests/verbs/test_docs.py",
     "LD_PRELOAD=": "of a host of the reader's own",
+    "python -m tests.fuzz": "hours of random inputs; tests/fuzz/test_documents.py tries a thousand of each",
 }
 # Commands by what is in them, and why only `make long` carries them out.
 TAKES_LONG = {

@@ -136,8 +136,8 @@ def test_scatter_counts_its_points(result):
     failed = sum(not good for good in result.trials["shaky"].success)
     (panel,) = failure_panels(result)
     assert panel.label == "shaky"
-    assert f"{failed} failures" in panel.figure
-    assert f"{40 - failed} successes" in panel.figure
+    assert f"{failed} failures" in panel.figure.svg
+    assert f"{40 - failed} successes" in panel.figure.svg
 
 
 def test_no_failures(tmp_path):

@@ -51,7 +51,7 @@ def marks(figure):
 def test_every_finite_trial_has_its_mark():
     (actual,) = scatter_figures(batch_result({"near": NEAR, "far": FAR}, DRAWS + ASKED))
     assert actual.title == "Contact points"
-    near, far = (marks(panel.figure) for panel in actual.panels)
+    near, far = (marks(panel.figure.svg) for panel in actual.panels)
     assert near == {"#9a9a9a": 2 + 1, "#d55e00": 1 + 1}  # a legend in each panel
     assert far == {"#9a9a9a": 4 + 1, "#d55e00": 1}
     words = [str(note) for note in actual.notes]
@@ -61,7 +61,7 @@ def test_every_finite_trial_has_its_mark():
 
 def test_the_circle_is_round_and_to_scale():
     (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + ASKED))
-    root = etree.fromstring(actual.panels[0].figure)
+    root = etree.fromstring(actual.panels[0].figure.svg)
     round_ones = [path.get("d") for path in root.xpath("//*[local-name()='path']") if path.get("d").count("C") == 8]
     points = [np.array(re.findall(r"-?\d+(?:\.\d+)?", path), dtype=float).reshape(-1, 2) for path in round_ones]
     width, height = max((np.ptp(actual, axis=0) for actual in points), key=max)  # the others are marks
@@ -80,12 +80,12 @@ def test_angles_are_in_degrees():
     (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + requested))
     assert actual.title == "north vs. east"
     assert ">30</data> deg around the origin." in actual.notes[0]
-    assert "east, deg" in actual.panels[0].figure
+    assert "east, deg" in actual.panels[0].figure.svg
 
 
 def test_units_that_differ_and_nothing_finite(tmp_path):
     (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + PLANE.format("m", "kg", "")))
-    assert "north, kg" in actual.panels[0].figure
+    assert "north, kg" in actual.panels[0].figure.svg
     nothing = batch_result({"lost": [(False, math.nan, math.inf)] * 3}, DRAWS + ASKED)
     write_batch_report(nothing, tmp_path / "page.html", "Lost")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")

@@ -299,7 +299,7 @@ def test_errors_far_beyond_expectation_leave_the_frame_and_the_panel_says_so():
     calm = bands_of(quantity, [Flight(0, True, np.arange(4.0), {name: np.minimum(values, 9.0)}, False)])
     plain = Look("#000000", "-", "o")
     panels = band_panels(quantity, {"wild": wild, "calm": calm}, {"wild": plain, "calm": plain}, "x")
-    assert "clipped; full range 5 to 1300" in panels[0].figure
-    assert "goes on to" not in panels[1].figure
-    ticks = [float(text) for text in re.findall(r">(\d+)</text>", panels[1].figure)]
+    assert "clipped; full range 5 to 1300" in panels[0].figure.svg
+    assert "goes on to" not in panels[1].figure.svg
+    ticks = [float(text) for text in re.findall(r">(\d+)</text>", panels[1].figure.svg)]
     assert max(ticks) <= 25.0  # chi-square of six: nine tenths lie between 1.6 and 12.6

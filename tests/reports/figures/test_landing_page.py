@@ -80,5 +80,5 @@ def test_all_figures_are_drawn(figures, result):
         "Not plotted" in words for section in sections for words in section.notes if "coast" not in section.title
     )
     wide = sum(len(figure) for section in sections for figure in section.plot or ())
-    size = wide + sum(len(panel.figure) for section in sections for panel in section.panels)
+    size = wide + sum(len(panel.figure.svg) for section in sections for panel in section.panels)
     assert size < 2_500_000

@@ -113,8 +113,8 @@ def test_a_band_says_from_when_on():
     assert notes(actual) == ["Green: \N{MINUS SIGN}0.5 to 0.5 deg for ship.angles; dotted line: settling time."]
     assert captions(actual) == ["Time history", "Zoom on tolerance band"]
     assert [label for _, label in actual.legend] == ["roll", "yaw"]
-    assert {"20", "deg"} <= texts(actual.panels[0].figure)
-    close = texts(actual.panels[1].figure)
+    assert {"20", "deg"} <= texts(actual.panels[0].figure.svg)
+    close = texts(actual.panels[1].figure.svg)
     assert {"1", "\N{MINUS SIGN}1", "deg"} <= close
     assert "20" not in close
 
@@ -160,7 +160,7 @@ def test_a_bar_for_each_pulse():
     """81 ticks: x fires up in 8 and down in 8 of them, y in the first 4; the last row's tick never acts."""
     actual = one(PULSES, flown(**pulses()))
     assert findings(actual) == ["Total 20 pulses, 2.4 s (x 16 pulses, 1.6 s; y 4 pulses, 0.8 s)."]
-    plotted = bars(actual.plot.wide)
+    plotted = bars(actual.plot.wide.svg)
     (x_up, y_up), (x_down,) = plotted["#0072b2"], plotted["#d55e00"]
     assert [len(part) for part in (x_up, x_down, y_up)] == [8, 8, 4]
     heights = {name: part[:, 0, 1] - part[:, 1, 1] for name, part in (("+", x_up), ("-", x_down), ("y", y_up))}
@@ -170,7 +170,7 @@ def test_a_bar_for_each_pulse():
     np.testing.assert_allclose(heights["-"], -0.15 * scale, atol=0.02)
     np.testing.assert_allclose(heights["y"], 0.2 * scale, atol=0.02)
     np.testing.assert_allclose(np.diff(y_up[:, 0, 0]), np.diff(x_up[:, 0, 0])[0] / 10.0, atol=0.02)  # 2.5 s and 25 s
-    assert {"x, s", "y, s", "ship.spent, s"} <= texts(actual.plot.wide)
+    assert {"x, s", "y, s", "ship.spent, s"} <= texts(actual.plot.wide.svg)
     assert "thin line: ship.rest" in notes(actual)[0]
 
 
@@ -181,7 +181,7 @@ def test_without_a_count_every_row_has_new_pulses():
     alone = replace(PULSES, lengths=signal, count=None, remainder=None, total=None, labels=("",))
     actual = one(alone, flown(lengths=lengths))
     assert findings(actual) == ["3 pulses, 0.7 s."]
-    assert {colour: [len(lane) for lane in lanes] for colour, lanes in bars(actual.plot.wide).items()} == {
+    assert {colour: [len(lane) for lane in lanes] for colour, lanes in bars(actual.plot.wide.svg).items()} == {
         "#0072b2": [2],
         "#d55e00": [1],
     }
@@ -197,8 +197,8 @@ def test_many_pulses_stay_small():
     signals = dict(zip(signal.names, lengths, strict=True))
     result = replace(run_result(), time=0.2 * np.arange(rows), signals=signals)
     actual = one(Pulses("Jets", (), signal, None, None, None, ("x", "y", "z")), result)
-    assert count_of(actual.plot.wide) == 3 * (rows - 1)
-    assert len(actual.plot.wide) < 40 * 3 * rows  # a bar is two points of some ten letters each
+    assert count_of(actual.plot.wide.svg) == 3 * (rows - 1)
+    assert len(actual.plot.wide.svg) < 40 * 3 * rows  # a bar is two points of some ten letters each
 
 
 def test_an_error_within_its_sigma():
@@ -273,7 +273,7 @@ def test_a_flight_of_the_orbital_attitude(use, parameters):
         assert repr(settled(time, *conditions)) in values
     fired = np.array([result[f"pulses.pulse_lengths[{k}]"] for k in (1, 2, 3)])[:, :-1]
     fired[:, 1:] *= np.diff(result["pulses.pulse_count"])[:-1] != 0
-    assert count_of(sections[2].plot.wide) == np.count_nonzero(fired) > 20
+    assert count_of(sections[2].plot.wide.svg) == np.count_nonzero(fired) > 20
     (reported,) = re.findall(r'pulses, <data value="([^"]+)">[^<]+</data> s ', sections[2].findings[0])
     assert float(reported) == pytest.approx(result["plant.jet_seconds"][-1], abs=1e-9)  # what is drawn was fired
     later = (time >= 60.0) & (result["observer.yaw_sigma"] > 0.0)
@@ -282,7 +282,7 @@ def test_a_flight_of_the_orbital_attitude(use, parameters):
     for times in (1.0, 3.0) if later.any() else ():
         within = sum(off[row] <= times * result["observer.yaw_sigma"][row] for row in np.flatnonzero(later))
         assert repr(int(within) / int(later.sum())) in values
-    assert sum(len(panel.figure) for section in sections for panel in section.panels) < 300_000
+    assert sum(len(panel.figure.svg) for section in sections for panel in section.panels) < 300_000
 
 
 def test_a_band_less_a_signal_shaded_and_against_another():
@@ -306,4 +306,4 @@ def test_a_band_less_a_signal_shaded_and_against_another():
     words = " ".join(map(str, section.notes))
     assert "minus ship.target" in words
     assert "grey: ship.clock below" in words
-    assert "mathdefault" not in str(section.panels[-2].figure)
+    assert "mathdefault" not in str(section.panels[-2].figure.svg)

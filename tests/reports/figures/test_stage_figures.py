@@ -129,18 +129,18 @@ def test_the_long_phase_is_cut_and_the_others_are_to_scale():
     """From the status at 30 s to the end of the coast, 120 of 200 s, nothing happens; 6 % of the other 80 s is left."""
     section = one(PHASES, mission())
     assert notes(section) == ["Bars: phases with their duration, s. Axis break: 110.4 s omitted."]
-    lanes = bars(section.plot.wide)
+    lanes = bars(section.plot.wide.svg)
     assert [len(lane) for lane in lanes] == [1, 2, 1, 1, 1]
     widths = [sum(right - left for left, right in lane) for lane in lanes]
     np.testing.assert_allclose(widths[2:], np.array([15.0, 15.0, 20.0]) * widths[0] / 20.0, rtol=0.02)
     np.testing.assert_allclose(widths[1], (130.0 - 110.4) * widths[0] / 20.0, rtol=0.03)
-    assert {"burn", "coast", "capture", "hover", "descent", "130", "15", "2", "6"} <= set(texts(section.plot.wide))
+    assert {"burn", "coast", "capture", "hover", "descent", "130", "15", "2", "6"} <= set(texts(section.plot.wide.svg))
 
 
 def test_phases_of_like_length_are_not_cut():
     section = one(PHASES, mission(phase=np.where(TIME < 100.0, 1, 2), status=0.0 * TIME))
     assert notes(section) == ["Bars: phases with their duration, s."]
-    (first,), (second,) = bars(section.plot.wide)
+    (first,), (second,) = bars(section.plot.wide.svg)
     assert first[1] - first[0] == pytest.approx(second[1] - second[0], rel=0.01)
     assert first[1] == pytest.approx(second[0], abs=1.0)
 
@@ -215,20 +215,20 @@ def test_a_path_has_one_scale_and_its_site_twice():
         "Circle: end; marks: site (ship.site_x, ship.site_y), large: final; samples where ship.phase is at least 4; "
         "equal scales."
     ]
-    line = max(lines_of(section.plot.wide, "#0072b2"), key=lambda points: np.ptp(points[:, 0]))
+    line = max(lines_of(section.plot.wide.svg, "#0072b2"), key=lambda points: np.ptp(points[:, 0]))
     width, height = np.ptp(line, axis=0)
     assert height / width == pytest.approx(300.0 / 492.0, rel=0.01)
-    uses = etree.fromstring(section.plot.wide).xpath("//*[local-name()='use'][contains(@style, '#d55e00')]")
+    uses = etree.fromstring(section.plot.wide.svg).xpath("//*[local-name()='use'][contains(@style, '#d55e00')]")
     assert len(uses) == 2 + 1 + 1  # both places, the last one large, and the legend
-    assert {"ship.x, m", "ship.y, m", "site"} <= set(texts(section.plot.wide))
+    assert {"ship.x, m", "ship.y, m", "site"} <= set(texts(section.plot.wide.svg))
 
 
 def test_a_long_path_is_in_km_and_keeps_its_detail():
     y = 2e4 * np.sin(TIME)
     section = one(replace(PATH, rows=None, points=(), equal=False), mission(x=TIME, y=y))
-    assert "ship.y, km" in texts(section.plot.wide)
-    assert "ship.x, m" in texts(section.plot.wide)
-    line = max(lines_of(section.plot.wide, "#0072b2"), key=len)
+    assert "ship.y, km" in texts(section.plot.wide.svg)
+    assert "ship.x, m" in texts(section.plot.wide.svg)
+    line = max(lines_of(section.plot.wide.svg, "#0072b2"), key=len)
     turns = np.count_nonzero(np.diff(np.sign(np.diff(line[:, 1]))))
     assert turns >= np.count_nonzero(np.diff(np.sign(np.diff(y)))) > 60
 
@@ -267,7 +267,7 @@ def test_curves_each_and_together():
     assert [label for _, label in joined.legend] == ["tilt", "lean"]
     alone = one(replace(CURVE, signals=CURVE.signals[:1], labels=("tilt",)), mission())
     assert alone.legend == []
-    words = texts(alone.plot.wide)
+    words = texts(alone.plot.wide.svg)
     ticks = [float(text.replace(MINUS, "-")) for text in words if re.fullmatch(rf"{MINUS}?[\d.]+", text)]
     assert 160.0 in ticks
     assert not any(100.0 < tick < 150.0 for tick in ticks)  # 150 s is where phase 4 begins

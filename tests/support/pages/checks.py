@@ -1,5 +1,8 @@
 """What every page must satisfy."""
 
+import base64
+import hashlib
+import json
 import re
 
 from lxml import html
@@ -22,7 +25,9 @@ def assert_self_contained(text):
     for element in root.iter():
         if not isinstance(element.tag, str):
             continue
-        assert element.tag not in ("script", "iframe", "object", "embed")
+        assert element.tag not in ("iframe", "object", "embed")
+        if element.tag == "script":
+            assert_permitted(element, root)
         for key in FETCHING:
             value = element.get(key)
             if value is not None:
@@ -37,6 +42,21 @@ def assert_self_contained(text):
         assert reference[1:] in ids, reference
 
 
+def assert_permitted(script, root):
+    """A script is JSON, or in the page and permitted by its hash."""
+    if script.get("type") == "application/json":
+        assert json.loads(script.text)
+        return
+    (policy,) = root.xpath("//meta[@http-equiv='Content-Security-Policy']/@content")
+    digest = base64.b64encode(hashlib.sha256(script.text.encode()).digest()).decode()
+    assert f"'sha256-{digest}'" in policy
+
+
+def without_policy(text):
+    """A page in which a test's script may run, too."""
+    return re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", text)
+
+
 def data_values(text):
     """The exact numbers of a page: value attributes of its data elements."""
     return parse(text).xpath("//data/@value")
@@ -44,4 +64,7 @@ def data_values(text):
 
 def text_of(text):
     """The words of a page, spaces made single."""
-    return " ".join(parse(text).text_content().split())
+    root = parse(text)
+    for script in root.xpath("//script"):
+        script.drop_tree()
+    return " ".join(root.text_content().split())

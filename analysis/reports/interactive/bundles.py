@@ -1,0 +1,28 @@
+"""The scripts of pages, as `build_web.py` bundles them, and the policy under which a browser runs them."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections.abc import Iterable
+
+from ....fmus_src.paths import BUILD
+
+BUNDLES = BUILD / "web" / "bundles"
+MISSING = "The scripts of pages are not built (npm was not available): run `make web`, then the command again."
+
+
+def read_bundle(name: str) -> str | None:
+    """The script ``name``; None where none was built."""
+    path = BUNDLES / f"{name}.js"
+    return path.read_text(encoding="utf-8").strip() if path.is_file() else None
+
+
+def policy(scripts: Iterable[str]) -> str:
+    """A Content-Security-Policy: nothing from the network, and of scripts these alone."""
+    hashes = [base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts]
+    sources = " ".join(["'wasm-unsafe-eval'", *(f"'sha256-{each}'" for each in hashes)]) if hashes else "'none'"
+    return (
+        f"default-src 'none'; script-src {sources}; worker-src blob:; style-src 'unsafe-inline'; img-src data:; "
+        "base-uri 'none'; form-action 'none'"
+    )

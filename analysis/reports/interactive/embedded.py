@@ -1,0 +1,83 @@
+"""What is embedded in a page for its scripts: one JSON document."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup
+
+from .bundles import policy, read_bundle
+from .charts import Chart
+from .columns import Coarse, Columns
+
+
+class Embedded:
+    """What the scripts of one page get: columns, the charts of its figures, further documents by name."""
+
+    def __init__(self) -> None:
+        self._columns = Columns()
+        self._figures: list[Any] = []
+        self._documents: dict[str, Any] = {}
+        self._bundles: dict[str, str] = {}
+
+    def add(self, numbers: np.ndarray, *, coarse: bool = False) -> int:
+        """The index of a column of these numbers in float32; ``coarse``: in 16 bits over their range."""
+        return self._columns.add(numbers, coarse=coarse)
+
+    def add_figure(self, charts: Sequence[Chart | None]) -> int | None:
+        """The number of a figure, by which its element names it; None where it has no chart, or scripts are missing."""
+        if not any(charts) or not self.use("curves"):
+            return None
+        self._figures.append(self._plain(charts))
+        return len(self._figures) - 1
+
+    def add_document(self, name: str, bundle: str, document: Any) -> bool:
+        """Add a document that the script ``bundle`` reads; False, and nothing added, where that was not built."""
+        if not self.use(bundle):
+            return False
+        self._documents[name] = self._plain(document)
+        return True
+
+    def use(self, bundle: str) -> bool:
+        """Have a script in the page; False where it was not built."""
+        if bundle not in self._bundles and (text := read_bundle(bundle)) is not None:
+            self._bundles[bundle] = text
+        return bundle in self._bundles
+
+    def policy(self) -> str:
+        """The page's Content-Security-Policy."""
+        return policy(self._bundles.values())
+
+    def elements(self) -> Markup:
+        """The document and the scripts as elements for the end of a page; nothing where it has none."""
+        if not self._bundles:
+            return Markup("")
+        document = {"columns": self._columns.encoded, "figures": self._figures, **self._documents}
+        # A browser looks for "<" in here before anything reads it as JSON; other than ASCII is escaped as it is.
+        text = json.dumps(document, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+        content = f'<script type="application/json" id="page-data">{text}</script>\n'
+        scripts = "".join(f"<script>{script}</script>\n" for script in self._bundles.values())
+        return Markup(content + scripts)
+
+    def _plain(self, node: Any) -> Any:
+        """As JSON: arrays are numbers of columns, what is None or empty is left out of objects."""
+        if isinstance(node, np.ndarray):
+            return self.add(node)
+        if isinstance(node, Coarse):
+            return self.add(node.numbers, coarse=True)
+        if is_dataclass(node):
+            entries = {each.name: getattr(node, each.name) for each in fields(node)}
+            return self._plain({name: entry for name, entry in entries.items() if not _is_empty(entry)})
+        if isinstance(node, dict):
+            return {name: self._plain(entry) for name, entry in node.items()}
+        if isinstance(node, list | tuple):
+            return [self._plain(entry) for entry in node]
+        return node
+
+
+def _is_empty(entry: Any) -> bool:
+    return entry is None or entry is False or (isinstance(entry, str | list) and not entry)

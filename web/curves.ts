@@ -1,0 +1,83 @@
+// Figures of a page that answer: one cursor over all that share an abscissa, zoom, values.
+
+import { SharedAxis } from "./curves/axis";
+import { Figure } from "./curves/figure";
+import { listenToLegends } from "./curves/legend";
+import type { Plot } from "./curves/plot";
+import { listen, listenToKeys, press } from "./curves/pointer";
+import { Toolbar } from "./curves/toolbar";
+import { type Axis, type Page, readPage } from "./page/document";
+import { announceTime, followTime } from "./page/time";
+
+const TIME = "time, s";
+
+class Curves {
+  private readonly axes = new Map<string, SharedAxis>();
+  private readonly figures = new Map<Element, Promise<Figure | null>>();
+  private readonly toolbar = new Toolbar((key) => this.chosen && press(this.chosen.plot, key, false));
+  private chosen: { plot: Plot; figure: Figure } | null = null;
+  private isFollowing = false;
+
+  constructor(private readonly page: Page) {
+    followTime("curves", (at) => {
+      this.isFollowing = true;
+      this.axes.get(TIME)?.moveCursor(at);
+      this.isFollowing = false;
+    });
+    listenToLegends((picture) => this.figures.get(picture));
+    // What is folded away or made for another width becomes a plot when it is first seen.
+    document.addEventListener("toggle", () => void this.attachVisible(), true);
+    window.addEventListener("resize", () => void this.attachVisible());
+  }
+
+  async attachVisible(): Promise<void> {
+    const pictures = [...document.querySelectorAll<SVGElement>("[data-figure]")];
+    const visible = pictures.filter((picture) => !this.figures.has(picture) && picture.getClientRects().length);
+    for (const picture of visible) this.figures.set(picture, this.attach(picture));
+    await Promise.all(visible.map((picture) => this.figures.get(picture)));
+  }
+
+  private async attach(picture: SVGElement): Promise<Figure | null> {
+    const time = () => this.share({ label: TIME, ends: [0, 0] });
+    const figure = await Figure.load(picture, this.page, (axis) => this.share(axis), time);
+    for (const plot of figure?.plots ?? []) {
+      const choice = { plot, figure: figure! };
+      const choose = () => {
+        this.chosen = choice;
+      };
+      this.chosen ??= choice;
+      plot.onArea = (area) => listen(plot, area, choose);
+      listenToKeys(plot, choose);
+      const keys = "arrow keys move the cursor, plus and minus zoom, 0 shows the whole range";
+      plot.root.setAttribute("role", "application");
+      plot.root.setAttribute("aria-label", `${picture.getAttribute("aria-label")}; ${keys}`);
+    }
+    figure?.place();
+    return figure;
+  }
+
+  private share({ label = "", logarithmic = false }: Axis): SharedAxis {
+    let axis = this.axes.get(label);
+    if (!axis) {
+      axis = new SharedAxis(label, logarithmic);
+      this.axes.set(label, axis);
+      axis.follow([Infinity, -Infinity], () => this.onCursor(axis!), () => undefined);
+    }
+    return axis;
+  }
+
+  private onCursor(axis: SharedAxis): void {
+    this.toolbar.show(axis);
+    this.toolbar.speak(() => this.chosen?.figure.describe() ?? "");
+    if (axis.label === TIME && axis.cursor !== null && !this.isFollowing) announceTime(axis.cursor, "curves");
+  }
+}
+
+async function start(): Promise<void> {
+  const page = readPage();
+  if (!page?.figures.length) return;
+  await new Curves(page).attachVisible();
+  document.documentElement.dataset.ready = "curves";
+}
+
+void start();

@@ -1,0 +1,110 @@
+// One figure of the page: its charts over its picture, which remains for print and gives the size.
+
+import type { Axis, Chart, Page } from "../page/document";
+import type { SharedAxis } from "./axis";
+import { type Place, Plot } from "./plot";
+
+const GAP = 18; // px above axes, for a title
+const LABELS = 44; // px at least, left of axes
+const TICKS = 24; // px below axes, and for a label as much again
+
+export class Figure {
+  readonly frame = document.createElement("div");
+  readonly values = document.createElement("output");
+
+  private constructor(
+    readonly picture: SVGElement,
+    private readonly charts: Chart[],
+    readonly plots: Plot[],
+  ) {
+    this.frame.className = `live ${picture.classList.contains("slim") ? "slim" : picture.classList.contains("wide") ? "wide" : ""}`;
+    picture.before(this.frame);
+    this.frame.append(picture, ...plots.map((plot) => plot.root), this.values);
+    new ResizeObserver(() => this.place()).observe(this.frame);
+    for (const plot of plots) plot.time.follow([Infinity, -Infinity], () => this.showValues(), () => undefined);
+  }
+
+  // Figures of bars and bands alone remain pictures; all axes of the others become plots.
+  static async load(picture: SVGElement, page: Page, sharing: (axis: Axis) => SharedAxis, time: () => SharedAxis): Promise<Figure | null> {
+    const charts = page.figures[Number(picture.dataset.figure)]!.filter((chart) => chart !== null);
+    if (!charts.every((chart) => chart.curves || chart.areas?.some((area) => area.stroke))) return null;
+    const plots = await Promise.all(charts.map((chart) => Plot.load(chart, page, sharing, time)));
+    return new Figure(picture, charts, plots);
+  }
+
+  place(): void {
+    const { clientWidth: width, clientHeight: height } = this.frame;
+    if (!width || !height) return;
+    this.plots.forEach((plot, index) => plot.place(placeOf(this.charts, index, width, height)));
+  }
+
+  // Shows or hides the lines of a position in the legend.
+  show(index: number, shown: boolean): void {
+    for (const plot of this.plots) {
+      const series = plot.series[index];
+      if (!series) continue;
+      series.hidden = !shown;
+      plot.redraw();
+    }
+    this.showValues();
+  }
+
+  // What the lines show at the cursor.
+  describe(): string {
+    return this.plots
+      .flatMap((plot) => (plot.time.cursor === null ? [] : describePlot(plot, plot.time.cursor).map(([text]) => text)))
+      .join("; ");
+  }
+
+  private showValues(): void {
+    if (!this.frame.clientHeight) return;
+    const entries = this.plots.flatMap((plot) => (plot.time.cursor === null ? [] : describePlot(plot, plot.time.cursor)));
+    this.values.replaceChildren(
+      ...entries.map(([text, colour]) => {
+        const span = document.createElement("span");
+        span.textContent = text;
+        span.style.borderColor = colour;
+        return span;
+      }),
+    );
+  }
+}
+
+function describePlot(plot: Plot, at: number): [text: string, colour: string][] {
+  const shown = plot.series.filter((each) => plot.isShown(each));
+  return shown.flatMap((each) => {
+    const row = each.rowWithin(at);
+    if (row === null) return [];
+    const { name = "", unit = "", colour } = each.curve;
+    const value = plot.isPath ? `(${each.at(row)})` : `${each.text(row)}${unit && ` ${unit}`}`;
+    const label = shown.length > 1 ? (/\[[\d,]+\]$/.exec(name)?.[0] ?? name) : "";
+    return [[label ? `${label} ${value}` : value, colour]];
+  });
+}
+
+// Where a chart's element lies in the figure: the axes' area is that of the picture, the margins reach to its neighbours.
+function placeOf(charts: Chart[], index: number, width: number, height: number): Place {
+  const box = charts[index]!.box;
+  const [left, top, right, bottom] = [
+    Math.max(box[0] * width, LABELS), box[1] * height, (box[0] + box[2]) * width, (box[1] + box[3]) * height,
+  ];
+  const isLast = !charts.some(({ box: other }) => other[1] > box[1] + box[3] && overlaps(other, box));
+  const before = charts.filter(({ box: other }) => other[0] + other[2] <= box[0]).map(({ box: other }) => (other[0] + other[2]) * width);
+  const margins: Place["margins"] = [
+    Math.min(GAP, top),
+    Math.min(14, width - right),
+    isLast ? Math.min(2 * TICKS, height - bottom) : 0,
+    Math.max(LABELS, Math.min(64, left - Math.max(0, ...before))),
+  ];
+  return {
+    left: left - margins[3],
+    top: top - margins[0],
+    width: right - left + margins[1] + margins[3],
+    height: bottom - top + margins[0] + margins[2],
+    margins,
+  };
+}
+
+function overlaps(one: Chart["box"], other: Chart["box"]): boolean {
+  return one[0] < other[0] + other[2] && other[0] < one[0] + one[2];
+}

@@ -1,0 +1,229 @@
+// One chart: uPlot's axes over the axes of the figure's picture, the lines of the figure, the cursor.
+
+import uPlot from "uplot";
+
+import type { Axis, Chart, Page } from "../page/document";
+import { format } from "../page/numbers";
+import { type Range, SharedAxis } from "./axis";
+import { type Shape, drawAbove, drawBelow, loadShapes } from "./drawing";
+import { Series } from "./series";
+
+const FONT = '11px "DejaVu Sans", Verdana, sans-serif';
+const [INK, FAINT, GRID] = ["#222", "#555", "#ddd"];
+const MARGIN = 0.06; // of a zoomed ordinate, above and below its values
+const TITLE = 16; // px
+
+export interface Place {
+  left: number; // px, of the root in the figure
+  top: number;
+  width: number;
+  height: number;
+  margins: [top: number, right: number, bottom: number, left: number]; // px, from the root to the axes' area
+}
+
+export class Plot {
+  readonly root = document.createElement("div");
+  onArea: (area: HTMLElement) => void = () => undefined; // called with each new area in which lines are drawn
+  private plot: uPlot | null = null;
+  private ordinate: Range | null = null; // of a path at its own zoom
+  private readonly line = document.createElement("div");
+  private readonly dots: HTMLElement[];
+
+  private constructor(
+    readonly chart: Chart,
+    readonly series: Series[],
+    private readonly shapes: Shape[],
+    readonly axis: SharedAxis,
+    readonly time: SharedAxis, // along which the cursor moves
+  ) {
+    this.root.className = "chart";
+    this.line.className = "cursor";
+    this.dots = series.map((each) => {
+      const dot = document.createElement("i");
+      dot.style.background = each.curve.colour;
+      return dot;
+    });
+    this.axis.follow(chart.x.ends, () => undefined, () => this.redraw());
+    this.time.follow(this.isPath ? [Infinity, -Infinity] : chart.x.ends, () => this.showCursor(), () => undefined);
+  }
+
+  // ``sharing`` gives the axis of a label; paths have an abscissa of their own, and follow the time of the others.
+  static async load(chart: Chart, page: Page, sharing: (axis: Axis) => SharedAxis, time: () => SharedAxis): Promise<Plot> {
+    const [series, shapes] = await Promise.all([
+      Promise.all((chart.curves ?? []).map((curve) => Series.load(curve, page))),
+      loadShapes(chart, page),
+    ]);
+    const isPath = series.some((each) => each.time);
+    const axis = isPath ? new SharedAxis(chart.x.label ?? "", !!chart.x.logarithmic) : sharing(chart.x);
+    return new Plot(chart, series, shapes, axis, isPath ? time() : axis);
+  }
+
+  get isPath(): boolean {
+    return this.axis !== this.time;
+  }
+
+  place(place: Place): void {
+    Object.assign(this.root.style, px({ left: place.left, top: place.top, width: place.width, height: place.height }));
+    this.plot?.destroy();
+    this.plot = new uPlot(this.options(place), [[0], [null]], this.root);
+    this.plot.over.append(this.line, ...this.dots);
+    this.onArea(this.plot.over);
+    this.showCursor();
+  }
+
+  redraw(): void {
+    this.plot?.batch((plot: uPlot) => {
+      const [x, y] = this.ranges();
+      plot.setScale("x", { min: x[0], max: x[1] });
+      plot.setScale("y", { min: y[0], max: y[1] });
+    });
+    this.showCursor();
+  }
+
+  // Zooms to a rectangle of the abscissa and, of a path, of the ordinate; null: as drawn.
+  zoom(x: Range | null, y: Range | null): void {
+    this.ordinate = x && this.isPath ? y : null;
+    this.axis.setZoom(x);
+  }
+
+  valueAt(left: number): number {
+    return this.plot!.posToVal(left, "x");
+  }
+
+  ordinateAt(top: number): number {
+    return this.plot!.posToVal(top, "y");
+  }
+
+  // Where the row of the first line that is nearest to a place of the cursor has it, or one so many rows further.
+  snap(at: number, rows = 0): number {
+    const first = this.series.find((each) => this.isShown(each));
+    if (!first) return at;
+    const row = first.rowAt(at) + rows;
+    return first.along[Math.min(Math.max(row, 0), first.along.length - 1)]!;
+  }
+
+  // The time of the point of a path that is nearest to a place in the area.
+  nearestTime(left: number, top: number): number | null {
+    let [best, time] = [Infinity, null as number | null];
+    for (const each of this.series) {
+      if (!each.time || each.hidden) continue;
+      const scales = this.plot!.scales;
+      const unit = [
+        this.plot!.over.clientWidth / (scales.x!.max! - scales.x!.min!),
+        this.plot!.over.clientHeight / (scales.y!.max! - scales.y!.min!),
+      ] as const;
+      const at = [this.valueAt(left), this.ordinateAt(top)] as const;
+      for (let row = 0; row < each.x.length; row++) {
+        const distance = ((each.x[row]! - at[0]) * unit[0]) ** 2 + ((each.y(row) - at[1]) * unit[1]) ** 2;
+        if (distance < best) [best, time] = [distance, each.time[row]!];
+      }
+    }
+    return time;
+  }
+
+  private showCursor(): void {
+    if (!this.plot) return;
+    const at = this.time.cursor;
+    const visible = at !== null;
+    this.line.hidden = !visible || this.isPath;
+    if (visible && !this.isPath) {
+      const left = this.plot!.valToPos(at, "x");
+      this.line.hidden = !(left >= 0 && left <= this.plot!.over.clientWidth);
+      this.line.style.transform = `translateX(${left}px)`;
+    }
+    this.series.forEach((each, index) => {
+      const dot = this.dots[index]!;
+      const row = visible && this.isShown(each) && !each.curve.reduced ? each.rowWithin(at) : null;
+      dot.hidden = row === null;
+      if (row === null) return;
+      const [left, top] = [this.plot!.valToPos(each.x[row]!, "x"), this.plot!.valToPos(each.y(row), "y")];
+      dot.hidden = !(left >= 0 && left <= this.plot!.over.clientWidth && top >= 0 && top <= this.plot!.over.clientHeight);
+      dot.style.transform = `translate(${left}px, ${top}px)`;
+    });
+  }
+
+  // Whether a line is one whose values are shown at the cursor.
+  isShown(series: Series): boolean {
+    return !series.hidden && series.x.length > 1 && (!this.isPath || series.time !== null);
+  }
+
+  private ranges(): [Range, Range] {
+    const { x, y } = this.chart;
+    const range = this.axis.zoom;
+    if (!range) return [x.ends, y.ends];
+    if (this.isPath) return [range, this.ordinate ?? y.ends];
+    const reaches = this.series.filter((each) => !each.hidden).map((each) => each.reach(range)).filter((each) => each !== null);
+    if (!reaches.length || y.ticks?.length) return [range, y.ends];
+    const [low, high] = [Math.min(...reaches.map((each) => each[0])), Math.max(...reaches.map((each) => each[1]))];
+    if (y.logarithmic) return [range, low > 0 ? [low / 1.2, high * 1.2] : y.ends];
+    const margin = MARGIN * (high - low) || MARGIN * Math.abs(high) || 1;
+    return [range, [low - margin, high + margin]];
+  }
+
+  private options({ width, height, margins }: Place): uPlot.Options {
+    const { x, y, title, aside } = this.chart;
+    const [rangeX, rangeY] = this.ranges();
+    return {
+      width,
+      height,
+      padding: [margins[0], margins[1], margins[2] === 0 ? 1 : null, null],
+      cursor: { show: false },
+      legend: { show: false },
+      scales: {
+        x: { time: false, distr: x.logarithmic ? 3 : 1, range: (_, low, high) => [low ?? rangeX[0], high ?? rangeX[1]], min: rangeX[0], max: rangeX[1] },
+        y: { distr: y.logarithmic ? 3 : 1, range: (_, low, high) => [low ?? rangeY[0], high ?? rangeY[1]], min: rangeY[0], max: rangeY[1] },
+      },
+      series: [{}, { show: true, stroke: "transparent", points: { show: false } }],
+      axes: [axisOptions(x, margins[2], 60), axisOptions(y, margins[3], 30, this.isPath)],
+      hooks: {
+        ready: [() => this.redraw()],
+        drawAxes: [(plot) => drawBelow(plot, this.chart, this.shapes)],
+        draw: [
+          (plot) => {
+            drawAbove(plot, this.chart, this.series, this.axis.zoom === null);
+            drawTitles(plot, title, aside);
+          },
+        ],
+      },
+    };
+  }
+}
+
+function axisOptions(axis: Axis, size: number, space: number, labelled = true): uPlot.Axis {
+  const label = labelled && size > 30 ? axis.label : undefined;
+  return {
+    show: size > 0,
+    size: size - (label ? TITLE : 0),
+    label,
+    labelSize: TITLE,
+    labelFont: FONT,
+    labelGap: 0,
+    font: FONT,
+    gap: 3,
+    space,
+    stroke: INK,
+    grid: { stroke: GRID, width: 0.6 },
+    ticks: { stroke: FAINT, width: 0.7, size: 4 },
+    border: { show: true, stroke: FAINT, width: 0.7 },
+    ...(axis.ticks?.length
+      ? { splits: axis.ticks.map(([at]) => at), values: axis.ticks.map(([, text]) => text) }
+      : { values: (_: uPlot, splits: (number | null)[]) => splits.map((at) => (at === null ? "" : format(at, 8))) }),
+  };
+}
+
+function drawTitles(plot: uPlot, title?: string, aside?: string): void {
+  const { left, top, width } = plot.bbox;
+  plot.ctx.save();
+  plot.ctx.font = `${11 * devicePixelRatio}px "DejaVu Sans", Verdana, sans-serif`;
+  plot.ctx.textBaseline = "alphabetic";
+  plot.ctx.fillStyle = INK;
+  if (title) plot.ctx.fillText(title, left, top - 5 * devicePixelRatio);
+  plot.ctx.textAlign = "right";
+  plot.ctx.fillStyle = FAINT;
+  if (aside) plot.ctx.fillText(aside, left + width, top - 5 * devicePixelRatio);
+  plot.ctx.restore();
+}
+
+function px(sizes: Record<string, number>): Record<string, string> {
+  return Object.fromEntries(Object.entries(sizes).map(([name, size]) => [name, `${size}px`]));
+}

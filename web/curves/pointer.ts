@@ -1,0 +1,130 @@
+// Mouse, touch and keys on a plot: the cursor, zoom and pan. uPlot has none of touch, wheel and keys.
+
+import type { Range } from "./axis";
+import type { Plot } from "./plot";
+
+const CLICK = 4; // px, up to which a drag is a click
+const WHEEL = 0.0015; // of the logarithm of the zoom, a px of the wheel
+const ROWS = 10; // that a page key moves the cursor
+
+export function listen(plot: Plot, area: HTMLElement, onFocus: () => void): void {
+  const touches = new Map<number, PointerEvent>();
+  let begin: { x: number; y: number; shift: boolean } | null = null;
+  let lastTap = 0;
+  const selection = document.createElement("b");
+  selection.hidden = true;
+  area.append(selection);
+
+  const placeOf = (event: PointerEvent | WheelEvent) => {
+    const bounds = area.getBoundingClientRect();
+    return { x: event.clientX - bounds.left, y: event.clientY - bounds.top };
+  };
+  const follow = ({ x, y }: { x: number; y: number }) => {
+    const at = plot.isPath ? plot.nearestTime(x, y) : plot.snap(plot.valueAt(Math.min(Math.max(x, 0), area.clientWidth)));
+    if (at !== null) plot.time.moveCursor(at);
+  };
+
+  area.addEventListener("pointerdown", (event) => {
+    onFocus();
+    touches.set(event.pointerId, event);
+    if (event.pointerType === "mouse") {
+      if (event.button !== 0) return;
+      begin = { ...placeOf(event), shift: event.shiftKey };
+      area.setPointerCapture(event.pointerId);
+    } else if (touches.size === 1) {
+      if (event.timeStamp - lastTap < 300) plot.zoom(null, null);
+      lastTap = event.timeStamp;
+      follow(placeOf(event));
+    }
+  });
+
+  area.addEventListener("pointermove", (event) => {
+    const to = placeOf(event);
+    const before = touches.get(event.pointerId);
+    if (event.pointerType !== "mouse" && touches.size === 2 && before) {
+      pinch(plot, [...touches.values()], event, placeOf);
+    } else if (begin?.shift && before) {
+      plot.axis.pan((before.clientX - event.clientX) / area.clientWidth);
+    } else if (begin) {
+      select(selection, begin, to, plot.isPath, area);
+      follow(to);
+    } else follow(to);
+    if (before) touches.set(event.pointerId, event);
+  });
+
+  const end = (event: PointerEvent) => {
+    touches.delete(event.pointerId);
+    if (!begin || event.pointerType !== "mouse") return;
+    const [from, to] = [begin, placeOf(event)];
+    begin = null;
+    selection.hidden = true;
+    if (from.shift || event.type === "pointercancel" || Math.abs(to.x - from.x) < CLICK) return;
+    plot.zoom(
+      sorted(plot.valueAt(from.x), plot.valueAt(Math.min(Math.max(to.x, 0), area.clientWidth))),
+      sorted(plot.ordinateAt(from.y), plot.ordinateAt(Math.min(Math.max(to.y, 0), area.clientHeight))),
+    );
+  };
+  area.addEventListener("pointerup", end);
+  area.addEventListener("pointercancel", end);
+  area.addEventListener("dblclick", () => plot.zoom(null, null));
+
+  // The page scrolls under a wheel unless the plot was chosen, by a click or by the Ctrl key.
+  area.addEventListener(
+    "wheel",
+    (event) => {
+      if (!event.ctrlKey && !plot.root.contains(document.activeElement)) return;
+      event.preventDefault();
+      const at = plot.valueAt(placeOf(event).x);
+      if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) plot.axis.pan((event.deltaX || event.deltaY) / area.clientWidth);
+      else plot.axis.zoomBy(Math.exp(WHEEL * event.deltaY), at);
+    },
+    { passive: false },
+  );
+}
+
+export function listenToKeys(plot: Plot, onFocus: () => void): void {
+  plot.root.tabIndex = 0;
+  plot.root.addEventListener("focus", onFocus);
+  plot.root.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || !press(plot, event.key, event.shiftKey)) return;
+    event.preventDefault();
+  });
+}
+
+// What a key does; false where it does nothing.
+export function press(plot: Plot, key: string, shift: boolean): boolean {
+  const step = (rows: number) => plot.time.moveCursor(plot.snap(plot.time.cursor ?? -Infinity, rows));
+  const rows = shift ? ROWS : 1;
+  switch (key) {
+    case "ArrowLeft": step(-rows); break;
+    case "ArrowRight": step(rows); break;
+    case "PageUp": plot.axis.pan(-0.5); break;
+    case "PageDown": plot.axis.pan(0.5); break;
+    case "Home": step(-Infinity); break;
+    case "End": step(Infinity); break;
+    case "+": case "=": plot.axis.zoomBy(0.5, plot.isPath ? null : plot.axis.cursor); break;
+    case "-": plot.axis.zoomBy(2, plot.isPath ? null : plot.axis.cursor); break;
+    case "0": plot.zoom(null, null); break;
+    case "Escape": plot.zoom(null, null); plot.time.moveCursor(null); break;
+    default: return false;
+  }
+  return true;
+}
+
+function pinch(plot: Plot, [one, other]: PointerEvent[], moved: PointerEvent, placeOf: (event: PointerEvent) => { x: number }): void {
+  const still = one!.pointerId === moved.pointerId ? other! : one!;
+  const before = one!.pointerId === moved.pointerId ? one! : other!;
+  const [was, is] = [Math.abs(before.clientX - still.clientX), Math.abs(moved.clientX - still.clientX)];
+  if (was > 10 && is > 10) plot.axis.zoomBy(was / is, plot.valueAt((placeOf(still).x + placeOf(moved).x) / 2));
+}
+
+function select(selection: HTMLElement, from: { x: number; y: number }, to: { x: number; y: number }, both: boolean, area: HTMLElement): void {
+  const [left, right] = sorted(from.x, Math.min(Math.max(to.x, 0), area.clientWidth));
+  const [top, bottom] = both ? sorted(from.y, Math.min(Math.max(to.y, 0), area.clientHeight)) : [0, area.clientHeight];
+  selection.hidden = right - left < CLICK;
+  Object.assign(selection.style, { left: `${left}px`, top: `${top}px`, width: `${right - left}px`, height: `${bottom - top}px` });
+}
+
+function sorted(one: number, other: number): Range {
+  return one < other ? [one, other] : [other, one];
+}

@@ -1,0 +1,56 @@
+// Columns of numbers inside a page: the inverse of analysis/reports/interactive/columns.py.
+
+export interface Encoded {
+  rows: number;
+  data: string;
+  low?: number; // of the range of a column in 16 bits
+  high?: number;
+}
+
+const STEPS = 65534; // of such a range; the number above is nan
+
+export async function decode(column: Encoded): Promise<Float32Array | Float64Array> {
+  const bytes = await inflate(column.data);
+  const size = column.low === undefined ? 4 : 2;
+  const numbers = integrate(ungroup(bytes, column.rows, size), 8 * size);
+  return size === 4 ? floats(numbers as Uint32Array) : spread(numbers, column.low ?? 0, column.high ?? 0);
+}
+
+async function inflate(text: string): Promise<Uint8Array> {
+  const packed = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+function ungroup(bytes: Uint8Array, rows: number, size: number): Uint16Array | Uint32Array {
+  const numbers = size === 4 ? new Uint32Array(rows) : new Uint16Array(rows);
+  for (let byte = 0; byte < size; byte++) {
+    for (let row = 0; row < rows; row++) numbers[row]! |= bytes[byte * rows + row]! << (8 * byte);
+  }
+  return numbers;
+}
+
+// Unfolds the signs and adds the second differences up twice, modulo the size of a number, as typed arrays do.
+function integrate<T extends Uint16Array | Uint32Array>(numbers: T, bits: number): T {
+  for (let row = 0; row < numbers.length; row++) {
+    const folded = numbers[row]!;
+    numbers[row] = (folded >>> 1) ^ -(folded & 1);
+    if (bits === 16) numbers[row]! &= 0xffff;
+  }
+  for (let pass = 0; pass < 2; pass++) {
+    for (let row = 1; row < numbers.length; row++) numbers[row]! += numbers[row - 1]!;
+  }
+  return numbers;
+}
+
+function floats(ordered: Uint32Array): Float32Array {
+  for (let row = 0; row < ordered.length; row++) {
+    const number = ordered[row]!;
+    ordered[row] = number >>> 31 ? number & 0x7fffffff : ~number;
+  }
+  return new Float32Array(ordered.buffer);
+}
+
+function spread(steps: Uint16Array | Uint32Array, low: number, high: number): Float64Array {
+  return Float64Array.from(steps, (step) => (step > STEPS ? NaN : low + (step * (high - low)) / STEPS));
+}
