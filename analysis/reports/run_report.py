@@ -15,6 +15,7 @@ from .figures.declared import Figure
 from .figures.figure_sections import figure_sections, joint_findings
 from .figures.limits import Verdict, limit_document
 from .figures.scene.declared import Scene
+from .interactive.bundles import MISSING
 from .scene.notes import scene_notes
 from .scene.view import scene_view
 from .time_histories import time_histories
@@ -59,6 +60,7 @@ def write_run_report(result: Result, path: Path, title: str, figures: Sequence[F
         joint=joint_findings(figures, result),
         scene=scene_view(scene, result) if scene is not None else None,
         scene_notes=scene_notes(scene, result) if scene is not None else [],
+        scripts_missing=MISSING,
         sections=figure_sections(figures, result),
         histories=time_histories(result),
         signals=signal_table(result),

@@ -4,6 +4,7 @@ import { BufferAttribute, BufferGeometry, Group, Line, LineDashedMaterial, Vecto
 import type { LineData, SceneData } from "./document";
 import type { Ground } from "./ground";
 import { type Instant, positionAt } from "./instant";
+import { lineColour, type Theme } from "./theme";
 
 const COLOUR = "#c92a2a";
 const DASHES = 40; // in a line, whatever its length
@@ -20,11 +21,15 @@ export class Beams {
   ) {
     this.beams = (scene.lines ?? []).map((data) => {
       const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(6), 3));
-      const line = new Line(geometry, new LineDashedMaterial({ color: COLOUR }));
+      const line = new Line(geometry, new LineDashedMaterial());
       line.frustumCulled = false;
       this.group.add(line);
       return { line, data };
     });
+  }
+
+  setTheme(theme: Theme): void {
+    for (const { line } of this.beams) line.material.color = lineColour(COLOUR, theme);
   }
 
   show(instant: Instant): void {

@@ -2,6 +2,7 @@
 
 import { ArrowHelper, Group, type PerspectiveCamera, Vector3 } from "three";
 import { make, makeSvg } from "./elements";
+import { strokeOf } from "./theme";
 
 const COLOURS = ["#d9480f", "#2b8a3e", "#1c6fd0"]; // x, y, z
 const LENGTH = 30; // px
@@ -24,9 +25,9 @@ export class Triad {
 
   constructor(names: string[]) {
     const svg = makeSvg("svg", { viewBox: "-70 -50 140 100", width: 140, height: 100 });
-    this.lines = AXES.map((_, index) => makeSvg("line", { stroke: COLOURS[index]!, "stroke-width": 2 }));
+    this.lines = AXES.map((_, index) => makeSvg("line", { style: strokeOf(COLOURS[index]!), "stroke-width": 2 }));
     this.labels = names.map((name, index) => {
-      const label = makeSvg("text", { fill: COLOURS[index]!, "dominant-baseline": "middle" });
+      const label = makeSvg("text", { style: strokeOf(COLOURS[index]!).replace("stroke", "fill"), "dominant-baseline": "middle" });
       const axis = "xyz"[index]!;
       label.textContent = name === axis ? axis : `${axis} ${name}`;
       return label;

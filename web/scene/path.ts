@@ -4,6 +4,7 @@
 import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Vector3 } from "three";
 import type { BodyData } from "./document";
 import { type Instant, positionAt, sampleAt } from "./instant";
+import { lineColour, type Theme } from "./theme";
 
 const STRETCH = 2048; // vertices
 const AHEAD = 0.45; // opacity
@@ -18,14 +19,15 @@ interface Stretch {
 
 export class Path {
   readonly group = new Group();
+  private readonly flown = new LineBasicMaterial();
+  private readonly ahead = new LineBasicMaterial({ transparent: true, opacity: AHEAD, depthWrite: false });
   private readonly stretches: Stretch[] = [];
   private readonly last: Line<BufferGeometry, LineBasicMaterial>; // from the last vertex flown to now
   private readonly start = new Vector3();
   private readonly now = new Vector3();
 
   constructor(private readonly body: BodyData) {
-    const flown = new LineBasicMaterial({ color: body.colour });
-    const ahead = new LineBasicMaterial({ color: body.colour, transparent: true, opacity: AHEAD, depthWrite: false });
+    const { flown, ahead } = this;
     const vertices = bends(body);
     for (let first = 0; first < vertices.length - 1; first += STRETCH) {
       const rows = vertices.slice(first, first + STRETCH + 1);
@@ -37,6 +39,10 @@ export class Path {
     }
     const ends = new BufferAttribute(new Float32Array(6), 3);
     this.last = this.add(new BufferGeometry().setAttribute("position", ends), flown, this.start);
+  }
+
+  setTheme(theme: Theme): void {
+    for (const material of [this.flown, this.ahead]) material.color = lineColour(this.body.colour, theme);
   }
 
   show(instant: Instant): void {

@@ -3,7 +3,7 @@
 export const SHEET = `
 .scene { margin: 12px 0; }
 .scene-view { position: relative; overflow: hidden; border: 1px solid color-mix(in srgb, currentColor 30%, transparent);
-  height: clamp(300px, 62vw, min(640px, 78vh)); touch-action: pan-y; user-select: none; cursor: grab; color: #222; }
+  height: clamp(300px, 62vw, min(640px, 78vh)); touch-action: pan-y; user-select: none; cursor: grab; color: light-dark(#222, #e6e6e6); }
 .scene-view:focus-visible, .scene-controls :focus-visible { outline: 3px solid #1c6fd0; outline-offset: 1px; }
 .scene-view:active { cursor: grabbing; }
 .scene-view canvas { display: block; width: 100%; height: 100%; }
@@ -28,13 +28,8 @@ export const SHEET = `
 .scene-time { flex: 1 1 100%; }
 .scene-time input { flex: 1 1 140px; min-width: 0; height: 40px; margin: 0 4px; }
 .scene-controls button, .scene-controls select { min-width: 40px; min-height: 40px; padding: 0 10px; font: inherit; font-size: 13px;
-  color: #222; background: #f3f4f6; border: 1px solid #9aa0a6; border-radius: 4px; max-width: 100%; }
-.scene-controls button[aria-pressed="true"] { background: #0059a0; border-color: #0059a0; color: #fff; }
+  color: light-dark(#222, #e6e6e6); background: light-dark(#f3f4f6, #2b2f36); border: 1px solid light-dark(#9aa0a6, #6b7280); border-radius: 4px; max-width: 100%; }
+.scene-controls button[aria-pressed="true"] { background: light-dark(#0059a0, #4dabf7); color: light-dark(#fff, #10151c); }
 .scene-time button:first-child { min-width: 68px; }
-@media (prefers-color-scheme: dark) {
-  .scene-view { color: #e6e6e6; }
-  .scene-controls button, .scene-controls select { color: #e6e6e6; background: #2b2f36; border-color: #6b7280; }
-  .scene-controls button[aria-pressed="true"] { background: #4dabf7; border-color: #4dabf7; color: #10151c; }
-}
 @media print { .scene { display: none; } }
 `;

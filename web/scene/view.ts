@@ -18,7 +18,7 @@ import { listen } from "./pointer";
 import { Readout } from "./readout";
 import { makeShape } from "./shapes";
 import { Directions } from "./sphere";
-import { followTheme, theme } from "./theme";
+import { followTheme, themeOf } from "./theme";
 
 const NAME = "scene"; // of this script in events
 const ANNOUNCED = 60; // ms, at least between two times of a run that plays
@@ -116,11 +116,15 @@ export class View {
       this.fromElsewhere = false;
     });
     const paint = () => {
-      const colours = theme();
+      const colours = themeOf(this.stage);
       this.scene.background = new Color(colours.sky);
       this.ground?.setTheme(colours);
       this.directions?.setTheme(colours);
-      for (const { flames } of this.shown) flames.setTheme(colours);
+      this.beams.setTheme(colours);
+      for (const { flames, path } of this.shown) {
+        flames.setTheme(colours);
+        path.setTheme(colours);
+      }
       this.changed();
     };
     followTheme(paint);
