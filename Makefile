@@ -118,7 +118,8 @@ windows:
 # What the tests of the HTML pages need, from Debian's packages (as root). `make test` tries it where it can; without a
 # browser these tests are left out, which the last lines say.
 browser:
-	@command -v chromium >/dev/null || { apt-get update -qq && apt-get install -y -qq chromium >/dev/null; }
+	@command -v chromium >/dev/null && command -v chromedriver >/dev/null || \
+		{ apt-get update -qq && apt-get install -y -qq chromium chromium-driver >/dev/null; }
 
 lint: .venv/ready
 	$(BIN)/ruff check .

@@ -52,7 +52,6 @@ class Curves {
       plot.root.setAttribute("role", "application");
       plot.root.setAttribute("aria-label", `${picture.getAttribute("aria-label")}; ${keys}`);
     }
-    figure?.place();
     return figure;
   }
 
@@ -77,6 +76,8 @@ async function start(): Promise<void> {
   const page = readPage();
   if (!page?.figures.length) return;
   await new Curves(page).attachVisible();
+  await new Promise(requestAnimationFrame); // in which the figures learn their sizes
+  await new Promise(requestAnimationFrame);
   document.documentElement.dataset.ready = "curves";
 }
 

@@ -2,6 +2,7 @@
 
 import type { Axis, Chart, Page } from "../page/document";
 import type { SharedAxis } from "./axis";
+import { markCursor } from "./marker";
 import { type Place, Plot } from "./plot";
 
 const GAP = 18; // px above axes, for a title
@@ -11,6 +12,7 @@ const TICKS = 24; // px below axes, and for a label as much again
 export class Figure {
   readonly frame = document.createElement("div");
   readonly values = document.createElement("output");
+  private size = { width: 0, height: 0 }; // px; 0 while it is folded away
 
   private constructor(
     readonly picture: SVGElement,
@@ -20,20 +22,25 @@ export class Figure {
     this.frame.className = `live ${picture.classList.contains("slim") ? "slim" : picture.classList.contains("wide") ? "wide" : ""}`;
     picture.before(this.frame);
     this.frame.append(picture, ...plots.map((plot) => plot.root), this.values);
-    new ResizeObserver(() => this.place()).observe(this.frame);
+    // Calls once when it begins to observe, for all new figures together after the page was laid out.
+    new ResizeObserver(([entry]) => this.place(entry!.contentRect)).observe(this.frame);
     for (const plot of plots) plot.time.follow([Infinity, -Infinity], () => this.showValues(), () => undefined);
   }
 
   // Figures of bars and bands alone remain pictures; all axes of the others become plots.
   static async load(picture: SVGElement, page: Page, sharing: (axis: Axis) => SharedAxis, time: () => SharedAxis): Promise<Figure | null> {
     const charts = page.figures[Number(picture.dataset.figure)]!.filter((chart) => chart !== null);
-    if (!charts.every((chart) => chart.curves || chart.areas?.some((area) => area.stroke))) return null;
+    if (!charts.every((chart) => chart.curves || chart.areas?.some((area) => area.stroke))) {
+      markCursor(picture, charts, sharing);
+      return null;
+    }
     const plots = await Promise.all(charts.map((chart) => Plot.load(chart, page, sharing, time)));
     return new Figure(picture, charts, plots);
   }
 
-  place(): void {
-    const { clientWidth: width, clientHeight: height } = this.frame;
+  private place({ width, height }: { width: number; height: number }): void {
+    if (width === this.size.width && height === this.size.height) return;
+    this.size = { width, height };
     if (!width || !height) return;
     this.plots.forEach((plot, index) => plot.place(placeOf(this.charts, index, width, height)));
   }
@@ -57,7 +64,7 @@ export class Figure {
   }
 
   private showValues(): void {
-    if (!this.frame.clientHeight) return;
+    if (!this.size.height) return;
     const entries = this.plots.flatMap((plot) => (plot.time.cursor === null ? [] : describePlot(plot, plot.time.cursor)));
     this.values.replaceChildren(
       ...entries.map(([text, colour]) => {

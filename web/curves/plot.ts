@@ -25,6 +25,7 @@ export class Plot {
   readonly root = document.createElement("div");
   onArea: (area: HTMLElement) => void = () => undefined; // called with each new area in which lines are drawn
   private plot: uPlot | null = null;
+  private size = { width: 0, height: 0 }; // px, of the area; asking the page for it would lay it out anew each time
   private ordinate: Range | null = null; // of a path at its own zoom
   private readonly line = document.createElement("div");
   private readonly dots: HTMLElement[];
@@ -67,6 +68,7 @@ export class Plot {
     this.plot?.destroy();
     this.plot = new uPlot(this.options(place), [[0], [null]], this.root);
     this.plot.over.append(this.line, ...this.dots);
+    this.size = { width: this.plot.bbox.width / devicePixelRatio, height: this.plot.bbox.height / devicePixelRatio };
     this.onArea(this.plot.over);
     this.showCursor();
   }
@@ -109,8 +111,8 @@ export class Plot {
       if (!each.time || each.hidden) continue;
       const scales = this.plot!.scales;
       const unit = [
-        this.plot!.over.clientWidth / (scales.x!.max! - scales.x!.min!),
-        this.plot!.over.clientHeight / (scales.y!.max! - scales.y!.min!),
+        this.size.width / (scales.x!.max! - scales.x!.min!),
+        this.size.height / (scales.y!.max! - scales.y!.min!),
       ] as const;
       const at = [this.valueAt(left), this.ordinateAt(top)] as const;
       for (let row = 0; row < each.x.length; row++) {
@@ -128,7 +130,7 @@ export class Plot {
     this.line.hidden = !visible || this.isPath;
     if (visible && !this.isPath) {
       const left = this.plot!.valToPos(at, "x");
-      this.line.hidden = !(left >= 0 && left <= this.plot!.over.clientWidth);
+      this.line.hidden = !(left >= 0 && left <= this.size.width);
       this.line.style.transform = `translateX(${left}px)`;
     }
     this.series.forEach((each, index) => {
@@ -137,7 +139,7 @@ export class Plot {
       dot.hidden = row === null;
       if (row === null) return;
       const [left, top] = [this.plot!.valToPos(each.x[row]!, "x"), this.plot!.valToPos(each.y(row), "y")];
-      dot.hidden = !(left >= 0 && left <= this.plot!.over.clientWidth && top >= 0 && top <= this.plot!.over.clientHeight);
+      dot.hidden = !(left >= 0 && left <= this.size.width && top >= 0 && top <= this.size.height);
       dot.style.transform = `translate(${left}px, ${top}px)`;
     });
   }

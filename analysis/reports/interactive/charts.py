@@ -138,10 +138,10 @@ def _read_axes(axes: Axes, reduced: bool) -> Chart | None:
 
 
 def _label(axes: Axes, which: str) -> str:
-    """The label of an axis, which of axes that share theirs only one has."""
+    """The label of an axis, which of axes that share theirs only one has, or the figure."""
     shared = axes.get_shared_x_axes() if which == "x" else axes.get_shared_y_axes()
     labels = [getattr(each, f"get_{which}label")() for each in (axes, *shared.get_siblings(axes))]
-    return next(filter(None, labels), "")
+    return next(filter(None, labels), getattr(axes.get_figure(root=True), f"get_sup{which}label")())
 
 
 def _axis(axis: Any, ends: tuple[float, float], label: str) -> Axis:

@@ -1,0 +1,131 @@
+"""The figures of a run's page answer: values at the cursor, zoom, by pointer, by keys and by touch, on paper as before.
+
+Truth: the flight's table (parquet), rounded to float32, in the digits of the page's tables.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pyarrow.parquet as parquet
+import pytest
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+from perilune.analysis.cli import main
+from perilune.analysis.reports.common.quantities import display_factor, display_unit, number
+from perilune.analysis.runtime.ssp.names import elements
+from tests.support.locks import made_once
+from tests.support.pages.driven import driven
+
+pytestmark = pytest.mark.usefixtures("fmus")
+
+LAST = 20.0  # s
+UNITS = {"position": "m", "altitude": "m", "velocity": "m/s", "tilt": "rad", "angular_rate": "rad/s", "mass": "kg"}
+# Each key pressed, what the panels of states and commands show: by the label of the picture, the texts of its lines.
+READ = """
+const [plot, keys] = arguments;
+const rows = [];
+for (const key of keys) {
+  plot.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+  const texts = {};
+  for (const frame of document.querySelectorAll(".live")) {
+    const label = frame.querySelector("svg").getAttribute("aria-label");
+    if (!label.endsWith(" over time") || frame.closest("details") || !frame.clientHeight) continue;
+    texts[label.slice(0, -10)] = [...frame.querySelectorAll("output span")].map((span) => span.textContent);
+  }
+  rows.push([document.querySelector(".explore output").textContent, texts]);
+}
+return rows;
+"""
+
+
+@pytest.fixture(scope="module")
+def flight(tmp_path_factory):
+    """The page of a landing and its table."""
+
+    def fly(folder):
+        options = ["--report", str(folder / "page.html"), "--output", str(folder / "flight.parquet")]
+        assert main(["run", "landing_mission", *options]) == 0
+
+    return made_once(tmp_path_factory, "landing_mission_page", fly)
+
+
+def panel_of(driver, label):
+    """The area of the plot of a signal over time, scrolled to."""
+    frame = driver.find_element(By.XPATH, f"//*[@aria-label='{label} over time']/..")
+    driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", frame)
+    return frame.find_element(By.CSS_SELECTOR, ".chart"), frame.find_element(By.CSS_SELECTOR, ".u-over")
+
+
+def drag(driver, area, begin, end):
+    """Drag from one fraction of an area's width to another."""
+    width = area.size["width"]
+    left, right = (round((fraction - 0.5) * (width - 2)) for fraction in (begin, end))
+    ActionChains(driver).move_to_element_with_offset(area, left, 0).click_and_hold().move_by_offset(
+        right - left, 0
+    ).release().perform()
+
+
+def values_of(table, label, row):
+    """What a panel shall show of a signal at a row."""
+    names = elements(label, table.column_names)
+    unit = UNITS.get(label.rpartition(".")[2])
+    return [number(float(np.float32(table[name][row].as_py())) * display_factor(unit), 6) for name in names], unit
+
+
+def test_the_last_rows_of_a_landing(browser, flight):
+    table = parquet.read_table(flight / "flight.parquet")
+    time = table["time"].to_numpy()
+    with driven(browser, flight / "page.html") as driver:
+        plot, area = panel_of(driver, "plant.altitude")
+        drag(driver, area, 0.95, 1.0)
+        drag(driver, area, 0.905, 1.0)
+        ticks = driver.execute_script("return document.querySelectorAll('.live').length")
+        assert ticks > 30
+        rows = np.flatnonzero(time >= time[-1] - LAST - 1e-9)
+        assert rows.size == 201
+        read = driver.execute_script(READ, plot, ["End", *["ArrowLeft"] * 200])
+        for row, (cursor, texts) in zip(reversed(rows), read, strict=True):
+            assert cursor == f"time {number(float(np.float32(time[row])), 6)} s"
+            assert len(texts) >= 10
+            for label in ("plant.position", "plant.altitude", "plant.velocity", "plant.tilt", "plant.mass"):
+                expected, unit = values_of(table, label, int(row))
+                pattern = re.compile(rf"(?:\[\d\] )?(\S+)(?: {re.escape(display_unit(unit))})?$")
+                assert [pattern.match(text)[1] for text in texts[label]] == expected, (label, row)
+        plot.send_keys("0")
+        ActionChains(driver).send_keys(Keys.HOME, Keys.ARROW_RIGHT).perform()
+        assert driver.find_element(By.CSS_SELECTOR, ".explore output").text == "time 0.1 s"
+
+
+def test_touch_and_buttons_reach_a_row(browser, flight):
+    with driven(browser, flight / "page.html", phone=True) as driver:
+        _, area = panel_of(driver, "plant.altitude")
+        bounds = driver.execute_script(
+            "const b = arguments[0].getBoundingClientRect(); return [b.x, b.y, b.width, b.height]", area
+        )
+        touch = {"x": bounds[0] + 0.5 * bounds[2], "y": bounds[1] + 0.5 * bounds[3]}
+        driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [touch]})
+        driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+        cursor = driver.find_element(By.CSS_SELECTOR, ".explore output")
+        before = float(re.fullmatch(r"time (\S+) s", cursor.text)[1])
+        assert 1500.0 < before < 2500.0
+        buttons = driver.find_elements(By.CSS_SELECTOR, ".explore button")
+        for button in buttons:
+            assert button.size["height"] >= 40
+            assert 0 <= button.location["x"] <= 390 - button.size["width"]
+        next(button for button in buttons if button.get_attribute("aria-label") == "next row").click()
+        assert float(re.fullmatch(r"time (\S+) s", cursor.text)[1]) == pytest.approx(before + 0.1, abs=1e-6)
+        assert driver.execute_script("return document.documentElement.scrollWidth") == 390
+
+
+def test_a_script_of_others_does_not_run(browser, flight, tmp_path):
+    """The policy permits the page's scripts alone, neither another one nor what an attribute has."""
+    text = (flight / "page.html").read_text(encoding="utf-8")
+    hostile = "<script>document.title = 'hostile'</script><img src='data:,' onerror=\"document.title = 'hostile'\">"
+    page = tmp_path / "page.html"
+    page.write_text(text.replace("<body>", f"<body>{hostile}"), encoding="utf-8")
+    with pytest.raises(AssertionError, match="Content Security Policy"), driven(browser, page) as driver:
+        assert driver.title == "landing_mission"

@@ -1,0 +1,40 @@
+"""A page in a browser that a test drives: pointer, touch and keys, by Selenium and Debian's chromium-driver."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from selenium.webdriver import Chrome, ChromeOptions
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.support.ui import WebDriverWait
+
+FLAGS = ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+PHONE = {"width": 390, "height": 844, "pixelRatio": 2.0, "touch": True}
+PATIENCE = 60  # s
+
+
+@contextmanager
+def driven(browser: str, page: Path, *, phone: bool = False, flags: Sequence[str] = ()) -> Iterator[Chrome]:
+    """The page once its scripts are ready; at the end nothing above "info" may be in the console."""
+    options = ChromeOptions()
+    options.binary_location = browser
+    for flag in (*FLAGS, "--window-size=1400,1200", *flags):
+        options.add_argument(flag)
+    if phone:
+        options.add_experimental_option("mobileEmulation", {"deviceMetrics": PHONE})
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = Chrome(options=options, service=Service(shutil.which("chromedriver")))
+    try:
+        driver.get(page.as_uri())
+        WebDriverWait(driver, PATIENCE).until(lambda each: each.execute_script(READY))
+        yield driver
+        messages = [entry for entry in driver.get_log("browser") if entry["level"] not in ("DEBUG", "INFO")]
+        assert not messages, messages
+    finally:
+        driver.quit()
+
+
+READY = "return document.documentElement.dataset.ready !== undefined"

@@ -1,0 +1,31 @@
+// The cursor over a figure of bars, which remains a picture.
+
+import type { Axis, Chart } from "../page/document";
+import type { SharedAxis } from "./axis";
+
+export function markCursor(picture: SVGElement, charts: Chart[], sharing: (axis: Axis) => SharedAxis): void {
+  const frame = document.createElement("div");
+  const line = document.createElement("div");
+  frame.className = "pictured";
+  line.className = "cursor";
+  line.hidden = true;
+  picture.before(frame);
+  frame.append(picture, line);
+  for (const axis of new Set(charts.map((chart) => sharing(chart.x)))) {
+    axis.follow([Infinity, -Infinity], () => show(axis), () => undefined);
+  }
+
+  function show(axis: SharedAxis): void {
+    const at = axis.cursor;
+    const chart = charts.find(({ x }) => at !== null && sharing(x) === axis && at >= x.ends[0] && at <= x.ends[1]);
+    line.hidden = !chart;
+    if (!chart) return;
+    const fraction = (at! - chart.x.ends[0]) / (chart.x.ends[1] - chart.x.ends[0]);
+    const [left, top, width, height] = chart.box;
+    Object.assign(line.style, percent({ left: left + fraction * width, top, height }));
+  }
+}
+
+function percent(fractions: Record<string, number>): Record<string, string> {
+  return Object.fromEntries(Object.entries(fractions).map(([name, fraction]) => [name, `${100 * fraction}%`]));
+}
