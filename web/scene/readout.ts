@@ -13,6 +13,8 @@ const BAR = 0.2; // of the view's width, at most
 export class Readout {
   readonly values = make("dl", { class: "scene-values" });
   readonly scale = make("div", { class: "scene-scale", "aria-hidden": "true" });
+  private names: string[] = [];
+  private cells: HTMLElement[] = [];
   private readonly bar = make("i");
   private readonly text = make("span");
 
@@ -26,9 +28,13 @@ export class Readout {
     for (const { label, values, unit } of body.thrusts ?? []) {
       rows.push([label, `${format(scalarAt(values, instant), DIGITS)} ${unit ?? ""}`]);
     }
-    this.values.replaceChildren(
-      ...rows.map(([name, value]) => make("div", {}, make("dt", {}, nameOf(name)), make("dd", {}, value))),
-    );
+    if (rows.some(([name], index) => name !== this.names[index]) || rows.length !== this.names.length) {
+      this.names = rows.map(([name]) => name);
+      this.cells = rows.map(() => make("dd"));
+      const lines = this.names.map((name, index) => make("div", {}, make("dt", {}, nameOf(name)), this.cells[index]!));
+      this.values.replaceChildren(...lines);
+    }
+    for (const [index, [, value]] of rows.entries()) this.cells[index]!.textContent = value;
   }
 
   // `metresPerPixel` is that of the middle of the view.

@@ -53,6 +53,7 @@ export class View {
   private readonly readout: Readout;
   private readonly shown: Shown[];
   private followed: BodyData;
+  private pictures = 0;
   private pending = 0;
   private drawn: Instant;
   private announced = -Infinity;
@@ -189,6 +190,7 @@ export class View {
     this.light();
     this.renderer.render(this.scene, camera.view);
     this.overlay(instant);
+    this.element.dataset["drawn"] = String(++this.pictures);
   }
 
   private light(): void {

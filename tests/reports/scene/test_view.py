@@ -1,7 +1,7 @@
 """What a page stores of the scenes of our systems, and what is said of them.
 
-Truth: scipy's Rotation on the signals of the flight, the ground's sphere, the time for which the plant says that its jets
-have fired, the jets' matrix of the robot, and the forms of text that HTML and JSON give a meaning.
+Truth: scipy's Rotation on the signals of the flight, the ground's sphere, the time for which the plant says that its
+jets have fired, the jets' matrix of the robot, and the forms of text that HTML and JSON give a meaning.
 """
 
 import json
@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import perilune
-from perilune.analysis.reports.figures.scene.declared import Cartesian, Jets, Line, Scene, Site, Thrust, ThrustAxis
+from perilune.analysis.reports.figures.scene.declared import Cartesian, Scene
 from perilune.analysis.reports.run_report import write_run_report
 from perilune.analysis.reports.scene.notes import scene_notes
 from perilune.analysis.reports.scene.view import remaining_pulses, scene_view
@@ -21,7 +21,7 @@ from perilune.fmus_src.mathlib.actuators.jets import jet_strength, jet_wrench
 from perilune.fmus_src.mathlib.vectors import vector as kernel_vector
 from tests.support.pages.checks import assert_self_contained, parse, text_of
 from tests.support.pages.embedded import column, document_of, embed, require_bundle
-from tests.support.pages.scenes import body, cartesian, flown, scalar, scene, sphere, vector
+from tests.support.pages.moving import moving
 
 EXACT = 1e-6
 LANDING, ROBOT, SPACECRAFT, CAPSULE = "landing_mission", "robot_rendezvous", "orbital_attitude", "entry_attitude"
@@ -118,7 +118,7 @@ def test_a_landed_vehicle_stands_on_the_ground(flights):
     base = [[half_width * x, half_width * y, 0.0] for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1))]
     points = position[:, -1] + rotation[-1].apply(base)
     radius = document["scene"]["ground"]["radius"]
-    heights = np.linalg.norm(points + [0.0, 0.0, radius], axis=1) - radius
+    heights = np.linalg.norm(points + np.array([0.0, 0.0, radius]), axis=1) - radius
     assert np.abs(heights).max() < 0.01
 
 
@@ -154,36 +154,6 @@ def test_pulses_last_from_the_sample_at_which_they_are_counted():
     count = np.array([1.0, 1.0, 2.0, 2.0, 2.0])
     assert np.allclose(remaining_pulses(time, lengths, count), [[0.7, 0.2, -1.2, -0.7, -0.2]])
     assert (remaining_pulses(time, lengths, None) == lengths).all()
-
-
-def moving(name="ship", rows=20, **more):
-    """A flight over a plane with everything that a scene can have, under any name."""
-    along = np.linspace(0.0, 1.0, rows)
-    result = flown(
-        position=[100.0 * along, 0.0 * along, 50.0 * (1.0 - along)],
-        axis=[0.1 * along, 0.0 * along, 1.0 + along],
-        thrust=400.0 * (1.0 - along),
-        lengths=0.1 * (along > 0.5),
-        on=along > 0.3,
-    )
-    lander = body(
-        name,
-        cartesian(),
-        ThrustAxis(vector("ship.axis", 3)),
-        shape="lander",
-        thrusts=(Thrust(scalar("ship.thrust"), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)),),
-        jets=(Jets(scalar("ship.lengths"), ((1.0, 0.0, 0.0),), ((0.0, 1.0, 0.0),), True, None, True),),
-    )
-    site = Site(f"{name}'s site", (100.0, 0.0, 0.0))
-    line = Line(f"{name}'s beam", name, "ground", scalar("ship.on"))
-    declared = {
-        "title": f"Landing of {name}",
-        "frame": name,
-        "surface": sphere(1e6),
-        "sites": (site,),
-        "lines": (line,),
-    }
-    return result, scene(lander, **(declared | more))
 
 
 def page_of(path, result, *figures):

@@ -20,7 +20,7 @@ def require_bundle(name):
 
 def document_of(text):
     """The document of a page, or of its elements alone."""
-    (content,) = html.fragment_fromstring(text, create_parent="div").xpath("//script[@id='page-data']/text()")
+    (content,) = html.document_fromstring(text).xpath("//script[@id='page-data']/text()")
     return json.loads(content)
 
 
