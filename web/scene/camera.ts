@@ -2,7 +2,7 @@
 
 import { PerspectiveCamera, Quaternion, Vector3 } from "three";
 import type { BodyData, SceneData } from "./document";
-import type { Foot, Ground } from "./ground";
+import type { Foot, Ground } from "./objects/ground";
 import { type Instant, positionAt, sampleAt } from "./instant";
 
 export type Mode = "follow" | "chase" | "free";

@@ -4,7 +4,7 @@ import { Vector3 } from "three";
 import type { Camera } from "./camera";
 import type { BodyData, SiteData } from "./document";
 import { make, makeSvg, nameOf } from "./elements";
-import type { Ground } from "./ground";
+import type { Ground } from "./objects/ground";
 import { type Instant, positionAt } from "./instant";
 import { strokeOf } from "./theme";
 

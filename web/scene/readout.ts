@@ -3,7 +3,7 @@
 import { format } from "../page/numbers";
 import type { BodyData, SceneData } from "./document";
 import { make, nameOf } from "./elements";
-import type { Foot, Ground } from "./ground";
+import type { Foot, Ground } from "./objects/ground";
 import { type Instant, scalarAt } from "./instant";
 
 const DIGITS = 5;

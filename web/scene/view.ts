@@ -2,22 +2,22 @@
 
 import { Color, DirectionalLight, Group, HemisphereLight, Quaternion, Scene, Vector3, WebGLRenderer } from "three";
 import { announceTime, followTime } from "../page/time";
-import { Beams } from "./beams";
+import { Beams } from "./objects/beams";
 import { Camera } from "./camera";
 import { Controls } from "./controls";
 import type { BodyData, SceneData } from "./document";
 import { make } from "./elements";
-import { Flames } from "./flames";
-import { bodyAxes, Triad } from "./frames";
-import { Ground } from "./ground";
+import { Flames } from "./objects/flames";
+import { bodyAxes, Triad } from "./objects/frames";
+import { Ground } from "./objects/ground";
 import { type Instant, attitudeAt, positionAt } from "./instant";
 import { Marks } from "./marks";
-import { Path } from "./path";
+import { Path } from "./objects/path";
 import { Playback } from "./playback";
 import { listen } from "./pointer";
 import { Readout } from "./readout";
-import { makeShape } from "./shapes";
-import { Directions } from "./sphere";
+import { makeShape } from "./objects/shapes";
+import { Directions } from "./objects/directions";
 import { followTheme, themeOf } from "./theme";
 
 const NAME = "scene"; // of this script in events

@@ -11,7 +11,7 @@ AXES = "xyz"
 
 
 def multiply(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """The product of quaternions: the turn ``second`` about the axes that ``first`` has turned."""
+    """The product of quaternions: the turn ``second`` about the axes that ``first`` has rotated."""
     a, u = first[0], first[1:]
     b, v = second[0], second[1:]
     return np.concatenate([(a * b - np.sum(u * v, axis=0))[None], a * v + b * u + np.cross(u, v, axis=0)])
@@ -70,9 +70,9 @@ def _shortest(start: tuple[float, ...], end: tuple[float, ...]) -> tuple[float, 
     if cosine < -1.0 + 1e-12:
         length = math.hypot(x, z) if abs(y) < 0.9 else math.hypot(y, z)
         return (0.0, -z / length, 0.0, x / length) if abs(y) < 0.9 else (0.0, 0.0, z / length, -y / length)
-    turned = (1.0 + cosine, y * end[2] - z * end[1], z * end[0] - x * end[2], x * end[1] - y * end[0])
-    length = math.sqrt(sum(component * component for component in turned))
-    w, a, b, c = (component / length for component in turned)
+    rotated = (1.0 + cosine, y * end[2] - z * end[1], z * end[0] - x * end[2], x * end[1] - y * end[0])
+    length = math.sqrt(sum(component * component for component in rotated))
+    w, a, b, c = (component / length for component in rotated)
     return w, a, b, c
 
 

@@ -1,4 +1,4 @@
-"""Where a body of a scene is, and how it is turned, in each form in which a system can say it.
+"""Where a body of a scene is, and how it is rotated, in each form in which a system can say it.
 
 Truth: scipy's Rotation, the matrices of docs/systems/orbital_attitude.md and entry_attitude.md, Cartesian coordinates
 of points on a sphere, the theorem of Gauss and Bonnet, and the direction of motion.
@@ -14,7 +14,7 @@ from perilune.analysis.reports.figures.scene.declared import Angles, Geographic,
 from perilune.analysis.reports.scene.poses import compute_poses
 from perilune.fmus_src.mathlib.entry.motion import body_axes
 from perilune.fmus_src.mathlib.vectors import vector as kernel_vector
-from tests.support.pages.scenes import METRE, angle, body, cartesian, flown, scalar, scene, sphere, vector
+from tests.support.scenes.made import METRE, angle, body, cartesian, flown, scalar, scene, sphere, vector
 
 ROWS = 10
 EXACT = 1e-6
@@ -97,16 +97,16 @@ def test_a_thrust_axis_is_the_bodys_z_and_does_not_roll():
 
 @pytest.mark.parametrize("half_angle", [0.3, 1.2, 2.0])
 def test_around_a_cone_the_roll_is_the_solid_angle(half_angle):
-    """Gauss and Bonnet: what is carried around a closed curve comes back turned by the area within."""
+    """Gauss and Bonnet: what is carried around a closed curve comes back rotated by the area within."""
     around = np.linspace(0.0, 2.0 * np.pi, 401)
     level = np.sin(half_angle)
     axes = np.stack([level * np.cos(around), level * np.sin(around), np.full(around.size, np.cos(half_angle))])
     _, rotation = pose({"axis": axes}, body(attitude=ThrustAxis(vector("ship.axis", 3))))
-    turned = (rotation[-1] * rotation[0].inv()).as_rotvec()
+    rotated = (rotation[-1] * rotation[0].inv()).as_rotvec()
     area = 2.0 * np.pi * (1.0 - np.cos(half_angle))
-    difference = np.remainder(turned @ axes[:, 0] - area + np.pi, 2.0 * np.pi) - np.pi
+    difference = np.remainder(rotated @ axes[:, 0] - area + np.pi, 2.0 * np.pi) - np.pi
     assert abs(difference) < 1e-3
-    assert np.linalg.norm(np.cross(turned, axes[:, 0])) < EXACT
+    assert np.linalg.norm(np.cross(rotated, axes[:, 0])) < EXACT
 
 
 WIND = ("bank", "sideslip_angle", "angle_of_attack", "flight_path_angle", "heading")

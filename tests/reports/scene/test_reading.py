@@ -272,14 +272,14 @@ def test_validate_and_run_refuse_alike(read, tmp_path, capsys):
 
 
 def test_what_an_fmu_that_is_put_in_lacks_is_said_and_not_refused(tmp_path, tiny_folder):
-    parts = system(component("hull", "ramp"), component("ramp", "ramp"))
+    elements = system(component("hull", "ramp"), component("ramp", "ramp"))
     inside = scene(
         '<Surface kind="plane"/>',
         body("", '<Thrust signal="ramp.y"/>'),
         '<Line from="it" to="ground" while="ramp.count"/>',
         more='title="Meeting"',
     )
-    path = pack(tmp_path / "s.ssp", tiny_folder / "native", with_report(document(parts), inside))
+    path = pack(tmp_path / "s.ssp", tiny_folder / "native", with_report(document(elements), inside))
 
     def figures(**use):
         options = SystemOptions(use={slot: str(tiny_folder / "native" / f"{name}.fmu") for slot, name in use.items()})
@@ -291,7 +291,7 @@ def test_what_an_fmu_that_is_put_in_lacks_is_said_and_not_refused(tmp_path, tiny
     assert isinstance(less, Scene)
     assert (less.bodies[0].name, less.lines) == ("it", ())
     assert less.notes == ("Left out: while ramp.count: no such signal, with angle as ramp.",)
-    inside_of_hull = with_report(document(parts), scene(body('angles="hull.y" sequence="z"'), more='title="Meeting"'))
-    path = pack(tmp_path / "t.ssp", tiny_folder / "native", inside_of_hull.replace('"hull.y"', '"hull.count"'))
+    inside = scene(body('angles="hull.count" sequence="z"'), more='title="Meeting"')
+    path = pack(tmp_path / "t.ssp", tiny_folder / "native", with_report(document(elements), inside))
     (gone,) = figures(hull="angle")
     assert gone == Unavailable("Meeting", ("angles hull.count: no such signal, with angle as hull",))

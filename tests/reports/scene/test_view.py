@@ -20,8 +20,8 @@ from perilune.analysis.reports.scene.view import remaining_pulses, scene_view
 from perilune.fmus_src.mathlib.actuators.jets import jet_strength, jet_wrench
 from perilune.fmus_src.mathlib.vectors import vector as kernel_vector
 from tests.support.pages.checks import assert_self_contained, parse, text_of
-from tests.support.pages.embedded import column, document_of, embed, require_bundle
-from tests.support.pages.moving import moving
+from tests.support.scenes.descent import descent
+from tests.support.scenes.embedded import column, document_of, embed, require_bundle
 
 EXACT = 1e-6
 LANDING, ROBOT, SPACECRAFT, CAPSULE = "landing_mission", "robot_rendezvous", "orbital_attitude", "entry_attitude"
@@ -48,12 +48,12 @@ def flights(fmus):
 
 def stored(document, index=0):
     """Positions (m), [3, n], and rotations of a body, as the page has them."""
-    shown = document["scene"]
-    body_shown = shown["bodies"][index]
-    position = np.stack([column(document, number) for number in body_shown["position"]])
-    attitude = np.stack([column(document, number) for number in body_shown["attitude"]])
+    stored_scene = document["scene"]
+    stored_body = stored_scene["bodies"][index]
+    position = np.stack([column(document, number) for number in stored_body["position"]])
+    attitude = np.stack([column(document, number) for number in stored_body["attitude"]])
     rotation = Rotation.from_quat(attitude.T, scalar_first=True)
-    return position + np.array(shown["origin"])[:, None], rotation
+    return position + np.array(stored_scene["origin"])[:, None], rotation
 
 
 def assert_near(actual, expected):
@@ -102,9 +102,9 @@ def test_the_capsules_wind_angles(flights):
     fixed = up.apply([1.0, 0.0, 0.0]) * distance[:, None] - up[-1].apply([6371000.0, 0.0, 0.0])
     assert_near(position.T[rows], there.inv().apply(fixed)[rows])
     horizon = up * Rotation.from_matrix([[0, 0, 1], [1, 0, 0], [0, 1, 0]])
-    course, path = result["plant.course"], result["plant.path_angle"]
+    heading, path = result["plant.course"], result["plant.path_angle"]
     level = Rotation.from_matrix([[1, 0, 0], [0, 0, -1], [0, 1, 0]])  # forward, up, right of forward, left, up
-    velocity_axes = horizon * Rotation.from_euler("ZY", np.stack([course, -path], axis=1)) * level
+    velocity_axes = horizon * Rotation.from_euler("ZY", np.stack([heading, -path], axis=1)) * level
     angles = np.stack([result[f"plant.{name}"] for name in ("bank", "sideslip", "attack")], axis=1)
     expected = there.inv() * velocity_axes * Rotation.from_euler("XYZ", angles)
     assert_near(rotation[rows].as_matrix(), expected[rows].as_matrix())
@@ -122,7 +122,7 @@ def test_a_landed_vehicle_stands_on_the_ground(flights):
     assert np.abs(heights).max() < 0.01
 
 
-def test_jets_are_shown_for_as_long_as_the_plant_fires_them(flights):
+def test_jets_are_visible_for_as_long_as_the_plant_fires_them(flights):
     result, _, document = flights(SPACECRAFT)
     jets = [column(document, jet["values"]) for jet in document["scene"]["bodies"][0]["jets"]]
     on = np.minimum(np.abs(jets)[:, :-1], np.diff(result.time)).sum()
@@ -163,28 +163,28 @@ def page_of(path, result, *figures):
 
 def test_a_page_with_a_scene_stands_alone_and_is_the_same_each_time(tmp_path):
     require_bundle("scene")
-    page = page_of(tmp_path / "a.html", *moving())
+    page = page_of(tmp_path / "a.html", *descent())
     assert_self_contained(page)
-    assert page == page_of(tmp_path / "b.html", *moving())
+    assert page == page_of(tmp_path / "b.html", *descent())
     (holder,) = parse(page).xpath("//*[@data-scene]")
     assert "needs JavaScript" in holder.text_content()
     assert holder.xpath("ancestor::section[@class='screen']")  # not in print
-    assert "data-scene" not in page_of(tmp_path / "c.html", moving()[0])
+    assert "data-scene" not in page_of(tmp_path / "c.html", descent()[0])
 
 
 def test_without_its_script_a_page_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr("perilune.analysis.reports.interactive.bundles.BUNDLES", tmp_path)
-    page = page_of(tmp_path / "a.html", *moving())
+    page = page_of(tmp_path / "a.html", *descent())
     assert "There is no three-dimensional view. The scripts of pages are not built" in text_of(page)
     assert not parse(page).xpath("//script")
 
 
 def test_a_run_without_samples_has_no_scene(tmp_path):
-    assert "data-scene" not in page_of(tmp_path / "a.html", *moving(rows=0))
+    assert "data-scene" not in page_of(tmp_path / "a.html", *descent(rows=0))
 
 
 def test_what_is_not_to_scale_is_said():
-    result, declared = moving()
+    result, declared = descent()
     text = " ".join(scene_notes(declared, result))
     assert "Frame: ship; x, y, z." in text
     assert "ship 2 x 3 x 4 m" in text
@@ -200,27 +200,27 @@ HOSTILE = ("</script><b>", "<!--<script>", "a\u2028b\nc", "\u202eabc", "__proto_
 @pytest.mark.parametrize("name", HOSTILE)
 def test_names_are_text_in_the_page(tmp_path, name):
     require_bundle("scene")
-    page = page_of(tmp_path / "a.html", *moving(name))
+    page = page_of(tmp_path / "a.html", *descent(name))
     assert_self_contained(page)
     assert not parse(page).xpath("//b[ancestor::section[@class='screen']]")
     document = document_of(
         page[page.index('<script type="application/json"') :].partition("</script>")[0] + "</script>"
     )
-    shown = document["scene"]
-    assert (shown["title"], shown["bodies"][0]["name"]) == (f"Landing of {name}", name)
-    assert shown["lines"][0]["start"] == name
+    stored_scene = document["scene"]
+    assert (stored_scene["title"], stored_scene["bodies"][0]["name"]) == (f"Landing of {name}", name)
+    assert stored_scene["lines"][0]["start"] == name
 
 
 @given(st.text(min_size=1))
 def test_any_name_comes_back_as_it_was(name):
-    result, declared = moving(name)
+    result, declared = descent(name)
     document = embed("scene", "scene", scene_view(declared, result))
     assert document["scene"]["bodies"][0]["name"] == name
     assert json.loads(json.dumps(document)) == document
 
 
 def test_a_position_that_is_never_known_leaves_the_page_whole(tmp_path):
-    result, declared = moving()
+    result, declared = descent()
     result.signals["ship.position[1]"][:] = np.nan
     assert isinstance(declared.bodies[0].position, Cartesian)
     page = page_of(tmp_path / "a.html", result, declared)

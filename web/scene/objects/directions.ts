@@ -1,8 +1,8 @@
 // The directions of the frame where there is no ground: circles every 30 degrees, infinitely far away.
 
 import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, type PerspectiveCamera } from "three";
-import type { SceneData } from "./document";
-import type { Theme } from "./theme";
+import type { SceneData } from "../document";
+import type { Theme } from "../theme";
 
 const APART = Math.PI / 6;
 const STEP = Math.PI / 60;

@@ -2,9 +2,9 @@
 // vertices are relative to the first of their stretch, since float32 is not exact enough for all of a path.
 
 import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Vector3 } from "three";
-import type { BodyData } from "./document";
-import { type Instant, positionAt, sampleAt } from "./instant";
-import { lineColour, type Theme } from "./theme";
+import type { BodyData } from "../document";
+import { type Instant, positionAt, sampleAt } from "../instant";
+import { lineColour, type Theme } from "../theme";
 
 const STRETCH = 2048; // vertices
 const AHEAD = 0.45; // opacity

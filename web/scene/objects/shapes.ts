@@ -13,7 +13,7 @@ import {
   Vector2,
   Vector3,
 } from "three";
-import type { Triple } from "./document";
+import type { Triple } from "../document";
 
 const material = (color: string) => new MeshLambertMaterial({ color, side: DoubleSide });
 const FOIL = material("#c8a040");

@@ -1,10 +1,10 @@
 // Lines from a point to a point, or to the ground below.
 
 import { BufferAttribute, BufferGeometry, Group, Line, LineDashedMaterial, Vector3 } from "three";
-import type { LineData, SceneData } from "./document";
+import type { LineData, SceneData } from "../document";
 import type { Ground } from "./ground";
-import { type Instant, positionAt } from "./instant";
-import { lineColour, type Theme } from "./theme";
+import { type Instant, positionAt } from "../instant";
+import { lineColour, type Theme } from "../theme";
 
 const COLOUR = "#c92a2a";
 const DASHES = 40; // in a line, whatever its length

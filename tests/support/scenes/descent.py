@@ -3,10 +3,10 @@
 import numpy as np
 
 from perilune.analysis.reports.figures.scene.declared import Jets, Line, Site, Thrust, ThrustAxis
-from tests.support.pages.scenes import body, cartesian, flown, scalar, scene, sphere, vector
+from tests.support.scenes.made import body, cartesian, flown, scalar, scene, sphere, vector
 
 
-def moving(name="ship", rows=20, **more):
+def descent(name="ship", rows=20, **more):
     """A lander comes down over a round body: the run, half a second a row, and its scene."""
     along = np.linspace(0.0, 1.0, rows)
     result = flown(

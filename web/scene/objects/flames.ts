@@ -1,9 +1,9 @@
 // Plumes of thrust and flames of jets, children of their body.
 
 import { BufferAttribute, Color, ConeGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, Vector3 } from "three";
-import type { BodyData, JetData, ThrustData, Triple } from "./document";
-import { type Instant, scalarAt } from "./instant";
-import type { Theme } from "./theme";
+import type { BodyData, JetData, ThrustData, Triple } from "../document";
+import { type Instant, scalarAt } from "../instant";
+import type { Theme } from "../theme";
 
 const WIDTH = 0.07; // radius of a plume over its full length
 const JET = 0.25; // the longest flame of a jet over the body's largest extent

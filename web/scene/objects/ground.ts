@@ -3,9 +3,9 @@
 // On a sphere the grid is laid along and across the great circle of the flight, with distances along the ground.
 
 import { BufferAttribute, BufferGeometry, Color, Matrix4, Mesh, ShaderMaterial, Vector2, Vector3 } from "three";
-import type { SceneData } from "./document";
+import type { SceneData } from "../document";
 import { groundFragment, groundVertex } from "./ground_shader";
-import type { Theme } from "./theme";
+import type { Theme } from "../theme";
 
 const SECTORS = 64;
 const NEAREST = 1; // m, of the innermost ring
