@@ -18,7 +18,7 @@ export const SHEET = `
 .scene-values div { display: flex; gap: 8px; }
 .scene-values dt { color: inherit; opacity: 0.8; overflow-wrap: anywhere; }
 .scene-values dd { margin: 0; font-weight: 600; white-space: nowrap; }
-.scene-triad { right: 14px; top: 0; }
+.scene-triad { right: 36px; top: 0; }
 .scene-triad svg { overflow: visible; }
 .scene-triad text { font-size: 11px; }
 .scene-scale { left: 8px; right: 8px; bottom: 6px; }
