@@ -8,6 +8,10 @@ import { listen, listenToKeys, press } from "./curves/pointer";
 import { Toolbar } from "./curves/toolbar";
 import { type Axis, type Page, readPage } from "./page/document";
 import { announceTime, followTime } from "./page/time";
+import { Card } from "./trials/card";
+import { Selection } from "./trials/selection";
+import { TrialPlot } from "./trials/trial_plot";
+import { Trials } from "./trials/trials";
 
 const TIME = "time, s";
 
@@ -15,10 +19,15 @@ class Curves {
   private readonly axes = new Map<string, SharedAxis>();
   private readonly figures = new Map<Element, Promise<Figure | null>>();
   private readonly toolbar = new Toolbar((key) => this.chosen && press(this.chosen.plot, key, false));
+  private readonly selection = new Selection();
+  private readonly card = new Card();
   private chosen: { plot: Plot; figure: Figure } | null = null;
   private isFollowing = false;
 
-  constructor(private readonly page: Page) {
+  constructor(
+    private readonly page: Page,
+    private readonly trials: Trials | null,
+  ) {
     followTime("curves", (at) => {
       this.isFollowing = true;
       this.axes.get(TIME)?.moveCursor(at);
@@ -46,8 +55,9 @@ class Curves {
         this.chosen = choice;
       };
       this.chosen ??= choice;
-      plot.onArea = (area) => listen(plot, area, choose);
-      listenToKeys(plot, choose);
+      const ofTrials = TrialPlot.of(plot, this.trials, this.selection, this.card);
+      plot.onArea = (area) => listen(plot, area, choose, ofTrials);
+      listenToKeys(plot, choose, (key) => ofTrials?.press(key) ?? false);
       const keys = "arrow keys move the cursor, plus and minus zoom, 0 shows the whole range";
       plot.root.setAttribute("role", "application");
       plot.root.setAttribute("aria-label", `${picture.getAttribute("aria-label")}; ${keys}`);
@@ -75,7 +85,7 @@ class Curves {
 async function start(): Promise<void> {
   const page = readPage();
   if (!page?.figures.length) return;
-  await new Curves(page).attachVisible();
+  await new Curves(page, await Trials.load(page)).attachVisible();
   await new Promise(requestAnimationFrame); // in which the figures learn their sizes
   await new Promise(requestAnimationFrame);
   document.documentElement.dataset.ready = "curves";

@@ -17,11 +17,13 @@ FAILURES = 20_000  # behind those
 class Shown:
     """``first`` are the first trials of a variant, ``dots`` the same and failures behind them; of ``trials`` in all.
 
-    ``failures`` is how many failures there are in all. Both have metrics and draws, no statuses.
+    ``failures`` is how many failures there are in all. Both have statuses, metrics and draws; ``numbers`` are those of
+    the trials of ``dots``.
     """
 
     first: TrialColumns
     dots: TrialColumns
+    numbers: np.ndarray
     trials: int
     failures: int
 
@@ -37,7 +39,7 @@ class Shown:
 
 def select_trials(rows: TrialRows, draws: list[str], metrics: list[str]) -> Shown:
     """What figures show of a variant's trials, with some draws and metrics."""
-    names = ["success", *(f"metric.{name}" for name in metrics), *(f"draw.{name}" for name in draws)]
+    names = ["trial", "status", "success", *(f"metric.{name}" for name in metrics), *(f"draw.{name}" for name in draws)]
     first: list[Part] = []
     behind: list[Part] = []
     trials = selected = failures = retained = 0
@@ -53,7 +55,8 @@ def select_trials(rows: TrialRows, draws: list[str], metrics: list[str]) -> Show
         if failed.size:
             behind.append({name: values[failed] for name, values in part.items()})
             retained += failed.size
-    return Shown(_columns(first), _columns(first + behind), trials, failures)
+    numbers = np.concatenate([part["trial"] for part in first + behind])
+    return Shown(_columns(first), _columns(first + behind), numbers, trials, failures)
 
 
 def _columns(parts: list[Part]) -> TrialColumns:
@@ -62,4 +65,4 @@ def _columns(parts: list[Part]) -> TrialColumns:
     def of(kind: str) -> dict[str, np.ndarray]:
         return {name.removeprefix(kind): values for name, values in columns.items() if name.startswith(kind)}
 
-    return TrialColumns([], columns["success"], of("metric."), draws=of("draw."))
+    return TrialColumns(columns["status"].tolist(), columns["success"], of("metric."), draws=of("draw."))

@@ -16,8 +16,8 @@ export async function loadShapes(chart: Chart, page: Page): Promise<Shape[]> {
   );
 }
 
-// Positions on the canvas of abscissas and ordinates, of the data or as fractions of the axes.
-class Positions {
+// Positions on the canvas (its px) of abscissas and ordinates, of the data or as fractions of the axes.
+export class Positions {
   readonly x: (value: number, ofAxes?: boolean) => number;
   readonly y: (value: number, ofAxes?: boolean) => number;
 
@@ -76,9 +76,12 @@ function drawRule(context: CanvasRenderingContext2D, plot: uPlot, to: Positions,
   context.stroke();
 }
 
-export function drawAbove(plot: uPlot, chart: Chart, all: Series[], whole: boolean): void {
+export type Layer = (context: CanvasRenderingContext2D, to: Positions, ratio: number) => void;
+
+export function drawAbove(plot: uPlot, chart: Chart, all: Series[], layers: Layer[], whole: boolean): void {
   clipped(plot, (context, ratio) => {
     const to = new Positions(plot);
+    for (const draw of layers) draw(context, to, ratio);
     for (const series of all) {
       if (series.hidden) continue;
       const { colour, width, dashes, joined, marker } = series.curve;

@@ -30,7 +30,7 @@ export class Figure {
   // Figures of bars and bands alone remain pictures; all axes of the others become plots.
   static async load(picture: SVGElement, page: Page, sharing: (axis: Axis) => SharedAxis, time: () => SharedAxis): Promise<Figure | null> {
     const charts = page.figures[Number(picture.dataset.figure)]!.filter((chart) => chart !== null);
-    if (!charts.every((chart) => chart.curves || chart.areas?.some((area) => area.stroke))) {
+    if (!charts.every((chart) => chart.curves || chart.dots || chart.areas?.some((area) => area.stroke))) {
       markCursor(picture, charts, sharing);
       return null;
     }

@@ -5,7 +5,7 @@ import uPlot from "uplot";
 import type { Axis, Chart, Page } from "../page/document";
 import { format } from "../page/numbers";
 import { type Range, SharedAxis } from "./axis";
-import { type Shape, drawAbove, drawBelow, loadShapes } from "./drawing";
+import { type Layer, Positions, type Shape, drawAbove, drawBelow, loadShapes } from "./drawing";
 import { Series } from "./series";
 
 const FONT = '11px "DejaVu Sans", Verdana, sans-serif';
@@ -23,6 +23,7 @@ export interface Place {
 
 export class Plot {
   readonly root = document.createElement("div");
+  readonly layers: Layer[] = []; // drawn below the lines
   onArea: (area: HTMLElement) => void = () => undefined; // called with each new area in which lines are drawn
   private plot: uPlot | null = null;
   private size = { width: 0, height: 0 }; // px, of the area; asking the page for it would lay it out anew each time
@@ -86,6 +87,12 @@ export class Plot {
   zoom(x: Range | null, y: Range | null): void {
     this.ordinate = x && this.isPath ? y : null;
     this.axis.setZoom(x);
+  }
+
+  // Positions on the canvas, in its px, of which a px of the page has so many.
+  get positions(): { to: Positions; left: number; top: number } {
+    const { left, top } = this.plot!.bbox;
+    return { to: new Positions(this.plot!), left, top };
   }
 
   valueAt(left: number): number {
@@ -182,7 +189,7 @@ export class Plot {
         drawAxes: [(plot) => drawBelow(plot, this.chart, this.shapes)],
         draw: [
           (plot) => {
-            drawAbove(plot, this.chart, this.series, this.axis.zoom === null);
+            drawAbove(plot, this.chart, this.series, this.layers, this.axis.zoom === null);
             drawTitles(plot, title, aside);
           },
         ],
@@ -204,13 +211,34 @@ function axisOptions(axis: Axis, size: number, space: number, labelled = true): 
     gap: 3,
     space,
     stroke: INK,
-    grid: { stroke: GRID, width: 0.6 },
-    ticks: { stroke: FAINT, width: 0.7, size: 4 },
+    grid: { stroke: GRID, width: 0.6, ...(axis.logarithmic && { filter: selectDecades }) },
+    ticks: { stroke: FAINT, width: 0.7, size: 4, ...(axis.logarithmic && { filter: selectDecades }) },
     border: { show: true, stroke: FAINT, width: 0.7 },
     ...(axis.ticks?.length
       ? { splits: axis.ticks.map(([at]) => at), values: axis.ticks.map(([, text]) => text) }
-      : { values: (_: uPlot, splits: (number | null)[]) => splits.map((at) => (at === null ? "" : format(at, 8))) }),
+      : { values: axis.logarithmic ? labelDecades : labelNumbers }),
   };
+}
+
+function labelNumbers(_: uPlot, splits: (number | null)[]): string[] {
+  return splits.map((at) => (at === null ? "" : format(at, 8)));
+}
+
+function selectDecades(_: uPlot, splits: (number | null)[]): (number | null)[] {
+  const powers = splits.map((at) => (at !== null && isPower(at) ? at : null));
+  return powers.filter((at) => at !== null).length < 2 ? splits : powers;
+}
+
+function isPower(at: number): boolean {
+  return Math.abs(Math.log10(at) - Math.round(Math.log10(at))) < 1e-9;
+}
+
+// Powers of ten, some six of them where there are more; where a zoom has fewer than two, every number.
+function labelDecades(_: uPlot, splits: (number | null)[]): string[] {
+  const decades = splits.filter((at) => at !== null && isPower(at)).length;
+  if (decades < 2) return labelNumbers(_, splits);
+  const stride = Math.ceil(decades / 6);
+  return splits.map((at) => (at !== null && isPower(at) && Math.round(Math.log10(at)) % stride === 0 ? format(at, 1) : ""));
 }
 
 function drawTitles(plot: uPlot, title?: string, aside?: string): void {
@@ -218,6 +246,7 @@ function drawTitles(plot: uPlot, title?: string, aside?: string): void {
   plot.ctx.save();
   plot.ctx.font = `${11 * devicePixelRatio}px "DejaVu Sans", Verdana, sans-serif`;
   plot.ctx.textBaseline = "alphabetic";
+  plot.ctx.textAlign = "left";
   plot.ctx.fillStyle = INK;
   if (title) plot.ctx.fillText(title, left, top - 5 * devicePixelRatio);
   plot.ctx.textAlign = "right";

@@ -7,9 +7,21 @@ const CLICK = 4; // px, up to which a drag is a click
 const WHEEL = 0.0015; // of the logarithm of the zoom, a px of the wheel
 const ROWS = 10; // that a page key moves the cursor
 
-export function listen(plot: Plot, area: HTMLElement, onFocus: () => void): void {
+// What a pointer does besides: the trial at a place is shown or pinned, those in a rectangle are chosen.
+export interface Picking {
+  hover(event: PointerEvent | null, place: Place): void;
+  pick(place: Place): void;
+  brush(x: Range, y: Range): void;
+}
+
+interface Place {
+  x: number; // px in the area
+  y: number;
+}
+
+export function listen(plot: Plot, area: HTMLElement, onFocus: () => void, picking: Picking | null): void {
   const touches = new Map<number, PointerEvent>();
-  let begin: { x: number; y: number; shift: boolean } | null = null;
+  let begin: (Place & { shift: boolean }) | null = null;
   let lastTap = 0;
   const selection = document.createElement("b");
   selection.hidden = true;
@@ -19,7 +31,8 @@ export function listen(plot: Plot, area: HTMLElement, onFocus: () => void): void
     const bounds = area.getBoundingClientRect();
     return { x: event.clientX - bounds.left, y: event.clientY - bounds.top };
   };
-  const follow = ({ x, y }: { x: number; y: number }) => {
+  const follow = (event: PointerEvent | null, { x, y }: Place) => {
+    picking?.hover(event, { x, y });
     const at = plot.isPath ? plot.nearestTime(x, y) : plot.snap(plot.valueAt(Math.min(Math.max(x, 0), area.clientWidth)));
     if (at !== null) plot.time.moveCursor(at);
   };
@@ -34,9 +47,10 @@ export function listen(plot: Plot, area: HTMLElement, onFocus: () => void): void
     } else if (touches.size === 1) {
       if (event.timeStamp - lastTap < 300) plot.zoom(null, null);
       lastTap = event.timeStamp;
-      follow(placeOf(event));
+      follow(event, placeOf(event));
     }
   });
+  area.addEventListener("pointerleave", (event) => picking?.hover(null, placeOf(event)));
 
   area.addEventListener("pointermove", (event) => {
     const to = placeOf(event);
@@ -46,23 +60,28 @@ export function listen(plot: Plot, area: HTMLElement, onFocus: () => void): void
     } else if (begin?.shift && before) {
       plot.axis.pan((before.clientX - event.clientX) / area.clientWidth);
     } else if (begin) {
-      select(selection, begin, to, plot.isPath, area);
-      follow(to);
-    } else follow(to);
+      select(selection, begin, to, plot.isPath || picking !== null, area);
+      follow(event, to);
+    } else follow(event, to);
     if (before) touches.set(event.pointerId, event);
   });
 
   const end = (event: PointerEvent) => {
     touches.delete(event.pointerId);
+    if (event.pointerType !== "mouse" && event.type === "pointerup") picking?.pick(placeOf(event));
     if (!begin || event.pointerType !== "mouse") return;
     const [from, to] = [begin, placeOf(event)];
     begin = null;
     selection.hidden = true;
-    if (from.shift || event.type === "pointercancel" || Math.abs(to.x - from.x) < CLICK) return;
-    plot.zoom(
-      sorted(plot.valueAt(from.x), plot.valueAt(Math.min(Math.max(to.x, 0), area.clientWidth))),
-      sorted(plot.ordinateAt(from.y), plot.ordinateAt(Math.min(Math.max(to.y, 0), area.clientHeight))),
-    );
+    if (from.shift || event.type === "pointercancel") return;
+    if (Math.abs(to.x - from.x) < CLICK) {
+      picking?.pick(to);
+      return;
+    }
+    const x = sorted(plot.valueAt(from.x), plot.valueAt(Math.min(Math.max(to.x, 0), area.clientWidth)));
+    const y = sorted(plot.ordinateAt(from.y), plot.ordinateAt(Math.min(Math.max(to.y, 0), area.clientHeight)));
+    if (picking) picking.brush(x, y);
+    else plot.zoom(x, y);
   };
   area.addEventListener("pointerup", end);
   area.addEventListener("pointercancel", end);
@@ -82,11 +101,11 @@ export function listen(plot: Plot, area: HTMLElement, onFocus: () => void): void
   );
 }
 
-export function listenToKeys(plot: Plot, onFocus: () => void): void {
+export function listenToKeys(plot: Plot, onFocus: () => void, onPress: (key: string) => boolean): void {
   plot.root.tabIndex = 0;
   plot.root.addEventListener("focus", onFocus);
   plot.root.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || !press(plot, event.key, event.shiftKey)) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || !(onPress(event.key) || press(plot, event.key, event.shiftKey))) return;
     event.preventDefault();
   });
 }
@@ -118,7 +137,7 @@ function pinch(plot: Plot, [one, other]: PointerEvent[], moved: PointerEvent, pl
   if (was > 10 && is > 10) plot.axis.zoomBy(was / is, plot.valueAt((placeOf(still).x + placeOf(moved).x) / 2));
 }
 
-function select(selection: HTMLElement, from: { x: number; y: number }, to: { x: number; y: number }, both: boolean, area: HTMLElement): void {
+function select(selection: HTMLElement, from: Place, to: Place, both: boolean, area: HTMLElement): void {
   const [left, right] = sorted(from.x, Math.min(Math.max(to.x, 0), area.clientWidth));
   const [top, bottom] = both ? sorted(from.y, Math.min(Math.max(to.y, 0), area.clientHeight)) : [0, area.clientHeight];
   selection.hidden = right - left < CLICK;

@@ -3,8 +3,9 @@
 export interface Encoded {
   rows: number;
   data: string;
-  low?: number; // of the range of a column in 16 bits
+  low?: number; // of the range of a column in 16 bits; of asinh(x / knee) unless the knee is 0
   high?: number;
+  knee?: number;
 }
 
 const STEPS = 65534; // of such a range; the number above is nan
@@ -13,7 +14,15 @@ export async function decode(column: Encoded): Promise<Float32Array | Float64Arr
   const bytes = await inflate(column.data);
   const size = column.low === undefined ? 4 : 2;
   const numbers = integrate(ungroup(bytes, column.rows, size), 8 * size);
-  return size === 4 ? floats(numbers as Uint32Array) : spread(numbers, column.low ?? 0, column.high ?? 0);
+  return size === 4 ? floats(numbers as Uint32Array) : spread(numbers, column);
+}
+
+// Half the distance between neighbours of a number in its column: how far it may be from what it was.
+export function uncertainty({ low, high, knee }: Encoded, number: number): number {
+  if (low === undefined || high === undefined) return 2 ** -25 * Math.abs(number);
+  if (!knee && (number === low || number === high)) return 0;
+  const step = (high - low) / STEPS / 2;
+  return knee ? step * Math.hypot(number, knee) : step;
 }
 
 async function inflate(text: string): Promise<Uint8Array> {
@@ -51,6 +60,10 @@ function floats(ordered: Uint32Array): Float32Array {
   return new Float32Array(ordered.buffer);
 }
 
-function spread(steps: Uint16Array | Uint32Array, low: number, high: number): Float64Array {
-  return Float64Array.from(steps, (step) => (step > STEPS ? NaN : low + (step * (high - low)) / STEPS));
+function spread(steps: Uint16Array | Uint32Array, { low = 0, high = 0, knee = 0 }: Encoded): Float64Array {
+  return Float64Array.from(steps, (step) => {
+    if (step > STEPS) return NaN;
+    const bent = low + (step * (high - low)) / STEPS;
+    return knee ? knee * Math.sinh(bent) : bent;
+  });
 }

@@ -24,6 +24,16 @@ export interface Curve {
   marker: number;
   filled?: boolean;
   reduced?: boolean;
+  metric?: string;
+}
+
+export interface Dots {
+  variant: string;
+  names: [x: string, y: string];
+  success?: boolean;
+  colour: string;
+  size: number;
+  cross?: boolean;
 }
 
 export interface Area {
@@ -61,6 +71,7 @@ export interface Chart {
   y: Axis;
   equal?: boolean;
   curves?: Curve[];
+  dots?: Dots[];
   areas?: Area[];
   rules?: Rule[];
   notes?: Note[];
@@ -70,7 +81,7 @@ export type Values = Float32Array | Float64Array;
 
 export class Page {
   readonly figures: (Chart | null)[][];
-  private readonly encoded: Encoded[];
+  readonly encoded: Encoded[];
   private readonly decoded = new Map<number, Promise<Values>>();
 
   constructor(readonly document: { columns: Encoded[]; figures: (Chart | null)[][] } & Record<string, unknown>) {

@@ -29,6 +29,7 @@ from ..common.style import (
     new_figure,
     plain_ticks,
 )
+from ..interactive.lines import QuantityLine
 
 CUMULATIVE = "cumulative probability (CDF), %"
 DECADES = 2.0  # range of a metric from which its axis is logarithmic
@@ -86,14 +87,19 @@ def draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray],
     everything = np.concatenate(scaled)
     everything = everything[np.isfinite(everything)]
     low, high, logarithmic = _limits(everything)
-    for series, (colour, dashes, marker) in zip(scaled, looks, strict=True):
+    for variant, series, (colour, dashes, marker) in zip(values, scaled, looks, strict=True):
         finite = np.clip(np.sort(series[np.isfinite(series)]), low, None)
         probability = 100.0 * np.arange(1, finite.size + 1) / series.size
         x = np.concatenate([[low], finite, [high]])
         y = np.concatenate([[0.0], probability, probability[-1:] if probability.size else [0.0]])
-        axes.step(x, y, where="post", color=colour, linestyle=dashes, linewidth=1.6)
+        line = QuantityLine(
+            x, y, name=variant, unit="%", metric=f"metric.{metric.name}",
+            drawstyle="steps-post", color=colour, linestyle=dashes, linewidth=1.6,
+        )  # fmt: skip
+        axes.add_line(line)
         if finite.size == 1:
             axes.plot(finite, probability, color=colour, marker=marker, markersize=5)
+    axes.autoscale_view()
     if logarithmic:
         log_ticks_x(axes)
     else:

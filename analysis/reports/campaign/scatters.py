@@ -12,11 +12,11 @@ from matplotlib.patches import Circle
 from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.spec.campaign import Metric, Scatter
-from ...campaigns.trials import TrialColumns
 from ..common.page import exact
 from ..common.panels import Panel, panel
 from ..common.quantities import display_factor, display_unit, label_with_unit, number
 from ..common.style import INK, VERMILION, plain_ticks
+from ..interactive.lines import TrialDots
 
 SIDE = 3.4  # in, of a panel over metrics
 HEIGHT = 3.2  # in, of a panel over inputs
@@ -24,18 +24,30 @@ SUCCESS = "#9a9a9a"
 MANY = 3000  # points of a panel from which they are stored as an image
 
 
-def plot_outcomes(axes: Axes, x: np.ndarray, y: np.ndarray, success: np.ndarray, minimum_size: float) -> None:
-    """Successes as dots and failures as crosses, with their numbers in a legend; marks shrink as points grow many."""
-    is_image = success.size > MANY
+def plot_outcomes(
+    axes: Axes,
+    variant: str,
+    points: tuple[np.ndarray, np.ndarray],
+    names: tuple[str, str],
+    success: np.ndarray,
+    minimum_size: float,
+) -> None:
+    """Successes as dots and failures as crosses, with their numbers in a legend; marks shrink as points grow many.
+
+    ``points`` are abscissas and ordinates of the trials of a ``variant``, ``names`` the columns that they are from.
+    """  # fmt: skip
     size = max(minimum_size, min(1.0, (500.0 / success.size) ** 0.5))
-    axes.plot(
-        x[success], y[success], "o", markersize=3.2 * size, color=SUCCESS, markeredgewidth=0.0, rasterized=is_image,
-        label=f"{int(success.sum())} successes",
-    )  # fmt: skip
-    axes.plot(
-        x[~success], y[~success], "x", markersize=4.5 * size, color=VERMILION, markeredgewidth=1.3 * size,
-        rasterized=is_image, label=f"{int((~success).sum())} failures",
-    )  # fmt: skip
+    for outcome, marker, diameter, edge, colour, text in (
+        (True, "o", 3.2, 0.0, SUCCESS, "successes"), (False, "x", 4.5, 1.3, VERMILION, "failures")
+    ):  # fmt: skip
+        rows = success if outcome else ~success
+        dots = TrialDots(
+            points[0][rows], points[1][rows], variant=variant, names=names, success=outcome, color=colour, linestyle="",
+            marker=marker, markersize=diameter * size, markeredgewidth=edge * size, rasterized=success.size > MANY,
+            label=f"{int(rows.sum())} {text}",
+        )  # fmt: skip
+        axes.add_line(dots)
+    axes.autoscale_view()
     plain_ticks(axes, x=5, y=6)
     axes.legend(
         loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2, borderpad=0.2, handletextpad=0.2, columnspacing=1.0,
@@ -74,10 +86,10 @@ def _scatter_figure(result: BatchResult, scatter: Scatter) -> ScatterFigure:
     panels = []
     for index, (variant, values) in enumerate(points.items()):
 
-        def draw(
-            axes: Axes, values: np.ndarray = values, success: np.ndarray = result.shown[variant].dots.success
-        ) -> None:
-            plot_outcomes(axes, values[0], values[1], success, minimum_size=0.5)
+        def draw(axes: Axes, variant: str = variant, values: np.ndarray = values) -> None:
+            success = result.shown[variant].dots.success
+            columns = (f"metric.{scatter.x}", f"metric.{scatter.y}")
+            plot_outcomes(axes, variant, (values[0], values[1]), columns, success, minimum_size=0.5)
             _frame(axes, pair, scatter, limits, to_scale)
 
         panels.append(panel(variant, f"scatter-{scatter.name}-{index}", f"{title}: {variant}", draw, SIDE))
@@ -157,10 +169,12 @@ def failure_panels(result: BatchResult) -> list[Panel]:
     for index, variant in enumerate(result.rows):
         names = list(influence_on_success(result, variant))[:2]
 
-        def draw(axes: Axes, sample: TrialColumns = result.shown[variant].dots, names: list[str] = names) -> None:
-            trials = np.arange(sample.success.size, dtype=float)
-            y = sample.draws[names[1]] if len(names) > 1 else trials
-            plot_outcomes(axes, sample.draws[names[0]], y, sample.success, minimum_size=0.35)
+        def draw(axes: Axes, variant: str = variant, names: list[str] = names) -> None:
+            sample = result.shown[variant]
+            draws, success = sample.dots.draws, sample.dots.success
+            columns = (f"draw.{names[0]}", f"draw.{names[1]}" if len(names) > 1 else "trial")
+            points = (draws[names[0]], draws[names[1]] if len(names) > 1 else sample.numbers.astype(float))
+            plot_outcomes(axes, variant, points, columns, success, minimum_size=0.35)
             axes.set_xlabel(names[0])
             axes.set_ylabel(names[1] if len(names) > 1 else "trial")
 

@@ -23,7 +23,7 @@ from matplotlib.ticker import FixedFormatter
 
 from .columns import Coarse
 from .envelope import envelope
-from .lines import QuantityLine
+from .lines import QuantityLine, TrialDots
 
 VISIBLE = 1e-3  # opacity
 
@@ -40,7 +40,9 @@ class Axis:
 
 @dataclass(frozen=True)
 class Curve:
-    """A line; ``time`` (s) where its abscissa is another quantity; ``reduced`` where it is the envelope of its rows."""
+    """A line; ``time`` (s) where its abscissa is another quantity; ``reduced`` where it is the envelope of its rows;
+    ``metric`` where it is the distribution of that over the trials of a variant.
+    """
 
     x: np.ndarray
     y: np.ndarray | Coarse
@@ -56,6 +58,19 @@ class Curve:
     marker: float
     filled: bool
     reduced: bool
+    metric: str
+
+
+@dataclass(frozen=True)
+class Dots:
+    """Marks of trials, `TrialDots`; ``cross`` or a filled circle."""
+
+    variant: str
+    names: tuple[str, str]
+    success: bool
+    colour: str
+    size: float
+    cross: bool
 
 
 @dataclass(frozen=True)
@@ -108,6 +123,7 @@ class Chart:
     y: Axis
     equal: bool
     curves: list[Curve]
+    dots: list[Dots]
     areas: list[Area]
     rules: list[Rule]
     notes: list[Note]
@@ -121,7 +137,8 @@ def read_charts(figure: Figure, *, reduced: bool = False) -> list[Chart | None]:
 def _read_axes(axes: Axes, reduced: bool) -> Chart | None:
     if axes.images or not all(isinstance(each, PolyCollection) for each in axes.collections):
         return None
-    plain = [line for line in axes.lines if line.get_transform() is axes.transData]
+    dots = [line for line in axes.lines if isinstance(line, TrialDots)]
+    plain = [line for line in axes.lines if line.get_transform() is axes.transData and line not in dots]
     bounds = axes.get_position()
     return Chart(
         box=[round(float(each), 5) for each in (bounds.x0, 1.0 - bounds.y1, bounds.width, bounds.height)],
@@ -131,8 +148,9 @@ def _read_axes(axes: Axes, reduced: bool) -> Chart | None:
         y=_axis(axes.yaxis, axes.get_ylim(), _label(axes, "y")),
         equal=axes.get_aspect() != "auto",
         curves=[_curve(line, reduced) for line in plain],
+        dots=[_dots(line) for line in dots],
         areas=list(_areas(axes)),
-        rules=[_rule(axes, line) for line in axes.lines if line not in plain],
+        rules=[_rule(axes, line) for line in axes.lines if line not in (*plain, *dots)],
         notes=[_note(axes, text) for text in axes.texts if text.get_text()],
     )
 
@@ -174,7 +192,13 @@ def _curve(line: Line2D, reduced: bool) -> Curve:
         marker=line.get_markersize() if marked else 0.0,
         filled=to_hex(line.get_markerfacecolor(), keep_alpha=True) == to_hex(line.get_color(), keep_alpha=True),
         reduced=is_envelope,
+        metric="" if quantity is None else quantity.metric,
     )
+
+
+def _dots(line: TrialDots) -> Dots:
+    size, cross = line.get_markersize(), line.get_marker() == "x"
+    return Dots(line.variant, line.names, line.success, to_hex(line.get_color()), size, cross)
 
 
 def _numbers(sequence: Any) -> np.ndarray:
@@ -198,9 +222,10 @@ def _areas(axes: Axes) -> Iterator[Area]:
         path = patch.get_path().transformed(patch.get_patch_transform())
         colour: Any = patch.get_facecolor() if patch.get_fill() else patch.get_edgecolor()
         stroke = 0.0 if patch.get_fill() else patch.get_linewidth()
-        polygons = [path.vertices] if stroke else path.to_polygons(closed_only=False)
-        for polygon in polygons:
-            yield _area(np.asarray(polygon), _of_axes(axes, patch), colour, stroke)
+        for polygon in path.to_polygons(closed_only=False):
+            points = np.asarray(polygon)
+            strokes = np.repeat(points, 2, axis=0)[1:-1] if stroke else points
+            yield _area(strokes, _of_axes(axes, patch), colour, stroke)
     for collection in axes.collections:
         for path, colour in zip(collection.get_paths(), collection.get_facecolor(), strict=False):
             for polygon in path.to_polygons(closed_only=False):

@@ -1,6 +1,7 @@
 """Columns of numbers inside a page, small enough to be mailed.
 
-A column is float32; or, where a figure needs no more, 16 bits over its range. Rows of a simulation continue those
+A column is float32; or, where a figure needs no more, 16 bits over its range: linear, or where that spans decades
+through asinh, which is linear below a knee and logarithmic above it. Rows of a simulation continue those
 before them, so second differences of the numbers, taken as integers in the order of their bits, are small, and their
 bytes, grouped by significance, deflate well. web/page/columns.ts is the inverse.
 """
@@ -16,6 +17,8 @@ import numpy as np
 
 LEVEL = 9  # of zlib
 STEPS = 65534  # of a range in 16 bits; the number above is nan
+DECADES = 1e3  # ratio of the greatest magnitude to the small ones from which a range has a knee
+SMALL = 0.05  # the fraction of magnitudes that are small
 
 
 class Coarse(NamedTuple):
@@ -52,10 +55,19 @@ def _ordered(column: np.ndarray) -> np.ndarray:
 
 def _coarse(column: np.ndarray) -> dict[str, Any]:
     finite = column[np.isfinite(column)].astype(float)
-    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
-    scale = STEPS / (high - low) if high > low else 0.0
-    steps = np.where(np.isfinite(column), np.rint((column.astype(float) - low) * scale), STEPS + 1)
-    return {"rows": column.size, "low": low, "high": high, "data": _text(steps.astype("<u2"))}
+    knee = _knee(finite)
+    bent = np.arcsinh(finite / knee) if knee else finite
+    low, high = (float(bent.min()), float(bent.max())) if finite.size else (0.0, 0.0)
+    steps = np.full(column.size, STEPS + 1, dtype="<u2")
+    steps[np.isfinite(column)] = np.rint((bent - low) * (STEPS / (high - low) if high > low else 0.0))
+    return {"rows": column.size, "low": low, "high": high, "knee": knee, "data": _text(steps)}
+
+
+def _knee(finite: np.ndarray) -> float:
+    """Below which a range is linear; 0 where it is linear throughout."""
+    sizes = np.abs(finite[finite != 0.0])
+    small = float(np.quantile(sizes, SMALL)) if sizes.size else 0.0
+    return small if sizes.size and sizes.max() > DECADES * small else 0.0
 
 
 def _text(numbers: np.ndarray) -> str:

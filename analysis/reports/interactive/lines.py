@@ -12,7 +12,8 @@ class QuantityLine(Line2D):
     """A line over time or over another quantity.
 
     ``quantity`` is in SI, [rows]; it is drawn times ``factor``, in ``unit`` as displayed. ``time`` (s, [rows]) is
-    given where the abscissa is another quantity.
+    given where the abscissa is another quantity; ``metric`` where the line is its distribution over the trials of the
+    variant ``name``.
     """
 
     def __init__(
@@ -24,6 +25,7 @@ class QuantityLine(Line2D):
         unit: str = "",
         factor: float = 1.0,
         time: np.ndarray | None = None,
+        metric: str = "",
         **style: Any,
     ) -> None:
         super().__init__(x, factor * quantity, **style)
@@ -32,3 +34,16 @@ class QuantityLine(Line2D):
         self.factor = factor
         self.quantity = quantity
         self.time = time
+        self.metric = metric
+
+
+class TrialDots(Line2D):
+    """Marks of trials of a ``variant``: those that succeeded or the others, over two columns of its trials by name."""
+
+    def __init__(
+        self, x: np.ndarray, y: np.ndarray, *, variant: str, names: tuple[str, str], success: bool, **style: Any
+    ) -> None:
+        super().__init__(x, y, **style)
+        self.variant = variant
+        self.names = names
+        self.success = success

@@ -1,0 +1,121 @@
+"""From a mark on a batch's page to its trial: by pointer and by keys, the command that simulates it again, a brush.
+
+Truth: the campaign's own table; what the copied command prints when it is run.
+"""
+
+from __future__ import annotations
+
+import re
+import shlex
+
+import pyarrow.parquet as parquet
+import pytest
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import WebDriverWait
+
+from perilune.analysis.cli import main
+from perilune.analysis.reports.common.quantities import number
+from tests.support.locks import made_once
+from tests.support.pages.driven import driven
+
+pytestmark = pytest.mark.usefixtures("fmus")
+
+VARIANT = "astar_guidance"
+# How many px of a canvas have about the colour of failures, fully opaque.
+STRONG = """
+const canvas = arguments[0].querySelector("canvas");
+const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+copy.drawImage(canvas, 0, 0);
+const pixels = copy.getImageData(0, 0, canvas.width, canvas.height).data;
+let count = 0;
+for (let at = 0; at < pixels.length; at += 4) {
+  const [red, green, blue, opacity] = pixels.subarray(at, at + 4);
+  if (opacity > 200 && Math.abs(red - 213) + Math.abs(green - 94) + blue < 60) count++;
+}
+return count;
+"""
+
+
+@pytest.fixture(scope="module")
+def batch(tmp_path_factory):
+    """A campaign's folder, out, and its page."""
+
+    def fly(folder):
+        options = ["--campaign", "paper", "--trials", "300", "--output", str(folder / "out")]
+        assert main(["batch", "lunar_terminal_guidance", *options, "--report", str(folder / "page.html")]) == 0
+
+    return made_once(tmp_path_factory, "batch_page", fly)
+
+
+def frame_of(driver, label):
+    frame = driver.find_element(By.XPATH, f"//*[starts-with(@aria-label, '{label}')]/..")
+    driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", frame)
+    return frame
+
+
+def entries(card):
+    terms, texts = (card.find_elements(By.TAG_NAME, tag) for tag in ("dt", "dd"))
+    return {term.text: text.text for term, text in zip(terms, texts, strict=True)}
+
+
+def test_from_a_failure_to_its_flight(browser, batch, capsys):
+    table = parquet.read_table(batch / "out" / "trials").to_pylist()
+    trials = {row["trial"]: row for row in table if row["variant"] == VARIANT}
+    with driven(browser, batch / "page.html") as driver:
+        frame = frame_of(driver, f"Failures of {VARIANT} over heading_error")
+        frame.find_element(By.CSS_SELECTOR, ".chart").send_keys(Keys.ARROW_RIGHT)  # the leftmost mark: a failure
+        hovered = entries(driver.find_element(By.CSS_SELECTOR, ".card:not(.pinned)"))
+        trial, variant = re.fullmatch(r"(\d+) of (\w+)", hovered["trial"]).groups()
+        leftmost = min(trials.values(), key=lambda row: row["draw.heading_error"])
+        assert (int(trial), variant) == (leftmost["trial"], VARIANT)
+        assert hovered["outcome"] == f"failure, {leftmost['status']}"
+        for name in ("metric.position_error", "metric.flight_time", "draw.speed", "draw.heading_error"):
+            assert hovered[name.partition(".")[2]].split()[0] == number(leftmost[name], 6)
+        ActionChains(driver).send_keys(Keys.ENTER).perform()
+        pinned = driver.find_element(By.CSS_SELECTOR, ".card.pinned")
+        command = pinned.find_element(By.TAG_NAME, "code").text
+        copy = next(each for each in pinned.find_elements(By.TAG_NAME, "button") if each.text == "Copy command")
+        copy.click()
+        WebDriverWait(driver, 10).until(lambda _: copy.text == "Copied")
+    program, *arguments = shlex.split(command)
+    assert program == "perilune"
+    capsys.readouterr()
+    assert main(arguments) in (0, 1)
+    printed = capsys.readouterr().out
+    assert "identical to the stored trial, bit for bit" in printed
+    assert f"{VARIANT}: trial {trial}: " in printed
+
+
+def test_a_brush_chooses_trials_in_all_figures(browser, batch):
+    with driven(browser, batch / "page.html") as driver:
+        frame = frame_of(driver, f"Failures of {VARIANT} over heading_error")
+        area = frame.find_element(By.CSS_SELECTOR, ".u-over")
+        before = driver.execute_script(STRONG, frame)
+        assert before > 100
+        width, height = area.size["width"], area.size["height"]
+        ActionChains(driver).move_to_element_with_offset(area, 0, -height // 2 + 2).click_and_hold().move_by_offset(
+            width // 2 - 2, height - 4
+        ).release().perform()
+        within = driver.execute_script(STRONG, frame)
+        assert 0 < within < 0.7 * before  # failures lie at both ends; those at the left are faint now
+        ActionChains(driver).send_keys(Keys.ESCAPE).perform()
+        assert driver.execute_script(STRONG, frame) == before
+
+
+def test_a_distribution_names_its_trials(browser, batch):
+    table = parquet.read_table(batch / "out" / "trials").to_pylist()
+    with driven(browser, batch / "page.html") as driver:
+        area = frame_of(driver, "Cumulative distribution of flight_time").find_element(By.CSS_SELECTOR, ".u-over")
+        for step in range(20):  # from top to bottom over the steep lines, until one is near
+            height = area.size["height"]
+            left = -round(0.34 * area.size["width"])
+            ActionChains(driver).move_to_element_with_offset(area, left, round((step / 20 - 0.5) * height)).perform()
+            card = driver.find_element(By.CSS_SELECTOR, ".card:not(.pinned)")
+            if card.is_displayed():
+                break
+        trial, variant = re.fullmatch(r"(\d+) of (\w+)", entries(card)["trial"]).groups()
+        (row,) = [row for row in table if (row["trial"], row["variant"]) == (int(trial), variant)]
+        displayed = float(entries(card)["flight_time"].replace("about ", "").split()[0])
+        assert displayed == pytest.approx(row["metric.flight_time"], rel=1e-3)

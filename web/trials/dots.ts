@@ -1,0 +1,78 @@
+// Marks of trials on a plot, and which of them is near a point.
+
+import type { Dots } from "../page/document";
+import type { Positions } from "../curves/drawing";
+import type { Selection, Trial } from "./selection";
+import type { Trials, Variant } from "./trials";
+
+const POINT = 1.25; // px of a pt, as figures fill the page
+const FADED = 0.12; // opacity of what is not selected
+
+export class DotLayer {
+  readonly x: Float64Array;
+  readonly y: Float64Array;
+  private readonly rows: number[];
+
+  private constructor(
+    private readonly dots: Dots,
+    readonly variant: Variant,
+  ) {
+    this.x = variant.displayed(dots.names[0]);
+    this.y = variant.displayed(dots.names[1]);
+    this.rows = [];
+    variant.success.forEach((success, row) => {
+      if ((success === 1) === !!dots.success && Number.isFinite(this.x[row]) && Number.isFinite(this.y[row])) this.rows.push(row);
+    });
+  }
+
+  static layers(all: Dots[], trials: Trials | null): DotLayer[] {
+    return all.flatMap((dots) => {
+      const variant = trials?.variant(dots.variant);
+      return variant ? [new DotLayer(dots, variant)] : [];
+    });
+  }
+
+  draw(context: CanvasRenderingContext2D, to: Positions, ratio: number, selection: Selection): void {
+    const chosen = this.rows.filter((row) => selection.has(this.variant, row));
+    if (chosen.length < this.rows.length) this.drawRows(context, to, ratio, this.rows, FADED);
+    this.drawRows(context, to, ratio, chosen, 1);
+  }
+
+  private drawRows(context: CanvasRenderingContext2D, to: Positions, ratio: number, rows: number[], opacity: number): void {
+    const radius = (this.dots.size / 2) * POINT * ratio;
+    context.globalAlpha = opacity;
+    context.setLineDash([]);
+    context.lineCap = "butt";
+    context.fillStyle = context.strokeStyle = this.dots.colour;
+    context.lineWidth = Math.max(1, 0.29 * this.dots.size * POINT * ratio);
+    context.beginPath();
+    for (const row of rows) {
+      const [x, y] = [to.x(this.x[row]!), to.y(this.y[row]!)];
+      if (this.dots.cross) {
+        context.moveTo(x - radius, y - radius);
+        context.lineTo(x + radius, y + radius);
+        context.moveTo(x - radius, y + radius);
+        context.lineTo(x + radius, y - radius);
+      } else context.rect(x - 0.89 * radius, y - 0.89 * radius, 1.78 * radius, 1.78 * radius);
+    }
+    if (this.dots.cross) context.stroke();
+    else context.fill();
+    context.globalAlpha = 1;
+  }
+
+  // The trial whose mark is nearest to a point of the canvas, with its squared distance (px).
+  nearest(x: number, y: number, to: Positions): { trial: Trial; distance: number } | null {
+    let [best, found] = [Infinity, -1];
+    for (const row of this.rows) {
+      const distance = (to.x(this.x[row]!) - x) ** 2 + (to.y(this.y[row]!) - y) ** 2;
+      if (distance < best) [best, found] = [distance, row];
+    }
+    return found < 0 ? null : { trial: { variant: this.variant, row: found }, distance: best };
+  }
+
+  within(x: [number, number], y: [number, number]): Trial[] {
+    return this.rows
+      .filter((row) => this.x[row]! >= x[0] && this.x[row]! <= x[1] && this.y[row]! >= y[0] && this.y[row]! <= y[1])
+      .map((row) => ({ variant: this.variant, row }));
+  }
+}
