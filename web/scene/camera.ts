@@ -55,7 +55,7 @@ export class Camera {
     this.elevation = START.elevation;
     this.distance = 3.6 * Math.hypot(...this.followed.size);
     if (this.mode === "free") {
-      this.distance = Math.max((0.9 * this.whole.radius) / Math.sin((FIELD * Math.PI) / 360), this.distance);
+      this.distance = Math.max((1.05 * this.whole.radius) / Math.sin((FIELD * Math.PI) / 360), this.distance);
       this.target.copy(this.whole.middle);
       this.lookFromBody();
     }

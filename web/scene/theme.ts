@@ -25,7 +25,7 @@ const DARK: Theme = {
   haze: "#23252a",
   grid: "#7d7a74",
   flame: "#ffa94d",
-  lighter: 0.4,
+  lighter: 0.25,
 };
 
 // The theme of an element: dark where its text is light.

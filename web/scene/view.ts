@@ -116,21 +116,21 @@ export class View {
       this.playback.seek(time);
       this.fromElsewhere = false;
     });
-    const paint = () => {
-      const colours = themeOf(this.stage);
-      this.scene.background = new Color(colours.sky);
-      this.ground?.setTheme(colours);
-      this.directions?.setTheme(colours);
-      this.beams.setTheme(colours);
-      for (const { flames, path } of this.shown) {
-        flames.setTheme(colours);
-        path.setTheme(colours);
-      }
-      this.changed();
-    };
-    followTheme(paint);
-    paint();
+    followTheme(() => this.paint());
     new ResizeObserver(() => this.resize()).observe(this.stage);
+  }
+
+  private paint(): void {
+    const colours = themeOf(this.stage);
+    this.scene.background = new Color(colours.sky);
+    this.ground?.setTheme(colours);
+    this.directions?.setTheme(colours);
+    this.beams.setTheme(colours);
+    for (const { flames, path } of this.shown) {
+      flames.setTheme(colours);
+      path.setTheme(colours);
+    }
+    this.changed();
   }
 
   private follow(body: BodyData): void {
@@ -158,7 +158,7 @@ export class View {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, SHARPEST));
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.view.aspect = clientWidth / clientHeight;
-    this.changed();
+    this.paint(); // what is not in the page has no colours yet
   }
 
   // Asks for one new picture.

@@ -11,7 +11,7 @@ const ABOVE = 1e-9; // of the largest: less is nothing
 
 export class Flames {
   readonly group = new Group();
-  private readonly material = new MeshBasicMaterial({ vertexColors: true, transparent: true, side: DoubleSide, depthWrite: false });
+  private readonly material = new MeshBasicMaterial({ vertexColors: true, transparent: true, side: DoubleSide, forceSinglePass: true, depthWrite: false });
   private readonly plumes: { mesh: Mesh; thrust: ThrustData; full: number }[];
   private readonly jets: { flames: [Mesh[], Mesh[]]; jet: JetData; full: number }[];
 
