@@ -53,8 +53,8 @@ export class Controls {
     const time = line(
       "time",
       this.play,
-      button("−1", step(-1), "one sample back"),
-      button("+1", step(1), "one sample on"),
+      button("−1", step(-1), "−1 sample"),
+      button("+1", step(1), "+1 sample"),
       this.slider,
       this.speedMenu(),
     );

@@ -15,11 +15,13 @@ from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
 from perilune.analysis.reports.run_report import write_run_report
+from perilune.fmus_src.paths import BUILD
 from tests.support.pages.driven import driven
 from tests.support.scenes.descent import descent
 from tests.support.scenes.embedded import require_bundle
 
 ROWS = 101
+AXE = BUILD / "web" / "node_modules" / "axe-core" / "axe.min.js"
 HOSTILE = "</script><b>\u202e__proto__'\""
 
 
@@ -102,7 +104,7 @@ def test_keys_reach_every_sample_and_all_scripts_have_its_time(scene):
         "window.times = []; document.addEventListener('perilune-time', ({detail}) => times.push(detail))"
     )
     scene.slider.send_keys(*[Keys.ARROW_RIGHT] * 7, Keys.ARROW_LEFT)
-    scene.press("one sample on")
+    scene.press("+1 sample")
     scene.picture()
     heard = scene.driver.execute_script("return times")
     assert {each["from"] for each in heard} == {"scene"}
@@ -128,6 +130,18 @@ def test_the_camera_moves_by_keys_buttons_and_pointer_and_comes_back(scene):
         scene.press(mode)
         assert differ(before, scene.picture())
     assert not differ(first, scene.picture())
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_no_serious_fault(scene, scheme):
+    if not AXE.is_file():
+        pytest.skip("no axe-core")
+    scene.driver.execute_script("document.documentElement.style.colorScheme = arguments[0]", scheme)
+    scene.driver.execute_script(AXE.read_text(encoding="utf-8"))
+    run = "axe.run(document.querySelector('[data-scene]')).then(arguments[0])"
+    violations = scene.driver.execute_async_script(run)["violations"]
+    scene.driver.execute_script("document.documentElement.style.colorScheme = ''")
+    assert [each["help"] for each in violations if each["impact"] in ("serious", "critical")] == []
 
 
 def test_it_plays_to_the_end(scene):
