@@ -6,7 +6,7 @@ import { make, nameOf } from "./elements";
 import type { Foot, Ground } from "./objects/ground";
 import { type Instant, scalarAt } from "./instant";
 
-const DIGITS = 5;
+const DIGITS = 5; // of lengths
 const EXACT = 1e-3; // m, of positions in float32 where a flight ends
 const BAR = 0.2; // of the view's width, at most
 
@@ -23,10 +23,10 @@ export class Readout {
   }
 
   showValues(instant: Instant, body: BodyData, foot: Foot | null): void {
-    const rows: [string, string][] = [["time", `${format(instant.time, 6)} s`]];
+    const rows: [string, string][] = [["time", `${format(instant.time)} s`]];
     if (foot) rows.push([`height, ${body.name}`, metres(Math.round(foot.height / EXACT) * EXACT)]);
     for (const { label, values, unit } of body.thrusts ?? []) {
-      rows.push([label, `${format(scalarAt(values, instant), DIGITS)} ${unit ?? ""}`]);
+      rows.push([label, `${format(scalarAt(values, instant))} ${unit ?? ""}`.trim()]);
     }
     if (rows.some(([name], index) => name !== this.names[index]) || rows.length !== this.names.length) {
       this.names = rows.map(([name]) => name);

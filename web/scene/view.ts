@@ -111,6 +111,7 @@ export class View {
       this.playback.toggle();
     });
     followTime(NAME, (time) => {
+      if (!Number.isFinite(time)) return;
       if (this.playback.playing) this.playback.pause();
       this.fromElsewhere = true;
       this.playback.seek(time);

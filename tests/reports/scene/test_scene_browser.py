@@ -70,8 +70,13 @@ class SceneView:
         return image.imread(io.BytesIO(self.stage.screenshot_as_png))
 
     @property
+    def values(self):
+        """Time, height, thrust."""
+        return [each.text for each in self.stage.find_elements(By.CSS_SELECTOR, ".scene-values dd")]
+
+    @property
     def time(self):
-        return self.stage.find_element(By.CSS_SELECTOR, ".scene-values dd").text
+        return self.values[0]
 
     def press(self, label):
         for button in self.driver.find_elements(By.CSS_SELECTOR, ".scene-controls button"):
@@ -92,8 +97,10 @@ def test_a_picture_changes_with_time_and_only_then(scene):
     before = scene.pictures
     assert not differ(first, scene.picture())
     assert scene.pictures == before  # nothing was drawn again
+    assert scene.values == ["0 s", "50 m", "400"]
     scene.slider.send_keys(Keys.END)
     assert differ(first, scene.picture())
+    assert scene.values == ["50 s", "0.005 m", "0"]  # 100 m aside, the sphere of 1000 km is 5 mm lower
     scene.slider.send_keys(Keys.HOME)
     assert not differ(first, scene.picture())
 
@@ -207,7 +214,7 @@ def test_a_lost_context_is_said_and_comes_back(browser, page):
 
 def test_names_are_text_in_the_view(browser, tmp_path):
     require_bundle("scene")
-    result, declared = descent(HOSTILE)
+    result, declared = descent(HOSTILE, rows=2)
     write_run_report(result, tmp_path / "page.html", HOSTILE, [declared])
     with driven(browser, tmp_path / "page.html") as driver:
         scene = SceneView(driver)
