@@ -15,6 +15,10 @@ from .diagram.diagram import Diagram
 from .figures.declared import Figure
 from .figures.figure_sections import figure_sections, joint_findings
 from .figures.limits import Verdict, limit_document
+from .figures.scene.declared import Scene
+from .interactive.bundles import MISSING
+from .scene.notes import scene_notes
+from .scene.view import scene_view
 from .time_histories import time_histories
 from .trajectory import trajectory_panels, trajectory_reading
 
@@ -42,6 +46,7 @@ def write_run_report(
     ``figures`` are those that the SSD declares, see figures/reading.py; ``diagram`` is that of the system.
     """
     limits = limits_by_verdict(figures, result)
+    scene = next((figure for figure in figures if isinstance(figure, Scene)), None)
     write_page(
         path,
         Path(__file__).with_name("run_report.html"),
@@ -56,6 +61,9 @@ def write_run_report(
         trajectory=trajectory_panels(result),
         trajectory_reading=trajectory_reading(result),
         joint=joint_findings(figures, result),
+        scene=scene_view(scene, result) if scene is not None else None,
+        scene_notes=scene_notes(scene, result) if scene is not None else [],
+        scripts_missing=MISSING,
         sections=figure_sections(figures, result),
         histories=time_histories(result),
         diagram=diagram,

@@ -12,10 +12,13 @@ import numpy as np
 import pytest
 from lxml import etree
 from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.fmus_src.paths import FLAVOURS
+from perilune.analysis.reports.figures.scene.declared import Scene
+from perilune.analysis.reports.scene.poses import compute_poses
+from perilune.fmus_src.paths import FLAVOURS, ROOT
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.own_style import assert_in_style
 
@@ -39,6 +42,18 @@ def folder(tmp_path_factory):
 def in_it(request, monkeypatch):
     if "folder" in request.fixturenames:
         monkeypatch.chdir(request.getfixturevalue("folder"))
+
+
+def test_its_scene_is_that_of_the_docs(folder):
+    text = Path(NAME, "SystemStructure.ssd").read_text(encoding="utf-8")
+    begin, end = text.index("        <Scene"), text.index("</Scene>\n") + len("</Scene>\n")
+    assert text[begin:end].count("\n") <= 10
+    assert f"```xml\n{text[begin:end]}```" in Path(ROOT, "docs", "reports.md").read_text(encoding="utf-8")
+    result = perilune.simulate(NAME)
+    (scene,) = (figure for figure in result.figures if isinstance(figure, Scene))
+    (pose,) = compute_poses(scene, result)
+    expected = Rotation.from_euler("z", result["plant.angle"][:, None]).as_matrix()
+    assert abs(Rotation.from_quat(pose.attitude.T, scalar_first=True).as_matrix() - expected).max() < 1e-12
 
 
 def flown_here():

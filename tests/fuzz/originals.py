@@ -14,6 +14,7 @@ from tests.support.builders import (
     parameter_set,
     system,
 )
+from tests.support.pages.declaring import with_report
 from tests.support.refused import GAIN, RAMP, WIRED
 
 MAPPED = inline_mapping(
@@ -26,7 +27,13 @@ INNER = system(
     connections=connection("in", "gain.u") + connection("gain.y", "out", "<ssc:LinearTransformation factor='2'/>"),
     name="inner",
 )
-SSD = document(
+SCENE = """<Scene title="Here" axes="north west up" up="z"><Surface kind="plane" name="ground of it"/>
+<Body name="it" shape="lander" size="1 2 3" at="0 0 1">
+<Thrust signal="ramp.y" at="0 0 1" along="0 1 0"/>
+<Jets forces="ramp.y" couple="true"><Jet at="1 0 0" along="0 1 0"/></Jets></Body>
+<Body name="other" shape="box" size="1 1 1"/>
+<Line from="it" to="other" name="beam"/><Line from="it" to="ground" while="ramp.count"/></Scene>"""
+WITHOUT_REPORT = document(
     system(
         RAMP,
         GAIN,
@@ -41,6 +48,7 @@ SSD = document(
         + external("resources/a.ssv"),
     )
 )
+SSD = with_report(WITHOUT_REPORT, SCENE)
 SOURCE = parameter_set("ramp.first_count=Integer:3")
 SSV = parameter_set("ramp.start=Real:2 m; ramp.flag_at=Integer:3; a=Boolean:true; b=String:x; c=Enumeration:y")
 SSM = mapping(

@@ -54,16 +54,30 @@ def track_angles(
         return along, across
     direction = position[:, finite] - centre[:, None]
     direction = direction / np.linalg.norm(direction, axis=0)
-    turning = np.sum(np.cross(direction[:, :-1], direction[:, 1:], axis=0), axis=1)
-    normal = turning - (turning @ up) * up
-    if np.linalg.norm(normal) < 1e-12:
-        normal = np.cross(up, [1.0, 0.0, 0.0])
-    normal = normal / np.linalg.norm(normal)
+    normal = _normal(direction, up)
     angle = np.unwrap(np.arctan2(np.cross(normal, up) @ direction, up @ direction))
     nearest = int(np.argmax(up @ direction))
     along[finite] = angle - 2.0 * np.pi * np.round(angle[nearest] / (2.0 * np.pi))
     across[finite] = np.arcsin(np.clip(normal @ direction, -1.0, 1.0))
     return along, across
+
+
+def track_normal(position: np.ndarray, radius: float) -> np.ndarray:
+    """The unit normal, [3], of the great circle through the origin that fits a track of positions, [3, n], best.
+
+    About it the track turns in the direction of flight. One without a direction is taken as one along x.
+    """
+    direction = position[:, np.all(np.isfinite(position), axis=0)] + np.array([[0.0], [0.0], [radius]])
+    return _normal(direction / np.linalg.norm(direction, axis=0), np.array([0.0, 0.0, 1.0]))
+
+
+def _normal(direction: np.ndarray, up: np.ndarray) -> np.ndarray:
+    """The unit normal of the great circle through ``up`` that fits directions from the body's centre, [3, n], best."""
+    turning = np.sum(np.cross(direction[:, :-1], direction[:, 1:], axis=0), axis=1)
+    normal = turning - (turning @ up) * up
+    if np.linalg.norm(normal) < 1e-12:
+        normal = np.cross(up, [1.0, 0.0, 0.0])
+    return normal / np.linalg.norm(normal)
 
 
 def ground_range(position: np.ndarray, radius: float) -> np.ndarray:

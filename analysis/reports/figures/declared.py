@@ -66,7 +66,7 @@ class Arc:
 
 
 @dataclass(frozen=True)
-class BaseFigure:
+class Figure:
     """The ``title`` of a figure, and ``notes`` on signals that are left out since a substituted FMU lacks them."""
 
     title: str
@@ -89,7 +89,7 @@ class Rows:
 
 
 @dataclass(frozen=True)
-class Unavailable(BaseFigure):
+class Unavailable(Figure):
     """A declared figure that cannot be plotted, since a substituted FMU lacks a signal of it.
 
     ``has_limits`` is true of `Limits`, which are then not evaluated.
@@ -99,7 +99,7 @@ class Unavailable(BaseFigure):
 
 
 @dataclass(frozen=True)
-class Band(BaseFigure):
+class Band(Figure):
     """A signal with a tolerance band from ``low`` to ``high`` in its unit, None for no limit.
 
     ``name`` describes a signal within the band: "settled". ``about`` are the constants that were subtracted, in the
@@ -130,7 +130,7 @@ class Band(BaseFigure):
 
 
 @dataclass(frozen=True)
-class Pulses(BaseFigure):
+class Pulses(Figure):
     """Pulses of jets: signed ``lengths`` (s), one for each axis, which start at a sample and act after it.
 
     A change of ``count`` signals new pulses; None: every sample has new pulses. ``remainder`` (s, one for each axis) is
@@ -145,7 +145,7 @@ class Pulses(BaseFigure):
 
 
 @dataclass(frozen=True)
-class Error(BaseFigure):
+class Error(Figure):
     """An estimate less the truth, with the standard deviation that the estimator states, all in one unit.
 
     Where ``sigma`` is 0 it is not evaluated. Fractions of time within it count from ``after`` (s); None: the start.
@@ -160,7 +160,7 @@ class Error(BaseFigure):
 
 
 @dataclass(frozen=True)
-class Curve(BaseFigure):
+class Curve(Figure):
     """Scalars of one unit over time, each in its own panel or all ``together``, with their ``labels``.
 
     ``low`` and ``high`` in their unit are plotted as lines, None for none.
@@ -184,7 +184,7 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Path(BaseFigure):
+class Path(Figure):
     """A scalar over another one or an arc; ``equal``: with equal scales. ``points`` are further positions."""
 
     x: Signal | Arc
@@ -216,7 +216,7 @@ class Phase:
 
 
 @dataclass(frozen=True)
-class Phases(BaseFigure):
+class Phases(Figure):
     """The phases given by an Integer ``signal``.
 
     The consumption of a phase is the decrease of ``spent`` over it. ``status`` is an Integer whose first rises are
@@ -256,7 +256,7 @@ class Limit:
 
 
 @dataclass(frozen=True)
-class Limits(BaseFigure):
+class Limits(Figure):
     """Limits on final values; with ``when`` only for a run at whose end this scalar is not 0."""
 
     limits: tuple[Limit, ...]
@@ -295,12 +295,9 @@ class Item:
 
 
 @dataclass(frozen=True)
-class Budget(BaseFigure):
+class Budget(Figure):
     """Consumption item by item; ``of`` are the phases that the items name."""
 
     of: Phases
     items: tuple[Item, ...]
     bound: BoundValues | None
-
-
-Figure = Band | Pulses | Error | Curve | Path | Phases | Limits | Budget | Unavailable

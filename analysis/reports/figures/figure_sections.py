@@ -15,12 +15,16 @@ from .limits import limit_section
 from .path_figure import path_section
 from .phase_figure import budget_section, phase_section
 from .pulse_figure import pulse_section
+from .scene.declared import Scene
 from .section import Section, condition_text, sentence
 
 
 def figure_sections(figures: Sequence[Figure], result: Result) -> list[Section]:
-    """A section for each figure in the order of the SSD; none for a run without samples."""
-    return [_section(figure, result, f"figure{index}") for index, figure in enumerate(figures) if result.time.size]
+    """A section for each figure but a scene, in the order of the SSD; none for a run without samples."""
+    if not result.time.size:
+        return []
+    plotted = [figure for figure in figures if not isinstance(figure, Scene)]
+    return [_section(figure, result, f"figure{index}") for index, figure in enumerate(plotted)]
 
 
 def _section(figure: Figure, result: Result, name: str) -> Section:

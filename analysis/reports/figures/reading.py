@@ -10,6 +10,7 @@ from ...runtime.ssp.documents import tag
 from ...runtime.system.prepared import PreparedSystem
 from .declared import Figure, Unavailable
 from .history_readers import read_band, read_curve, read_error, read_path, read_pulses
+from .scene.reader import read_scene
 from .signal_reader import MissingSignalError, SignalReader
 from .stage_readers import read_budget, read_limits, read_phases
 
@@ -22,6 +23,7 @@ READERS: Mapping[str, Callable[[SignalReader, etree._Element], Figure]] = {
     "Curve": read_curve,
     "Path": read_path,
     "Phases": read_phases,
+    "Scene": read_scene,
     LIMITS: read_limits,
 }
 

@@ -97,7 +97,7 @@ def test_all_that_can_be_asked_for(folder, loaded):
 
 WRONG = {
     # the wrong element, which element the message names, words of it
-    "unknown element": ("<Bnad/>", "Bnad", "unknown element; the nearest of 8 known names: Band"),
+    "unknown element": ("<Bnad/>", "Bnad", "unknown element; the nearest of 9 known names: Band"),
     "unknown attribute": ('<Band signal="plant.angles" hi="1"/>', "Band", "unknown attribute hi"),
     "no signal": ('<Band low="1"/>', "Band", "no signal"),
     "no limit": ('<Band signal="plant.angles"/>', "Band", "neither low nor high"),

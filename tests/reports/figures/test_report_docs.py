@@ -5,6 +5,9 @@ from pathlib import Path
 
 from perilune.analysis.reports.figures.history_readers import BAND, CURVE
 from perilune.analysis.reports.figures.reading import BUDGET, READERS
+from perilune.analysis.reports.figures.scene.body_reader import BODY, JETS, NOZZLE
+from perilune.analysis.reports.figures.scene.declared import GROUND, SHAPES
+from perilune.analysis.reports.figures.scene.reader import KINDS, SCENE
 from perilune.analysis.reports.figures.signal_reader import ROWS
 from perilune.fmus_src.paths import ROOT, SYSTEMS
 
@@ -15,6 +18,7 @@ WORDS = set(
 
 def test_every_element_and_attribute_is_documented():
     assert {*READERS, BUDGET, *BAND, *CURVE, *ROWS} <= WORDS
+    assert {*SCENE, *KINDS, *BODY, *JETS, *NOZZLE, *SHAPES, GROUND} <= WORDS
 
 
 def test_what_our_systems_ask_for_is_documented():

@@ -1,0 +1,1 @@
+"""A scene of three dimensions that a system declares."""

@@ -1,0 +1,133 @@
+"""Read a body of a scene: its position and attitude in one of their forms, its thrust and jets."""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from ....common.errors import suggestion
+from ..history_readers import METRE, SECOND
+from ..signal_reader import SignalReader
+from .attributes import RADIAN, read_available, read_direction, read_signal, read_vector
+from .declared import (
+    SHAPES,
+    Angles,
+    Attitude,
+    Body,
+    Cartesian,
+    Geographic,
+    Jets,
+    Position,
+    Quaternion,
+    Surface,
+    Thrust,
+    ThrustAxis,
+    WindAngles,
+)
+
+GEOGRAPHIC = ("longitude", "latitude", "height")
+WIND = ("bank", "sideslip_angle", "angle_of_attack", "flight_path_angle", "heading")
+ATTITUDES = (("quaternion",), ("angles", "sequence"), ("axis",), WIND)
+BODY = ("at", "position", *GEOGRAPHIC, *(name for names in ATTITUDES for name in names))
+NOZZLE = ("at", "along")
+JETS = ("forces", "pulses", "count", "couple")
+
+
+def read_body(reader: SignalReader, element: etree._Element, surface: Surface | None) -> Body:
+    attributes = reader.attributes(element, ("name", "shape", "size"), BODY)
+    if attributes["shape"] not in SHAPES:
+        raise reader.refuse(element, f"shape {attributes['shape']} is unknown", suggestion(attributes["shape"], SHAPES))
+    size = read_vector(reader, element, "size")
+    if not all(extent > 0.0 for extent in size):
+        raise reader.refuse(element, f"size {attributes['size']} is not positive", "give three lengths in m")
+    children = reader.parts(element, ("Thrust", "Jets"))
+    position = _position(reader, element, surface)
+    return Body(
+        name=attributes["name"],
+        shape=attributes["shape"],
+        size=size,
+        at=read_vector(reader, element, "at"),
+        position=position,
+        attitude=_attitude(reader, element, position),
+        thrusts=tuple(read_available(reader, children["Thrust"], lambda item: _thrust(reader, item))),
+        jets=tuple(read_available(reader, children["Jets"], lambda item: _jets(reader, item))),
+    )
+
+
+def _position(reader: SignalReader, element: etree._Element, surface: Surface | None) -> Position | None:
+    named = [name for name in GEOGRAPHIC if name in element.attrib]
+    if not named:
+        return Cartesian(read_signal(reader, element, "position", 3, METRE)) if "position" in element.attrib else None
+    if "position" in element.attrib or len(named) < len(GEOGRAPHIC):
+        raise reader.refuse(element, "it needs either position, or longitude, latitude, height", "give one of the two")
+    if surface is None or surface.radius is None:
+        raise reader.refuse(element, "longitude without a sphere", 'add <Surface kind="sphere" radius="..."/>')
+    longitude, latitude = (reader.scalar(element, name, unit=RADIAN) for name in GEOGRAPHIC[:2])
+    return Geographic(longitude, latitude, reader.scalar(element, "height", unit=METRE))
+
+
+def _attitude(reader: SignalReader, element: etree._Element, position: Position | None) -> Attitude | None:
+    given = [names for names in ATTITUDES if any(name in element.attrib for name in names)]
+    if not given:
+        return None
+    if len(given) > 1:
+        forms = " and ".join(names[0] for names in given)
+        raise reader.refuse(element, f"attitudes of two kinds, {forms}", "give one of them")
+    for name in given[0]:
+        if name not in element.attrib:
+            raise reader.refuse(element, f"{given[0][0]} without {name}", f'write {name}="..." too')
+    match given[0][0]:
+        case "quaternion":
+            return Quaternion(read_signal(reader, element, "quaternion", 4))
+        case "angles":
+            return _angles(reader, element)
+        case "axis":
+            return ThrustAxis(read_signal(reader, element, "axis", 3))
+    if not isinstance(position, Geographic):
+        raise reader.refuse(
+            element, "wind angles without longitude, latitude, height", "give them, or another attitude"
+        )
+    return WindAngles(*(reader.scalar(element, name, unit=RADIAN) for name in WIND))
+
+
+def _angles(reader: SignalReader, element: etree._Element) -> Angles:
+    """Angles of an attitude: a vector, or scalars separated by spaces."""
+    sequence, names = element.get("sequence", "").strip(), element.get("angles", "").split()
+    if not 0 < len(sequence) <= 3 or not set(sequence) <= {"x", "y", "z"}:
+        raise reader.refuse(element, f"sequence {sequence!r} is not of one to three axes", 'write for instance "zyx"')
+    if len(names) == 1:
+        return Angles((read_signal(reader, element, "angles", len(sequence), RADIAN),), sequence)
+    if len(names) != len(sequence):
+        problem = f"angles has {len(names)} signals, sequence {len(sequence)} axes"
+        raise reader.refuse(element, problem, "give as many, in the order of the turns")
+    signals = (reader.find_signal(element, "angles", name) for name in names)
+    return Angles(
+        tuple(reader.convert_limits(element, f"angles {signal.label}", signal, RADIAN) for signal in signals), sequence
+    )
+
+
+def _thrust(reader: SignalReader, element: etree._Element) -> Thrust:
+    reader.attributes(element, ("signal",), NOZZLE)
+    at, along = read_vector(reader, element, "at"), read_direction(reader, element, "along")
+    return Thrust(reader.scalar(element, "signal"), at, along)
+
+
+def _jets(reader: SignalReader, element: etree._Element) -> Jets:
+    attributes = reader.attributes(element, (), JETS)
+    if ("forces" in attributes) == ("pulses" in attributes):
+        raise reader.refuse(element, "it needs either forces or pulses", "give one of the two")
+    pulses = "pulses" in attributes
+    if "count" in attributes and not pulses:
+        raise reader.refuse(element, "count without pulses", "leave it out")
+    signal = reader.signal(element, "pulses", unit=SECOND) if pulses else reader.signal(element, "forces")
+    nozzles = reader.parts(element, ("Jet",))["Jet"]
+    reader.check_size(element, f"it has {len(nozzles)} Jet", len(nozzles), signal)
+    for item in nozzles:
+        reader.attributes(item, NOZZLE)
+    return Jets(
+        signal=signal,
+        at=tuple(read_vector(reader, item, "at") for item in nozzles),
+        along=tuple(read_direction(reader, item, "along") for item in nozzles),
+        pulses=pulses,
+        count=reader.scalar(element, "count", ("Integer",)) if "count" in attributes else None,
+        couple=reader.truth(element, "couple"),
+    )

@@ -1,0 +1,132 @@
+"""Read the three-dimensional scene of a system from its element of the annotation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lxml import etree
+
+from ....common.errors import suggestion
+from ....runtime.ssp.documents import tag
+from ....runtime.ssp.names import elements, split_name
+from ..declared import Signal
+from ..history_readers import METRE
+from ..signal_reader import NUMBERS, MissingSignalError, SignalReader
+from .attributes import check_length, read_available, read_signal
+from .body_reader import read_body
+from .declared import GROUND, Geographic, Line, Scene, Site, Surface
+
+SCENE = ("frame", "axes", "up", "title")
+KINDS = ("plane", "sphere")
+LOCAL_FRAME, LOCAL_AXES = "local, at the ground below the last sample", ("east", "north", "up")
+
+
+def read_scene(reader: SignalReader, element: etree._Element) -> Scene:
+    """The scene; raises InputError with the line, and MissingSignalError for a body whose FMU was substituted."""
+    reader.attributes(element, (), SCENE)
+    children = reader.parts(element, ("Surface", "Body", "Site", "Line"))
+    if any(tag(item) == tag(element) for item in element.itersiblings(preceding=True)):
+        raise reader.refuse(element, "a second Scene", "write one")
+    if not children["Body"]:
+        raise reader.refuse(element, "no Body", 'write <Body name="..." shape="box" size="1 1 1"/>')
+    if len(children["Surface"]) > 1:
+        raise reader.refuse(children["Surface"][1], "a second Surface", "write one")
+    surface = _surface(reader, children["Surface"][0]) if children["Surface"] else None
+    bodies = tuple(read_body(reader, item, surface) for item in children["Body"])
+    local = isinstance(bodies[0].position, Geographic)
+    for body, item in zip(bodies, children["Body"], strict=True):
+        if isinstance(body.position, Geographic) != local:
+            raise reader.refuse(item, "positions of two kinds", "give all bodies longitude, latitude, height, or none")
+    sites = read_available(reader, children["Site"], lambda item: _site(reader, item, local))
+    named = [*children["Body"], *children["Site"]]
+    names = [item.get("name", "").strip() for item in named]
+    for index, name in enumerate(names):
+        if name in names[:index] or name == GROUND:
+            raise reader.refuse(named[index], f"name {name} is there twice or reserved", "choose another")
+    available = [*(body.name for body in bodies), *(site.name for site in sites)]
+    lines = read_available(reader, children["Line"], lambda item: _line(reader, item, names, available, surface))
+    axes, up = _axes(reader, element, local, surface)
+    return Scene(
+        title=reader.title(element, "Scene"),
+        notes=tuple(reader.notes),
+        frame=LOCAL_FRAME if local else element.get("frame", "").strip(),
+        axes=axes,
+        up=up,
+        surface=surface,
+        bodies=bodies,
+        sites=tuple(sites),
+        lines=tuple(lines),
+    )
+
+
+def _axes(
+    reader: SignalReader, element: etree._Element, local: bool, surface: Surface | None
+) -> tuple[tuple[str, ...], str]:
+    """The names of the axes, and which of them is up."""
+    axes, up = tuple(element.get("axes", "x y z").split()), element.get("up", "z").strip()
+    for name in ("frame", "axes"):
+        if local and name in element.attrib:
+            raise reader.refuse(element, f"{name}, with longitude and latitude", f"leave {name} out: east, north, up")
+    if len(axes) != 3:
+        raise reader.refuse(element, f"axes has {len(axes)} names", "give three, separated by spaces")
+    if up not in ("x", "y", "z"):
+        raise reader.refuse(element, f"up {up!r} is no axis", "write x, y or z")
+    if up != "z" and surface is not None:
+        raise reader.refuse(element, f"up {up} with a Surface, whose normal is z", "leave up out")
+    return LOCAL_AXES if local else axes, up
+
+
+def _surface(reader: SignalReader, element: etree._Element) -> Surface:
+    attributes = reader.attributes(element, ("kind",), ("radius", "name"))
+    if attributes["kind"] not in KINDS:
+        raise reader.refuse(element, f"kind {attributes['kind']!r} is unknown", suggestion(attributes["kind"], KINDS))
+    name = attributes.get("name") or GROUND
+    if attributes["kind"] == "plane":
+        if "radius" in attributes:
+            raise reader.refuse(element, "a plane with a radius", "leave it out, or write sphere")
+        return Surface(name, None)
+    if "radius" not in attributes:
+        raise reader.refuse(element, "a sphere without radius", 'write radius="COMPONENT.VARIABLE"')
+    radius = reader.parameter(element, "radius")
+    if not radius > 0.0:
+        raise reader.refuse(element, f"radius {attributes['radius']} is {radius:g}", "name that of the ground")
+    return Surface(name, radius)
+
+
+def _site(reader: SignalReader, element: etree._Element, local: bool) -> Site:
+    name = reader.attributes(element, ("name", "position"))["name"]
+    if local:
+        raise reader.refuse(element, "a Site with longitude and latitude", "leave it out")
+    position = element.get("position", "").strip()
+    component, variable = split_name(position, reader.network.fmus)
+    fmu = reader.network.fmus.get(component)
+    names = elements(variable, fmu.variables) if fmu is not None else []
+    if fmu is None or not names or any(fmu.variables[item].causality != "parameter" for item in names):
+        return Site(name, read_signal(reader, element, "position", 3, METRE))
+    declared = fmu.units.get(fmu.unit_of(fmu.variables[names[0]]) or "")
+    full = tuple(f"{component}.{item}" for item in names)
+    signal = Signal(position, full, declared, 1.0, (0.0,) * len(names))
+    check_length(reader, element, "position", signal, 3)
+    factor = reader.convert_limits(element, f"position {position}", signal, METRE).factor
+    x, y, z = (factor * reader.parameter_value(element, "position", item) for item in full)
+    return Site(name, (x, y, z))
+
+
+def _line(
+    reader: SignalReader,
+    element: etree._Element,
+    names: Sequence[str],
+    available: Sequence[str],
+    surface: Surface | None,
+) -> Line:
+    attributes = reader.attributes(element, ("from", "to"), ("name", "while"))
+    start, end = attributes["from"], attributes["to"]
+    if end == GROUND and surface is None:
+        raise reader.refuse(element, "to ground without a Surface", 'add <Surface kind="plane"/>')
+    for attribute, name in (("from", start), ("to", end)):
+        if name not in names and not (attribute == "to" and name == GROUND):
+            raise reader.refuse(element, f"{attribute} {name}: no such Body or Site", suggestion(name, names))
+        if name in names and name not in available:
+            raise MissingSignalError(f"{name} is not available")
+    condition = reader.scalar(element, "while", (*NUMBERS, "Boolean")) if "while" in attributes else None
+    return Line(attributes.get("name") or f"{start} to {end}", start, end, condition)

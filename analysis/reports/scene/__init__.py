@@ -1,0 +1,1 @@
+"""A flight in three dimensions: poses, and what the page stores of a scene."""

@@ -1,0 +1,51 @@
+"""What a scene shows to scale, what it does not, and what is unknown, in sentences."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...runtime.flight.results import Result
+from ..common.quantities import display_unit, number
+from ..figures.scene.declared import Body, Scene, Thrust, ThrustAxis
+
+
+def scene_notes(scene: Scene, result: Result) -> list[str]:
+    """The sentences below a view, and those on what was left out of it."""
+    axes = ", ".join(f"{axis} {name}" if axis != name else axis for axis, name in zip("xyz", scene.axes, strict=True))
+    sizes = "; ".join(f"{body.name} {' x '.join(number(extent) for extent in body.size)} m" for body in scene.bodies)
+    return [
+        f"Frame: {scene.frame or 'of the signals'}; {axes}.",
+        f"To scale, along the body's axes: {sizes}.",
+        *(f"Dashed line: {line.name}." for line in scene.lines),
+        *(note for body in scene.bodies for note in _body_notes(body, result)),
+        "Marks, lines and paths have a constant width on the screen; the light is not the Sun's.",
+        *scene.notes,
+    ]
+
+
+def _body_notes(body: Body, result: Result) -> list[str]:
+    notes = []
+    if isinstance(body.attitude, ThrustAxis):
+        notes.append(f"{body.name}: roll about {body.attitude.signal.label} is unknown and not shown.")
+    notes += [_plume(body, thrust, result) for thrust in body.thrusts]
+    if body.jets:
+        labels = " or ".join(jets.signal.label for jets in body.jets)
+        notes.append(f"Jets: shown while {labels} is not 0, not to scale.")
+    return notes
+
+
+def _plume(body: Body, thrust: Thrust, result: Result) -> str:
+    largest = number(largest_magnitude(thrust.signal.values(result)))
+    unit = display_unit(thrust.signal.unit_name)
+    length = f"{number(plume_length(body))} m at {largest} {unit}".rstrip()
+    return f"Plume: its length is proportional to {thrust.signal.label}, {length}."
+
+
+def plume_length(body: Body) -> float:
+    """How long (m) the plume of the largest thrust of a run is drawn."""
+    return 2.0 * max(body.size)
+
+
+def largest_magnitude(values: np.ndarray) -> float:
+    """The largest magnitude of finite values, 0 without any."""
+    return float(np.max(np.abs(values), where=np.isfinite(values), initial=0.0))

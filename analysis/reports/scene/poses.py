@@ -1,0 +1,120 @@
+"""Where a body of a scene is, and how it is turned, at every sample of a flight."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...runtime.flight.results import Flight
+from ..figures.scene.declared import (
+    Angles,
+    Attitude,
+    Body,
+    Cartesian,
+    Geographic,
+    Position,
+    Quaternion,
+    Scene,
+    ThrustAxis,
+    WindAngles,
+)
+from .quaternions import carry_axis, make_continuous, multiply, normalise, turn
+
+
+class Pose(NamedTuple):
+    """Positions (m), [3, n], and unit quaternions from body to scene, scalar first, [4, n]; nan where unknown."""
+
+    position: np.ndarray
+    attitude: np.ndarray
+
+
+class LocalFrame(NamedTuple):
+    """East, north, up at a ground point: its longitude and latitude (rad), the sphere's radius (m)."""
+
+    longitude: float
+    latitude: float
+    radius: float
+
+
+def compute_poses(scene: Scene, flight: Flight) -> list[Pose]:
+    """The pose of each body at each sample, in the scene's frame."""
+    frame = local_frame(scene, flight)
+    return [
+        Pose(_positions(body, flight, frame), make_continuous(_attitudes(body, flight, frame))) for body in scene.bodies
+    ]
+
+
+def local_frame(scene: Scene, flight: Flight) -> LocalFrame | None:
+    """The frame at the ground below the first body's last finite sample; None where positions are Cartesian."""
+    position = scene.bodies[0].position
+    if not isinstance(position, Geographic) or scene.surface is None or scene.surface.radius is None:
+        return None
+    angles = np.concatenate([position.longitude.values(flight), position.latitude.values(flight)])
+    finite = angles[:, np.all(np.isfinite(angles), axis=0)]
+    longitude, latitude = finite[:, -1] if finite.size else (0.0, 0.0)
+    return LocalFrame(float(longitude), float(latitude), scene.surface.radius)
+
+
+def _positions(body: Body, flight: Flight, frame: LocalFrame | None) -> np.ndarray:
+    position: Position | None = body.position
+    if isinstance(position, Cartesian):
+        values = position.signal.values(flight)
+        return np.where(np.all(np.isfinite(values), axis=0), values, np.nan)
+    if isinstance(position, Geographic) and frame is not None:
+        longitude, latitude = position.longitude.values(flight)[0], position.latitude.values(flight)[0]
+        return to_local(longitude, latitude, position.height.values(flight)[0], frame)
+    return np.zeros((3, flight.time.size))
+
+
+def to_local(longitude: np.ndarray, latitude: np.ndarray, height: np.ndarray, frame: LocalFrame) -> np.ndarray:
+    """Positions (m) in a local frame, [3, n], from longitude, latitude (rad) and height (m).
+
+    With d the difference in longitude, half angles keep positions near the ground point exact:
+    up = h - 2 (R + h) (sin^2((lat - lat0)/2) + cos lat cos lat0 sin^2(d/2)).
+    """
+    sine, cosine = np.sin(frame.latitude), np.cos(frame.latitude)
+    difference = longitude - frame.longitude
+    haversine = np.sin(0.5 * (latitude - frame.latitude)) ** 2
+    haversine = haversine + np.cos(latitude) * cosine * np.sin(0.5 * difference) ** 2
+    east = np.cos(latitude) * np.sin(difference)
+    north = np.sin(latitude - frame.latitude) + 2.0 * np.cos(latitude) * sine * np.sin(0.5 * difference) ** 2
+    distance = frame.radius + height
+    return np.stack([distance * east, distance * north, height - 2.0 * distance * haversine])
+
+
+def _attitudes(body: Body, flight: Flight, frame: LocalFrame | None) -> np.ndarray:
+    attitude: Attitude | None = body.attitude
+    match attitude:
+        case Quaternion():
+            return normalise(attitude.signal.values(flight))
+        case Angles():
+            angles = np.concatenate([signal.values(flight) for signal in attitude.signals])
+            return turn(zip(attitude.sequence, angles, strict=True), flight.time.size)
+        case ThrustAxis():
+            return carry_axis(attitude.signal.values(flight))
+        case WindAngles() if isinstance(body.position, Geographic) and frame is not None:
+            return _wind_attitudes(attitude, body.position, flight, frame)
+    return turn([], flight.time.size)
+
+
+def _wind_attitudes(attitude: WindAngles, position: Geographic, flight: Flight, frame: LocalFrame) -> np.ndarray:
+    """From body by velocity axes and the local horizon to the frame of the scene."""
+    longitude, latitude = position.longitude.values(flight)[0], position.latitude.values(flight)[0]
+    bank, sideslip_angle, angle_of_attack, flight_path_angle, heading = (
+        signal.values(flight)[0]
+        for signal in (
+            attitude.bank,
+            attitude.sideslip_angle,
+            attitude.angle_of_attack,
+            attitude.flight_path_angle,
+            attitude.heading,
+        )
+    )
+    size = flight.time.size
+    quarter = np.full(size, 0.5 * np.pi)
+    to_fixed = turn([("z", longitude + quarter), ("x", quarter - latitude)], size)
+    to_scene = turn([("x", frame.latitude - quarter), ("z", -frame.longitude - quarter)], size)
+    to_horizon = turn([("z", heading), ("y", -flight_path_angle), ("x", quarter)], size)
+    to_velocity = turn([("x", bank), ("y", sideslip_angle), ("z", angle_of_attack)], size)
+    return multiply(multiply(to_scene, to_fixed), multiply(to_horizon, to_velocity))

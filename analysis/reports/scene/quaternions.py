@@ -1,0 +1,88 @@
+"""Unit quaternions over time: [4, n], scalar first, from body to reference; vectors are [3, n]."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+AXES = "xyz"
+
+
+def multiply(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """The product of quaternions: the turn ``second`` about the axes that ``first`` has rotated."""
+    a, u = first[0], first[1:]
+    b, v = second[0], second[1:]
+    return np.concatenate([(a * b - np.sum(u * v, axis=0))[None], a * v + b * u + np.cross(u, v, axis=0)])
+
+
+def turn(turns: Iterable[tuple[str, np.ndarray]], size: int) -> np.ndarray:
+    """Turns by angles (rad), [n], one after the other about the axes x, y or z as the turns before have left them."""
+    total = np.zeros((4, size))
+    total[0] = 1.0
+    for axis, angle in turns:
+        single = np.zeros((4, size))
+        single[0] = np.cos(0.5 * angle)
+        single[1 + AXES.index(axis)] = np.sin(0.5 * angle)
+        total = multiply(total, single)
+    return total
+
+
+def normalise(vector: np.ndarray) -> np.ndarray:
+    """Vectors or quaternions of length 1; nan for those without length."""
+    length = np.sqrt(np.sum(vector**2, axis=0))
+    return vector / np.where(length > 0.0, length, np.nan)
+
+
+def make_continuous(quaternion: np.ndarray) -> np.ndarray:
+    """The same attitudes, each with the sign that is nearer to the sample before; nan stays nan."""
+    finite = np.flatnonzero(np.all(np.isfinite(quaternion), axis=0))
+    chosen = quaternion[:, finite]
+    signs = np.where(np.sum(chosen[:, 1:] * chosen[:, :-1], axis=0) < 0.0, -1.0, 1.0)
+    result = quaternion.copy()
+    result[:, finite] = chosen * np.cumprod(np.concatenate([[1.0], signs]))[: finite.size]
+    return result
+
+
+def carry_axis(axis: np.ndarray) -> np.ndarray:
+    """Attitudes whose z axis has these directions, [3, n], and which do not turn about it from sample to sample.
+
+    The first turns z there the shortest way. Between samples the turn is the shortest one, too, so that roll, which is
+    unknown, brings no turning of its own, wherever the axis points. nan where an axis is not finite or has no length.
+    """
+    unit = normalise(axis)
+    carried = np.full((4, unit.shape[1]), np.nan)
+    attitude, before = (1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+    for index in np.flatnonzero(np.all(np.isfinite(unit), axis=0)):
+        now = tuple(unit[:, index].tolist())
+        if now != before:
+            attitude = _product(_shortest(before, now), attitude)
+            before = now
+        carried[:, index] = attitude
+    return normalise(carried)
+
+
+def _shortest(start: tuple[float, ...], end: tuple[float, ...]) -> tuple[float, ...]:
+    """The shortest turn from one unit vector to another; about any axis across where they are opposite."""
+    x, y, z = start
+    cosine = x * end[0] + y * end[1] + z * end[2]
+    if cosine < -1.0 + 1e-12:
+        length = math.hypot(x, z) if abs(y) < 0.9 else math.hypot(y, z)
+        return (0.0, -z / length, 0.0, x / length) if abs(y) < 0.9 else (0.0, 0.0, z / length, -y / length)
+    rotated = (1.0 + cosine, y * end[2] - z * end[1], z * end[0] - x * end[2], x * end[1] - y * end[0])
+    length = math.sqrt(sum(component * component for component in rotated))
+    w, a, b, c = (component / length for component in rotated)
+    return w, a, b, c
+
+
+def _product(first: tuple[float, ...], second: tuple[float, ...]) -> tuple[float, float, float, float]:
+    """The product of two quaternions, as `multiply`."""
+    a, b, c, d = first
+    e, f, g, h = second
+    return (
+        a * e - b * f - c * g - d * h,
+        a * f + b * e + c * h - d * g,
+        a * g - b * h + c * e + d * f,
+        a * h + b * g - c * f + d * e,
+    )

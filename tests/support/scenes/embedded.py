@@ -1,0 +1,44 @@
+"""What is embedded in a page for its scripts, read back without them: the inverse of reports/interactive/columns.py."""
+
+import base64
+import json
+import zlib
+
+import numpy as np
+import pytest
+from lxml import html
+
+from perilune.analysis.reports.interactive.bundles import read_bundle
+from perilune.analysis.reports.interactive.embedded import Embedded
+
+
+def require_bundle(name):
+    """Leaves a test out where a script was not built, as without npm."""
+    if read_bundle(name) is None:
+        pytest.skip("no scripts of pages")
+
+
+def document_of(text):
+    """The document of a page, or of its elements alone."""
+    (content,) = html.document_fromstring(text).xpath("//script[@id='page-data']/text()")
+    return json.loads(content)
+
+
+def embed(name, bundle, content):
+    """A document as a page would have it, read back."""
+    require_bundle(bundle)
+    embedded = Embedded()
+    assert embedded.add_document(name, bundle, content)
+    return document_of(str(embedded.elements()))
+
+
+def column(document, index):
+    """A column of float32."""
+    encoded = document["columns"][index]
+    planes = np.frombuffer(zlib.decompress(base64.b64decode(encoded["data"])), np.uint8).reshape(4, encoded["rows"])
+    folded = np.ascontiguousarray(planes.T).view("<u4")[:, 0]
+    numbers = (folded >> 1) ^ (np.uint32(0) - (folded & 1))
+    for _ in range(2):
+        numbers = np.cumsum(numbers, dtype=np.uint32)
+    bits = np.where(numbers >> 31 == 1, numbers & np.uint32(0x7FFFFFFF), ~numbers)
+    return bits.astype("<u4").view("<f4").astype(float)

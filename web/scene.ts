@@ -1,0 +1,61 @@
+// The three-dimensional view of a page: what a system's SSD declares as its Scene.
+
+import { WebGLRenderer } from "three";
+import { readPage } from "./page/document";
+import { readScene } from "./scene/document";
+import { make } from "./scene/elements";
+import { SHEET } from "./scene/sheet";
+import { View } from "./scene/view";
+
+const NO_WEBGL = "There is no three-dimensional view here, since this browser has no WebGL; the figures have the same flight.";
+const LOST = "The three-dimensional view was lost by the graphics system; it comes back by itself, or with the page loaded anew.";
+
+// Without a graphics processor smooth edges take more time than a picture may.
+function drawsInSoftware(): boolean {
+  const context = make("canvas").getContext("webgl2");
+  const names = context?.getExtension("WEBGL_debug_renderer_info");
+  const software = /swiftshader|llvmpipe|software|basic render/i.test(
+    String((names && context?.getParameter(names.UNMASKED_RENDERER_WEBGL)) ?? ""),
+  );
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return software;
+}
+
+async function start(holder: HTMLElement): Promise<void> {
+  const page = readPage();
+  const data = page && (await readScene(page));
+  if (!data) return;
+  const canvas = make("canvas");
+  const context = canvas.getContext("webgl2", { antialias: !drawsInSoftware(), alpha: false, powerPreference: "high-performance" });
+  if (!context) {
+    holder.replaceChildren(make("p", { class: "empty", role: "status" }, NO_WEBGL));
+    return;
+  }
+  document.head.append(make("style", {}, SHEET));
+  const view = new View(data, new WebGLRenderer({ canvas, context }));
+  const lost = make("p", { class: "empty", role: "status", hidden: "" }, LOST);
+  holder.replaceChildren(lost, view.element);
+  canvas.addEventListener("webglcontextlost", (event) => {
+    event.preventDefault();
+    view.element.hidden = true;
+    lost.hidden = false;
+  });
+  canvas.addEventListener("webglcontextrestored", () => {
+    view.element.hidden = false;
+    lost.hidden = true;
+    view.changed();
+  });
+}
+
+// A view is made when it comes near to the screen: figures above it are not kept waiting.
+for (const holder of document.querySelectorAll<HTMLElement>("[data-scene]")) {
+  const observer = new IntersectionObserver(
+    (entries) => {
+      if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
+      observer.disconnect();
+      void start(holder);
+    },
+    { rootMargin: "200px" },
+  );
+  observer.observe(holder);
+}
