@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
@@ -15,7 +15,9 @@ from ...common.atomic import write_atomically
 from ...common.percent import percent
 from ..interactive.embedded import Embedded
 from .quantities import MINUS, display_unit, in_shown_unit, number
-from .svg import Drawing
+
+if TYPE_CHECKING:
+    from .svg import Drawing  # which imports matplotlib
 
 FOLDER = Path(__file__).parent
 
