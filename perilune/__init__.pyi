@@ -46,6 +46,8 @@ from .analysis.verbs.shard import ShardResult as ShardResult
 from .analysis.verbs.shard import merge as merge
 from .analysis.verbs.shard import prepare as prepare
 from .analysis.verbs.shard import shard as shard
+from .analysis.verbs.show import ServedCampaigns as ServedCampaigns
+from .analysis.verbs.show import show as show
 from .analysis.verbs.stability import StabilityReport as StabilityReport
 from .analysis.verbs.stability import stability as stability
 from .analysis.verbs.validate import validate as validate

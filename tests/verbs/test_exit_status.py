@@ -66,6 +66,7 @@ ROWS = [
     ("replay {folder}/flown 2", 2),
     ("compare {folder}/flown", 0),
     ("compare {folder}/empty", 2),
+    ("show {folder}/empty", 2),
     (f"rare {STUDY} --failure 'flight_time > 100'", 0),
     (f"rare {STUDY} --failure 'flight_time > 100' --require 'probability < 0.5'", 1),
     (f"rare {ONE} --samples 1", 2),

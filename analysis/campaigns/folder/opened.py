@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pyarrow
@@ -16,59 +16,12 @@ import pyarrow.parquet
 from pyarrow.fs import LocalFileSystem
 
 from ...common.errors import suggestion
-from ..draws.given import stream_component
 from ..fly.metadata import Provenance
 from ..fly.shards.files import read_table
 from ..statistics import quantile
+from .columns import Column, describe_column
 from .folder import ResultFolder
 from .traces import trace_dataset
-
-
-class Column(NamedTuple):
-    """A column of trials/. ``unit`` is None where the results say none, "1" where there is none to say."""
-
-    unit: str | None
-    meaning: str
-
-
-FLIGHT = {
-    "variant": Column(None, "which FMUs fly in the compared slots"),
-    "trial": Column("1", "number of the trial: its draws, the same in every variant"),
-    "status": Column(None, "how the flight ended, and the worst status that components had"),
-    "message": Column(None, "why the flight failed; empty where it did not"),
-    "end_time": Column("s", "time of the last row"),
-}
-FAULT = {
-    ".value": Column(None, "with what value it flew; nan where it did not"),
-    ".start": Column("s", "from when on it acted; nan where it did not fly"),
-    ".end": Column("s", "until when it acted; inf where there was no end, nan where it did not fly"),
-}
-
-
-def _column(name: str, provenance: Provenance) -> Column:
-    """Unit and meaning of a column, as ``provenance`` of its campaign says."""
-    if name in FLIGHT:
-        return FLIGHT[name]
-    if name == "success":
-        return Column("1", f"whether {provenance['success']}")
-    kind, _, remainder = name.partition(".")
-    if kind == "metric":
-        fact = provenance["metrics"][remainder]
-        return Column(fact["unit"], fact["description"] or f"{fact['reduction']} of {fact['expression']}")
-    if kind == "final":
-        return Column(provenance["signals"].get(remainder, {}).get("unit"), f"last value of {remainder}")
-    if kind == "fault":
-        end = next((end for end in FAULT if remainder.endswith(end)), None)
-        if end is None:
-            return Column("1", f"whether the fault {remainder} flew")
-        return Column(FAULT[end].unit, f"fault {remainder.removesuffix(end)}: {FAULT[end].meaning}")
-    component = stream_component(remainder)
-    if component is not None:
-        whose = f"random stream {component}" if component else "random streams it"
-        return Column("1", f"number of the trial whose {whose} flew with")
-    swept = provenance.get("sweep", {}).get(remainder)
-    return Column(None, f"drawn or derived: {remainder}" if swept is None else f"swept: {remainder}, {swept}")
-
 
 UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # what Arrow says of a column that there is not
 
@@ -114,7 +67,7 @@ class OpenedResults:
     def columns(self) -> dict[str, Column]:
         """Unit and meaning of every column, in their order."""
         names = pyarrow.parquet.read_schema(self.source.shards[0].path).names
-        return {name: _column(name, self.provenance) for name in names}
+        return {name: describe_column(name, self.provenance) for name in names}
 
     @cached_property
     def _schema(self) -> pyarrow.Schema:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
@@ -16,7 +16,9 @@ from ...common.percent import percent
 from ..interactive.embedded import Embedded
 from .quantities import MINUS, display_unit, in_shown_unit, number
 from .relative_paths import with_relative_paths
-from .svg import Drawing
+
+if TYPE_CHECKING:
+    from .svg import Drawing  # which imports matplotlib
 
 FOLDER = Path(__file__).parent
 

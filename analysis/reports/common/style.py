@@ -11,14 +11,18 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.typing import CapStyleType, LineStyleType
 
+from .colours import BLUE as BLUE
+from .colours import COLOURS, FAINT, GRID, INK
+from .colours import GREEN as GREEN
+from .colours import ORANGE as ORANGE
+from .colours import PURPLE as PURPLE
+from .colours import SKY as SKY
+from .colours import VERMILION as VERMILION
 from .quantities import log_tick, tick
 from .svg import Picture
 
-BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
-COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, "#000000")  # their yellow is too faint on white
 DASHES: tuple[LineStyleType, ...] = ("-", (0, (5, 1.6)), (0, (1.2, 1.2)), (0, (6, 1.6, 1.2, 1.6)), (0, (9, 2)))
 MARKERS = "osD^vPX"
-INK, FAINT, GRID = "#222222", "#6b6b6b", "#dddddd"
 
 
 class LineStyle(TypedDict, total=False):

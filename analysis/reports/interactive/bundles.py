@@ -18,11 +18,12 @@ def read_bundle(name: str) -> str | None:
     return path.read_text(encoding="utf-8").strip() if path.is_file() else None
 
 
-def policy(scripts: Iterable[str]) -> str:
-    """A Content-Security-Policy: nothing from the network, and of scripts these alone."""
+def policy(scripts: Iterable[str], *, requests: bool = False) -> str:
+    """A Content-Security-Policy: of scripts these alone, from the network nothing; ``requests``: of its own server."""
     hashes = [base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts]
     sources = " ".join(["'wasm-unsafe-eval'", *(f"'sha256-{each}'" for each in hashes)]) if hashes else "'none'"
+    connect = "; connect-src 'self'" if requests else ""
     return (
         f"default-src 'none'; script-src {sources}; worker-src blob:; style-src 'unsafe-inline'; img-src data:; "
-        "base-uri 'none'; form-action 'none'"
+        f"base-uri 'none'; form-action 'none'{connect}"
     )

@@ -5,14 +5,16 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import fields, is_dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from markupsafe import Markup
 
 from .bundles import policy, read_bundle
-from .charts import Chart
 from .columns import Coarse, Columns
+
+if TYPE_CHECKING:
+    from .charts import Chart  # which imports matplotlib
 
 
 class Embedded:
@@ -23,6 +25,7 @@ class Embedded:
         self._figures: list[Any] = []
         self._documents: dict[str, Any] = {}
         self._bundles: dict[str, str] = {}
+        self._requests = False
 
     def add(self, numbers: np.ndarray, *, coarse: bool = False) -> int:
         """The index of a column of these numbers in float32; ``coarse``: in 16 bits over their range."""
@@ -48,9 +51,13 @@ class Embedded:
             self._bundles[bundle] = text
         return bundle in self._bundles
 
+    def allow_requests(self) -> None:
+        """Let the page's scripts ask the server that the page is from."""
+        self._requests = True
+
     def policy(self) -> str:
         """The page's Content-Security-Policy."""
-        return policy(self._bundles.values())
+        return policy(self._bundles.values(), requests=self._requests)
 
     def elements(self) -> Markup:
         """The document and the scripts as elements for the end of a page; nothing where it has none."""

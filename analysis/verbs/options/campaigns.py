@@ -1,4 +1,4 @@
-"""The verbs that simulate: run, and those of campaigns: batch, prepare, shard, merge, replay, compare."""
+"""The verbs that simulate: run, and those of campaigns: batch, prepare, shard, merge, replay, compare, show."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .system import (
     UntilDecided,
     Workers,
 )
-from .verb import Argument, Verb
+from .verb import Argument, NoOptions, Verb
 
 SYSTEM = Argument(
     "system",
@@ -138,6 +138,12 @@ class CompareOptions(TypedDict, total=False):
     ]
 
 
+class ShowOptions(TypedDict, total=False):
+    """Options of show"""
+
+    port: Annotated[int | None, Option("port to listen on; default: a free one", metavar="N", minimum=1, maximum=65535)]
+
+
 class PrepareOptions(CampaignOptions, TrialsOptions, total=False):
     """Options of prepare"""
 
@@ -234,5 +240,16 @@ COMPARE = Verb(
     examples={
         "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results": "what is compared",
         "perilune compare results --report compare.html": "rates, pairs of variants, trajectories, distributions",
+    },
+)
+SHOW = Verb(
+    "show",
+    "explore stored campaigns of any size in a browser",
+    (Argument("folders", "FOLDER", "a folder that batch wrote to its output", many=True),),
+    options=ShowOptions,
+    files=NoOptions,
+    examples={
+        "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results": "what is explored",
+        "perilune show results": "prints an address of this machine to open; Ctrl-C ends",
     },
 )

@@ -35,6 +35,7 @@ ELSEWHERE = {
     "sbatch ": "needs a SLURM controller; the page says what was tried",
     "job=$(sbatch ": "likewise",
     "perilune docs": "tests/verbs/test_docs.py",
+    "perilune show": "tests/show/test_process.py; it ends with Ctrl-C only",
     "LD_PRELOAD=": "of a host of the reader's own",
     "python -m tests.fuzz": "hours of random inputs; tests/fuzz/test_documents.py tries a thousand of each",
 }

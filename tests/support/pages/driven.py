@@ -17,8 +17,8 @@ PATIENCE = 60  # s
 
 
 @contextmanager
-def driven(browser: str, page: Path, *, phone: bool = False, flags: Sequence[str] = ()) -> Iterator[Chrome]:
-    """The page once its scripts are ready; at the end nothing above "info" may be in the console."""
+def driven(browser: str, page: Path | str, *, phone: bool = False, flags: Sequence[str] = ()) -> Iterator[Chrome]:
+    """A file or an address once its scripts are ready; at the end nothing above "info" may be in the console."""
     options = ChromeOptions()
     options.binary_location = browser
     for flag in (*FLAGS, "--window-size=1400,1200", *flags):
@@ -28,7 +28,7 @@ def driven(browser: str, page: Path, *, phone: bool = False, flags: Sequence[str
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     driver = Chrome(options=options, service=Service(shutil.which("chromedriver")))
     try:
-        driver.get(page.as_uri())
+        driver.get(page if isinstance(page, str) else page.as_uri())
         WebDriverWait(driver, PATIENCE).until(lambda each: each.execute_script(READY))
         yield driver
         messages = [entry for entry in driver.get_log("browser") if entry["level"] not in ("DEBUG", "INFO")]

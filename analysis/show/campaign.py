@@ -1,0 +1,149 @@
+"""A campaign's folder as it is shown: its variants, its quantities, and rows of its files of trials."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+
+from ..campaigns.fly.shards.files import (
+    FOLDER,
+    IDENTITY,
+    NEW_FOLDER,
+    NUMBER_PREFIXES,
+    check_names,
+    check_rows,
+    numbers,
+    read_table,
+)
+from ..campaigns.folder.columns import Column, describe_column
+from ..campaigns.folder.folder import ResultFolder, Shard, read_folder
+from ..campaigns.replay_command import replay_of_folder
+from ..common.errors import InputError
+from ..common.regular import check_folder
+
+ROW_LIMIT = 20_000_000  # of a campaign: a column of it is 40 MB
+NUMERIC = ("end_time",)
+PREFIXES = (*NUMBER_PREFIXES, "fault.")
+ORDER = ("metric", "draw", "final", "end_time", "fault")
+DETAILS = ("status", "success")  # of a trial, in addition to its numbers
+
+
+class StoppedError(Exception):
+    """The server ends; what is read is of no more use."""
+
+
+@dataclass(frozen=True)
+class OpenCampaign:
+    """The shards of a folder as they were when it was opened.
+
+    Rows are numbered through all shards: in each one variant after the other, in order of trial.
+    """
+
+    source: ResultFolder
+    is_stopped: Callable[[], bool] = lambda: False
+
+    @property
+    def variants(self) -> list[str]:
+        return self.source.variants
+
+    @cached_property
+    def starts(self) -> list[int]:
+        """The first row of each shard, and the number of all rows."""
+        starts = [0]
+        for shard in self.source.shards:
+            starts.append(starts[-1] + len(shard.trials) * len(self.variants))
+        return starts
+
+    @property
+    def rows(self) -> int:
+        return self.starts[-1]
+
+    @cached_property
+    def quantities(self) -> dict[str, Column]:
+        """Unit and meaning of every column of numbers: metrics, draws, final values, end time, faults.
+
+        Raises InputError for a column of which the campaign says nothing.
+        """
+        path = self.source.shards[0].path
+        schema = pyarrow.parquet.read_schema(path)
+        check_names(schema.names, path)
+        named = [name for name in schema.names if _is_number(schema, name)]
+        ordered = sorted(named, key=lambda name: ORDER.index(name.partition(".")[0]))
+        try:
+            return {name: describe_column(name, self.source.provenance) for name in ordered}
+        except (KeyError, TypeError, AttributeError) as error:
+            problem = f"{error}: not declared in the campaign's summary"
+            raise InputError(path, "", problem, NEW_FOLDER) from error
+
+    @cached_property
+    def variant_numbers(self) -> np.ndarray:
+        """The number of each row's variant (rows,)."""
+        kind = np.uint8 if len(self.variants) < 256 else np.uint16
+        shards = self.source.shards
+        return np.concatenate(
+            [np.repeat(np.arange(len(self.variants), dtype=kind), len(shard.trials)) for shard in shards]
+        )
+
+    def read(self, names: Sequence[str]) -> dict[str, np.ndarray]:
+        """Columns of all rows (rows,) as doubles. Raises InputError for damaged files, StoppedError at the end."""
+        columns = {name: np.empty(self.rows) for name in names}
+        for shard, start in zip(self.source.shards, self.starts, strict=False):
+            if self.is_stopped():
+                raise StoppedError
+            table = self._table(shard, names)
+            for name, column in columns.items():
+                column[start : start + table.num_rows] = numbers(table, name, shard.path)
+        return columns
+
+    def read_rows(self, rows: Sequence[int], names: Sequence[str]) -> Iterator[dict[str, object]]:
+        """Rows in rising order: variant, trial, and columns of numbers and `DETAILS`. Raises InputError."""
+        table, current = None, -1
+        for row in rows:
+            number = bisect_right(self.starts, row) - 1
+            if number != current:
+                table, current = self._table(self.source.shards[number], [*names, *DETAILS]), number
+            assert table is not None
+            (entries,) = table.slice(row - self.starts[number], 1).to_pylist()
+            yield entries
+
+    def command(self, variant: str, trial: int) -> str:
+        """The command that simulates a trial again."""
+        return replay_of_folder(self.source.folder, self.variants, variant, trial)
+
+    def _table(self, shard: Shard, names: Sequence[str]) -> pyarrow.Table:
+        """Columns of a shard, its rows checked: as many as there are to be, each variant's in order of trial."""
+        table = read_table(shard.path, {*names, *IDENTITY})
+        size = len(shard.trials)
+        if table.num_rows != size * len(self.variants):
+            problem = f"{table.num_rows} rows, not {size} of each of {len(self.variants)} variants"
+            raise InputError(shard.path, "", problem, NEW_FOLDER)
+        for number, variant in enumerate(self.variants):
+            check_rows(table.slice(number * size, size), variant, shard.trials, names, shard.path)
+        return table
+
+
+def _is_number(schema: pyarrow.Schema, name: str) -> bool:
+    kind = schema.field(name).type
+    is_numeric = pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_boolean(kind)
+    return is_numeric and (name in NUMERIC or name.startswith(PREFIXES))
+
+
+def open_campaign(folder: Path, is_stopped: Callable[[], bool]) -> OpenCampaign:
+    """A folder that `perilune batch` wrote, whole or unfinished.
+
+    Raises InputError for what is no such folder, for a link in it, for damage, and above `ROW_LIMIT` rows.
+    """
+    check_folder(folder.absolute() / FOLDER, NEW_FOLDER)
+    campaign = OpenCampaign(read_folder(folder), is_stopped)
+    if campaign.rows > ROW_LIMIT:
+        problem = f"{campaign.rows} trials of all variants; {ROW_LIMIT} can be shown"
+        raise InputError(folder, "", problem, "query its files as docs/studies/results.md says")
+    _ = campaign.quantities
+    return campaign

@@ -1,0 +1,69 @@
+"""Columns of a campaign, binned when they are first used: two bytes for each row, the most recent ones in memory."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import islice
+from threading import Lock
+
+import numpy as np
+
+from .campaign import OpenCampaign
+from .scale import Scale, make_scale
+
+MEMORY = 300_000_000  # bytes of binned columns
+READING = 100_000_000  # bytes of doubles that are read at a time
+
+
+@dataclass(frozen=True)
+class Binned:
+    """``codes`` (rows,) are bins of ``scale``; it is None where no number is finite."""
+
+    scale: Scale | None
+    codes: np.ndarray
+
+
+class BinnedColumns:
+    """The columns of one campaign."""
+
+    def __init__(self, campaign: OpenCampaign, memory: float = MEMORY) -> None:
+        self.campaign = campaign
+        self._limit = max(1, int(memory // (2 * campaign.rows)))
+        self._columns: OrderedDict[str, Binned] = OrderedDict()
+        self._lock = Lock()
+
+    @cached_property
+    def success(self) -> np.ndarray:
+        """Which rows are successes (rows,). Raises as `get` does."""
+        return self.campaign.read(["success"])["success"] != 0.0
+
+    def get(self, names: Sequence[str]) -> dict[str, Binned]:
+        """Some columns by name; those that are not in memory are read, several in one go through the shards.
+
+        Raises InputError for damaged files, StoppedError at the end.
+        """
+        with self._lock:
+            needed = dict.fromkeys(names)
+            columns = {name: self._columns[name] for name in needed if name in self._columns}
+            missing = iter([name for name in needed if name not in columns])
+            while group := list(islice(missing, max(1, READING // (8 * self.campaign.rows)))):
+                for name, numbers in self._read(group).items():
+                    scale = make_scale(numbers)
+                    columns[name] = Binned(scale, (scale or Scale(0.0, 1.0)).bin(numbers))
+            for name in needed:
+                self._columns[name] = columns[name]
+                self._columns.move_to_end(name)
+            while len(self._columns) > self._limit:
+                self._columns.popitem(last=False)
+            return columns
+
+    def _read(self, names: list[str]) -> dict[str, np.ndarray]:
+        """Columns as doubles, and at the first time which rows are successes."""
+        if "success" in self.__dict__:
+            return self.campaign.read(names)
+        columns = self.campaign.read([*names, "success"])
+        self.__dict__["success"] = columns.pop("success") != 0.0
+        return columns

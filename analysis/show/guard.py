@@ -1,0 +1,85 @@
+"""Who may ask the server: the browser that has its token, from its own page; nothing is changed by anyone.
+
+The address that is printed has the token. The first request with it gets a cookie and is sent on to an address without
+it, so that the token is neither in the history nor in what a page tells others about where it was opened.
+"""
+
+from __future__ import annotations
+
+import hmac
+from http.cookies import CookieError, SimpleCookie
+from urllib.parse import parse_qs
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+METHODS = ("GET", "HEAD")
+HEADERS = {  # of every answer
+    "cache-control": "no-store",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+    "referrer-policy": "no-referrer",
+    "x-content-type-options": "nosniff",
+    "x-frame-options": "DENY",
+}
+
+
+class Guard:
+    """An application behind these rules; ``authority`` is its own host and port, ``token`` its secret."""
+
+    def __init__(self, app: ASGIApp, authority: str, token: str) -> None:
+        self.app = app
+        self.authority = authority
+        self.token = token
+        self.cookie = f"perilune-{authority.rpartition(':')[2]}"  # browsers send cookies to all ports of a host
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "http":
+            return  # no web socket is accepted
+
+        async def send_guarded(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(scope=message)
+                for name, text in HEADERS.items():
+                    headers[name] = text
+            await send(message)
+
+        await (self._refusal(scope) or self.app)(scope, receive, send_guarded)
+
+    def _refusal(self, scope: Scope) -> Response | None:
+        """What is answered instead of the application; None where it may answer."""
+        headers = Headers(scope=scope)
+        if headers.getlist("host") != [self.authority]:
+            return PlainTextResponse("another host", 421)
+        if headers.getlist("origin") not in ([], [f"http://{self.authority}"]):
+            return PlainTextResponse("another origin", 403)
+        if scope["method"] not in METHODS:
+            return PlainTextResponse("read-only", 405, {"allow": ", ".join(METHODS)})
+        given = parse_qs(scope["query_string"].decode("latin-1")).get("token")
+        if scope["path"] == "/" and given is not None:
+            return self._admit(given)
+        if not any(self._is_token(text) for text in self._cookies(headers)):
+            return PlainTextResponse("open the address that perilune show has printed", 403)
+        return None
+
+    def _admit(self, given: list[str]) -> Response:
+        if len(given) != 1 or not self._is_token(given[0]):
+            return PlainTextResponse("wrong token", 403)
+        response = RedirectResponse("/", 303)
+        response.set_cookie(self.cookie, self.token, path="/", httponly=True, samesite="strict")
+        return response
+
+    def _is_token(self, text: str) -> bool:
+        return hmac.compare_digest(text.encode("latin-1", "replace"), self.token.encode())
+
+    def _cookies(self, headers: Headers) -> list[str]:
+        cookies = []
+        for header in headers.getlist("cookie"):
+            try:
+                morsel = SimpleCookie(header).get(self.cookie)
+            except CookieError:
+                continue
+            if morsel is not None:
+                cookies.append(morsel.value)
+        return cookies

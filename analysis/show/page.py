@@ -1,0 +1,57 @@
+"""The page of `perilune show`: what its script needs to know of the campaigns before it asks for counts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ..common.errors import InputError
+from ..reports.common.colours import COLOURS
+from ..reports.common.page import render_page
+from ..reports.common.quantities import display_factor, display_unit
+from ..reports.interactive.bundles import MISSING, read_bundle
+from .campaign import OpenCampaign
+from .dots import TABLE_LIMIT
+from .scale import BARS, BINS
+
+BUNDLE = "show"
+FIRST_FIGURES = 6  # histograms that a page begins with
+
+
+def show_page(campaigns: Sequence[OpenCampaign]) -> str:
+    """HTML with its script. Raises InputError where the script was not built."""
+    if read_bundle(BUNDLE) is None:
+        problem, _, remedy = MISSING.partition(": ")
+        raise InputError("perilune show", "", problem, remedy.rstrip("."))
+    template = Path(__file__).with_name("show.html")
+    documents = [_document(campaign) for campaign in campaigns]
+    style = template.with_name("show.css").read_text(encoding="utf-8")
+    sizes = {"bins": BINS, "bars": BARS, "figures": FIRST_FIGURES, "rows": TABLE_LIMIT}
+    return render_page(
+        template, title="Campaigns", document={"campaigns": documents, **sizes}, own_style=style, bundle=BUNDLE
+    )
+
+
+def _document(campaign: OpenCampaign) -> dict[str, Any]:
+    provenance = campaign.source.provenance
+    return {
+        "folder": campaign.source.folder.name,
+        "system": provenance["system"],
+        "description": provenance.get("description", ""),
+        "criterion": provenance["success"],
+        "trials": provenance["trials"],
+        "flown": campaign.source.flown,
+        "variants": [
+            {"name": name, "colour": COLOURS[number % len(COLOURS)]} for number, name in enumerate(campaign.variants)
+        ],
+        "quantities": [
+            {
+                "name": name,
+                "unit": display_unit(column.unit),
+                "factor": display_factor(column.unit),
+                "meaning": column.meaning,
+            }
+            for name, column in campaign.quantities.items()
+        ],
+    }

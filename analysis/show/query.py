@@ -1,0 +1,50 @@
+"""What a page asks of a campaign, as JSON in an address: columns and variants by number, ranges by bins."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import msgspec
+
+from ..common.errors import InputError
+from .scale import BINS
+
+Index = Annotated[int, msgspec.Meta(ge=0, le=100_000)]
+Bin = Annotated[int, msgspec.Meta(ge=0, lt=BINS)]
+Figures = Annotated[list[Index], msgspec.Meta(max_length=64)]
+LONGEST = 8000  # characters of a query
+
+
+class Range(msgspec.Struct, forbid_unknown_fields=True):
+    """The rows of which a column is in the bins from ``first`` to ``last``."""
+
+    column: Index
+    first: Bin
+    last: Bin
+
+
+class Query(msgspec.Struct, forbid_unknown_fields=True):
+    """``histograms`` and ``grids`` of columns, of the rows that are in all ranges and of the outcome and variants."""
+
+    histograms: Figures = []
+    grids: Annotated[list[tuple[Index, Index]], msgspec.Meta(max_length=4)] = []
+    ranges: Annotated[list[Range], msgspec.Meta(max_length=64)] = []
+    outcome: Literal["all", "success", "failure"] = "all"
+    variants: Annotated[list[Index], msgspec.Meta(max_length=1000)] | None = None
+
+
+def read_query(text: str, columns: int, variants: int) -> Query:
+    """A query about a campaign of so many columns and variants. Raises InputError."""
+    remedy = "load the page again"
+    if len(text) > LONGEST:
+        raise InputError("query", "", f"{len(text)} characters, at most {LONGEST} are read", remedy)
+    try:
+        query = msgspec.json.decode(text, type=Query)
+    except (msgspec.DecodeError, RecursionError) as error:
+        raise InputError("query", "", str(error), remedy) from error
+    numbers = [*query.histograms, *(index for pair in query.grids for index in pair)]
+    if max([*numbers, *(each.column for each in query.ranges)], default=0) >= columns:
+        raise InputError("query", "", f"the campaign has {columns} columns", remedy)
+    if max(query.variants or [], default=0) >= variants:
+        raise InputError("query", "", f"the campaign has {variants} variants", remedy)
+    return query

@@ -1,0 +1,98 @@
+"""The server of `perilune show`: on this machine's loopback address alone, until it is interrupted."""
+
+from __future__ import annotations
+
+import secrets
+import socket
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import uvicorn
+
+from ..common.errors import InputError
+from .app import Service, make_app
+from .campaign import open_campaign
+from .page import show_page
+
+HOST = "127.0.0.1"
+TOKEN_BYTES = 32
+PATIENCE = 1  # s, for requests that are under way at the end
+CONNECTIONS = 64
+
+
+class CampaignServer:
+    """Campaigns that are served; ``address`` opens their page, with the token that it takes."""
+
+    def __init__(self, folders: Sequence[Path], port: int = 0) -> None:
+        """``port`` 0: a free one. Raises InputError for folders without campaigns, and for a port that is taken."""
+        self._is_stopped = False
+        self.campaigns = [open_campaign(folder, lambda: self._is_stopped) for folder in folders]
+        page = show_page(self.campaigns)
+        self._socket = _listen(port)
+        self.port = self._socket.getsockname()[1]
+        self._token = secrets.token_urlsafe(TOKEN_BYTES)
+        self._page = page
+
+    @property
+    def address(self) -> str:
+        return f"http://{HOST}:{self.port}/?token={self._token}"
+
+    def serve(self, announce: Callable[[str], None]) -> None:
+        """Answer until Ctrl-C; ``announce`` gets the address as soon as it is answered."""
+        service = Service(self.campaigns, self._page)
+        server = _Server(
+            uvicorn.Config(
+                make_app(service, f"{HOST}:{self.port}", self._token),
+                log_config=None,
+                log_level="error",  # not: that a stranger has sent what is no request
+                access_log=False,
+                lifespan="off",
+                ws="none",
+                http="h11",
+                loop="asyncio",
+                server_header=False,
+                proxy_headers=False,
+                limit_concurrency=CONNECTIONS,
+                timeout_graceful_shutdown=PATIENCE,
+            ),
+            lambda: announce(self.address),
+            self._stop,
+        )
+        try:
+            server.run(sockets=[self._socket])
+        except KeyboardInterrupt:  # which uvicorn raises again once all is closed
+            pass
+        finally:
+            self._stop()
+            service.stop()
+            self._socket.close()
+
+    def _stop(self) -> None:
+        self._is_stopped = True
+
+
+class _Server(uvicorn.Server):
+    """uvicorn's, which says when it listens and when it is to end."""
+
+    def __init__(self, config: uvicorn.Config, on_start: Callable[[], None], on_end: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._on_start = on_start
+        self._on_end = on_end
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        self._on_start()
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        self._on_end()
+        await super().shutdown(sockets)
+
+
+def _listen(port: int) -> socket.socket:
+    listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        listening.bind((HOST, port))
+    except OSError as error:
+        listening.close()
+        raise InputError("`port`", str(port), error.strerror or str(error), "give another one, or none") from error
+    return listening

@@ -1,0 +1,46 @@
+"""`perilune.show` and `perilune show`: stored campaigns in a browser, for those that are too large for a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Unpack
+
+from ..common.errors import InputError
+from ..show.server import CampaignServer
+from .common.arguments import path_list
+from .options.campaigns import SHOW, ShowOptions
+from .options.option import FilePath
+from .options.verb import verb
+from .result import NoProblems
+
+
+@dataclass(frozen=True)
+class ServedCampaigns(NoProblems):
+    """Campaigns that were served until Ctrl-C."""
+
+    folders: tuple[Path, ...]
+
+    def lines(self) -> list[str]:
+        """What `perilune show` prints at its end."""
+        return ["stopped"]
+
+    def to_json(self) -> dict[str, object]:
+        """The folders, for other programs."""
+        return {"folders": [str(folder) for folder in self.folders]}
+
+
+@verb(SHOW)
+def show(*folders: FilePath | Sequence[FilePath], **options: Unpack[ShowOptions]) -> ServedCampaigns:
+    """Serve stored campaigns to a browser on this machine until Ctrl-C: `perilune show`.
+
+    ``folders`` are those that `batch` wrote to its ``output``, or a list of them; the address of the page is printed.
+    Nothing is written. Raises InputError.
+    """
+    paths = tuple(Path(folder) for folder in path_list(folders))
+    if not paths:
+        raise InputError("show", "", "no folder of a campaign", "name what batch(..., output=...) wrote")
+    server = CampaignServer(paths, options["port"] or 0)
+    server.serve(lambda address: print(f"open {address}\nCtrl-C ends", flush=True))
+    return ServedCampaigns(paths)

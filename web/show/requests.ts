@@ -1,0 +1,46 @@
+// Requests to the server that the page is from; a newer one of its kind ends an older one.
+
+import type { Counts, TrialEntry } from "./document";
+import type { Filter } from "./filter";
+
+export class Requests {
+  private readonly running = new Map<string, AbortController>();
+
+  constructor(
+    private readonly campaign: number,
+    private readonly onError: (text: string) => void,
+  ) {}
+
+  counts(filter: Filter, histograms: number[], grids: [number, number][]): Promise<Counts | null> {
+    return this.get("counts", "counts", { ...filter.query(), histograms, grids });
+  }
+
+  trials(filter: Filter, histograms: number[]): Promise<TrialEntry[] | null> {
+    return this.get("trials", "trials", { ...filter.query(), histograms });
+  }
+
+  trial(row: number): Promise<TrialEntry | null> {
+    return this.get("trial", `trials/${row}`, null);
+  }
+
+  stop(): void {
+    for (const each of this.running.values()) each.abort();
+  }
+
+  // Null where a newer request of the kind has begun, or the server has refused.
+  private async get<T>(kind: string, path: string, query: unknown): Promise<T | null> {
+    this.running.get(kind)?.abort();
+    const controller = new AbortController();
+    this.running.set(kind, controller);
+    const search = query === null ? "" : `?query=${encodeURIComponent(JSON.stringify(query))}`;
+    try {
+      const response = await fetch(`/campaigns/${this.campaign}/${path}${search}`, { signal: controller.signal });
+      if (response.ok) return (await response.json()) as T;
+      this.onError(await response.text());
+    } catch (error) {
+      if (controller.signal.aborted) return null;
+      this.onError("No answer: perilune show has ended, or its connection is lost.");
+    }
+    return null;
+  }
+}
