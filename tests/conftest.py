@@ -22,6 +22,7 @@ from tests.support.kernels.programs import NO_QEMU
 from tests.support.lengths import LONG, either
 from tests.support.locks import made_once, one_process_at_a_time
 from tests.support.pages.browser import NO_BROWSER, find_browser
+from tests.support.pages.scripts import NO_SCRIPTS
 
 # The same examples in every run, so that main is not red by chance; `make explore` draws new ones.
 hypothesis.settings.register_profile("same", derandomize=True, deadline=None, max_examples=either(100, 25))
@@ -73,14 +74,14 @@ def pytest_collection_finish() -> None:
 def pytest_terminal_summary(terminalreporter: Any) -> None:
     """In the last lines: what was left out for want of a browser or an emulator, and what to do."""
     skipped = [str(report.longrepr) for report in terminalreporter.stats.get("skipped", [])]
-    for reason, tests, missing, target in (
-        (NO_BROWSER, "of the HTML pages", "chromium", "browser"),
-        (NO_QEMU, "of the C on aarch64", "qemu-aarch64", "emulator"),
+    for reason, tests, missing, remedy in (
+        (NO_BROWSER, "of the HTML pages", "chromium", "Install it (Debian: `make browser` as root)"),
+        (NO_QEMU, "of the C on aarch64", "qemu-aarch64", "Install it (Debian: `make emulator` as root)"),
+        (NO_SCRIPTS, "of the scripts of pages", "bundle of them", "Run `make web` where npm can be reached"),
     ):
         if count := sum(reason in each for each in skipped):
             terminalreporter.write_line(
-                f"{count} tests {tests} were left out: there is no {missing} here. "
-                f"Install it (Debian: `make {target}` as root) and run `make test` again."
+                f"{count} tests {tests} were left out: there is no {missing} here. {remedy} and run `make test` again."
             )
 
 

@@ -14,8 +14,8 @@ from markupsafe import Markup
 from ...common.atomic import write_atomically
 from ...common.percent import percent
 from ..interactive.embedded import Embedded
+from ..interactive.relative_paths import with_relative_paths
 from .quantities import MINUS, display_unit, in_shown_unit, number
-from .relative_paths import with_relative_paths
 
 if TYPE_CHECKING:
     from .svg import Drawing  # which imports matplotlib

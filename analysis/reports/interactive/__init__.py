@@ -1,1 +1,1 @@
-"""What the scripts of a page work on: columns of numbers, charts of its figures, bundles and the page's policy."""
+"""What lies inside a page: columns of numbers, charts of its figures, short paths, scripts and their policy."""

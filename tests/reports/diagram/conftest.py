@@ -4,15 +4,14 @@ import pytest
 
 from perilune.analysis.reports.diagram.elk import Engine
 from perilune.analysis.reports.interactive.bundles import read_bundle
+from tests.support.pages.scripts import require_scripts
 
 
 @pytest.fixture(scope="session")
-def layout_bundle() -> str:
+def layout_bundle() -> str | None:
     """The script: `make web`."""
-    script = read_bundle("layout")
-    if script is None:
-        pytest.skip("no layout bundle")
-    return script
+    require_scripts()
+    return read_bundle("layout")
 
 
 @pytest.fixture(scope="module")

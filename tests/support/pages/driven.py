@@ -11,6 +11,8 @@ from selenium.webdriver import Chrome, ChromeOptions
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.support.ui import WebDriverWait
 
+from tests.support.pages.scripts import require_scripts
+
 FLAGS = ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 PHONE = {"width": 390, "height": 844, "pixelRatio": 2.0, "touch": True}
 PATIENCE = 60  # s
@@ -19,6 +21,7 @@ PATIENCE = 60  # s
 @contextmanager
 def driven(browser: str, page: Path | str, *, phone: bool = False, flags: Sequence[str] = ()) -> Iterator[Chrome]:
     """A file or an address once its scripts are ready; at the end nothing above "info" may be in the console."""
+    require_scripts()
     options = ChromeOptions()
     options.binary_location = browser
     for flag in (*FLAGS, "--window-size=1400,1200", *flags):

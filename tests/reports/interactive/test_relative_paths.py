@@ -9,7 +9,7 @@ from decimal import Decimal
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from perilune.analysis.reports.common.relative_paths import relative_path, with_relative_paths
+from perilune.analysis.reports.interactive.relative_paths import relative_path, with_relative_paths
 
 NUMBERS = st.integers(-99999, 99999).map(lambda hundredths: f"{Decimal(hundredths) / 100:.2f}")
 SIZES = {"M": 2, "L": 2, "Q": 4, "C": 6}
