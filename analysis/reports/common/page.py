@@ -14,7 +14,7 @@ from markupsafe import Markup
 from ...common.atomic import write_atomically
 from ...common.percent import percent
 from ..interactive.embedded import Embedded
-from ..interactive.relative_paths import with_relative_paths
+from ..interactive.short_svg import shorten
 from .quantities import MINUS, display_unit, in_shown_unit, number
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def render_page(template: Path, **content: Any) -> str:
 
 def answering(figure: Drawing, embedded: Embedded) -> Markup:
     """A figure whose values the page's script shows at the cursor."""
-    svg = Markup(with_relative_paths(figure.svg))
+    svg = Markup(shorten(figure.svg))
     number = embedded.add_figure(figure.charts)
     return svg if number is None else Markup('<svg data-figure="{}" {}').format(number, svg.removeprefix("<svg "))
 

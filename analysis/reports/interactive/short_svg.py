@@ -1,28 +1,41 @@
-"""The paths of SVG in half the letters: relative coordinates, in whole hundredths, so that no rounding adds up."""
+"""Figures in a page in fewer letters: paths are relative, names and blanks that nothing refers to are left out."""
 
 from __future__ import annotations
 
 import re
 
-PATH = re.compile(r'(<path (?:[^>]* )?d=")([MLQCZ \d.\n-]+)(?=")')
-TOKEN = re.compile(r"([MLQCZ])|(-?)(\d+)(?:\.(\d\d?)\d*)?")
+PATH = re.compile(r'(<path (?:[^>]* )?d=")([MLQCZz \d.\n-]+)(?=")')
+NAME = re.compile(r'(<(?:g|path|use)) id="([^"]*)"')
+REFERENCE = re.compile(r'(?:href="|url\()#([^")]*)')
+BLANKS = re.compile(r">\s+<")
+UNTURNED = re.compile(r' transform="rotate\(-?0 [^)"]*\)"')
+STYLE = re.compile(r'(?<= style=")[^"]*')
+TOKEN = re.compile(r"([MLQCZz])|(-?)(\d+)(?:\.(\d\d?)\d*)?")
 POINTS = {"M": 1, "L": 1, "Q": 2, "C": 3, "Z": 0}  # of a command
 
 
-def with_relative_paths(svg: str) -> str:
-    """An <svg> element whose paths of absolute coordinates are relative; others and all else unchanged."""
-    return PATH.sub(lambda match: match[1] + relative_path(match[2]), svg)
+def shorten(svg: str) -> str:
+    """An <svg> element that looks the same, without names that it does not refer to itself."""
+    referred = set(REFERENCE.findall(svg))
+    named = NAME.sub(lambda match: match[0] if match[2] in referred else match[1], svg)
+    styled = STYLE.sub(
+        lambda match: match[0].replace("; ", ";").replace(": ", ":"), BLANKS.sub("><", UNTURNED.sub("", named))
+    )
+    return PATH.sub(lambda match: match[1] + relative_path(match[2]), styled)
 
 
 def relative_path(path: str) -> str:
-    """A path of the absolute commands M, L, Q, C and Z as relative ones; decimals beyond two are cut off."""
+    """A path of the absolute commands M, L, Q, C and Z as relative ones, decimals beyond two cut off.
+
+    Coordinates are whole hundredths, so no rounding adds up.
+    """
     written = ""
     command, previous = "", ""
     numbers: list[int] = []
     at = start = (0, 0)
     for letter, sign, whole, decimals in TOKEN.findall(path):
         if letter:
-            command = letter
+            command = letter.upper()
         else:
             size = 100 * int(whole) + int(decimals.ljust(2, "0"))
             numbers.append(-size if sign else size)

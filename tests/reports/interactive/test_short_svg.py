@@ -9,7 +9,7 @@ from decimal import Decimal
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from perilune.analysis.reports.interactive.relative_paths import relative_path, with_relative_paths
+from perilune.analysis.reports.interactive.short_svg import relative_path, shorten
 
 NUMBERS = st.integers(-99999, 99999).map(lambda hundredths: f"{Decimal(hundredths) / 100:.2f}")
 SIZES = {"M": 2, "L": 2, "Q": 4, "C": 6}
@@ -21,7 +21,7 @@ def absolute(path):
     for token in path.split():
         if token.isalpha():
             letter = token
-            if letter == "Z":
+            if letter in "Zz":
                 commands.append(("Z", ()))
             continue
         numbers.append(int(Decimal(token) * 100))
@@ -55,7 +55,7 @@ def followed(path):
 @st.composite
 def paths(draw):
     text = ""
-    for letter in ["M", *draw(st.lists(st.sampled_from("MLLLQCZ"), max_size=20))]:
+    for letter in ["M", *draw(st.lists(st.sampled_from("MLLLQCZz"), max_size=20))]:
         text += f"{letter} " + " ".join(draw(NUMBERS) for _ in range(SIZES.get(letter, 0))) + " "
     return text
 
@@ -67,8 +67,15 @@ def test_the_same_points(path):
     assert followed(short) == absolute(path)
 
 
+def test_names_that_nothing_refers_to_are_left_out():
+    svg = (
+        '<g id="a">\n  <path id="b" d="M 1 2"/>\n <use xlink:href="#b"/></g><text transform="rotate(-0 1 2)"> x </text>'
+    )
+    assert shorten(svg) == '<g><path id="b" d="m1 2"/><use xlink:href="#b"/></g><text> x </text>'
+
+
 def test_only_paths_of_absolute_commands_are_changed():
-    svg = '<svg><path d="M 1 2 \nL 3.005 4 "/><path d="M 1e-5 2"/><path id="d" d="m 1 2"/><text> d="M 1 2"</text></svg>'
-    assert with_relative_paths(svg) == (
-        '<svg><path d="m1 2l2 2"/><path d="M 1e-5 2"/><path id="d" d="m 1 2"/><text> d="M 1 2"</text></svg>'
+    svg = '<svg><path d="M 1 2 \nL 3.005 4 "/><path d="M 1e-5 2"/><path d="m 1 2"/><text> d="M 1 2"</text></svg>'
+    assert shorten(svg) == (
+        '<svg><path d="m1 2l2 2"/><path d="M 1e-5 2"/><path d="m 1 2"/><text> d="M 1 2"</text></svg>'
     )
