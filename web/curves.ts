@@ -1,6 +1,7 @@
 // Figures of a page that answer: one cursor over all that share an abscissa, zoom, values.
 
 import { SharedAxis } from "./curves/axis";
+import { Diagram } from "./curves/diagram";
 import { Figure } from "./curves/figure";
 import { listenToLegends } from "./curves/legend";
 import type { Plot } from "./curves/plot";
@@ -46,6 +47,11 @@ class Curves {
     await Promise.all(visible.map((picture) => this.figures.get(picture)));
   }
 
+  attachDiagrams(): void {
+    const time = this.share({ label: TIME, ends: [0, 0] });
+    for (const picture of document.querySelectorAll<SVGElement>("svg.diagram")) new Diagram(picture, this.page, time);
+  }
+
   private async attach(picture: SVGElement): Promise<Figure | null> {
     const time = () => this.share({ label: TIME, ends: [0, 0] });
     const figure = await Figure.load(picture, this.page, (axis) => this.share(axis), time);
@@ -85,7 +91,9 @@ class Curves {
 async function start(): Promise<void> {
   const page = readPage();
   if (!page?.figures.length) return;
-  await new Curves(page, await Trials.load(page)).attachVisible();
+  const curves = new Curves(page, await Trials.load(page));
+  await curves.attachVisible();
+  curves.attachDiagrams();
   await new Promise(requestAnimationFrame); // in which the figures learn their sizes
   await new Promise(requestAnimationFrame);
   document.documentElement.dataset.ready = "curves";

@@ -221,7 +221,7 @@ function axisOptions(axis: Axis, size: number, space: number, labelled = true): 
 }
 
 function labelNumbers(_: uPlot, splits: (number | null)[]): string[] {
-  return splits.map((at) => (at === null ? "" : format(at, 8)));
+  return splits.map((at) => (at === null ? "" : format(at, Math.abs(at) < 1e6 ? 8 : 6)));
 }
 
 function selectDecades(_: uPlot, splits: (number | null)[]): (number | null)[] {

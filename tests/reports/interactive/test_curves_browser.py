@@ -13,6 +13,7 @@ import pytest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import WebDriverWait
 
 from perilune.analysis.cli import main
 from perilune.analysis.reports.common.quantities import display_factor, display_unit, number
@@ -40,6 +41,9 @@ for (const key of keys) {
 }
 return rows;
 """
+
+AT = "document.dispatchEvent(new CustomEvent('perilune-time', {detail: {time: arguments[0], from: 'test'}}))"
+POINT = "document.querySelector(arguments[0]).dispatchEvent(new PointerEvent('pointermove', {clientX: 9, clientY: 9}))"
 
 
 @pytest.fixture(scope="module")
@@ -98,6 +102,21 @@ def test_the_last_rows_of_a_landing(browser, flight):
         plot.send_keys("0")
         ActionChains(driver).send_keys(Keys.HOME, Keys.ARROW_RIGHT).perform()
         assert driver.find_element(By.CSS_SELECTOR, ".explore output").text == "time 0.1 s"
+
+
+def test_a_block_shows_its_signals(browser, flight):
+    table = parquet.read_table(flight / "flight.parquet")
+    row = int(np.searchsorted(table["time"].to_numpy(), 3900.0 - 1e-6))
+    with driven(browser, flight / "page.html") as driver:
+        driver.execute_script(AT, float(table["time"][row].as_py()))
+        block = "g.block[data-block=plant]"
+        driver.execute_script(POINT, block)
+        card = next(each for each in driver.find_elements(By.CSS_SELECTOR, ".card") if each.is_displayed())
+        WebDriverWait(driver, 10).until(lambda _: "plant.position[3]" in card.text)
+        for index, expected in enumerate(values_of(table, "plant.position", row)[0], 1):
+            assert f"plant.position[{index}]\n{expected} m" in card.text
+        driver.execute_script(f"document.querySelector('{block}').dispatchEvent(new MouseEvent('click'))")
+        assert "plant." in driver.switch_to.active_element.get_attribute("aria-label")
 
 
 def test_touch_and_buttons_reach_a_row(browser, flight):
