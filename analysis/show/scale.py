@@ -65,7 +65,8 @@ def make_scale(numbers: np.ndarray) -> Scale | None:
     sizes = np.abs(finite[:: max(1, finite.size // SAMPLED)])
     sizes = sizes[sizes != 0.0]
     greatest = max(abs(low), abs(high))
-    small = float(np.quantile(sizes, SMALL)) if sizes.size else greatest
+    rank = int(SMALL * sizes.size)
+    small = float(np.partition(sizes, rank)[rank]) if sizes.size else greatest
     if greatest > DECADES * small or not math.isfinite(2.0 * (high - low)):
         return Scale(low, high, max(small, TINIEST * greatest))
     return Scale(low, high)

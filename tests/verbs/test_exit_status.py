@@ -96,6 +96,7 @@ ELSEWHERE = {
     "design search": "0 and 1: test_synthesize.py",
     "benchmark": "0: tests/benchmark",
     "docs": "0: test_docs.py",
+    "show": "0: tests/show/test_process.py",
     "design bound": "0 and 1: test_plan.py",
 }
 

@@ -66,7 +66,8 @@ def _coarse(column: np.ndarray) -> dict[str, Any]:
 def _knee(finite: np.ndarray) -> float:
     """Below which a range is linear; 0 where it is linear throughout."""
     sizes = np.abs(finite[finite != 0.0])
-    small = float(np.quantile(sizes, SMALL)) if sizes.size else 0.0
+    rank = int(SMALL * sizes.size)
+    small = float(np.partition(sizes, rank)[rank]) if sizes.size else 0.0
     return small if sizes.size and sizes.max() > DECADES * small else 0.0
 
 

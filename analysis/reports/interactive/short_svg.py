@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 PATH = re.compile(r'(<path (?:[^>]* )?d=")([MLQCZz \d.\n-]+)(?=")')
-NAME = re.compile(r'(<(?:g|path|use)) id="([^"]*)"')
+NAME = re.compile(r'(<(?:g|path|use)) id="([^"]*_\d+)"')  # of matplotlib's own making
 REFERENCE = re.compile(r'(?:href="|url\()#([^")]*)')
 BLANKS = re.compile(r">\s+<")
 UNTURNED = re.compile(r' transform="rotate\(-?0 [^)"]*\)"')

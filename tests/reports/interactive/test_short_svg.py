@@ -3,13 +3,13 @@
 Truth: matplotlib's points; a browser's arithmetic of relative commands, done here with decimal numbers.
 """
 
-import re
 from decimal import Decimal
 
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from perilune.analysis.reports.interactive.short_svg import relative_path, shorten
+from tests.support.pages.checks import read_path
 
 NUMBERS = st.integers(-99999, 99999).map(lambda hundredths: f"{Decimal(hundredths) / 100:.2f}")
 SIZES = {"M": 2, "L": 2, "Q": 4, "C": 6}
@@ -31,27 +31,6 @@ def absolute(path):
     return commands
 
 
-def followed(path):
-    """The same of a relative path, as the grammar of SVG reads it."""
-    commands, letter, numbers, at, start = [], "", [], [0, 0], [0, 0]
-    for token in re.findall(r"[a-z]|-?(?:\d+(?:\.\d+)?|\.\d+)", path):
-        if token.isalpha():
-            letter = token
-            if letter == "z":
-                commands.append(("Z", ()))
-                at = list(start)
-            continue
-        numbers.append(int(Decimal(token) * 100))
-        if len(numbers) == SIZES[letter.upper()]:
-            points = [number + at[axis % 2] for axis, number in enumerate(numbers)]
-            commands.append((letter.upper(), tuple(points)))
-            at = points[-2:]
-            if letter == "m":
-                start, letter = list(at), "l"
-            numbers = []
-    return commands
-
-
 @st.composite
 def paths(draw):
     text = ""
@@ -64,14 +43,12 @@ def paths(draw):
 @example("M 0.00 0.00 L 0.05 -0.05 L 0.10 0.10 Z L 1.00 1.00 ")
 def test_the_same_points(path):
     short = relative_path(path)
-    assert followed(short) == absolute(path)
+    assert read_path(short) == absolute(path)
 
 
 def test_names_that_nothing_refers_to_are_left_out():
-    svg = (
-        '<g id="a">\n  <path id="b" d="M 1 2"/>\n <use xlink:href="#b"/></g><text transform="rotate(-0 1 2)"> x </text>'
-    )
-    assert shorten(svg) == '<g><path id="b" d="m1 2"/><use xlink:href="#b"/></g><text> x </text>'
+    svg = '<g id="a_1">\n<path id="b" d="M 1 2"/>\n <use xlink:href="#b"/></g><text transform="rotate(-0 1 2)">x</text>'
+    assert shorten(svg) == '<g><path id="b" d="m1 2"/><use xlink:href="#b"/></g><text>x</text>'
 
 
 def test_only_paths_of_absolute_commands_are_changed():

@@ -3,13 +3,11 @@
 Truth: the shares of the variance of a sum of independent draws; lengths measured in the page's own SVG.
 """
 
-import re
-
 import numpy as np
 import pytest
 
 from perilune.analysis.reports.studies.sensitivity_page import bars_of
-from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+from tests.support.pages.checks import assert_self_contained, data_values, parse, read_path, text_of
 from tests.support.pages.studies import SHARES
 
 
@@ -52,7 +50,7 @@ def test_bars_are_as_long_as_the_indices(sensitivity_result, page):
     for order in ("total", "first"):
         for index, bar in enumerate(bars):
             (path,) = root.xpath(f"//*[@id='indices-0-{order}-{index}']//*[local-name()='path']/@d")
-            x = [float(value) for value in re.findall(r"[ML] (-?[\d.]+) ", path)]
+            x = [points[0] for _, points in read_path(path) if points]
             lengths.append(max(x) - min(x))
             indices.append(abs(getattr(bar, order)))
     np.testing.assert_allclose(np.array(lengths) / lengths[0], np.array(indices) / indices[0], atol=2e-3)

@@ -4,9 +4,11 @@ import base64
 import hashlib
 import json
 import re
+from decimal import Decimal
 
 from lxml import html
 
+PATH_SIZES = {"M": 2, "L": 2, "Q": 4, "C": 6}
 FETCHING = ("src", "srcset", "href", "{http://www.w3.org/1999/xlink}href", "xlink:href", "poster", "action")
 
 
@@ -68,3 +70,24 @@ def text_of(text):
     for script in root.xpath("//script"):
         script.drop_tree()
     return " ".join(root.text_content().split())
+
+
+def read_path(path):
+    """Commands with their points (hundredths) of a relative path, as the grammar of SVG reads it."""
+    commands, letter, numbers, at, start = [], "", [], [0, 0], [0, 0]
+    for token in re.findall(r"[a-z]|-?(?:\d+(?:\.\d+)?|\.\d+)", path):
+        if token.isalpha():
+            letter = token
+            if letter == "z":
+                commands.append(("Z", ()))
+                at = list(start)
+            continue
+        numbers.append(int(Decimal(token) * 100))
+        if len(numbers) == PATH_SIZES[letter.upper()]:
+            points = [number + at[axis % 2] for axis, number in enumerate(numbers)]
+            commands.append((letter.upper(), tuple(points)))
+            at = points[-2:]
+            if letter == "m":
+                start, letter = list(at), "l"
+            numbers = []
+    return commands

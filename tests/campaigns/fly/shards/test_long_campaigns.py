@@ -70,7 +70,8 @@ def counted(tmp_path_factory):
     return path
 
 
-REPLAYS = r"<p class=.note.>.*--output.*</p>|<code>perilune [^<]*"  # from the folder, where there is one
+# From the folder, where there is one.
+REPLAYS = r"<p class=.note.>.*--output.*</p>|<code>perilune [^<]*|\"command\":\[[^]]*\]"
 
 
 def test_a_result_in_a_folder_is_the_one_in_memory(tmp_path):
@@ -172,6 +173,7 @@ class Made:
             source = np.random.default_rng(first)
             miss, case = source.standard_normal(5000), source.integers(0, 3, 5000).astype(float)
             columns = {"metric.miss": miss, "draw.case": case, "success": miss < 2.5}
+            columns["trial"] = np.arange(first, first + 5000)
             columns["status"] = np.array(["finished", "stop_time"], dtype=object)[(miss > 3.0).astype(int)]
             yield {name: columns[name] for name in names}
 
