@@ -18,14 +18,12 @@ interface EncodedVariant {
   statuses: string[];
   status: number;
   columns: number[];
-  exact: Record<string, (number | string)[]>; // by row
-  omitted: number;
+  exact: Record<string, (number | string)[]>; // by row; a text where a number is not finite
 }
 
 interface Document {
   quantities: Quantity[];
   variants: EncodedVariant[];
-  exact: number; // failures of a variant whose numbers are
 }
 
 export interface Entry {

@@ -9,7 +9,7 @@ from ...campaigns.fly.results import BatchResult
 from ...campaigns.lost_trials import lost_of
 from ..common.page import write_page
 from .distributions import distribution_panels, legend_of, rates_figure, sort_metrics
-from .embedded_trials import trials_document
+from .embedded_trials import trials_document, trials_notes
 from .scatters import failure_panels, influence_on_success, scatter_figures
 from .tables import (
     HEADINGS,
@@ -60,5 +60,6 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         input_names=input_names(campaign),
         draws=draw_rows(campaign),
         trials=trials_document(result),
+        trials_notes=trials_notes(result),
         hash_rows=[system, *fmu_rows(result.provenance["fmus"])],
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -10,54 +11,74 @@ import numpy as np
 from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.replay_command import replay_command, replay_of_folder
-from ..common.quantities import display_factor, display_unit
+from ..common.quantities import display_factor, display_unit, number
 from ..interactive.columns import Coarse
 
 NUMBER_LIMIT = 2_500_000  # in all, of draws and metrics
 EXACT_LIMIT = 200  # failures of a variant whose numbers are exact
-MARK = 987_654_321  # a trial's number that no other text of a command has
 
 
-def trials_document(result: BatchResult) -> dict[str, Any]:
+def trials_document(batch: BatchResult) -> dict[str, Any]:
     """All that the page's script needs: quantities with their units, and the trials of each variant.
 
     Draws and metrics are in 16 bits over the range of their column; of the first failures, and of the trials with the
     least and the greatest value of a metric, they are exact. Beyond `NUMBER_LIMIT` the last trials are left out.
     """
-    campaign = result.plan.campaign
-    units = {f"metric.{metric.name}": metric.unit for metric in campaign.metrics}
-    names = [*units, *(f"draw.{name}" for name in input_names(campaign))]
-    limit = NUMBER_LIMIT // max(1, len(names) * len(result.rows))
+    units = {f"metric.{metric.name}": metric.unit for metric in batch.plan.campaign.metrics}
+    names = _column_names(batch)
+    limit = _row_limit(batch)
     return {
         "quantities": [
             {"name": name, "unit": display_unit(units.get(name)), "factor": display_factor(units.get(name))}
             for name in names
         ],
-        "variants": [_variant(result, variant, names, limit) for variant in result.rows],
-        "exact": EXACT_LIMIT,
+        "variants": [_variant(batch, variant, names, limit) for variant in batch.rows],
     }
 
 
-def _variant(result: BatchResult, variant: str, names: list[str], limit: int) -> dict[str, Any]:
-    plotted = result.shown[variant]
+def trials_notes(batch: BatchResult) -> list[str]:
+    """What a page says of the numbers at its marks."""
+    notes = [
+        "A mark, or a point of a distribution, names its trial; a click pins it with its replay command, a drag "
+        f"selects trials in all figures. Numbers of the first {EXACT_LIMIT} failures of each variant and of trials "
+        'with an extreme metric are exact; others are rounded, which "about" states.'
+    ]
+    for variant, plotted in batch.shown.items():
+        rows = min(_row_limit(batch), len(plotted.numbers))
+        if rows < plotted.trials:
+            notes.append(f"{variant}: {number(rows)} of {number(plotted.trials)} trials can be selected.")
+    return notes
+
+
+def _column_names(batch: BatchResult) -> list[str]:
+    campaign = batch.plan.campaign
+    metrics = (f"metric.{metric.name}" for metric in campaign.metrics)
+    return [*metrics, *(f"draw.{name}" for name in input_names(campaign))]
+
+
+def _row_limit(batch: BatchResult) -> int:
+    """The number of trials of a variant that a page has at most."""
+    return NUMBER_LIMIT // max(1, len(_column_names(batch)) * len(batch.rows))
+
+
+def _variant(batch: BatchResult, variant: str, names: list[str], limit: int) -> dict[str, Any]:
+    plotted = batch.shown[variant]
     dots = plotted.dots
     rows = slice(0, limit)
     columns = [dots.column(name)[rows] for name in names]
     statuses = sorted(set(dots.statuses[rows]))
-    before, after = _command(result, variant).split(str(MARK))
     return {
         "name": variant,
-        "command": [before, after],
+        "command": _command_around(batch, variant),
         "trial": np.asarray(plotted.numbers[rows], dtype=float),
         "success": dots.success[rows].astype(float),
         "statuses": statuses,
         "status": np.array([statuses.index(each) for each in dots.statuses[rows]], dtype=float),
         "columns": [Coarse(column) for column in columns],
         "exact": {
-            str(row): [float(column[row]) if np.isfinite(column[row]) else str(column[row]) for column in columns]
-            for row in _exact_rows(dots.success, columns[: len(result.plan.campaign.metrics)], limit)
+            str(row): [float(column[row]) if np.isfinite(column[row]) else number(column[row]) for column in columns]
+            for row in _exact_rows(dots.success, columns[: len(batch.plan.campaign.metrics)], limit)
         },
-        "omitted": plotted.trials - len(columns[0]) if columns else 0,
     }
 
 
@@ -71,8 +92,15 @@ def _exact_rows(success: np.ndarray, metrics: Iterable[np.ndarray], limit: int) 
     return sorted(rows)
 
 
-def _command(result: BatchResult, variant: str) -> str:
-    if result.folder is not None:
-        return replay_of_folder(result.folder, result.rows, variant, MARK)
-    (named,) = [each for each in result.plan.campaign.variants() if each.name == variant]
-    return replay_command(result.plan, named, MARK)
+def _command_around(batch: BatchResult, variant: str) -> list[str]:
+    """The replay command before and after the number of a trial."""
+    any_command = _command(batch, variant, 0)
+    mark = next(number for number in count(10**9) if str(number) not in any_command)
+    return _command(batch, variant, mark).split(str(mark))
+
+
+def _command(batch: BatchResult, variant: str, trial: int) -> str:
+    if batch.folder is not None:
+        return replay_of_folder(batch.folder, batch.rows, variant, trial)
+    (named,) = [each for each in batch.plan.campaign.variants() if each.name == variant]
+    return replay_command(batch.plan, named, trial)

@@ -35,7 +35,7 @@ def plot_outcomes(
     """Successes as dots and failures as crosses, with their numbers in a legend; marks shrink as points grow many.
 
     ``points`` are abscissas and ordinates of the trials of a ``variant``, ``names`` the columns that they are from.
-    """  # fmt: skip
+    """
     size = max(minimum_size, min(1.0, (500.0 / success.size) ** 0.5))
     for outcome, marker, diameter, edge, colour, text in (
         (True, "o", 3.2, 0.0, SUCCESS, "successes"), (False, "x", 4.5, 1.3, VERMILION, "failures")

@@ -11,13 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.typing import CapStyleType, LineStyleType
 
-from .colours import BLUE as BLUE
-from .colours import COLOURS, FAINT, GRID, INK
-from .colours import GREEN as GREEN
-from .colours import ORANGE as ORANGE
-from .colours import PURPLE as PURPLE
-from .colours import SKY as SKY
-from .colours import VERMILION as VERMILION
+from .colours import BLUE, COLOURS, FAINT, GREEN, GRID, INK, ORANGE, PURPLE, SKY, VERMILION  # noqa: F401
 from .quantities import log_tick, tick
 from .svg import Picture
 

@@ -56,7 +56,7 @@ def band_section(band: Band, result: Result, name: str) -> Section:
     zoom = None if low is None or high is None else _zoom_limits(values, low, high)
 
     def draw(axes: Axes, limits: tuple[float, float] | None = None) -> None:
-        for index, (element, line) in enumerate(zip(band.signal.names, band.values(result), strict=True)):
+        for index, (element, line) in enumerate(zip(band.line_names, band.values(result), strict=True)):
             plot_quantity(axes, time, line, element, band.signal.unit_name, index)
         _shade(axes, low, high)
         for begin, end in _spans(band, result):
@@ -102,7 +102,7 @@ def _against(band: Band, result: Result, other: Signal, name: str, limits: tuple
     unit = display_unit(other.unit_name)
 
     def draw(axes: Axes) -> None:
-        for index, (element, line) in enumerate(zip(band.signal.names, band.values(result), strict=True)):
+        for index, (element, line) in enumerate(zip(band.line_names, band.values(result), strict=True)):
             plot_quantity(axes, across, line, element, band.signal.unit_name, index, time=result.time)
         _shade(axes, *limits)
         if decades:

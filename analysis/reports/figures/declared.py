@@ -123,6 +123,13 @@ class Band(Figure):
         values = self.signal.values(flight)
         return values if self.less is None else values - self.less.values(flight)
 
+    @property
+    def line_names(self) -> tuple[str, ...]:
+        """The names of the elements of what is plotted: those of the signal unless something was subtracted from it."""
+        if self.less is None and not any(self.signal.offsets):
+            return self.signal.names
+        return tuple(f"{self.title} {label}".rstrip() for label in self.labels)
+
     def plot_values(self, flight: Flight) -> np.ndarray:
         """The same values to be plotted: angles in deg, nan where not finite."""
         values = self.values(flight)

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
@@ -24,8 +23,6 @@ from matplotlib.ticker import FixedFormatter
 from .columns import Coarse
 from .envelope import envelope
 from .lines import QuantityLine, TrialDots
-
-VISIBLE = 1e-3  # opacity
 
 
 @dataclass(frozen=True)
@@ -253,13 +250,9 @@ def _note(axes: Axes, text: Text) -> Note:
     return Note(
         text=text.get_text(),
         at=(float(at[0]), float(at[1])),
-        of_axes=not is_annotation and _transform(text) is axes.transAxes,
+        of_axes=not is_annotation and text.get_transform() is axes.transAxes,
         offset=(float(offset[0]), float(offset[1])),
         align=(text.get_horizontalalignment(), text.get_verticalalignment()),
         colour=to_hex(text.get_color()),
         bold=text.get_fontweight() in ("bold", 700),
     )
-
-
-def _transform(artist: Artist) -> Any:
-    return artist.get_transform()

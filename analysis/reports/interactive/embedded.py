@@ -27,10 +27,6 @@ class Embedded:
         self._bundles: dict[str, str] = {}
         self._requests = False
 
-    def add(self, numbers: np.ndarray, *, coarse: bool = False) -> int:
-        """The index of a column of these numbers in float32; ``coarse``: in 16 bits over their range."""
-        return self._columns.add(numbers, coarse=coarse)
-
     def add_figure(self, charts: Sequence[Chart | None]) -> int | None:
         """The number of a figure, by which its element names it; None where it has no chart, or scripts are missing."""
         if not any(charts) or not self.use("curves"):
@@ -73,9 +69,9 @@ class Embedded:
     def _plain(self, node: Any) -> Any:
         """As JSON: arrays are numbers of columns, what is None or empty is left out of objects."""
         if isinstance(node, np.ndarray):
-            return self.add(node)
+            return self._columns.add(node)
         if isinstance(node, Coarse):
-            return self.add(node.numbers, coarse=True)
+            return self._columns.add(node.numbers, coarse=True)
         if is_dataclass(node):
             entries = {each.name: getattr(node, each.name) for each in fields(node)}
             return self._plain({name: entry for name, entry in entries.items() if not _is_empty(entry)})

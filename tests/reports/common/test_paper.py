@@ -46,6 +46,7 @@ def test_a_stability_study_is_short(browser, tmp_path, studies, times, full):
         sheets = printed(browser, page, tmp_path, paper)
         assert 1 < len(sheets.pages) <= MOST_OF_A_STUDY
         words = words_of(sheets)
+        assert "drag to zoom" not in words  # the toolbar of the screen
         assert ("On paper, of each loop: Bode, Nichols;" in words) != full
         assert words.count("Classical") == len(loops)  # a table of each
         assert (words.count("Controllable from the break point".lower()) == len(loops)) == full
