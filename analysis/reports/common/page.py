@@ -53,6 +53,7 @@ def render_page(template: Path, **content: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
+        extensions=["jinja2.ext.do"],
     )
     embedded = Embedded()
     environment.filters |= {
