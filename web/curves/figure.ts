@@ -8,11 +8,13 @@ import { type Place, Plot } from "./plot";
 const GAP = 18; // px above axes, for a title
 const LABELS = 44; // px at least, left of axes
 const TICKS = 24; // px below axes, and for a label as much again
+const MARGIN = { rootMargin: "400px 0px" }; // around the screen, within which figures get their canvases
 
 export class Figure {
   readonly frame = document.createElement("div");
   readonly values = document.createElement("output");
   private size = { width: 0, height: 0 }; // px; 0 while it is folded away
+  private isNear = false; // to the screen, now or before: canvases of all figures at once would stop the page
 
   private constructor(
     readonly picture: SVGElement,
@@ -23,7 +25,10 @@ export class Figure {
     picture.before(this.frame);
     this.frame.append(picture, ...plots.map((plot) => plot.root), this.values);
     // Calls once when it begins to observe, for all new figures together after the page was laid out.
-    new ResizeObserver(([entry]) => this.place(entry!.contentRect)).observe(this.frame);
+    new ResizeObserver(([entry]) => this.resize(entry!.contentRect)).observe(this.frame);
+    const observer = new IntersectionObserver((entries) => entries.some((entry) => entry.isIntersecting) && this.approach(), MARGIN);
+    observer.observe(this.frame);
+    this.frame.addEventListener("focusin", () => this.approach());
     for (const plot of plots) plot.time.follow([Infinity, -Infinity], () => this.showValues(), () => undefined);
   }
 
@@ -38,9 +43,20 @@ export class Figure {
     return new Figure(picture, charts, plots);
   }
 
-  private place({ width, height }: { width: number; height: number }): void {
+  private resize({ width, height }: { width: number; height: number }): void {
     if (width === this.size.width && height === this.size.height) return;
     this.size = { width, height };
+    if (this.isNear) this.draw();
+  }
+
+  private approach(): void {
+    if (this.isNear) return;
+    this.isNear = true;
+    this.draw();
+  }
+
+  private draw(): void {
+    const { width, height } = this.size;
     if (!width || !height) return;
     this.plots.forEach((plot, index) => plot.place(placeOf(this.charts, index, width, height)));
   }

@@ -26,7 +26,9 @@ export function uncertainty({ low, high, knee }: Encoded, number: number): numbe
 }
 
 async function inflate(text: string): Promise<Uint8Array> {
-  const packed = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  const characters = atob(text);
+  const packed = new Uint8Array(characters.length);
+  for (let index = 0; index < packed.length; index++) packed[index] = characters.charCodeAt(index);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }

@@ -19,7 +19,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.reports.common.quantities import display_factor, display_unit, number
 from perilune.analysis.runtime.ssp.names import elements
 from tests.support.locks import made_once
-from tests.support.pages.driven import driven
+from tests.support.pages.driven import driven, scroll_to_plot
 
 pytestmark = pytest.mark.usefixtures("fmus")
 
@@ -60,8 +60,8 @@ def flight(tmp_path_factory):
 def panel_of(driver, label):
     """The area of the plot of a signal over time, scrolled to."""
     frame = driver.find_element(By.XPATH, f"//*[@aria-label='{label} over time']/..")
-    driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", frame)
-    return frame.find_element(By.CSS_SELECTOR, ".chart"), frame.find_element(By.CSS_SELECTOR, ".u-over")
+    area = scroll_to_plot(driver, frame)
+    return frame.find_element(By.CSS_SELECTOR, ".chart"), area
 
 
 def drag(driver, area, begin, end):

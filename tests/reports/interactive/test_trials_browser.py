@@ -18,7 +18,7 @@ from selenium.webdriver.support.ui import WebDriverWait
 from perilune.analysis.cli import main
 from perilune.analysis.reports.common.quantities import number
 from tests.support.locks import made_once
-from tests.support.pages.driven import driven
+from tests.support.pages.driven import driven, scroll_to_plot
 
 pytestmark = pytest.mark.usefixtures("fmus")
 
@@ -51,8 +51,7 @@ def batch(tmp_path_factory):
 
 def frame_of(driver, label):
     frame = driver.find_element(By.XPATH, f"//*[starts-with(@aria-label, '{label}')]/..")
-    driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", frame)
-    return frame
+    return frame, scroll_to_plot(driver, frame)
 
 
 def entries(card):
@@ -64,7 +63,7 @@ def test_from_a_failure_to_its_flight(browser, batch, capsys):
     table = parquet.read_table(batch / "out" / "trials").to_pylist()
     trials = {row["trial"]: row for row in table if row["variant"] == VARIANT}
     with driven(browser, batch / "page.html") as driver:
-        frame = frame_of(driver, f"Failures of {VARIANT} over heading_error")
+        frame, _ = frame_of(driver, f"Failures of {VARIANT} over heading_error")
         frame.find_element(By.CSS_SELECTOR, ".chart").send_keys(Keys.ARROW_RIGHT)  # the leftmost mark: a failure
         hovered = entries(driver.find_element(By.CSS_SELECTOR, ".card:not(.pinned)"))
         trial, variant = re.fullmatch(r"(\d+) of (\w+)", hovered["trial"]).groups()
@@ -90,8 +89,7 @@ def test_from_a_failure_to_its_flight(browser, batch, capsys):
 
 def test_a_brush_chooses_trials_in_all_figures(browser, batch):
     with driven(browser, batch / "page.html") as driver:
-        frame = frame_of(driver, f"Failures of {VARIANT} over heading_error")
-        area = frame.find_element(By.CSS_SELECTOR, ".u-over")
+        frame, area = frame_of(driver, f"Failures of {VARIANT} over heading_error")
         before = driver.execute_script(STRONG, frame)
         assert before > 100
         width, height = area.size["width"], area.size["height"]
@@ -107,7 +105,7 @@ def test_a_brush_chooses_trials_in_all_figures(browser, batch):
 def test_a_distribution_names_its_trials(browser, batch):
     table = parquet.read_table(batch / "out" / "trials").to_pylist()
     with driven(browser, batch / "page.html") as driver:
-        area = frame_of(driver, "Cumulative distribution of flight_time").find_element(By.CSS_SELECTOR, ".u-over")
+        _, area = frame_of(driver, "Cumulative distribution of flight_time")
         for step in range(20):  # from top to bottom over the steep lines, until one is near
             height = area.size["height"]
             left = -round(0.34 * area.size["width"])

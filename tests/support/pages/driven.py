@@ -9,6 +9,8 @@ from pathlib import Path
 
 from selenium.webdriver import Chrome, ChromeOptions
 from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+from selenium.webdriver.remote.webelement import WebElement
 from selenium.webdriver.support.ui import WebDriverWait
 
 from tests.support.pages.scripts import require_scripts
@@ -38,6 +40,12 @@ def driven(browser: str, page: Path | str, *, phone: bool = False, flags: Sequen
         assert not messages, messages
     finally:
         driver.quit()
+
+
+def scroll_to_plot(driver: Chrome, frame: WebElement) -> WebElement:
+    """The area of a figure's first plot, which is drawn once the figure is near to the screen."""
+    driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", frame)
+    return WebDriverWait(driver, PATIENCE, 0.05).until(lambda _: frame.find_elements(By.CSS_SELECTOR, ".u-over"))[0]
 
 
 READY = "return document.documentElement.dataset.ready !== undefined"
