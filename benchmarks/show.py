@@ -67,9 +67,12 @@ def main(trials: int) -> None:
         try:
             rows = _measure(driver, process, folder, begin)
         finally:
-            driver.quit()
+            interrupted = time.perf_counter()
             process.send_signal(signal.SIGINT)
             process.wait()
+            ended = time.perf_counter() - interrupted
+            driver.quit()
+        rows.append(["end, s after Ctrl-C with the page open", f"{ended:.2f}", "2"])
     print(f"{trials} trials, 40 metrics, {SHARDS} shards\n\n| | measured | goal |\n| --- | --- | --- |")
     for row in rows:
         print("| " + " | ".join(row) + " |")
@@ -130,8 +133,8 @@ def _by_pyarrow(folder: Path, driver: Any) -> list[int]:
     table = pyarrow.dataset.dataset(folder / "trials").to_table([*(f"metric.m{each}" for each in ranged), "success"])
     field: Callable[[str], pyarrow.compute.Expression] = pyarrow.compute.field
     where = pyarrow.compute.scalar(True)
-    for column, (low, high) in zip(ranged, answer["ranges"], strict=True):
-        where = where & (field(f"metric.m{column}") >= low) & (field(f"metric.m{column}") < high)
+    for column, ends in zip(ranged, answer["ranges"], strict=True):
+        where &= (field(f"metric.m{column}") >= ends["low"]) & (field(f"metric.m{column}") < ends["high"])
     successes = table.filter(where)["success"]
     count = pyarrow.compute.sum(successes).as_py() or 0
     return [count, len(successes) - count]

@@ -3,7 +3,7 @@
 import { WebGLRenderer } from "three";
 import { readPage } from "./page/document";
 import { readScene } from "./scene/document";
-import { make } from "./scene/elements";
+import { make } from "./page/elements";
 import { SHEET } from "./scene/sheet";
 import { View } from "./scene/view";
 

@@ -1,15 +1,16 @@
 // `perilune show`: campaigns whose trials a server counts, explored in the browser.
 
 import { readPage } from "./page/document";
+import { make } from "./page/elements";
 import { CampaignView } from "./show/campaign";
 import type { Document } from "./show/document";
-import { choice, element } from "./show/elements";
+import { choice } from "./show/elements";
 
 function start(): void {
   const content = readPage()?.document.show as Document | undefined;
   const main = document.getElementById("show");
   if (!content || !main) return;
-  const area = element("div");
+  const area = make("div");
   let view: CampaignView | null = null;
   const open = (index: number) => {
     view?.stop();
@@ -19,7 +20,7 @@ function start(): void {
   };
   if (content.campaigns.length > 1) {
     const names = content.campaigns.map(({ system, folder }) => `${system}: ${folder}`);
-    main.append(element("div", { class: "controls" }, choice("Campaign", names, 0, open)));
+    main.append(make("div", { class: "controls" }, choice("Campaign", names, 0, open)));
   }
   main.append(area);
   open(0);

@@ -31,7 +31,7 @@ WORKERS = 2  # requests that are worked on at a time
 
 
 class Service:
-    """Answers about campaigns, worked out in threads of its own, which an end of the server does not wait for."""
+    """Answers about campaigns, worked out in threads of its own; at the server's end reading stops after a shard."""
 
     def __init__(self, campaigns: Sequence[OpenCampaign], page: str) -> None:
         self._page = page
@@ -98,7 +98,7 @@ async def _refuse(_: Request, error: Exception) -> Response:
 
 
 async def _end(_: Request, __: Exception) -> Response:
-    return PlainTextResponse("the server ends", 503)
+    return PlainTextResponse("perilune show is stopping", 503)
 
 
 def make_app(service: Service, authority: str, token: str) -> ASGIApp:

@@ -17,10 +17,12 @@ from ..campaigns.fly.shards.files import (
     IDENTITY,
     NEW_FOLDER,
     NUMBER_PREFIXES,
+    about_of,
     check_names,
     check_rows,
     numbers,
     read_table,
+    trials_in,
 )
 from ..campaigns.folder.columns import Column, describe_column
 from ..campaigns.folder.folder import ResultFolder, Shard, read_folder
@@ -36,7 +38,7 @@ DETAILS = ("status", "success")  # of a trial, in addition to its numbers
 
 
 class StoppedError(Exception):
-    """The server ends; what is read is of no more use."""
+    """The server is stopping: what is read is of no more use."""
 
 
 @dataclass(frozen=True)
@@ -121,11 +123,16 @@ class OpenCampaign:
         """Columns of a shard, its rows checked: as many as there are to be, each variant's in order of trial."""
         table = read_table(shard.path, {*names, *IDENTITY})
         size = len(shard.trials)
+        about = about_of(table.schema)
+        if trials_in(shard.path, about, self.source.batch, "the campaign that was opened") != shard.trials:
+            raise InputError(shard.path, "trials", "changed since the campaign was opened", "run perilune show again")
         if table.num_rows != size * len(self.variants):
             problem = f"{table.num_rows} rows, not {size} of each of {len(self.variants)} variants"
             raise InputError(shard.path, "", problem, NEW_FOLDER)
         for number, variant in enumerate(self.variants):
             check_rows(table.slice(number * size, size), variant, shard.trials, names, shard.path)
+        for name in (each for each in names if each not in DETAILS):
+            numbers(table, name, shard.path)
         return table
 
 
@@ -144,6 +151,6 @@ def open_campaign(folder: Path, is_stopped: Callable[[], bool]) -> OpenCampaign:
     campaign = OpenCampaign(read_folder(folder), is_stopped)
     if campaign.rows > ROW_LIMIT:
         problem = f"{campaign.rows} trials of all variants; {ROW_LIMIT} can be shown"
-        raise InputError(folder, "", problem, "query its files as docs/studies/results.md says")
+        raise InputError(folder, "", problem, "query its parquet files; `perilune docs` says how under Results")
     _ = campaign.quantities
     return campaign

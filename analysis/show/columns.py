@@ -31,7 +31,7 @@ class BinnedColumns:
 
     def __init__(self, campaign: OpenCampaign, memory: float = MEMORY) -> None:
         self.campaign = campaign
-        self._limit = max(1, int(memory // (2 * campaign.rows)))
+        self.limit = max(1, int(memory // (2 * campaign.rows)))  # columns in memory
         self._columns: OrderedDict[str, Binned] = OrderedDict()
         self._lock = Lock()
 
@@ -56,7 +56,7 @@ class BinnedColumns:
             for name in needed:
                 self._columns[name] = columns[name]
                 self._columns.move_to_end(name)
-            while len(self._columns) > self._limit:
+            while len(self._columns) > self.limit:
                 self._columns.popitem(last=False)
             return columns
 

@@ -10,7 +10,7 @@ import numpy as np
 from .columns import Binned, BinnedColumns
 from .dots import DOT_LIMIT, dots_of
 from .query import Query, Range
-from .scale import BARS, BINS, CODES, SHIFT
+from .scale import BARS, BINS, CHUNK, CODES, SHIFT
 
 
 class Counter:
@@ -19,14 +19,13 @@ class Counter:
     def __init__(self, columns: BinnedColumns, names: Sequence[str], query: Query) -> None:
         self.campaign = columns.campaign
         self.query = query
+        self._binned = columns
         self._names = names
-        indices = [
-            *query.histograms,
-            *(index for pair in query.grids for index in pair),
-            *(each.column for each in query.ranges),
-        ]
-        binned = columns.get([names[index] for index in indices])
-        self._columns = {index: binned[names[index]] for index in indices}
+        grids = [index for pair in query.grids for index in pair]
+        needed = [*grids, *(each.column for each in query.ranges)]
+        if len({*needed, *query.histograms}) <= columns.limit:
+            self._get([*needed, *query.histograms])  # what is missing is read in one go
+        self._columns = self._get(needed)
         self._success = columns.success
         self._common = self._of_outcome_and_variants()
         self._within = {(each.column, each.first, each.last): self._in_range(each) for each in query.ranges}
@@ -45,21 +44,39 @@ class Counter:
         return {
             "outcomes": self._outcomes(mask),
             "ranges": [self._ends(each) for each in self.query.ranges],
-            "histograms": [self._histogram(index) for index in self.query.histograms],
+            "histograms": self._histograms(),
             "grids": [self._grid(x, y) for x, y in self.query.grids],
         }
 
     def _outcomes(self, mask: np.ndarray) -> list[list[int]]:
         """Failures and successes of each variant (variants, 2)."""
-        variants = len(self.campaign.variants)
-        codes = self.campaign.variant_numbers[mask].astype(np.intp) * 2 + self._success[mask]
-        return np.bincount(codes, minlength=2 * variants).reshape(variants, 2).tolist()
+        return self._by_variant(mask, self._success, 2)
 
-    def _histogram(self, index: int) -> dict[str, Any]:
-        mask, variants = self.selected(index), len(self.campaign.variants)
-        codes = self.campaign.variant_numbers[mask].astype(np.intp) * CODES + (self._codes(index)[mask] >> SHIFT)
-        counts = np.bincount(codes, minlength=CODES * variants).reshape(variants, CODES)
-        return {"counts": counts.tolist(), "scale": scale_document(self._columns[index])}
+    def _histograms(self) -> list[dict[str, Any]]:
+        """Counts of each variant over the bars, as many columns at a time as memory may have."""
+        histograms, size = [], self._binned.limit
+        for first in range(0, len(self.query.histograms), size):
+            group = self.query.histograms[first : first + size]
+            columns = self._get(group)
+            for index in group:
+                counts = self._by_variant(self.selected(index), columns[index].codes, CODES, SHIFT)
+                histograms.append({"counts": counts, "scale": scale_document(columns[index])})
+        return histograms
+
+    def _by_variant(self, mask: np.ndarray, codes: np.ndarray, kinds: int, shift: int = 0) -> list[list[int]]:
+        """How often each variant has each code, shifted right, in the rows of a mask (variants, kinds)."""
+        variants = len(self.campaign.variants)
+        counts = np.zeros(variants * kinds, dtype=np.intp)
+        for first in range(0, mask.size, CHUNK):  # indices are four times as large as codes
+            chosen = mask[first : first + CHUNK]
+            number = self.campaign.variant_numbers[first : first + CHUNK][chosen].astype(np.intp)
+            code = codes[first : first + CHUNK][chosen].astype(np.intp) >> shift
+            counts += np.bincount(number * kinds + code, minlength=counts.size)
+        return counts.reshape(variants, kinds).tolist()
+
+    def _get(self, indices: Sequence[int]) -> dict[int, Binned]:
+        binned = self._binned.get([self._names[index] for index in indices])
+        return {index: binned[self._names[index]] for index in indices}
 
     def _grid(self, x: int, y: int) -> dict[str, Any]:
         """Counts and failures over two columns (BARS, BARS), rows from the bottom; or the dots of few trials."""
@@ -84,10 +101,17 @@ class Counter:
         codes = self._codes(each.column)
         return (codes >= each.first) & (codes <= each.last)
 
-    def _ends(self, each: Range) -> list[float] | None:
-        """The ends of a range in the column's unit; None of a column without a finite number."""
+    def _ends(self, each: Range) -> dict[str, float] | None:
+        """The ends of a range in SI, ``low`` included, ``high`` not; None of a column without a finite number.
+
+        ``step`` is the width of the narrower one of the bins at the ends.
+        """
         scale = self._columns[each.column].scale
-        return None if scale is None else [float(scale.edges[each.first]), float(scale.edges[each.last + 1])]
+        if scale is None:
+            return None
+        low, high = scale.edges[[each.first, each.last + 1]]
+        step = min(scale.edges[each.first + 1] - low, high - scale.edges[each.last])
+        return {"low": float(low), "high": float(high), "step": float(step)}
 
     def _of_outcome_and_variants(self) -> np.ndarray:
         if self.query.outcome == "all":

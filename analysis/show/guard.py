@@ -1,4 +1,4 @@
-"""Who may ask the server: the browser that has its token, from its own page; nothing is changed by anyone.
+"""Who can connect: the browser that has the server's token, from its own page; all is read-only.
 
 The address that is printed has the token. The first request with it gets a cookie and is sent on to an address without
 it, so that the token is neither in the history nor in what a page tells others about where it was opened.
@@ -7,14 +7,15 @@ it, so that the token is neither in the history nor in what a page tells others 
 from __future__ import annotations
 
 import hmac
-from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qs
 
 from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import cookie_parser
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 METHODS = ("GET", "HEAD")
+LONGEST_PATH = 100  # characters; numbers of more digits are none
 HEADERS = {  # of every answer
     "cache-control": "no-store",
     "cross-origin-opener-policy": "same-origin",
@@ -51,9 +52,11 @@ class Guard:
         """What is answered instead of the application; None where it may answer."""
         headers = Headers(scope=scope)
         if headers.getlist("host") != [self.authority]:
-            return PlainTextResponse("another host", 421)
+            return PlainTextResponse(f"only http://{self.authority}/ is answered, no other name of this machine", 421)
         if headers.getlist("origin") not in ([], [f"http://{self.authority}"]):
-            return PlainTextResponse("another origin", 403)
+            return PlainTextResponse("requests of pages from elsewhere are refused", 403)
+        if len(scope["path"]) > LONGEST_PATH:
+            return PlainTextResponse("the path is too long", 414)
         if scope["method"] not in METHODS:
             return PlainTextResponse("read-only", 405, {"allow": ", ".join(METHODS)})
         given = parse_qs(scope["query_string"].decode("latin-1")).get("token")
@@ -74,12 +77,6 @@ class Guard:
         return hmac.compare_digest(text.encode("latin-1", "replace"), self.token.encode())
 
     def _cookies(self, headers: Headers) -> list[str]:
-        cookies = []
-        for header in headers.getlist("cookie"):
-            try:
-                morsel = SimpleCookie(header).get(self.cookie)
-            except CookieError:
-                continue
-            if morsel is not None:
-                cookies.append(morsel.value)
-        return cookies
+        # http.cookies gives up at a cookie of another server of this host that it cannot read.
+        named = [cookie_parser(header).get(self.cookie) for header in headers.getlist("cookie")]
+        return [text for text in named if text is not None]

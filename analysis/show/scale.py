@@ -9,15 +9,16 @@ from functools import cached_property
 
 import numpy as np
 
+from ..reports.interactive.columns import knee_of
+
 BINS = 4096  # of a scale: a filter begins and ends at their edges
 BARS = 64  # of a histogram, each of equally many bins
 SHIFT = 6  # bits between the number of a bin and that of its bar
 NAN, ABOVE, BELOW = (BINS + kind * (BINS // BARS) for kind in range(3))  # codes of what is not finite
 CODES = BARS + 3  # of bars, with what is not finite
-DECADES = 1e3  # ratio of the greatest magnitude to the small ones from which a scale is bent
-SMALL = 0.05  # the fraction of magnitudes that are small
-SAMPLED = 100_000  # numbers that decide whether it is
+SAMPLED = 100_000  # numbers that decide whether a scale is bent
 TINIEST = 1e-12  # knee of a bent scale relative to the greatest magnitude
+WHOLE = 1e9  # range up to which whole numbers have bars of their own
 CHUNK = 1 << 18  # numbers binned at a time
 
 
@@ -31,7 +32,7 @@ class Scale:
 
     @cached_property
     def edges(self) -> np.ndarray:
-        """Ends of the bins (BINS + 1,), not falling: bin i has low <= number < high, the last one its end, too."""
+        """Ends of the bins (BINS + 1,), not falling: bin i has edges[i] <= number < edges[i + 1]."""
         if self.knee:
             ends = np.linspace(math.asinh(self.low / self.knee), math.asinh(self.high / self.knee), BINS + 1)
             edges = self.knee * np.sinh(ends)
@@ -54,19 +55,29 @@ class Scale:
 
 
 def make_scale(numbers: np.ndarray) -> Scale | None:
-    """The scale on which the finite ones of some numbers (rows,) are; None where none is finite."""
+    """The scale on which the finite ones of some numbers (rows,) are, below its high end; None where none is finite.
+
+    The greatest double of all is at that end.
+    """
     finite = numbers[np.isfinite(numbers)]
     if not finite.size:
         return None
     low, high = float(finite.min()), float(finite.max())
     if low == high:  # a range about it
-        pad = max(1e-3 * abs(low), 1e-3)
+        pad = 1e-3 * abs(low) or 1.0
         return Scale(max(low - pad, -sys.float_info.max), min(high + pad, sys.float_info.max))
-    sizes = np.abs(finite[:: max(1, finite.size // SAMPLED)])
-    sizes = sizes[sizes != 0.0]
     greatest = max(abs(low), abs(high))
-    rank = int(SMALL * sizes.size)
-    small = float(np.partition(sizes, rank)[rank]) if sizes.size else greatest
-    if greatest > DECADES * small or not math.isfinite(2.0 * (high - low)):
-        return Scale(low, high, max(small, TINIEST * greatest))
-    return Scale(low, high)
+    above = min(math.nextafter(high, math.inf), sys.float_info.max)
+    knee = knee_of(finite[:: max(1, finite.size // SAMPLED)], greatest)
+    if knee or not math.isfinite(2.0 * (high - low)):
+        return Scale(low, above, max(knee or greatest, TINIEST * greatest))
+    if high - low < WHOLE and not np.any(finite % 1.0):
+        return _whole_scale(low, high)
+    return Scale(low, above)
+
+
+def _whole_scale(low: float, high: float) -> Scale:
+    """Of whole numbers: bars that have equally many of them each, or equally many bars for each."""
+    count = high - low + 1.0
+    step = math.ceil(count / BARS) if count > BARS else 1.0 / (BARS // count)
+    return Scale(low - 0.5, low - 0.5 + BARS * step)

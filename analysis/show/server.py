@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import asyncio
+import os
 import secrets
 import socket
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import uvicorn
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from ..common.errors import InputError
 from .app import Service, make_app
@@ -18,6 +21,7 @@ HOST = "127.0.0.1"
 TOKEN_BYTES = 32
 PATIENCE = 1  # s, for requests that are under way at the end
 CONNECTIONS = 64
+SILENCE = 10  # s, after which a connection without a request is closed: others wait for it
 
 
 class CampaignServer:
@@ -48,7 +52,7 @@ class CampaignServer:
                 access_log=False,
                 lifespan="off",
                 ws="none",
-                http="h11",
+                http=_Protocol,
                 loop="asyncio",
                 server_header=False,
                 proxy_headers=False,
@@ -71,6 +75,18 @@ class CampaignServer:
         self._is_stopped = True
 
 
+class _Protocol(H11Protocol):
+    """uvicorn's, which otherwise waits for a first request as long as the client likes."""
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self.loop.call_later(SILENCE, self._end_silence)
+
+    def _end_silence(self) -> None:
+        if self.cycle is None:
+            self.transport.close()
+
+
 class _Server(uvicorn.Server):
     """uvicorn's, which says when it listens and when it is to end."""
 
@@ -90,6 +106,8 @@ class _Server(uvicorn.Server):
 
 def _listen(port: int) -> socket.socket:
     listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    if os.name == "posix":  # a port whose last connections are not closed yet; on Windows one that others listen to
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listening.bind((HOST, port))
     except OSError as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -41,6 +42,15 @@ def show(*folders: FilePath | Sequence[FilePath], **options: Unpack[ShowOptions]
     paths = tuple(Path(folder) for folder in path_list(folders))
     if not paths:
         raise InputError("show", "", "no folder of a campaign", "name what batch(..., output=...) wrote")
+    _refuse_running_loop()
     server = CampaignServer(paths, options["port"] or 0)
     server.serve(lambda address: print(f"open {address}\nCtrl-C ends", flush=True))
     return ServedCampaigns(paths)
+
+
+def _refuse_running_loop() -> None:
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:  # which is how asyncio says that there is none
+        return
+    raise InputError("show", "", "an event loop is running here, as in a notebook", "run perilune show in a terminal")

@@ -37,8 +37,7 @@ def edges(table):
 
 def within(edges, name, first, last):
     low, high = edges[name][first], edges[name][last + 1]
-    upper = field(name) <= high if last == BINS - 1 else field(name) < high
-    return (field(name) >= low) & upper
+    return (field(name) >= low) & (field(name) < high)
 
 
 def outcomes(table):
@@ -85,7 +84,9 @@ def test_filters(client, table, edges, ranges, outcome, variants):
         return table.filter(where)
 
     assert answer["outcomes"] == outcomes(select())
-    assert answer["ranges"] == [[edges[n][first], edges[n][last + 1]] for n, (first, last) in ranges.items()]
+    ends = [(each["low"], each["high"]) for each in answer["ranges"]]
+    assert ends == [(edges[n][first], edges[n][last + 1]) for n, (first, last) in ranges.items()]
+    assert all(0 <= each["step"] <= each["high"] - each["low"] for each in answer["ranges"])
     for name, histogram in zip(("metric.m0", "metric.m3", "metric.m4"), answer["histograms"], strict=True):
         rows = select(without=name)
         for variant, counts in zip(VARIANTS, histogram["counts"], strict=True):
@@ -128,7 +129,7 @@ def test_trials_have_exact_numbers_and_their_commands(client, table, campaign_fo
     numbers = client.numbers("metric.m1", "metric.m4", "draw.offset")
     chosen = {"column": numbers[0], "first": 3000, "last": BINS - 1}
     entries = client.query("trials", histograms=numbers, ranges=[chosen]).json()
-    low = client.query("counts", ranges=[chosen]).json()["ranges"][0][0]
+    low = client.query("counts", ranges=[chosen]).json()["ranges"][0]["low"]
     rows = table.filter(field("metric.m1") >= low).to_pylist()
     assert len(entries) == min(50, len(rows)) > 3
     for entry, row in zip(entries, rows, strict=False):

@@ -5,6 +5,7 @@ Truth: a good folder in which the tests change what they know.
 
 from __future__ import annotations
 
+import json
 import shutil
 
 import pyarrow
@@ -91,6 +92,18 @@ def test_rows_that_are_not_those_of_the_campaign(folder, changed, problem):
     answer = client.query("counts", histograms=client.numbers("metric.m1"))
     assert answer.status_code == 422
     assert problem in answer.text
+
+
+def test_another_campaign_in_its_place(folder):
+    """Of as many trials and the same columns."""
+    client = ShowClient(folder)
+    path = folder / "trials" / "000001.parquet"
+    table = pyarrow.parquet.read_table(path)
+    about = json.loads(table.schema.metadata[b"perilune"]) | {"batch": "another"}
+    pyarrow.parquet.write_table(table.replace_schema_metadata({"perilune": json.dumps(about)}), path)
+    answer = client.query("counts", histograms=client.numbers("metric.m1"))
+    assert answer.status_code == 422
+    assert "of another batch than the campaign that was opened" in answer.text
 
 
 def test_a_column_that_the_summary_does_not_declare(folder, capsys):

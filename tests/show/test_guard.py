@@ -40,6 +40,12 @@ def test_the_token_becomes_a_cookie_and_leaves_the_address(send):
     assert opened.headers["cache-control"] == "no-store"
 
 
+@pytest.mark.parametrize("other", ['a={"x":1}', "[=1", "path", "path=/", "a=\\"])
+def test_cookies_of_other_servers(send, other):
+    """Browsers send cookies of 127.0.0.1 to all of its ports."""
+    assert send("/", cookie=f"{other}; {COOKIE}").text == PAGE
+
+
 @pytest.mark.parametrize("path", ["/", QUERY, "/campaigns/0/trials/3", "/nowhere"])
 @pytest.mark.parametrize(
     "cookie",
@@ -107,6 +113,10 @@ def test_its_own_origin(send):
 def test_nothing_is_written(send, method, path):
     answer = send(path, method, cookie=COOKIE)
     assert (answer.status_code, answer.headers["allow"]) == (405, "GET, HEAD")
+
+
+def test_a_long_path(send):
+    assert send(f"/campaigns/{'9' * 5000}/counts", cookie=COOKIE).status_code == 414
 
 
 def test_heads_are_answered(send):

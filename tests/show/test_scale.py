@@ -7,7 +7,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.show.scale import ABOVE, BELOW, BINS, NAN, make_scale
+from perilune.analysis.show.scale import ABOVE, BARS, BELOW, BINS, NAN, make_scale
 
 NUMBERS = st.lists(st.floats(), min_size=1, max_size=60)
 
@@ -31,7 +31,19 @@ def test_bins_are_between_their_edges(numbers):
             assert code == (ABOVE if number > 0 else BELOW)
         else:
             assert scale.edges[code] <= number
-            assert number < scale.edges[code + 1] or (code == BINS - 1 and number == scale.edges[-1])
+            assert number < scale.edges[code + 1] or number == scale.edges[-1] == np.finfo(float).max
+
+
+@given(st.integers(-1000, 1000), st.integers(1, 5000))
+def test_whole_numbers_are_spread_evenly(first, count):
+    column = np.arange(first, first + count + 1, dtype=float)
+    scale = make_scale(column)
+    if scale.knee:
+        return
+    bars = np.bincount(scale.bin(column) // (BINS // BARS), minlength=BARS)
+    used = bars[bars > 0]
+    assert np.all(used[:-1] == used[0])
+    assert used[-1] <= used[0]
 
 
 def test_a_scale_over_decades_is_bent():

@@ -1,6 +1,8 @@
 // The block diagram of a page: a block or a line leads to its signals, and shows their values at the cursor.
 
+import { definitions, moveBeside } from "../page/card";
 import type { Page } from "../page/document";
+import { make } from "../page/elements";
 import type { SharedAxis } from "./axis";
 import { Series } from "./series";
 
@@ -13,17 +15,17 @@ interface Known {
 }
 
 export class Diagram {
-  private readonly card = document.createElement("aside");
+  private readonly card = make("aside", { class: "card", hidden: "" });
   private readonly known = new Map<string, Known>();
+  private readonly loaded = new Map<string, Promise<Series>>();
   private current: Element | null = null;
+  private at = { clientX: 0, clientY: 0 }; // of the pointer
 
   constructor(
     picture: SVGElement,
     private readonly page: Page,
     private readonly time: SharedAxis,
   ) {
-    this.card.className = "card";
-    this.card.hidden = true;
     document.body.append(this.card);
     page.figures.forEach((charts, figure) =>
       charts.forEach((chart, index) => {
@@ -41,8 +43,8 @@ export class Diagram {
     element.addEventListener("pointermove", (event) => {
       event.stopPropagation();
       this.current = element;
+      this.at = event;
       void this.show();
-      Object.assign(this.card.style, { left: `${Math.min(event.clientX + 14, innerWidth - 280)}px`, top: `${event.clientY + 14}px` });
     });
     element.addEventListener("pointerleave", () => {
       this.current = null;
@@ -67,28 +69,34 @@ export class Diagram {
     const element = this.current;
     if (!element) return;
     const at = this.time.cursor;
-    const list = document.createElement("dl");
     const all = this.signalsOf(element);
     const signals = all.filter((name) => this.known.has(name));
-    for (const signal of signals.slice(0, MOST)) {
-      const [term, definition] = [document.createElement("dt"), document.createElement("dd")];
-      term.textContent = signal;
-      definition.textContent = at === null ? "" : await this.valueOf(signal, at);
-      list.append(term, definition);
-    }
+    const entries = signals
+      .slice(0, MOST)
+      .map(async (label) => ({ label, text: at === null ? "" : await this.valueOf(label, at) }));
+    const list = definitions(await Promise.all(entries));
     if (element !== this.current) return;
     this.card.replaceChildren(list);
     if (signals.length > MOST) this.card.append(`and ${signals.length - MOST} more in figures`);
-    if (!signals.length) this.card.append(all.length ? "In no figure: constant, or equal to other signals." : "");
+    if (!signals.length) this.card.append("In no figure: constant, or equal to other signals.");
     this.card.hidden = false;
+    moveBeside(this.card, this.at);
   }
 
   private async valueOf(signal: string, at: number): Promise<string> {
-    const { figure, chart, position } = this.known.get(signal)!;
-    const curve = this.page.figures[figure]![chart]!.curves![position]!;
-    const series = await Series.load(curve, this.page);
+    const series = await this.load(signal);
     const row = series.rowWithin(at);
-    return row === null ? "\u2013" : `${series.text(row)} ${curve.unit ?? ""}`.trim();
+    return row === null ? "\u2013" : `${series.text(row)} ${series.curve.unit ?? ""}`.trim();
+  }
+
+  private load(signal: string): Promise<Series> {
+    let series = this.loaded.get(signal);
+    if (!series) {
+      const { figure, chart, position } = this.known.get(signal)!;
+      series = Series.load(this.page.figures[figure]![chart]!.curves![position]!, this.page);
+      this.loaded.set(signal, series);
+    }
+    return series;
   }
 
   private lead(figure: number): void {

@@ -3,7 +3,7 @@
 import { format } from "../page/numbers";
 import type { Camera, Mode } from "./camera";
 import type { BodyData } from "./document";
-import { button, make } from "./elements";
+import { button, make } from "../page/elements";
 import type { Playback } from "./playback";
 
 const MODES: [Mode, string, string][] = [

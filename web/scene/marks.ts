@@ -3,7 +3,7 @@
 import { Vector3 } from "three";
 import type { Camera } from "./camera";
 import type { BodyData, SiteData } from "./document";
-import { make, makeSvg, nameOf } from "./elements";
+import { make, makeSvg, nameOf } from "../page/elements";
 import type { Ground } from "./objects/ground";
 import { type Instant, positionAt } from "./instant";
 import { strokeOf } from "./theme";

@@ -2,7 +2,7 @@
 
 import { format } from "../page/numbers";
 import type { BodyData, SceneData } from "./document";
-import { make, nameOf } from "./elements";
+import { make, nameOf } from "../page/elements";
 import type { Foot, Ground } from "./objects/ground";
 import { type Instant, scalarAt } from "./instant";
 

@@ -6,7 +6,7 @@ import { Beams } from "./objects/beams";
 import { Camera } from "./camera";
 import { Controls } from "./controls";
 import type { BodyData, SceneData } from "./document";
-import { make } from "./elements";
+import { make } from "../page/elements";
 import { Flames } from "./objects/flames";
 import { bodyAxes, Triad } from "./objects/frames";
 import { Ground } from "./objects/ground";

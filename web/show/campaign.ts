@@ -1,7 +1,8 @@
 // One campaign: its figures, what is selected in them, and the requests that follow a selection.
 
 import type { Campaign, Counts, Document } from "./document";
-import { choice, element, shortName } from "./elements";
+import { make } from "../page/elements";
+import { choice, labelOf } from "./elements";
 import { Filter } from "./filter";
 import { Grid } from "./grid";
 import { Histogram } from "./histogram";
@@ -12,14 +13,14 @@ import { TrialCard, TrialTable } from "./table";
 const REST = 250; // ms, after which the table follows a selection
 
 export class CampaignView {
-  readonly element = element("article");
+  readonly element = make("article");
   private readonly filter: Filter;
   private readonly requests: Requests;
   private readonly summary: Summary;
   private readonly table: TrialTable;
   private readonly card: TrialCard;
-  private readonly panels = element("div", { class: "panels" });
-  private readonly error = element("p", { class: "status bad", role: "alert", hidden: "" });
+  private readonly panels = make("div", { class: "panels" });
+  private readonly error = make("p", { class: "status bad", role: "alert", hidden: "" });
   private histograms: Histogram[] = [];
   private readonly grid: Grid | null;
   private waiting = 0;
@@ -43,7 +44,7 @@ export class CampaignView {
     const second = Math.min(1, campaign.quantities.length - 1);
     const update = () => void this.update();
     this.grid = campaign.quantities.length
-      ? new Grid([0, second], campaign.quantities, campaign.variants, document, this.filter, update, update, open)
+      ? new Grid([0, second], campaign.quantities, campaign.variants, document, this.filter, update, open)
       : null;
     this.build();
   }
@@ -68,6 +69,7 @@ export class CampaignView {
 
   private async update(): Promise<void> {
     const shown = this.histograms;
+    clearTimeout(this.waiting);
     const counts = await this.requests.counts(
       this.filter,
       shown.map((each) => each.column),
@@ -75,6 +77,7 @@ export class CampaignView {
     );
     if (!counts) return;
     this.error.hidden = true;
+    delete this.element.dataset.stale;
     counts.histograms.forEach((each, index) => shown[index]!.show(each));
     if (counts.grids[0]) this.grid?.show(counts.grids[0]);
     this.summary.show(counts);
@@ -82,7 +85,6 @@ export class CampaignView {
   }
 
   private followWithTable(counts: Counts): void {
-    clearTimeout(this.waiting);
     this.waiting = window.setTimeout(async () => {
       const columns = this.histograms.map((each) => each.column);
       const entries = await this.requests.trials(this.filter, columns);
@@ -122,21 +124,21 @@ export class CampaignView {
   private build(): void {
     const { system, folder, description, criterion, trials, flown, quantities } = this.campaign;
     const there = flown < trials ? `${flown} of ${trials} trials, the others are not simulated yet` : `${trials} trials`;
-    const names = ["\u2026", ...quantities.map(({ name, unit }) => (unit ? `${shortName(name)}, ${unit}` : shortName(name)))];
+    const names = ["\u2026", ...quantities.map(labelOf)];
     const adding = choice("Add a histogram", names, 0, (index) => {
       if (index) this.add(index - 1);
       adding.querySelector("select")!.value = "0";
     });
     this.element.append(
-      element("h1", {}, `${system}: ${folder}`),
-      ...(description ? [element("p", { class: "lead" }, description)] : []),
-      element("p", { class: "note" }, `${there} of each variant. Success: `, element("code", {}, criterion)),
+      make("h1", {}, `${system}: ${folder}`),
+      ...(description ? [make("p", { class: "lead" }, description)] : []),
+      make("p", { class: "note" }, `${there} of each variant. Success: `, make("code", {}, criterion)),
       this.error,
       this.summary.element,
-      element("h2", {}, "Distributions"),
-      element("div", { class: "controls" }, adding),
+      make("h2", {}, "Distributions"),
+      make("div", { class: "controls" }, adding),
       this.panels,
-      ...(this.grid ? [element("h2", {}, "Two quantities"), this.grid.element, element("p", { class: "note" }, NOTE)] : []),
+      ...(this.grid ? [make("h2", {}, "Two quantities"), this.grid.element, make("p", { class: "note" }, NOTE)] : []),
       this.table.element,
       this.card.element,
     );
@@ -145,9 +147,11 @@ export class CampaignView {
   private complain(text: string): void {
     this.error.textContent = text;
     this.error.hidden = false;
+    this.element.dataset.stale = ""; // what is shown is of an earlier selection
   }
 }
 
 const NOTE =
-  "Blue: successes, red: failures, in between: fraction of failures; the stronger, the more trials. Up to 20 000 trials are shown one by one, " +
-  "failures as crosses: click one for its numbers and replay command. Each figure ignores the ranges of its axes, and shows them as a rectangle.";
+  "Squares: blue for successes, red for failures, in between by the fraction of failures; the darker, the more trials. Up to 20 000 trials are " +
+  "marks: successes in the colour of their variant, failures as crosses; click one for its numbers and replay command. " +
+  "The figure ignores the ranges of its own axes, and shows them as a rectangle.";

@@ -1,7 +1,8 @@
 // A canvas with axes on which trials are drawn, and the area in it that a brush marks by pointer, touch and keys.
 
-import { format } from "../page/numbers";
-import { colour, element } from "./elements";
+import { DIGITS, format } from "../page/numbers";
+import { make } from "../page/elements";
+import { colour } from "./elements";
 import type { Scale } from "./scale";
 
 const FONT = "11px 'DejaVu Sans', Verdana, sans-serif";
@@ -27,7 +28,7 @@ export interface Brushing {
 }
 
 export class Canvas {
-  readonly element = element("canvas", { tabindex: "0", role: "application" });
+  readonly element = make("canvas", { tabindex: "0", role: "application" });
   readonly context = this.element.getContext("2d")!;
   box: Box = { left: 0, top: 0, width: 1, height: 1 };
   marked: Span | null = null; // while it is dragged
@@ -68,10 +69,12 @@ export class Canvas {
     this.context.textAlign = "center";
     this.context.textBaseline = "top";
     let end = -Infinity;
-    for (const tick of scale.ticks(factor)) {
+    const ticks = scale.ticks(factor);
+    const digits = digitsOf(ticks);
+    for (const tick of ticks) {
       const x = left + scale.fraction(tick) * width;
       this.line(x, top, x, top + height, "grid");
-      const text = format(tick * factor);
+      const text = format(tick * factor, digits);
       const half = this.context.measureText(text).width / 2;
       if (x - half < end + 8) continue;
       this.context.fillStyle = colour("faint");
@@ -85,11 +88,13 @@ export class Canvas {
     const { left, top, width, height } = this.box;
     this.context.textAlign = "right";
     this.context.textBaseline = "middle";
-    for (const tick of scale.ticks(factor)) {
+    const ticks = scale.ticks(factor);
+    const digits = digitsOf(ticks);
+    for (const tick of ticks) {
       const y = top + (1 - scale.fraction(tick)) * height;
       this.line(left, y, left + width, y, "grid");
       this.context.fillStyle = colour("faint");
-      this.context.fillText(format(tick * factor), left - 5, y);
+      this.context.fillText(format(tick * factor, digits), left - 5, y);
     }
     this.line(left, top, left, top + height, "faint");
   }
@@ -148,6 +153,13 @@ export class Canvas {
     this.begin = this.marked = null;
     this.redraw();
   }
+}
+
+// Significant digits with which all ticks differ.
+function digitsOf(ticks: number[]): number {
+  const step = Math.min(...ticks.slice(1).map((tick, index) => tick - ticks[index]!));
+  const greatest = Math.max(...ticks.map(Math.abs));
+  return Number.isFinite(step) ? Math.min(Math.max(DIGITS, 2 + Math.ceil(Math.log10(greatest / step))), 15) : DIGITS;
 }
 
 function spanOf(one: { x: number; y: number }, other: { x: number; y: number }): Span {

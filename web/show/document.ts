@@ -58,9 +58,15 @@ export interface GridCounts {
   dots?: DotData;
 }
 
+export interface RangeEnds {
+  low: number; // included
+  high: number; // not included
+  step: number; // the least distance of another end from one of these
+}
+
 export interface Counts {
   outcomes: [failures: number, successes: number][]; // by variant
-  ranges: ([number, number] | null)[];
+  ranges: (RangeEnds | null)[];
   histograms: HistogramCounts[];
   grids: GridCounts[];
 }

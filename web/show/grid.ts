@@ -4,7 +4,8 @@ import { format } from "../page/numbers";
 import { Canvas, type Span } from "./canvas";
 import type { GridCounts, Quantity, Variant } from "./document";
 import { type Dots, decodeDots, nearestDot } from "./dots";
-import { choice, colour, element, shortName } from "./elements";
+import { make } from "../page/elements";
+import { choice, colour, labelOf, shortName } from "./elements";
 import type { Filter } from "./filter";
 import { lineColour } from "./histogram";
 import { Scale } from "./scale";
@@ -14,9 +15,9 @@ const SUCCESS = [0, 114, 178];
 const FAILURE = [213, 94, 0];
 
 export class Grid {
-  readonly element = element("figure", { class: "counted grid" });
+  readonly element = make("figure", { class: "counted grid" });
   private readonly canvas: Canvas;
-  private readonly reading = element("output", { "aria-live": "polite" });
+  private readonly reading = make("output", { "aria-live": "polite" });
   private counts: GridCounts | null = null;
   private scales: { x: Scale; y: Scale } | null = null;
   private dots: Dots | null = null;
@@ -30,20 +31,17 @@ export class Grid {
     private readonly sizes: { bins: number; bars: number },
     private readonly filter: Filter,
     private readonly onSelect: () => void,
-    onColumns: () => void,
     private readonly onTrial: (row: number) => void,
   ) {
     this.canvas = new Canvas({ left: 58, top: 8, width: 12, height: 22 }, this, () => this.draw());
     const keys = "arrow keys move over the squares, with shift they select, escape selects all";
     this.canvas.element.setAttribute("aria-label", `Trials over two quantities; ${keys}`);
-    const names = quantities.map(({ name, unit }) => (unit ? `${shortName(name)}, ${unit}` : shortName(name)));
     const chooser = (axis: 0 | 1) =>
-      choice(axis ? "vertical" : "horizontal", names, columns[axis], (index) => {
-        this.select(null);
+      choice(axis ? "vertical" : "horizontal", quantities.map(labelOf), columns[axis], (index) => {
         this.columns[axis] = index;
-        onColumns();
+        onSelect();
       });
-    this.element.append(element("div", { class: "head" }, chooser(0), chooser(1)), this.canvas.element, this.reading);
+    this.element.append(make("div", { class: "head" }, chooser(0), chooser(1)), this.canvas.element, this.reading);
   }
 
   show(counts: GridCounts): void {
@@ -71,6 +69,7 @@ export class Grid {
   point(x: number | null, y: number): void {
     const square = (fraction: number) => Math.min(Math.floor(fraction * this.sizes.bars), this.sizes.bars - 1);
     this.cursor = x === null ? null : { x: square(x), y: square(y) };
+    this.anchor = null;
     this.read();
     this.canvas.element.style.cursor = x !== null && this.dotAt(x, y) >= 0 ? "pointer" : "";
   }
@@ -79,6 +78,7 @@ export class Grid {
     const steps: [string, number, number][] = [["ArrowLeft", -1, 0], ["ArrowRight", 1, 0], ["ArrowUp", 0, 1], ["ArrowDown", 0, -1]];
     const step = steps.find(([name]) => name === key);
     if (key === "Escape") {
+      this.anchor = null;
       this.select(null);
       this.onSelect();
     } else if (key === "Enter" && this.cursor && this.dots) {
@@ -123,8 +123,10 @@ export class Grid {
       return;
     }
     const place = (["x", "y"] as const).map((axis, index) => {
-      const { name, unit, factor } = this.quantities[this.columns[index]!]!;
-      return `${shortName(name)} ${format(scales[axis].at((cursor[axis] + 0.5) / this.sizes.bars) * factor, 4)} ${unit}`.trim();
+      const quantity = this.quantities[this.columns[index]!]!;
+      const fraction = (cursor[axis] + 0.5) / this.sizes.bars;
+      const text = format(scales[axis].at(fraction) * quantity.factor, scales[axis].digits(fraction, this.sizes.bars));
+      return `${shortName(quantity)} ${text} ${quantity.unit}`.trim();
     });
     this.reading.textContent = `${place.join(", ")}${this.describe(cursor)}`;
   }
@@ -203,7 +205,7 @@ export class Grid {
       context.fill(path);
     });
     context.globalAlpha = 1;
-    context.strokeStyle = `rgb(${FAILURE.join(" ")})`;
+    context.strokeStyle = colour("ink");
     context.lineWidth = 1.2;
     context.stroke(crosses);
   }

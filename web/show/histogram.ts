@@ -3,15 +3,16 @@
 import { format } from "../page/numbers";
 import { Canvas, type Span } from "./canvas";
 import type { HistogramCounts, Quantity, Variant } from "./document";
-import { colour, element, shortName } from "./elements";
+import { make } from "../page/elements";
+import { colour, labelOf, shortName } from "./elements";
 import type { Filter } from "./filter";
 import { Scale } from "./scale";
 
 export class Histogram {
-  readonly element = element("figure", { class: "counted" });
+  readonly element = make("figure", { class: "counted" });
   private readonly canvas: Canvas;
-  private readonly reading = element("output", { "aria-live": "polite" });
-  private readonly outside = element("p", { class: "note" });
+  private readonly reading = make("output", { "aria-live": "polite" });
+  private readonly outside = make("p", { class: "note" });
   private counts: HistogramCounts | null = null;
   private scale: Scale | null = null;
   private cursor: number | null = null; // a bar
@@ -27,13 +28,13 @@ export class Histogram {
     onRemove: () => void,
   ) {
     this.canvas = new Canvas({ left: 8, top: 8, width: 8, height: 22 }, this, () => this.draw());
-    const name = shortName(quantity.name);
+    const name = shortName(quantity);
     const keys = "left and right move along the bars, with shift they select, escape selects all";
     this.canvas.element.setAttribute("aria-label", `Histogram of ${name}; ${keys}`);
-    const remove = element("button", { type: "button", class: "remove", "aria-label": `Remove ${name}` }, "\u00d7");
+    const remove = make("button", { type: "button", class: "remove", "aria-label": `Remove ${name}` }, "\u00d7");
     remove.addEventListener("click", onRemove);
-    const title = element("figcaption", { title: quantity.meaning }, quantity.unit ? `${name}, ${quantity.unit}` : name);
-    this.element.append(element("div", { class: "head" }, title, remove), this.canvas.element, this.reading, this.outside);
+    const title = make("figcaption", { title: quantity.meaning }, labelOf(quantity));
+    this.element.append(make("div", { class: "head" }, title, remove), this.canvas.element, this.reading, this.outside);
   }
 
   show(counts: HistogramCounts): void {
@@ -50,6 +51,7 @@ export class Histogram {
   }
 
   click(): void {
+    this.anchor = null;
     if (!this.filter.range(this.column)) return;
     this.filter.select(this.column, null);
     this.onSelect();
@@ -57,6 +59,7 @@ export class Histogram {
 
   point(x: number | null): void {
     this.cursor = x === null ? null : Math.min(Math.floor(x * this.sizes.bars), this.sizes.bars - 1);
+    this.anchor = null;
     this.read();
     this.draw();
   }
@@ -100,7 +103,8 @@ export class Histogram {
       return;
     }
     const { factor, unit } = this.quantity;
-    const [low, high] = [cursor, cursor + 1].map((bar) => format(scale.at(bar / this.sizes.bars) * factor, 4));
+    const { bars } = this.sizes;
+    const [low, high] = [cursor, cursor + 1].map((bar) => format(scale.at(bar / bars) * factor, scale.digits(bar / bars, bars)));
     const texts = counts.counts.map((each, index) => (this.variants.length > 1 ? `${this.variants[index]!.name} ${each[cursor]}` : `${each[cursor]}`));
     this.reading.textContent = `${low} to ${high} ${unit}`.trim() + `: ${texts.join(", ")}`;
   }

@@ -36,10 +36,11 @@ export class Requests {
     try {
       const response = await fetch(`/campaigns/${this.campaign}/${path}${search}`, { signal: controller.signal });
       if (response.ok) return (await response.json()) as T;
-      this.onError(await response.text());
+      this.onError((await response.text()) || `The server answered ${response.status}.`);
     } catch (error) {
       if (controller.signal.aborted) return null;
-      this.onError("No answer: perilune show has ended, or its connection is lost.");
+      const isLost = error instanceof TypeError; // of fetch, when there is no answer
+      this.onError(isLost ? "No answer: perilune show has ended, or the connection is lost." : `An answer cannot be read: ${error}`);
     }
     return null;
   }

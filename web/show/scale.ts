@@ -22,6 +22,13 @@ export class Scale {
     return this.data.knee ? this.data.knee * Math.sinh(bent) : bent;
   }
 
+  // Significant digits that tell a number at a fraction from its neighbours, of so many steps of the scale.
+  digits(fraction: number, steps: number): number {
+    const [value, next] = [this.at(fraction), this.at(fraction + (fraction < 0.5 ? 1 : -1) / steps)];
+    const ratio = Math.max(Math.abs(value), Math.abs(next)) / Math.abs(next - value);
+    return Math.min(Math.max(4, 1 + Math.ceil(Math.log10(ratio))), 17);
+  }
+
   // Numbers that are round once they are multiplied by a factor.
   ticks(factor: number): number[] {
     const [low, high] = [this.data.low * factor, this.data.high * factor];

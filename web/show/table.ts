@@ -1,68 +1,59 @@
-// The first of the selected trials with exact numbers, and one trial with all of them and its replay command.
+// The first of the selected trials, and one trial with all of its numbers and its replay command.
 
+import { PinnedCard } from "../page/card";
+import { button, make } from "../page/elements";
 import { DIGITS, format } from "../page/numbers";
 import type { Quantity, TrialEntry } from "./document";
-import { button, element, shortName } from "./elements";
+import { labelOf, shortName } from "./elements";
 
 export class TrialTable {
-  readonly element = element("section", { class: "trials" });
-  private readonly head = element("thead");
-  private readonly body = element("tbody");
-  private readonly note = element("p", { class: "note" });
+  readonly element = make("section", { class: "trials" });
+  private readonly head = make("thead");
+  private readonly body = make("tbody");
+  private readonly note = make("p", { class: "note" });
 
   constructor(
     private readonly quantities: Quantity[],
     private readonly onTrial: (row: number) => void,
   ) {
-    const table = element("table", { class: "tight" }, this.head, this.body);
-    this.element.append(element("h2", {}, "Selected trials"), element("div", { class: "scroll", tabindex: "0" }, table), this.note);
+    const table = make("table", { class: "tight" }, this.head, this.body);
+    this.element.append(make("h2", {}, "Selected trials"), make("div", { class: "scroll", tabindex: "0" }, table), this.note);
   }
 
   show(entries: TrialEntry[], columns: number[], selected: number): void {
     const shown = columns.map((each) => this.quantities[each]!);
-    const heads = ["trial", "variant", "outcome", ...shown.map(({ name, unit }) => (unit ? `${shortName(name)}, ${unit}` : shortName(name)))];
-    this.head.replaceChildren(element("tr", {}, ...heads.map((text, index) => element("th", index > 2 ? { class: "n" } : {}, text))));
+    const heads = ["trial", "variant", "outcome", ...shown.map(labelOf)];
+    this.head.replaceChildren(make("tr", {}, ...heads.map((text, index) => make("th", index > 2 ? { class: "n" } : {}, text))));
     this.body.replaceChildren(
       ...entries.map((entry) => {
         const open = button(String(entry.trial), () => this.onTrial(entry.row));
         open.setAttribute("aria-label", `Trial ${entry.trial} of ${entry.variant}: all numbers, replay command`);
-        const texts = [entry.variant, outcomeOf(entry)].map((text) => element("td", {}, text));
-        const numbers = entry.numbers.map((number, index) => element("td", { class: "n" }, numberText(number, shown[index]!)));
-        return element("tr", {}, element("td", {}, open), ...texts, ...numbers);
+        const texts = [entry.variant, outcomeOf(entry)].map((text) => make("td", {}, text));
+        const numbers = entry.numbers.map((number, index) => make("td", { class: "n" }, numberText(number, shown[index]!)));
+        return make("tr", {}, make("td", {}, open), ...texts, ...numbers);
       }),
     );
     this.note.textContent = entries.length < selected ? `The first ${entries.length} of ${selected}.` : selected ? "" : "No trial is selected.";
   }
 }
 
+// All numbers of one trial.
 export class TrialCard {
-  readonly element = element("aside", { class: "card pinned", "aria-label": "Trial", "aria-live": "polite" });
+  private readonly card = new PinnedCard();
+  readonly element = this.card.element;
 
-  constructor(private readonly quantities: Quantity[]) {
-    this.element.hidden = true;
-  }
+  constructor(private readonly quantities: Quantity[]) {}
 
   show(entry: TrialEntry): void {
-    const list = element("dl");
-    const rows = [
-      ["trial", `${entry.trial} of ${entry.variant}`],
-      ["outcome", outcomeOf(entry)],
-      ...this.quantities.map((quantity, index) => [shortName(quantity.name), `${numberText(entry.numbers[index]!, quantity)} ${quantity.unit}`.trim()]),
-    ];
-    for (const [label = "", text = ""] of rows) list.append(element("dt", {}, label), element("dd", {}, text));
-    const command = element("code", {}, entry.command);
-    const copy = button("Copy command", async () => {
-      await navigator.clipboard.writeText(entry.command).then(
-        () => (copy.textContent = "Copied"),
-        () => (copy.textContent = "Select the text and copy it"),
-      );
-    });
-    const close = button("Close", () => {
-      this.element.hidden = true;
-    });
-    this.element.replaceChildren(command, copy, close, list);
-    this.element.hidden = false;
-    copy.focus();
+    const numbers = this.quantities.map((quantity, index) => ({
+      label: shortName(quantity),
+      text: `${numberText(entry.numbers[index]!, quantity)} ${quantity.unit}`.trim(),
+    }));
+    this.card.show(
+      [{ label: "trial", text: `${entry.trial} of ${entry.variant}` }, { label: "outcome", text: outcomeOf(entry) }, ...numbers],
+      entry.command,
+    );
+    this.element.querySelector("button")!.focus();
   }
 }
 

@@ -1,5 +1,6 @@
 // The trials of a batch: analysis/reports/campaign/embedded_trials.py.
 
+import type { Entry } from "../page/card";
 import type { Page, Values } from "../page/document";
 import { uncertainty } from "../page/columns";
 import { DIGITS, format } from "../page/numbers";
@@ -24,11 +25,6 @@ interface EncodedVariant {
 interface Document {
   quantities: Quantity[];
   variants: EncodedVariant[];
-}
-
-export interface Entry {
-  label: string;
-  text: string;
 }
 
 export class Trials {

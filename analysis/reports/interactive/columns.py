@@ -55,7 +55,7 @@ def _ordered(column: np.ndarray) -> np.ndarray:
 
 def _coarse(column: np.ndarray) -> dict[str, Any]:
     finite = column[np.isfinite(column)].astype(float)
-    knee = _knee(finite)
+    knee = knee_of(finite, float(np.abs(finite).max(initial=0.0)))
     bent = np.arcsinh(finite / knee) if knee else finite
     low, high = (float(bent.min()), float(bent.max())) if finite.size else (0.0, 0.0)
     steps = np.full(column.size, STEPS + 1, dtype="<u2")
@@ -63,12 +63,12 @@ def _coarse(column: np.ndarray) -> dict[str, Any]:
     return {"rows": column.size, "low": low, "high": high, "knee": knee, "data": _text(steps)}
 
 
-def _knee(finite: np.ndarray) -> float:
-    """Below which a range is linear; 0 where it is linear throughout."""
+def knee_of(finite: np.ndarray, greatest: float) -> float:
+    """Below which a range of such numbers is linear; 0 where it is linear up to the ``greatest`` magnitude."""
     sizes = np.abs(finite[finite != 0.0])
     rank = int(SMALL * sizes.size)
-    small = float(np.partition(sizes, rank)[rank]) if sizes.size else 0.0
-    return small if sizes.size and sizes.max() > DECADES * small else 0.0
+    small = float(np.partition(sizes, rank)[rank]) if sizes.size else greatest
+    return small if greatest > DECADES * small else 0.0
 
 
 def _text(numbers: np.ndarray) -> str:

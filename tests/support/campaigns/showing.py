@@ -19,12 +19,15 @@ PATIENCE = 60.0  # s
 
 
 @contextmanager
-def showing(folders: Sequence[Path], *options: str) -> Iterator[tuple[str, subprocess.Popen[str]]]:
-    """The address that it prints, and its process, which is ended by Ctrl-C where it has not ended already."""
+def showing(folders: Sequence[Path], *options: str, before: str = "") -> Iterator[tuple[str, subprocess.Popen[str]]]:
+    """The address that it prints, and its process, which is ended by Ctrl-C where it has not ended already.
+
+    ``before`` are statements that the process begins with.
+    """
     if read_bundle("show") is None:
         pytest.skip(MISSING)
     process = subprocess.Popen(
-        [sys.executable, "-c", COMMAND, "show", *map(str, folders), *options],
+        [sys.executable, "-c", before + COMMAND, "show", *map(str, folders), *options],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

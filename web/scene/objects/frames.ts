@@ -1,7 +1,7 @@
 // Axes: of the scene's frame in a corner of the view, and of bodies at the bodies.
 
 import { ArrowHelper, Group, type PerspectiveCamera, Vector3 } from "three";
-import { make, makeSvg } from "../elements";
+import { make, makeSvg } from "../../page/elements";
 import { strokeOf } from "../theme";
 
 const COLOURS = ["#d9480f", "#2b8a3e", "#1c6fd0"]; // x, y, z
