@@ -14,13 +14,13 @@ from ...runtime.system.prepared import PreparedSystem
 from ..common.page import Table, exact
 from ..common.quantities import declared_unit, display_unit
 from .drawing import draw
-from .elk import MISSING, Engine
+from .elk import MISSING, Engine, LayoutError
 from .graph import Block, Edge, PortKey
 from .layout import lay_out
 from .reading import read_graph
 
 MAX_NAMED = 20  # outputs of a block without connection
-MAX_BLOCKS, MAX_EDGES = 200, 1000  # beyond which nobody reads a diagram
+MAX_BLOCKS, MAX_CONNECTIONS = 200, 500  # beyond which nobody reads a diagram; a vector is one connection
 
 SHEET = 700.0  # px, the width of a sheet that stands upright
 BROAD = 1.6  # of a diagram's height, from which width on it is larger on a sheet on its side
@@ -40,15 +40,20 @@ def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diag
     """The diagram of a prepared system, with the faults that its run has. No FMU is loaded."""
     system = read_graph(prepared, faults)
     blocks = sum(1 for _ in system.all_blocks()) - 1
-    edges = sum(1 for _ in system.all_edges())
-    if blocks > MAX_BLOCKS or edges > MAX_EDGES:
-        limits = f"it would have {blocks} blocks and {edges} connections, more than {MAX_BLOCKS} or {MAX_EDGES}"
-        return Diagram(system, None, f"No block diagram: {limits}.")
+    parameters = sum(len(block.parameters) for block in system.all_blocks())
+    connections = parameters + sum(1 for _ in system.all_edges())
+    size = f"{blocks} blocks and {connections} connections"
+    if blocks > MAX_BLOCKS or connections > MAX_CONNECTIONS:
+        limits = f"at most {MAX_BLOCKS} and {MAX_CONNECTIONS} are drawn"
+        return Diagram(system, None, f"No block diagram: {size}; {limits}.")
     engine = Engine.load()
     if engine is None:
         return Diagram(system, None, MISSING)
     with engine:
-        placement = lay_out(system, engine)
+        try:
+            placement = lay_out(system, engine)
+        except LayoutError as error:
+            return Diagram(system, None, f"No block diagram of {size}: {error}.")
     is_broad = placement.width > max(SHEET, BROAD * placement.height)
     return Diagram(system, draw(system, placement), is_broad=is_broad)
 

@@ -19,7 +19,7 @@ INNER = 14.0  # between a system's frame and what is inside
 
 
 def lay_out(system: Block, engine: Engine) -> Placement:
-    """The whole system. Raises what V8 raises."""
+    """The whole system. Raises LayoutError."""
     return _System(engine, system, is_whole=True).placement()
 
 

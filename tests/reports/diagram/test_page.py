@@ -12,7 +12,7 @@ from lxml import etree
 from matplotlib import image
 
 from perilune.analysis.cli import main
-from perilune.analysis.reports.diagram import diagram
+from perilune.analysis.reports.diagram import diagram, elk
 from perilune.analysis.reports.diagram.elk import MISSING
 from perilune.analysis.reports.interactive import bundles
 from perilune.fmus_src.paths import ROOT, SYSTEMS
@@ -74,7 +74,20 @@ def test_a_system_too_large_to_read_has_tables(monkeypatch, tmp_path):
     page = tmp_path / "page.html"
     assert main(["describe", SMALL, "--report", str(page)]) == 0
     text = page.read_text(encoding="utf-8")
-    assert "4 blocks and 9 connections, more than 3 or" in text_of(text)
+    assert "4 blocks and 9 connections; at most 3 and" in text_of(text)
+    assert len(parse(text).xpath("//table")) == 2
+
+
+@pytest.mark.parametrize(
+    ("name", "limit", "reason"),
+    [("PATIENCE", 1e-3, "it would take more than 0.001 s"), ("MEMORY", 1000, "it needs too much memory")],
+)
+def test_a_layout_that_does_not_end_costs_no_page(monkeypatch, tmp_path, name, limit, reason):
+    monkeypatch.setattr(elk, name, limit)
+    page = tmp_path / "page.html"
+    assert main(["describe", SMALL, "--report", str(page)]) == 0
+    text = page.read_text(encoding="utf-8")
+    assert f"No block diagram of 4 blocks and 9 connections: {reason}" in text_of(text)
     assert len(parse(text).xpath("//table")) == 2
 
 
