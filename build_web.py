@@ -20,12 +20,13 @@ SOURCES = ROOT / "web"
 BUILT = ROOT / "build" / "web"
 PACKAGES = BUILT / "node_modules"
 LOCKED = ("package.json", "package-lock.json")
-SHIPPED = ("elkjs", "three", "uplot")  # what bundles have in them, whose licences go with them
+SHIPPED = {"curves": "uplot", "layout": "elkjs", "scene": "three"}  # what bundles have in them, by name
+EMBEDDED = ("uplot", "three")  # of these what pages have in them, with the whole licence, as it demands
 ELK_SOURCE = """
 elkjs 0.12.1, the Eclipse Layout Kernel as JavaScript, is unchanged in layout.js. Its source is at
 https://github.com/kieler/elkjs and in the package elkjs of the npm registry.
 """
-ESBUILD = ("--bundle", "--minify", "--format=iife", "--target=es2022", "--legal-comments=inline", "--log-level=warning")
+ESBUILD = ("--bundle", "--minify", "--format=iife", "--target=es2022", "--legal-comments=none", "--log-level=warning")
 PATIENCE = 600.0  # s, for npm
 
 
@@ -82,7 +83,8 @@ def install(*, tools: bool) -> None:
 def bundle(output: Path, *, check: bool) -> None:
     """Bundle every web/NAME.ts into ``output``, with SHA256SUMS and licences; nothing where that is up to date."""
     sums = output / "SHA256SUMS"
-    sources = f"{digest(path for path in sorted(SOURCES.rglob('*')) if path.is_file())}  sources\n"
+    paths = [Path(__file__), *(path for path in sorted(SOURCES.rglob("*")) if path.is_file())]
+    sources = f"{digest(paths)}  sources\n"
     if sums.is_file() and sources in sums.read_text():
         return
     copied = BUILT / SOURCES.name  # beside node_modules, where both programs look for packages
@@ -97,12 +99,22 @@ def bundle(output: Path, *, check: bool) -> None:
             "esbuild/bin/esbuild",
             f"{SOURCES.name}/{entry.name}",
             *ESBUILD,
+            f"--banner:js={notice(SHIPPED.get(entry.stem))}",
             f"--outfile={output.resolve() / entry.stem}.js",
         )
-    for name in SHIPPED:
-        text = next((PACKAGES / name).glob("LICENSE*")).read_text(encoding="utf-8")
-        (output / f"{name}.licence.txt").write_text(text + (ELK_SOURCE if name == "elkjs" else ""), encoding="utf-8")
+    for name in SHIPPED.values():
+        text = licence(name) + (ELK_SOURCE if name == "elkjs" else "")
+        (output / f"{name}.licence.txt").write_text(text, encoding="utf-8")
     sums.write_text("".join(f"{sha256(path)}  {path.name}\n" for path in sorted(output.iterdir())) + sources)
+
+
+def notice(name: str | None) -> str:
+    """The licence of a package as a comment, for a page that has it inside."""
+    return f"/*!\n{name}: {licence(name)}*/" if name in EMBEDDED else ""
+
+
+def licence(name: str) -> str:
+    return next((PACKAGES / name).glob("LICENSE*")).read_text(encoding="utf-8")
 
 
 def run_package(program: str, *arguments: str) -> None:
