@@ -7,8 +7,9 @@ import { make } from "./page/elements";
 import { SHEET } from "./scene/sheet";
 import { View } from "./scene/view";
 
-const NO_WEBGL = "There is no three-dimensional view here, since this browser has no WebGL; the figures have the same flight.";
-const LOST = "The three-dimensional view was lost by the graphics system; it comes back by itself, or with the page loaded anew.";
+const NO_WEBGL = "There is no three-dimensional view here, since this browser has no WebGL; the figures of this page show the same flight.";
+const LOST = "The graphics system has lost the three-dimensional view. It may come back by itself; otherwise load the page again.";
+const FAILED = "The three-dimensional view could not be made; the figures of this page show the same flight.";
 
 // Without a graphics processor smooth edges take more time than a picture may.
 function drawsInSoftware(): boolean {
@@ -21,15 +22,15 @@ function drawsInSoftware(): boolean {
   return software;
 }
 
-async function start(holder: HTMLElement): Promise<void> {
+async function start(holder: HTMLElement): Promise<View | null> {
   const page = readPage();
   const data = page && (await readScene(page));
-  if (!data) return;
+  if (!data) return null;
   const canvas = make("canvas");
   const context = canvas.getContext("webgl2", { antialias: !drawsInSoftware(), alpha: false, powerPreference: "high-performance" });
   if (!context) {
-    holder.replaceChildren(make("p", { class: "empty", role: "status" }, NO_WEBGL));
-    return;
+    say(holder, NO_WEBGL);
+    return null;
   }
   document.head.append(make("style", {}, SHEET));
   const view = new View(data, new WebGLRenderer({ canvas, context }));
@@ -37,6 +38,7 @@ async function start(holder: HTMLElement): Promise<void> {
   holder.replaceChildren(lost, view.element);
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();
+    view.pause();
     view.element.hidden = true;
     lost.hidden = false;
   });
@@ -45,15 +47,26 @@ async function start(holder: HTMLElement): Promise<void> {
     lost.hidden = true;
     view.changed();
   });
+  return view;
 }
 
-// A view is made when it comes near to the screen: figures above it are not kept waiting.
+function say(holder: HTMLElement, text: string): void {
+  holder.replaceChildren(make("p", { class: "empty", role: "status" }, text));
+}
+
+// A view is made when it comes near to the screen: figures above it are not kept waiting. Far from it, it rests.
 for (const holder of document.querySelectorAll<HTMLElement>("[data-scene]")) {
+  let started: Promise<View | null> | null = null;
   const observer = new IntersectionObserver(
     (entries) => {
-      if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
-      observer.disconnect();
-      void start(holder);
+      if (!entries.at(-1)!.isIntersecting) {
+        void started?.then((view) => view?.pause());
+        return;
+      }
+      started ??= start(holder).catch((error: unknown) => {
+        say(holder, FAILED);
+        throw error;
+      });
     },
     { rootMargin: "200px" },
   );

@@ -8,6 +8,13 @@ import { Series } from "./series";
 
 const MOST = 12; // signals that a card lists
 
+const STEPS: Record<string, number> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
+
+interface Point {
+  clientX: number;
+  clientY: number;
+}
+
 interface Known {
   figure: number;
   chart: number; // of the figure
@@ -19,7 +26,8 @@ export class Diagram {
   private readonly known = new Map<string, Known>();
   private readonly loaded = new Map<string, Promise<Series>>();
   private current: Element | null = null;
-  private at = { clientX: 0, clientY: 0 }; // of the pointer
+  private point: Point = { clientX: 0, clientY: 0 }; // beside which the card is
+  private readonly elements: SVGElement[];
 
   constructor(
     picture: SVGElement,
@@ -35,26 +43,56 @@ export class Diagram {
         });
       }),
     );
-    for (const element of picture.querySelectorAll<SVGElement>("[data-signals]")) this.listen(element);
+    const keys = "arrow keys go from block to line, Enter leads to the figure";
+    picture.setAttribute("role", "application");
+    picture.setAttribute("aria-label", `${picture.getAttribute("aria-label")}; ${keys}`);
+    this.elements = [...picture.querySelectorAll<SVGElement>("[data-signals]")];
+    for (const [index, element] of this.elements.entries()) this.listen(element, index);
+    document.addEventListener("pointerdown", (event) => {
+      if (!(event.target as Element).closest("[data-signals]")) this.hide();
+    });
     time.follow([Infinity, -Infinity], () => void this.show(), () => undefined);
   }
 
-  private listen(element: SVGElement): void {
+  private listen(element: SVGElement, index: number): void {
+    element.tabIndex = index === 0 ? 0 : -1;
+    element.setAttribute("role", "group");
+    element.setAttribute("aria-label", this.signalsOf(element).join(", "));
     element.addEventListener("pointermove", (event) => {
       event.stopPropagation();
-      this.current = element;
-      this.at = event;
-      void this.show();
+      if (event.pointerType !== "touch") void this.show(element, event);
     });
-    element.addEventListener("pointerleave", () => {
-      this.current = null;
-      this.card.hidden = true;
+    element.addEventListener("pointerleave", (event) => {
+      if (event.pointerType !== "touch") this.hide();
     });
+    // A first tap shows, a second one leads to the figure.
     element.addEventListener("click", (event) => {
       event.stopPropagation();
-      const signal = this.signalsOf(element).find((name) => this.known.has(name));
-      if (signal) this.lead(this.known.get(signal)!.figure);
+      if ((event as PointerEvent).pointerType === "touch" && this.current !== element) void this.show(element, event);
+      else this.lead(element);
     });
+    element.addEventListener("focus", () => {
+      const { right: clientX, bottom: clientY } = element.getBoundingClientRect();
+      if (element.matches(":focus-visible")) void this.show(element, { clientX, clientY });
+    });
+    element.addEventListener("blur", () => this.hide());
+    element.addEventListener("keydown", (event) => {
+      const step = STEPS[event.key];
+      const next = step && this.elements[index + step];
+      if (event.key === "Enter" || event.key === " ") this.lead(element);
+      else if (event.key === "Escape") this.hide();
+      else if (next) {
+        element.tabIndex = -1;
+        next.tabIndex = 0;
+        next.focus();
+      } else return;
+      event.preventDefault();
+    });
+  }
+
+  private hide(): void {
+    this.current = null;
+    this.card.hidden = true;
   }
 
   // Of a line the signals that drive it; where an inner connector is not recorded those that it drives.
@@ -65,22 +103,24 @@ export class Diagram {
     return sources!.map((name, index) => (this.known.has(name) ? name : (targets![index] ?? name)));
   }
 
-  private async show(): Promise<void> {
-    const element = this.current;
+  // Shows what an element's signals are at the cursor; without one, of what is shown already.
+  private async show(element = this.current, at: Point = this.point): Promise<void> {
     if (!element) return;
-    const at = this.time.cursor;
+    this.current = element;
+    this.point = { clientX: at.clientX, clientY: at.clientY };
+    const time = this.time.cursor;
     const all = this.signalsOf(element);
     const signals = all.filter((name) => this.known.has(name));
     const entries = signals
       .slice(0, MOST)
-      .map(async (label) => ({ label, text: at === null ? "" : await this.valueOf(label, at) }));
+      .map(async (label) => ({ label, text: time === null ? "" : await this.valueOf(label, time) }));
     const list = definitions(await Promise.all(entries));
     if (element !== this.current) return;
     this.card.replaceChildren(list);
     if (signals.length > MOST) this.card.append(`and ${signals.length - MOST} more in figures`);
     if (!signals.length) this.card.append("In no figure: constant, or equal to other signals.");
     this.card.hidden = false;
-    moveBeside(this.card, this.at);
+    moveBeside(this.card, this.point);
   }
 
   private async valueOf(signal: string, at: number): Promise<string> {
@@ -99,7 +139,11 @@ export class Diagram {
     return series;
   }
 
-  private lead(figure: number): void {
+  // Goes to the first figure that has one of an element's signals.
+  private lead(element: Element): void {
+    const signal = this.signalsOf(element).find((name) => this.known.has(name));
+    if (!signal) return;
+    const { figure } = this.known.get(signal)!;
     const elements = [...document.querySelectorAll(`[data-figure="${figure}"]`)];
     const folded = elements[0]?.closest("details");
     if (folded) folded.open = true;

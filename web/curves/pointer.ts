@@ -39,9 +39,9 @@ export function listen(plot: Plot, area: HTMLElement, onFocus: () => void, picki
 
   area.addEventListener("pointerdown", (event) => {
     onFocus();
+    if (event.pointerType === "mouse" && event.button !== 0) return;
     touches.set(event.pointerId, event);
     if (event.pointerType === "mouse") {
-      if (event.button !== 0) return;
       begin = { ...placeOf(event), shift: event.shiftKey };
       area.setPointerCapture(event.pointerId);
     } else if (touches.size === 1) {

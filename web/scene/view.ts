@@ -162,6 +162,10 @@ export class View {
     this.paint(); // what is not in the page has no colours yet
   }
 
+  pause(): void {
+    if (this.playback.playing) this.playback.pause();
+  }
+
   // Asks for one new picture.
   changed(): void {
     this.controls?.show();

@@ -28,9 +28,12 @@ def _body_notes(body: Body, result: Result) -> list[str]:
     if isinstance(body.attitude, ThrustAxis):
         notes.append(f"{body.name}: roll about {body.attitude.signal.label} is unknown and not shown.")
     notes += [_plume(body, thrust, result) for thrust in body.thrusts]
-    if body.jets:
-        labels = " or ".join(jets.signal.label for jets in body.jets)
-        notes.append(f"Jets: shown while {labels} is not 0, not to scale.")
+    forces = " or ".join(jets.signal.label for jets in body.jets if not jets.pulses)
+    pulses = " or ".join(jets.signal.label for jets in body.jets if jets.pulses)
+    if forces:
+        notes.append(f"Jets: their length is proportional to {forces}, not to scale.")
+    if pulses:
+        notes.append(f"Jets: shown while a pulse of {pulses} lasts, not to scale.")
     return notes
 
 

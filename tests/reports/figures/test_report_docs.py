@@ -21,6 +21,13 @@ def test_every_element_and_attribute_is_documented():
     assert {*SCENE, *KINDS, *BODY, *JETS, *NOZZLE, *SHAPES, GROUND} <= WORDS
 
 
+def test_every_shape_has_a_script():
+    """Which draws nothing of a shape that it does not know."""
+    script = Path(ROOT, "web", "scene", "objects", "shapes.ts").read_text(encoding="utf-8")
+    builders = re.search(r"const BUILDERS: [^{]*\{(.*?)\}", script, re.DOTALL)[1]
+    assert sorted(re.findall(r"\w+", builders)) == sorted(SHAPES)
+
+
 def test_what_our_systems_ask_for_is_documented():
     requested = "".join(path.read_text(encoding="utf-8") for path in SYSTEMS.glob("*/SystemStructure.ssd"))
     reports = " ".join(re.findall(r"<Report .*?</Report>", requested, re.DOTALL))

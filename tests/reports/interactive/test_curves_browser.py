@@ -15,10 +15,8 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
-from perilune.analysis.cli import main
 from perilune.analysis.reports.common.quantities import display_factor, display_unit, number
 from perilune.analysis.runtime.ssp.names import elements
-from tests.support.locks import made_once
 from tests.support.pages.driven import driven, scroll_to_plot
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -44,17 +42,6 @@ return rows;
 
 AT = "document.dispatchEvent(new CustomEvent('perilune-time', {detail: {time: arguments[0], from: 'test'}}))"
 POINT = "document.querySelector(arguments[0]).dispatchEvent(new PointerEvent('pointermove', {clientX: 9, clientY: 9}))"
-
-
-@pytest.fixture(scope="module")
-def flight(tmp_path_factory):
-    """The page of a landing and its table."""
-
-    def fly(folder):
-        options = ["--report", str(folder / "page.html"), "--output", str(folder / "flight.parquet")]
-        assert main(["run", "landing_mission", *options]) == 0
-
-    return made_once(tmp_path_factory, "landing_mission_page", fly)
 
 
 def panel_of(driver, label):

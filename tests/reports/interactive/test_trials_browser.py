@@ -17,7 +17,6 @@ from selenium.webdriver.support.ui import WebDriverWait
 
 from perilune.analysis.cli import main
 from perilune.analysis.reports.common.quantities import number
-from tests.support.locks import made_once
 from tests.support.pages.driven import driven, scroll_to_plot
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -36,17 +35,6 @@ for (let at = 0; at < pixels.length; at += 4) {
 }
 return count;
 """
-
-
-@pytest.fixture(scope="module")
-def batch(tmp_path_factory):
-    """A campaign's folder, out, and its page."""
-
-    def fly(folder):
-        options = ["--campaign", "paper", "--trials", "300", "--output", str(folder / "out")]
-        assert main(["batch", "lunar_terminal_guidance", *options, "--report", str(folder / "page.html")]) == 0
-
-    return made_once(tmp_path_factory, "batch_page", fly)
 
 
 def frame_of(driver, label):

@@ -239,7 +239,7 @@ def test_everything_wrong_is_refused_with_its_line(read, tmp_path, name):
     ("more", "elements", "words"),
     [
         ('axes="x y"', (body(),), "axes has 2 names"),
-        ('up="w"', (body(),), "up 'w' is no axis"),
+        ('up="w"', (body(),), "up 'w' is not an axis"),
         ('up="y"', ('<Surface kind="plane"/>', body()), "up y with a Surface, whose normal is z"),
         ('frame="inertial"', (SPHERE, body(GEOGRAPHIC)), "frame, with longitude and latitude"),
         ("", (SPHERE, body(GEOGRAPHIC), body(name="other")), "positions of two kinds"),

@@ -205,9 +205,9 @@ def test_a_lost_context_is_said_and_comes_back(browser, page):
         lose = "window.gl = arguments[0].getContext('webgl2').getExtension('WEBGL_lose_context'); gl.loseContext()"
         driver.execute_script(lose, scene.stage.find_element(By.TAG_NAME, "canvas"))
         holder = driver.find_element(By.CSS_SELECTOR, "[data-scene]")
-        WebDriverWait(driver, 30).until(lambda _: "was lost" in holder.text)
+        WebDriverWait(driver, 30).until(lambda _: "has lost" in holder.text)
         driver.execute_script("gl.restoreContext()")
-        WebDriverWait(driver, 30).until(lambda _: "was lost" not in holder.text)
+        WebDriverWait(driver, 30).until(lambda _: "has lost" not in holder.text)
         assert np.ptp(scene.picture()[..., :3]) > 0.3
         driver.get_log("browser")  # three.js reports the loss there
 

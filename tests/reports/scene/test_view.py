@@ -191,7 +191,7 @@ def test_what_is_not_to_scale_is_said():
     assert "Dashed line: ship's beam." in text
     assert "roll about ship.axis is unknown and not shown" in text
     assert "proportional to ship.thrust, 8 m at 400." in text
-    assert "Jets: shown while ship.lengths is not 0, not to scale." in text
+    assert "Jets: shown while a pulse of ship.lengths lasts, not to scale." in text
 
 
 HOSTILE = ("</script><b>", "<!--<script>", "a\u2028b\nc", "\u202eabc", "__proto__", "constructor", "'\"&amp;`${x}")

@@ -8,11 +8,11 @@ const COLOURS = ["#d9480f", "#2b8a3e", "#1c6fd0"]; // x, y, z
 const LENGTH = 30; // px
 const AXES = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
 
-// The axes of a body, twice as long as its half extent.
-export function bodyAxes(extent: number): Group {
+// The axes of a body, of this length (m).
+export function bodyAxes(length: number): Group {
   const group = new Group();
   for (const [index, axis] of AXES.entries()) {
-    group.add(new ArrowHelper(axis, new Vector3(), extent, COLOURS[index], 0.12 * extent, 0.06 * extent));
+    group.add(new ArrowHelper(axis, new Vector3(), length, COLOURS[index], 0.12 * length, 0.06 * length));
   }
   return group;
 }

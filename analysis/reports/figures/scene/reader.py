@@ -70,7 +70,7 @@ def _axes(
     if len(axes) != 3:
         raise reader.refuse(element, f"axes has {len(axes)} names", "give three, separated by spaces")
     if up not in ("x", "y", "z"):
-        raise reader.refuse(element, f"up {up!r} is no axis", "write x, y or z")
+        raise reader.refuse(element, f"up {up!r} is not an axis", "write x, y or z")
     if up != "z" and surface is not None:
         raise reader.refuse(element, f"up {up} with a Surface, whose normal is z", "leave up out")
     return LOCAL_AXES if local else axes, up

@@ -1,0 +1,28 @@
+"""Pages that several tests open: of a run and of a batch, each made once."""
+
+import pytest
+
+from perilune.analysis.cli import main
+from tests.support.locks import made_once
+
+
+@pytest.fixture(scope="session")
+def flight(tmp_path_factory):
+    """The page of a landing and its table."""
+
+    def fly(folder):
+        options = ["--report", str(folder / "page.html"), "--output", str(folder / "flight.parquet")]
+        assert main(["run", "landing_mission", *options]) == 0
+
+    return made_once(tmp_path_factory, "landing_mission_page", fly)
+
+
+@pytest.fixture(scope="session")
+def batch(tmp_path_factory):
+    """A campaign's folder, out, and its page."""
+
+    def fly(folder):
+        options = ["--campaign", "paper", "--trials", "300", "--output", str(folder / "out")]
+        assert main(["batch", "lunar_terminal_guidance", *options, "--report", str(folder / "page.html")]) == 0
+
+    return made_once(tmp_path_factory, "batch_page", fly)
