@@ -11,23 +11,33 @@ const NO_WEBGL = "There is no three-dimensional view here, since this browser ha
 const LOST = "The graphics system has lost the three-dimensional view. It may come back by itself; otherwise load the page again.";
 const FAILED = "The three-dimensional view could not be made; the figures of this page show the same flight.";
 
-// Without a graphics processor smooth edges take more time than a picture may.
-function drawsInSoftware(): boolean {
-  const context = make("canvas").getContext("webgl2");
+// In a thread of its own: the first context of a browser may take as long as the rest of the page.
+const PROBE = `
+  const context = new OffscreenCanvas(1, 1).getContext("webgl2");
   const names = context?.getExtension("WEBGL_debug_renderer_info");
-  const software = /swiftshader|llvmpipe|software|basic render/i.test(
-    String((names && context?.getParameter(names.UNMASKED_RENDERER_WEBGL)) ?? ""),
-  );
+  postMessage(String(names && context.getParameter(names.UNMASKED_RENDERER_WEBGL)));
   context?.getExtension("WEBGL_lose_context")?.loseContext();
-  return software;
+`;
+
+// Without a graphics processor smooth edges take more time than a picture may.
+async function drawsInSoftware(): Promise<boolean> {
+  const address = URL.createObjectURL(new Blob([PROBE], { type: "text/javascript" }));
+  const worker = new Worker(address);
+  const name = await new Promise<string>((resolve) => {
+    worker.onmessage = (event) => resolve(event.data as string);
+    worker.onerror = () => resolve(""); // a browser without OffscreenCanvas
+  });
+  worker.terminate();
+  URL.revokeObjectURL(address);
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
 async function start(holder: HTMLElement): Promise<View | null> {
   const page = readPage();
-  const data = page && (await readScene(page));
+  const [data, isSoftware] = await Promise.all([page && readScene(page), drawsInSoftware()]);
   if (!data) return null;
   const canvas = make("canvas");
-  const context = canvas.getContext("webgl2", { antialias: !drawsInSoftware(), alpha: false, powerPreference: "high-performance" });
+  const context = canvas.getContext("webgl2", { antialias: !isSoftware, alpha: false, powerPreference: "high-performance" });
   if (!context) {
     say(holder, NO_WEBGL);
     return null;

@@ -2,7 +2,6 @@
 
 export interface Encoded {
   rows: number;
-  data: string;
   low?: number; // of the range of a column in 16 bits; of asinh(x / knee) unless the knee is 0
   high?: number;
   knee?: number;
@@ -10,11 +9,28 @@ export interface Encoded {
 
 const STEPS = 65534; // of such a range; the number above is nan
 
-export async function decode(column: Encoded): Promise<Float32Array | Float64Array> {
-  const bytes = await inflate(column.data);
-  const size = column.low === undefined ? 4 : 2;
-  const numbers = integrate(ungroup(bytes, column.rows, size), 8 * size);
+export interface Packed {
+  columns: Encoded[];
+  packed: [exact: string, coarse: string]; // the bytes of the columns of each kind, one after the other
+}
+
+const inflated = new WeakMap<Packed, Promise<Uint8Array>[]>();
+
+// A column by its number; the first one of a kind takes the time that all of it take.
+export async function decode(page: Packed, number: number): Promise<Float32Array | Float64Array> {
+  const column = page.columns[number]!;
+  const size = sizeOf(column);
+  const kinds = inflated.get(page) ?? [];
+  inflated.set(page, kinds);
+  const kind = size === 4 ? 0 : 1;
+  const bytes = await (kinds[kind] ??= inflate(page.packed[kind]));
+  const before = page.columns.slice(0, number).reduce((sum, each) => sum + (sizeOf(each) === size ? size * each.rows : 0), 0);
+  const numbers = integrate(ungroup(bytes.subarray(before), column.rows, size), 8 * size);
   return size === 4 ? floats(numbers as Uint32Array) : spread(numbers, column);
+}
+
+function sizeOf(column: Encoded): 2 | 4 {
+  return column.low === undefined ? 4 : 2;
 }
 
 // Half the distance between neighbours of a number in its column: how far it may be from what it was.
@@ -26,11 +42,14 @@ export function uncertainty({ low, high, knee }: Encoded, number: number): numbe
 }
 
 async function inflate(text: string): Promise<Uint8Array> {
-  const characters = atob(text);
-  const packed = new Uint8Array(characters.length);
-  for (let index = 0; index < packed.length; index++) packed[index] = characters.charCodeAt(index);
+  const packed = fromBase64(text);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+// Browsers of before 2025 have no function of their own for it, which is ten times as quick.
+export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
 }
 
 function ungroup(bytes: Uint8Array, rows: number, size: number): Uint16Array | Uint32Array {

@@ -1,6 +1,6 @@
 // The document inside a page: analysis/reports/interactive/embedded.py.
 
-import { type Encoded, decode } from "./columns";
+import { type Encoded, type Packed, decode } from "./columns";
 
 export interface Axis {
   label?: string;
@@ -84,7 +84,7 @@ export class Page {
   readonly encoded: Encoded[];
   private readonly decoded = new Map<number, Promise<Values>>();
 
-  constructor(readonly document: { columns: Encoded[]; figures: (Chart | null)[][] } & Record<string, unknown>) {
+  constructor(readonly document: Packed & { figures: (Chart | null)[][] } & Record<string, unknown>) {
     this.encoded = document.columns;
     this.figures = document.figures;
   }
@@ -93,14 +93,18 @@ export class Page {
   column(number: number): Promise<Values> {
     let values = this.decoded.get(number);
     if (!values) {
-      values = decode(this.encoded[number]!);
+      values = decode(this.document, number);
       this.decoded.set(number, values);
     }
     return values;
   }
 }
 
+const SHARED = Symbol.for("perilune.page");
+
+// One for all scripts of a page, each of which has a copy of this module.
 export function readPage(): Page | null {
+  const shared = globalThis as { [SHARED]?: Page };
   const element = document.getElementById("page-data");
-  return element ? new Page(JSON.parse(element.textContent ?? "")) : null;
+  return element && (shared[SHARED] ??= new Page(JSON.parse(element.textContent ?? "")));
 }

@@ -1,5 +1,6 @@
 // Trials one by one, as analysis/show/dots.py encodes them.
 
+import { fromBase64 } from "../page/columns";
 import type { DotData } from "./document";
 
 export interface Dots {
@@ -12,11 +13,11 @@ export interface Dots {
 
 export function decodeDots(data: DotData): Dots {
   return {
-    rows: new Uint32Array(bytes(data.rows).buffer),
-    x: new Uint16Array(bytes(data.x).buffer),
-    y: new Uint16Array(bytes(data.y).buffer),
-    success: bytes(data.success),
-    variants: new Uint16Array(bytes(data.variants).buffer),
+    rows: new Uint32Array(fromBase64(data.rows).buffer),
+    x: new Uint16Array(fromBase64(data.x).buffer),
+    y: new Uint16Array(fromBase64(data.y).buffer),
+    success: fromBase64(data.success),
+    variants: new Uint16Array(fromBase64(data.variants).buffer),
   };
 }
 
@@ -28,8 +29,4 @@ export function nearestDot({ x, y }: Dots, at: { x: number; y: number }, unit: {
     if (distance <= best) [best, nearest] = [distance, dot];
   }
   return nearest;
-}
-
-function bytes(text: string): Uint8Array<ArrayBuffer> {
-  return Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
 }

@@ -33,6 +33,7 @@ class Columns:
 
     encoded: list[dict[str, Any]] = field(default_factory=list)
     _numbers: dict[tuple[bytes, bool], int] = field(default_factory=dict)
+    _bytes: tuple[bytearray, bytearray] = field(default_factory=lambda: (bytearray(), bytearray()))
 
     def add(self, numbers: np.ndarray, *, coarse: bool = False) -> int:
         """The index of a column of these numbers, [rows]; equal columns share one.
@@ -43,8 +44,15 @@ class Columns:
             column = np.ascontiguousarray(numbers, dtype="<f4")
         index = self._numbers.setdefault((column.tobytes(), coarse), len(self.encoded))
         if index == len(self.encoded):
-            self.encoded.append(_coarse(column) if coarse else {"rows": column.size, "data": _text(_ordered(column))})
+            described, integers = _coarse(column) if coarse else ({}, _ordered(column))
+            self.encoded.append({"rows": column.size} | described)
+            self._bytes[coarse].extend(_planes(integers))
         return index
+
+    def document(self) -> dict[str, Any]:
+        """What describes the columns, and those of float32 and of 16 bits as base64 of their deflated bytes."""
+        packed = [base64.b64encode(zlib.compress(each, LEVEL)).decode("ascii") for each in self._bytes]
+        return {"columns": self.encoded, "packed": packed}
 
 
 def _ordered(column: np.ndarray) -> np.ndarray:
@@ -53,14 +61,15 @@ def _ordered(column: np.ndarray) -> np.ndarray:
     return np.where(bits >> 31 == 1, ~bits, bits | np.uint32(1 << 31))
 
 
-def _coarse(column: np.ndarray) -> dict[str, Any]:
+def _coarse(column: np.ndarray) -> tuple[dict[str, float], np.ndarray]:
+    """The range of a column, and its steps in it as integers."""
     finite = column[np.isfinite(column)].astype(float)
     knee = knee_of(finite, float(np.abs(finite).max(initial=0.0)))
     bent = np.arcsinh(finite / knee) if knee else finite
     low, high = (float(bent.min()), float(bent.max())) if finite.size else (0.0, 0.0)
     steps = np.full(column.size, STEPS + 1, dtype="<u2")
     steps[np.isfinite(column)] = np.rint((bent - low) * (STEPS / (high - low) if high > low else 0.0))
-    return {"rows": column.size, "low": low, "high": high, "knee": knee, "data": _text(steps)}
+    return {"low": low, "high": high, "knee": knee}, steps
 
 
 def knee_of(finite: np.ndarray, greatest: float) -> float:
@@ -71,12 +80,11 @@ def knee_of(finite: np.ndarray, greatest: float) -> float:
     return small if greatest > DECADES * small else 0.0
 
 
-def _text(numbers: np.ndarray) -> str:
-    """Unsigned integers of one size as base64 of their deflated second differences."""
+def _planes(numbers: np.ndarray) -> bytes:
+    """The second differences of unsigned integers of one size, their bytes grouped by significance."""
     differences = numbers
     for _ in range(2):
         differences = differences - np.concatenate([np.zeros(1, numbers.dtype), differences[:-1]])[: numbers.size]
     signs = differences >> (8 * numbers.itemsize - 1)
     folded = (differences << 1) ^ (np.zeros_like(signs) - signs)  # small negative ones become small, too
-    planes = folded.astype(numbers.dtype.newbyteorder("<")).view(np.uint8).reshape(-1, numbers.itemsize).T
-    return base64.b64encode(zlib.compress(planes.tobytes(), LEVEL)).decode("ascii")
+    return folded.astype(numbers.dtype.newbyteorder("<")).view(np.uint8).reshape(-1, numbers.itemsize).T.tobytes()

@@ -59,7 +59,7 @@ class Embedded:
         """The document and the scripts as elements for the end of a page; nothing where it has none."""
         if not self._bundles:
             return Markup("")
-        document = {"columns": self._columns.encoded, "figures": self._figures, **self._documents}
+        document = {**self._columns.document(), "figures": self._figures, **self._documents}
         # A browser looks for "<" in here before anything reads it as JSON; other than ASCII is escaped as it is.
         text = json.dumps(document, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
         content = f'<script type="application/json" id="page-data">{text}</script>\n'

@@ -17,7 +17,9 @@ SAMPLES = 200  # of columns, decoded in one process
 
 
 def decoded(columns: Columns) -> list[np.ndarray]:
-    return [np.array(each, dtype=float) for each in call("page/columns.ts", "decode", [[e] for e in columns.encoded])]
+    document = columns.document()
+    inputs = [[document, number] for number in range(len(document["columns"]))]
+    return [np.array(each, dtype=float) for each in call("page/columns.ts", "decode", inputs)]
 
 
 def columns_of_all_kinds() -> list[np.ndarray]:
