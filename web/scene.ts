@@ -48,14 +48,14 @@ async function start(holder: HTMLElement): Promise<View | null> {
   holder.replaceChildren(lost, view.element);
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();
-    view.pause();
+    view.isNear = false;
     view.element.hidden = true;
     lost.hidden = false;
   });
   canvas.addEventListener("webglcontextrestored", () => {
     view.element.hidden = false;
     lost.hidden = true;
-    view.changed();
+    view.isNear = true;
   });
   return view;
 }
@@ -69,14 +69,13 @@ for (const holder of document.querySelectorAll<HTMLElement>("[data-scene]")) {
   let started: Promise<View | null> | null = null;
   const observer = new IntersectionObserver(
     (entries) => {
-      if (!entries.at(-1)!.isIntersecting) {
-        void started?.then((view) => view?.pause());
-        return;
-      }
+      const isNear = entries.at(-1)!.isIntersecting;
+      if (!started && !isNear) return;
       started ??= start(holder).catch((error: unknown) => {
         say(holder, FAILED);
         throw error;
       });
+      void started.then((view) => view && (view.isNear = isNear));
     },
     { rootMargin: "200px" },
   );

@@ -14,7 +14,8 @@ export class Figure {
   readonly frame = document.createElement("div");
   readonly values = document.createElement("output");
   private size = { width: 0, height: 0 }; // px; 0 while it is folded away
-  private isNear = false; // to the screen, now or before: canvases of all figures at once would stop the page
+  private isNear = false; // to the screen: far ones have no canvas yet, or an old one, since all at once stop the page
+  private isDrawn = false; // for its size
 
   private constructor(
     readonly picture: SVGElement,
@@ -26,9 +27,8 @@ export class Figure {
     this.frame.append(picture, ...plots.map((plot) => plot.root), this.values);
     // Calls once when it begins to observe, for all new figures together after the page was laid out.
     new ResizeObserver(([entry]) => this.resize(entry!.contentRect)).observe(this.frame);
-    const observer = new IntersectionObserver((entries) => entries.some((entry) => entry.isIntersecting) && this.approach(), MARGIN);
-    observer.observe(this.frame);
-    this.frame.addEventListener("focusin", () => this.approach());
+    new IntersectionObserver((entries) => this.move(entries.at(-1)!.isIntersecting), MARGIN).observe(this.frame);
+    this.frame.addEventListener("focusin", () => this.move(true));
     for (const plot of plots) plot.time.follow([Infinity, -Infinity], () => this.showValues(), () => undefined);
   }
 
@@ -46,19 +46,23 @@ export class Figure {
   private resize({ width, height }: { width: number; height: number }): void {
     if (width === this.size.width && height === this.size.height) return;
     this.size = { width, height };
+    this.isDrawn = false;
     if (this.isNear) this.draw();
   }
 
-  private approach(): void {
-    if (this.isNear) return;
-    this.isNear = true;
-    this.draw();
+  private move(isNear: boolean): void {
+    if (isNear === this.isNear) return;
+    this.isNear = isNear;
+    for (const plot of this.plots) plot.isNear = isNear;
+    if (isNear) this.draw();
   }
 
   private draw(): void {
     const { width, height } = this.size;
     if (!width || !height) return;
-    this.plots.forEach((plot, index) => plot.place(placeOf(this.charts, index, width, height)));
+    if (this.isDrawn) for (const plot of this.plots) plot.redraw();
+    else this.plots.forEach((plot, index) => plot.place(placeOf(this.charts, index, width, height)));
+    this.isDrawn = true;
   }
 
   // Shows or hides the lines of a position in the legend.
@@ -82,14 +86,13 @@ export class Figure {
   private showValues(): void {
     if (!this.size.height) return;
     const entries = this.plots.flatMap((plot) => (plot.time.cursor === null ? [] : describePlot(plot, plot.time.cursor)));
-    this.values.replaceChildren(
-      ...entries.map(([text, colour]) => {
-        const span = document.createElement("span");
-        span.textContent = text;
-        span.style.borderColor = colour;
-        return span;
-      }),
-    );
+    const spans = this.values.children;
+    while (spans.length > entries.length) spans[entries.length]!.remove();
+    for (const [index, [text, colour]] of entries.entries()) {
+      const span = (spans[index] ?? this.values.appendChild(document.createElement("span"))) as HTMLElement;
+      if (span.textContent !== text) span.textContent = text;
+      if (span.dataset.colour !== colour) span.style.borderColor = span.dataset.colour = colour;
+    }
   }
 }
 

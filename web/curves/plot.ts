@@ -24,6 +24,7 @@ export interface Place {
 export class Plot {
   readonly root = document.createElement("div");
   readonly layers: Layer[] = []; // drawn below the lines
+  isNear = false; // to the screen: only then it is drawn anew
   onArea: (area: HTMLElement) => void = () => undefined; // called with each new area in which lines are drawn
   private plot: uPlot | null = null;
   private size = { width: 0, height: 0 }; // px, of the area; asking the page for it would lay it out anew each time
@@ -75,6 +76,7 @@ export class Plot {
   }
 
   redraw(): void {
+    if (!this.isNear) return;
     this.plot?.batch((plot: uPlot) => {
       const [x, y] = this.ranges();
       plot.setScale("x", { min: x[0], max: x[1] });
@@ -131,7 +133,7 @@ export class Plot {
   }
 
   private showCursor(): void {
-    if (!this.plot) return;
+    if (!this.plot || !this.isNear) return;
     const at = this.time.cursor;
     const visible = at !== null;
     this.line.hidden = !visible || this.isPath;

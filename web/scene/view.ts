@@ -55,6 +55,7 @@ export class View {
   private followed: BodyData;
   private pictures = 0;
   private pending = 0;
+  private rests = false;
   private drawn: Instant;
   private announced = -Infinity;
   private fromElsewhere = false;
@@ -162,13 +163,17 @@ export class View {
     this.paint(); // what is not in the page has no colours yet
   }
 
-  pause(): void {
-    if (this.playback.playing) this.playback.pause();
+  // Nothing is drawn while the view is far from the screen.
+  set isNear(near: boolean) {
+    this.rests = !near;
+    if (near) this.changed();
+    else if (this.playback.playing) this.playback.pause();
   }
 
   // Asks for one new picture.
   changed(): void {
     this.controls?.show();
+    if (this.rests) return;
     this.pending ||= requestAnimationFrame(() => {
       this.pending = 0;
       this.draw();

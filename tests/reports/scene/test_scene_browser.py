@@ -55,8 +55,10 @@ class SceneView:
 
     def __init__(self, driver):
         self.driver = driver
-        driver.execute_script("document.querySelector('[data-scene]').scrollIntoView({block: 'center'})")
+        scroll = "document.querySelector('[data-scene]').scrollIntoView({block: 'center'})"
+        driver.execute_script(scroll)
         WebDriverWait(driver, 30).until(lambda each: each.find_elements(By.CSS_SELECTOR, "[data-drawn]"))
+        driver.execute_script(scroll)
         self.stage = driver.find_element(By.CSS_SELECTOR, ".scene-view")
         self.slider = driver.find_element(By.CSS_SELECTOR, ".scene-controls input")
 

@@ -15,7 +15,14 @@ from selenium.webdriver.support.ui import WebDriverWait
 
 from tests.support.pages.scripts import require_scripts
 
-FLAGS = ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+# WebGL in software, plots by the processor itself, as in a browser without a graphics processor.
+FLAGS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-accelerated-2d-canvas",
+)
 PHONE = {"width": 390, "height": 844, "pixelRatio": 2.0, "touch": True}
 PATIENCE = 60  # s
 

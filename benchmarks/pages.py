@@ -1,0 +1,158 @@
+"""Sizes and times of report pages: a run of landing_mission, and a batch of 3 x 10 000 trials.
+
+    python -m benchmarks.pages [TRIALS]
+
+Prints the table of docs/reports.md: medians over pages opened anew, in headless Chromium with WebGL in software, which
+needs Chromium and its driver. Times of pictures include the frame in which they are drawn.
+"""
+
+from __future__ import annotations
+
+import shutil
+import statistics
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from selenium.webdriver import Chrome, ChromeOptions
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.support.ui import WebDriverWait
+
+from perilune.analysis.cli import main as perilune
+from tests.support.pages.driven import FLAGS
+
+OPENED = 5  # times that each page is opened
+FRAMES = 40
+SCENE = (1200, 800)  # px
+# From the end of parsing on: when all figures are ready, and when the scene has its first picture.
+WATCH = """
+window.times = {};
+const note = (name) => requestAnimationFrame(() => { window.times[name] ??= performance.now(); });
+new MutationObserver(() => {
+  if (document.documentElement?.dataset.ready) note("ready");
+  if (document.querySelector("[data-drawn]")) note("drawn");
+}).observe(document, { attributes: true, subtree: true, attributeFilter: ["data-ready", "data-drawn"] });
+"""
+SINCE = "return window.times[arguments[0]] - performance.getEntriesByType('navigation')[0].domInteractive"
+# The mean time of a frame in which a statement is carried out, its WebGL included.
+LOOP = """
+const [frames, begin, done] = [arguments[0], performance.now(), arguments[1]];
+const canvas = document.querySelector(".scene-view canvas");
+let frame = 0;
+const step = () => {
+  if (frame++ < frames) { STATEMENT; requestAnimationFrame(step); return; }
+  canvas?.getContext("webgl2").finish();
+  done((performance.now() - begin) / frames);
+};
+requestAnimationFrame(step);
+"""
+KEY = "document.querySelector('SELECTOR').dispatchEvent(new KeyboardEvent('keydown', { key: KEYS, bubbles: true }))"
+TURN = KEY.replace("SELECTOR", ".scene-view").replace("KEYS", "'ArrowLeft'")
+CURSOR = KEY.replace("SELECTOR", ".chart").replace("KEYS", "'ArrowRight'")
+ZOOM = KEY.replace("SELECTOR", ".chart").replace("KEYS", "frame % 2 ? '+' : '0'")
+SIZE = "Object.assign(document.querySelector('.scene-view').style, { width: arguments[0], height: arguments[1] })"
+# Draws all figures, which otherwise happens when they come near to the screen.
+ALL = """
+const done = arguments[0];
+const frames = [...document.querySelectorAll(".live")].filter((each) => each.clientHeight);
+const next = () => {
+  const frame = frames.shift();
+  if (!frame) { scrollTo(0, 0); requestAnimationFrame(() => requestAnimationFrame(done)); return; }
+  frame.scrollIntoView();
+  requestAnimationFrame(() => requestAnimationFrame(next));
+};
+next();
+"""
+BRUSH = """
+const area = document.querySelector("[data-figure]").closest(".live").querySelector(".u-over");
+const { left, top, width, height } = area.getBoundingClientRect();
+const send = (type, x, y) => area.dispatchEvent(new PointerEvent(type, { pointerId: 1, pointerType: "mouse", button: 0,
+  bubbles: true, clientX: left + x * width, clientY: top + y * height }));
+area.setPointerCapture = () => undefined;
+const end = 0.3 + 0.6 * (frame / frames);
+send("pointerdown", 0.1, 0.1);
+send("pointermove", end, end);
+send("pointerup", end, end);
+"""
+
+
+def main(trials: int) -> None:
+    """Write the pages, open them, print a table."""
+    with tempfile.TemporaryDirectory() as scratch:
+        run, batch = Path(scratch) / "run.html", Path(scratch) / "batch.html"
+        perilune(["run", "landing_mission", "--report", str(run)])
+        options = ["--campaign", "paper", "--trials", str(trials), "--output", str(Path(scratch) / "results")]
+        perilune(["batch", "lunar_terminal_guidance", *options, "--report", str(batch)])
+        opened = [_open(run, _of_run) for _ in range(OPENED)]
+        brushed = [_open(batch, _of_batch) for _ in range(OPENED)]
+        sizes = [path.stat().st_size / 1e6 for path in (run, batch)]
+    rows = [
+        ("page of a run of landing_mission, MB", f"{sizes[0]:.2f}", "5"),
+        (f"page of a batch of 3 x {trials} trials, MB", f"{sizes[1]:.2f}", "8"),
+        *(_row(name, goal, opened) for name, goal in GOALS_OF_RUN.items()),
+        *(_row(name, goal, brushed) for name, goal in GOALS_OF_BATCH.items()),
+    ]
+    print("\n| | median, greatest | goal |\n| --- | --- | --- |")
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+
+
+GOALS_OF_RUN = {
+    "run: all figures answer, s after the page is parsed": "1.0",
+    "run: first picture of the scene, s after the page is parsed": "1.0",
+    "run: cursor by one row in all figures, ms": "",
+    "run: zoom of all figures, ms": "50",
+    f"run: picture of the scene, {SCENE[0]} x {SCENE[1]}, ms": "50",
+}
+GOALS_OF_BATCH = {"batch: all figures answer, s after the page is parsed": "1.0", "batch: brush, ms": "100"}
+
+
+def _row(name: str, goal: str, opened: list[dict[str, float]]) -> tuple[str, str, str]:
+    measured = [each[name] for each in opened]
+    return name, f"{statistics.median(measured):.3g}, {max(measured):.3g}", goal
+
+
+def _open(page: Path, measure: Callable[[Any], list[float]]) -> dict[str, float]:
+    options = ChromeOptions()
+    for flag in (*FLAGS, "--window-size=1400,1300"):
+        options.add_argument(flag)
+    driver = Chrome(options=options, service=Service(shutil.which("chromedriver")))
+    try:
+        driver.set_script_timeout(120)
+        driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": WATCH})
+        driver.get(page.as_uri())
+        goals = GOALS_OF_RUN if measure is _of_run else GOALS_OF_BATCH
+        return dict(zip(goals, measure(driver), strict=True))
+    finally:
+        driver.quit()
+
+
+def _of_run(driver: Any) -> list[float]:
+    since = [_since(driver, name) for name in ("ready", "drawn")]
+    driver.execute_script(SIZE, *(f"{length}px" for length in SCENE))
+    picture = _frame(driver, TURN)
+    driver.execute_async_script(ALL)
+    driver.execute_script("document.querySelector('.live').scrollIntoView()")
+    return [*since, _frame(driver, CURSOR), _frame(driver, ZOOM), picture]
+
+
+def _of_batch(driver: Any) -> list[float]:
+    since = _since(driver, "ready")
+    driver.execute_async_script(ALL)
+    driver.execute_script("document.querySelector('.live').scrollIntoView()")
+    return [since, _frame(driver, BRUSH)]
+
+
+def _since(driver: Any, name: str) -> float:
+    WebDriverWait(driver, 120, 0.02).until(lambda each: each.execute_script("return arguments[0] in times", name))
+    return float(driver.execute_script(SINCE, name)) / 1000
+
+
+def _frame(driver: Any, statement: str) -> float:
+    return float(driver.execute_async_script(LOOP.replace("STATEMENT", statement), FRAMES))
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 10_000)
