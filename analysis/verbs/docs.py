@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import webbrowser
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Unpack
 
 from ...fmus_src.paths import BUILD, IS_CHECKOUT
 from ..common.errors import InputError
+from .common.browser import open_page
 from .options.library import DOCS, DocsOptions
 from .options.verb import verb
 from .result import NoProblems
@@ -40,6 +40,5 @@ def docs(**options: Unpack[DocsOptions]) -> Documentation:
         raise InputError("docs", str(FIRST_PAGE), "the site is not there", remedy)
     if options["print"]:
         return Documentation(FIRST_PAGE, False)
-    if not webbrowser.open(FIRST_PAGE.as_uri()):
-        raise InputError("docs", str(FIRST_PAGE), "no browser opens it", "open this file yourself")
+    open_page("docs", FIRST_PAGE)
     return Documentation(FIRST_PAGE, True)

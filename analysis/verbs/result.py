@@ -14,7 +14,8 @@ from ..common.errors import ExitStatus, InputError, call_by_flags
 from ..common.targets import Results, check_file, check_folder
 from ..runtime.system.options import system_options
 from ..runtime.system.stale import report_fmus
-from .options.option import defaults_of, options_of
+from .common.browser import open_page, require_browser
+from .options.option import Kind, defaults_of, options_of
 from .options.parsing import flags_of
 from .options.verb import Verb
 
@@ -53,19 +54,21 @@ WRITERS = {"report": "report", "output": "write", "data": "write_data"}
 def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]) -> None:
     """Refuse files that cannot be written, and options without their file, before any work. Raises InputError."""
     declared = options_of(verb.files)
-    for name, value in options.items():
-        needed = options_of(verb.options)[name].option.needs
+    everything = {**options_of(verb.options), **declared}
+    for name, value in {**options, **files}.items():
+        needed = everything[name].option.needs
         if needed and files.get(needed) is None:
-            raise InputError(
-                f"`{name}`", str(value), f"without effect unless `{needed}` is given", "give both or neither"
-            )
+            given = "" if value is True else str(value)
+            raise InputError(f"`{name}`", given, f"without effect unless `{needed}` is given", "give both or neither")
     for name, path in files.items():
-        if path is not None and str(path) != STANDARD_OUTPUT:
+        if declared[name].kind is Kind.PATH and str(path) != STANDARD_OUTPUT:
             option = declared[name].option
             if option.is_folder:
                 check_folder(f"`{name}`", Path(path), overwrite=True)
             else:
                 check_file(f"`{name}`", Path(path), option.suffixes)
+    if "open" in files:
+        require_browser("`open`")
 
 
 def report_state_of_fmus(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> None:
@@ -98,6 +101,8 @@ def present(verb: Verb, result: VerbResult, files: Mapping[str, Any]) -> ExitSta
     problems = result.problems()
     for line in problems:
         print(f"perilune: {call_by_flags(line, flags)}", file=sys.stderr)
+    if "open" in files and not written.failed:
+        open_page("`open`", written.home / files["report"])
     if written.failed:
         return ExitStatus.REFUSED
     return getattr(result, "problem_status", ExitStatus.NOT_MET) if problems else ExitStatus.MET

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
+from typing import TypeVar
 
 from markupsafe import Markup
 
@@ -17,8 +21,10 @@ from .drawing import draw
 from .elk import MISSING, Engine, LayoutError
 from .graph import Block, Edge, PortKey
 from .layout import lay_out
+from .placement import Placement
 from .reading import read_graph
 
+Result = TypeVar("Result")
 MAX_NAMED = 20  # outputs of a block without connection
 MAX_BLOCKS, MAX_CONNECTIONS = 200, 500  # beyond which nobody reads a diagram; a vector is one connection
 
@@ -46,16 +52,33 @@ def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diag
     if blocks > MAX_BLOCKS or connections > MAX_CONNECTIONS:
         limits = f"at most {MAX_BLOCKS} and {MAX_CONNECTIONS} are drawn"
         return Diagram(system, None, f"No block diagram: {size}; {limits}.")
-    engine = Engine.load()
-    if engine is None:
+    try:
+        placement = _outside_loops(partial(_lay_out, system))
+    except LayoutError as error:
+        return Diagram(system, None, f"No block diagram of {size}: {error}.")
+    if placement is None:
         return Diagram(system, None, MISSING)
-    with engine:
-        try:
-            placement = lay_out(system, engine)
-        except LayoutError as error:
-            return Diagram(system, None, f"No block diagram of {size}: {error}.")
     is_broad = placement.width > max(SHEET, BROAD * placement.height)
     return Diagram(system, draw(system, placement), is_broad=is_broad)
+
+
+def _lay_out(system: Block) -> Placement | None:
+    """None where the engine was not built. Raises LayoutError."""
+    engine = Engine.load()
+    if engine is None:
+        return None
+    with engine:
+        return lay_out(system, engine)
+
+
+def _outside_loops(call: Callable[[], Result]) -> Result:
+    """What a call returns, in a thread of its own where an event loop runs, as in notebooks: there V8 would wait."""
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        return call()
+    with ThreadPoolExecutor(1) as executor:
+        return executor.submit(call).result()
 
 
 def block_table(system: Block) -> Table:

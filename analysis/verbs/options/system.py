@@ -145,6 +145,7 @@ class ReportFiles(JsonFile, total=False):
     report: Annotated[
         FilePath | None, Option("write a page with figures", metavar="F.html", suffixes=(".html", ".htm"))
     ]
+    open: Annotated[bool, Option("open the page of --report in a browser", False, needs="report")]
 
 
 # Options of several verbs, each named where its group has it.

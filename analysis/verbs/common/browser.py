@@ -1,0 +1,24 @@
+"""Pages opened in the user's browser."""
+
+from __future__ import annotations
+
+import webbrowser
+from pathlib import Path
+
+from ...common.errors import InputError
+
+REMEDY = "open its file yourself"
+
+
+def require_browser(option: str) -> None:
+    """Refuse what needs a browser where there is none. Raises InputError."""
+    try:
+        webbrowser.get()
+    except webbrowser.Error as error:
+        raise InputError(option, "", "no browser is installed here", f"leave it out, and {REMEDY}") from error
+
+
+def open_page(option: str, page: Path) -> None:
+    """Open a page in a browser. Raises InputError where none opens it."""
+    if not webbrowser.open(page.absolute().as_uri()):
+        raise InputError(option, str(page), "no browser opens it", REMEDY)
