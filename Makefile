@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | bench | sanitize | fuzz | elementary | processors | browser | emulator | windows | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | screenshots | bench | sanitize | fuzz | elementary | processors | browser | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # On a terminal pip shows what it does, in a log nothing.
@@ -75,6 +75,10 @@ FIGURES := concept system_figures readme_figure rendezvous_figures modal_compari
 figures: build
 	for name in $(FIGURES); do $(BIN)/python -m docs.figures.$$name || exit 1; done
 
+# The pictures of pages in docs/images, each below 100 kB, taken in Chromium.
+screenshots: build browser
+	$(BIN)/python -m docs.figures.screenshots
+
 bench: build
 	$(BIN)/python -m benchmarks.importers
 
@@ -142,4 +146,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks bench large sanitize fuzz processors emulator windows browser lint clean
+.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench large sanitize fuzz processors emulator windows browser lint clean

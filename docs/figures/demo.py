@@ -1,4 +1,4 @@
-"""Builds everything, flies a landing and the published comparison, writes build/demo/index.html: `make demo`."""
+"""Builds everything, flies the published comparison and a whole landing, writes build/demo: `make demo`."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import sys
 import time
 from pathlib import Path
 
+from perilune import simulate
 from perilune.analysis.campaigns.fly.results import BatchResult
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import BatchPlan, read_plan
@@ -23,6 +24,7 @@ from .page import write_demo_page
 from .readme_figure import CAMPAIGN, LANDING, SYSTEM, sample_trials
 
 TRIALS = 300
+MISSION = "mission.html"
 
 
 def main(output: Path = BUILD / "demo", trials: int = TRIALS) -> int:
@@ -34,10 +36,11 @@ def main(output: Path = BUILD / "demo", trials: int = TRIALS) -> int:
         return status
     try:
         page = fly(output, trials)
+        mission = fly_mission(output)
     except InputError as error:
         print(f"perilune demo: {error}", file=sys.stderr)
         return 2
-    print(f"Done in {time.perf_counter() - began:.0f} s. Open {page}")
+    print(f"Done in {time.perf_counter() - began:.0f} s. Open {page} and, for a landing in three dimensions, {mission}")
     return 0
 
 
@@ -50,6 +53,14 @@ def fly(output: Path, trials: int) -> Path:
     print(f"Comparing {variants} guidances over {trials} trials each ...", flush=True)
     batch = run_batch(plan, output=output)
     return write_files(landing, sample, batch, output)
+
+
+def fly_mission(output: Path) -> Path:
+    """A whole landing from a 100 km orbit, with its scene and block diagram; returns its page."""
+    print("Flying a landing from orbit to contact ...", flush=True)
+    page = output / MISSION
+    simulate("landing_mission").report(page)
+    return page
 
 
 def fly_sample(plan: BatchPlan) -> tuple[Result, list[Result]]:

@@ -76,10 +76,11 @@ export class Canvas {
       this.line(x, top, x, top + height, "grid");
       const text = format(tick * factor, digits);
       const half = this.context.measureText(text).width / 2;
-      if (x - half < end + 8) continue;
+      const middle = Math.min(x, this.element.clientWidth - half);
+      if (middle - half < end + 8) continue;
       this.context.fillStyle = colour("faint");
-      this.context.fillText(text, x, top + height + 5);
-      end = x + half;
+      this.context.fillText(text, middle, top + height + 5);
+      end = middle + half;
     }
     this.line(left, top + height, left + width, top + height, "faint");
   }

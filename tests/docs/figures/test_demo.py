@@ -5,7 +5,7 @@ import pyarrow.parquet
 import pytest
 from lxml import etree
 
-from docs.figures.demo import fly
+from docs.figures.demo import fly, fly_mission
 from docs.figures.page import PUBLISHED
 from docs.figures.readme_figure import draw_readme_figure
 from perilune.fmus_src.paths import ROOT
@@ -14,13 +14,15 @@ from tests.support.lengths import LONG
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 
 TRIALS = 12
-FILES = {"landing.html", "comparison.html", "landing.csv", "landing.csv.json"}
+FILES = {"landing.html", "mission.html", "comparison.html", "landing.csv", "landing.csv.json"}
 FILES |= {"draws.parquet", "summary.json"}
 
 
 @pytest.fixture(scope="module")
 def demo(fmus, tmp_path_factory):
-    return fly(tmp_path_factory.mktemp("demo"), TRIALS)
+    page = fly(tmp_path_factory.mktemp("demo"), TRIALS)
+    fly_mission(page.parent)
+    return page
 
 
 def test_page_stands_alone_and_its_links_lead_somewhere(demo):
@@ -32,8 +34,14 @@ def test_page_stands_alone_and_its_links_lead_somewhere(demo):
 
 
 def test_reports_beside_it_stand_alone(demo):
-    for name in ("landing.html", "comparison.html"):
+    for name in ("landing.html", "mission.html", "comparison.html"):
         assert_self_contained((demo.parent / name).read_text(encoding="utf-8"))
+
+
+def test_the_mission_has_a_scene_and_a_diagram(demo):
+    page = parse((demo.parent / "mission.html").read_text(encoding="utf-8"))
+    assert page.xpath("//section[h2='Landing']//*[@data-scene] | //section[h2='Landing']/p[@class='empty']")
+    assert page.xpath("//*[contains(@class, 'diagram')] | //p[contains(., 'No block diagram')]")
 
 
 def test_the_published_values_are_those_of_the_table():
