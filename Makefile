@@ -75,7 +75,7 @@ FIGURES := concept system_figures readme_figure rendezvous_figures modal_compari
 figures: build
 	for name in $(FIGURES); do $(BIN)/python -m docs.figures.$$name || exit 1; done
 
-# The pictures of pages in docs/images, each below 100 kB, taken in Chromium.
+# The pictures of pages in docs/images/pages, each below 100 kB, taken in Chromium.
 screenshots: build browser
 	$(BIN)/python -m docs.figures.screenshots
 

@@ -1,4 +1,4 @@
-"""Takes docs/images/page_*.webp, pictures of pages in Chromium: `make screenshots`, after build_fmus.py."""
+"""Takes docs/images/pages, pictures of pages in Chromium: `make screenshots`, after build_fmus.py."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ arguments[0].dispatchEvent(new PointerEvent("pointermove", { clientX: right, cli
 HIDE = "document.querySelector('.explore')?.remove()"  # which lies over what is behind it
 
 
-def main(folder: Path = IMAGES) -> None:
+def main(folder: Path = IMAGES / "pages") -> None:
     """Write the four pictures. Raises ValueError for one that is too large."""
     browser = shutil.which("chromium")
     if browser is None:
@@ -48,9 +48,9 @@ def main(folder: Path = IMAGES) -> None:
             if not page.is_file():
                 perilune(["run", system, "--report", str(page)])
             with driven(browser, page, flags=FLAGS) as driver:
-                _write(shoot(driver), folder / f"page_{name}.webp")
+                _write(shoot(driver), folder / f"{name}.webp")
         with showing([results]) as (address, _), driven(browser, address, flags=FLAGS) as driver:
-            _write(_campaign(driver), folder / "page_show.webp")
+            _write(_campaign(driver), folder / "show.webp")
 
 
 def _scene(driver: Chrome) -> bytes:
@@ -59,7 +59,7 @@ def _scene(driver: Chrome) -> bytes:
     _scroll_to(driver, holder)
     WebDriverWait(driver, PATIENCE).until(lambda _: holder.find_elements(By.CSS_SELECTOR, "[data-drawn]"))
     driver.execute_script(AT, TIME)
-    _rest(driver)
+    _settle(driver)
     return holder.screenshot_as_png
 
 
@@ -72,7 +72,7 @@ def _curves(driver: Chrome) -> bytes:
         round(0.038 * width), 0
     ).release().perform()
     driver.execute_script(AT, TIME)
-    _rest(driver)
+    _settle(driver)
     return driver.get_screenshot_as_png()
 
 
@@ -82,16 +82,16 @@ def _diagram(driver: Chrome) -> bytes:
     _scroll_to(driver, diagram)
     driver.execute_script(AT, PULSE)
     driver.execute_script(POINT, driver.find_element(By.CSS_SELECTOR, "g.block[data-block=plant]"))
-    _rest(driver)
+    _settle(driver)
     return driver.get_screenshot_as_png()
 
 
 def _campaign(driver: Chrome) -> bytes:
     canvas = driver.find_element(By.CSS_SELECTOR, ".counted canvas")
     ActionChains(driver).move_to_element(canvas).click_and_hold().move_by_offset(60, 0).release().perform()
-    _rest(driver)
+    _settle(driver)
     _scroll_to(driver, canvas)
-    _rest(driver)
+    _settle(driver)
     return driver.get_screenshot_as_png()
 
 
@@ -106,7 +106,7 @@ def _scroll_to(driver: Chrome, element: WebElement) -> None:
     driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
 
 
-def _rest(driver: Chrome) -> None:
+def _settle(driver: Chrome) -> None:
     """Until what was asked for is drawn."""
     driver.execute_async_script("setTimeout(arguments[0], 1500)")
 

@@ -55,7 +55,7 @@ export class View {
   private followed: BodyData;
   private pictures = 0;
   private pending = 0;
-  private rests = false;
+  private isFar = false; // from the screen
   private drawn: Instant;
   private announced = -Infinity;
   private fromElsewhere = false;
@@ -165,7 +165,7 @@ export class View {
 
   // Nothing is drawn while the view is far from the screen.
   set isNear(near: boolean) {
-    this.rests = !near;
+    this.isFar = !near;
     if (near) this.changed();
     else if (this.playback.playing) this.playback.pause();
   }
@@ -173,7 +173,7 @@ export class View {
   // Asks for one new picture.
   changed(): void {
     this.controls?.show();
-    if (this.rests) return;
+    if (this.isFar) return;
     this.pending ||= requestAnimationFrame(() => {
       this.pending = 0;
       this.draw();

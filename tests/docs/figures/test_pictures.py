@@ -20,11 +20,11 @@ PAGES = {path: path.read_text(encoding="utf-8") for path in [ROOT / "README.md",
 
 
 def test_every_picture_is_small_and_on_a_page():
-    pictures = sorted(IMAGES.iterdir())
+    pictures = sorted(path for path in IMAGES.rglob("*") if path.is_file())
     assert len(pictures) > 10
     for picture in pictures:
         assert picture.stat().st_size <= LARGEST
-        assert any(f"images/{picture.name})" in text for text in PAGES.values()), picture.name
+        assert any(f"images/{picture.relative_to(IMAGES)})" in text for text in PAGES.values()), picture.name
 
 
 def test_every_page_of_a_system_has_a_picture():
