@@ -9,7 +9,7 @@ import pytest
 
 from perilune.analysis.cli import main
 from perilune.analysis.common.atomic import whole_file
-from perilune.analysis.verbs.options.option import options_of
+from perilune.analysis.verbs.options.option import Kind, options_of
 from perilune.analysis.verbs.options.verbs import VERBS
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -91,7 +91,7 @@ if sys.platform == "linux":
 
 def targets_of(verb):
     """The options of a verb that name what it writes: flag, ending, whether it is a folder."""
-    files = options_of(VERBS[verb].files).values()
+    files = [each for each in options_of(VERBS[verb].files).values() if each.kind is Kind.PATH]
     for each in [*files, *(each for each in options_of(VERBS[verb].options).values() if each.name == "output")]:
         ending = each.option.suffixes[0] if each.option.suffixes else ".ssp" if verb == "export" != each.name else ""
         yield f"--{each.flag}", ending if each.name != "json" else "", each.option.metavar == "DIR"
