@@ -7,6 +7,7 @@ import { listenToLegends } from "./curves/legend";
 import type { Plot } from "./curves/plot";
 import { listen, listenToKeys, press } from "./curves/pointer";
 import { Toolbar } from "./curves/toolbar";
+import { addCopyButtons } from "./page/copying";
 import { type Axis, type Page, readPage } from "./page/document";
 import { announceTime, followTime } from "./page/time";
 import { Card } from "./trials/card";
@@ -94,6 +95,7 @@ async function start(): Promise<void> {
   const curves = new Curves(page, await Trials.load(page));
   await curves.attachVisible();
   curves.attachDiagrams();
+  addCopyButtons();
   await new Promise(requestAnimationFrame); // in which the figures learn their sizes
   await new Promise(requestAnimationFrame);
   document.documentElement.dataset.ready = "curves";

@@ -1,5 +1,6 @@
 // Cards over a page: beside the pointer, or pinned with the command that simulates a trial again.
 
+import { copyButton } from "./copying";
 import { button, make } from "./elements";
 
 export interface Entry {
@@ -24,24 +25,10 @@ export class PinnedCard {
 
   show(entries: Entry[], command: string): void {
     const code = make("code", {}, command);
-    const copy = button("Copy command", async () => {
-      copy.textContent = (await copyText(code)) ? "Copied" : "Select the text and copy it";
-    });
     const close = button("Close", () => {
       this.element.hidden = true;
     });
-    this.element.replaceChildren(definitions(entries), code, copy, close);
+    this.element.replaceChildren(definitions(entries), code, copyButton(code, "Copy command"), close);
     this.element.hidden = false;
-  }
-}
-
-// A page from file:// may have no clipboard of its own; a selection can be copied all the same.
-async function copyText(element: HTMLElement): Promise<boolean> {
-  try {
-    await navigator.clipboard.writeText(element.textContent ?? "");
-    return true;
-  } catch {
-    getSelection()?.selectAllChildren(element);
-    return document.execCommand("copy");
   }
 }

@@ -66,6 +66,11 @@ def test_from_a_failure_to_its_flight(browser, batch, capsys):
         copy = next(each for each in pinned.find_elements(By.TAG_NAME, "button") if each.text == "Copy command")
         copy.click()
         WebDriverWait(driver, 10).until(lambda _: copy.text == "Copied")
+        listed = driver.find_elements(By.CSS_SELECTOR, "section code.command + .copy")
+        assert len(listed) == len(driver.find_elements(By.CSS_SELECTOR, "code.command")) > 0
+        driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", listed[0])
+        listed[0].click()
+        WebDriverWait(driver, 10).until(lambda _: listed[0].text == "Copied")
     program, *arguments = shlex.split(command)
     assert program == "perilune"
     capsys.readouterr()
