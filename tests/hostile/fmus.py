@@ -73,7 +73,10 @@ DESCRIPTIONS: dict[str, tuple[Callable[[str], str | bytes], tuple[str, ...]]] = 
     ),
     "nothing": (lambda _: "", (DESCRIPTION, "not well-formed")),
     "another document": (lambda _: "<a/>", ("fmiVersion",)),
-    "version 2.0 and no more": (lambda _: '<fmiModelDescription fmiVersion="2.0"/>', ("hostile.fmu", "no attribute modelName")),
+    "version 2.0 and no more": (
+        lambda _: '<fmiModelDescription fmiVersion="2.0"/>',
+        ("hostile.fmu", "no attribute modelName"),
+    ),
     "version of 10^6 digits": (swap('fmiVersion="2.0"', f'fmiVersion="{"2" * 1_000_000}"'), ("fmiVersion",)),
     "an identifier that leaves": (swap(IDENTIFIER, 'modelIdentifier="../../../tmp/evil"'), ("../../../tmp/evil",)),
     "an absolute identifier": (swap(IDENTIFIER, 'modelIdentifier="/tmp/evil"'), ("/tmp/evil",)),
