@@ -23,7 +23,7 @@ from tests.support.pages.driven import PATIENCE, driven, scroll_to_plot
 from .pictures import IMAGES, LARGEST
 
 TIME = 3930.0  # s, of landing_mission: the approach
-PULSE = 20.0  # s, of orbital_attitude: it turns to the orbital frame
+TURNING = 20.0  # s, of orbital_attitude: it turns to the orbital frame
 CAMPAIGN = ["lunar_terminal_guidance", "--campaign", "paper", "--trials", "2000"]
 QUALITY = 88  # of WebP
 FLAGS = ("--window-size=1000,1000", "--hide-scrollbars")
@@ -80,7 +80,7 @@ def _diagram(driver: Chrome) -> bytes:
     driver.execute_script(HIDE)
     diagram = driver.find_element(By.CSS_SELECTOR, "svg.diagram")
     _scroll_to(driver, diagram)
-    driver.execute_script(AT, PULSE)
+    driver.execute_script(AT, TURNING)
     driver.execute_script(POINT, driver.find_element(By.CSS_SELECTOR, "g.block[data-block=plant]"))
     _settle(driver)
     return driver.get_screenshot_as_png()
@@ -107,7 +107,7 @@ def _scroll_to(driver: Chrome, element: WebElement) -> None:
 
 
 def _settle(driver: Chrome) -> None:
-    """Until what was asked for is drawn."""
+    """Wait until the page has drawn what it shows."""
     driver.execute_async_script("setTimeout(arguments[0], 1500)")
 
 
