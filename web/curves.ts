@@ -32,7 +32,7 @@ class Curves {
   ) {
     followTime("curves", (at) => {
       this.isFollowing = true;
-      this.axes.get(TIME)?.moveCursor(at);
+      this.axes.get(TIME)?.goTo(at);
       this.isFollowing = false;
     });
     listenToLegends((picture) => this.figures.get(picture));
@@ -77,7 +77,7 @@ class Curves {
     if (!axis) {
       axis = new SharedAxis(label, logarithmic);
       this.axes.set(label, axis);
-      axis.follow([Infinity, -Infinity], () => this.onCursor(axis!), () => undefined);
+      axis.followCursor(() => this.onCursor(axis!));
     }
     return axis;
   }

@@ -5,7 +5,8 @@ export type Range = [number, number];
 export class SharedAxis {
   cursor: number | null = null;
   zoom: Range | null = null; // null: each figure as it was drawn
-  private readonly followers: { onCursor: () => void; onZoom: () => void }[] = [];
+  private readonly onCursor: (() => void)[] = [];
+  private readonly onZoom: (() => void)[] = [];
   private whole: Range = [Infinity, -Infinity];
 
   constructor(readonly label: string, readonly logarithmic: boolean) {}
@@ -14,20 +15,30 @@ export class SharedAxis {
     return this.zoom ?? this.whole;
   }
 
-  follow(ends: Range, onCursor: () => void, onZoom: () => void): void {
-    this.whole = [Math.min(this.whole[0], ...ends), Math.max(this.whole[1], ...ends)];
-    this.followers.push({ onCursor, onZoom });
+  followCursor(call: () => void): void {
+    this.onCursor.push(call);
+  }
+
+  // ``ends``: what a figure shows of the axis as drawn.
+  followZoom(ends: Range, call: () => void): void {
+    this.whole = [Math.min(this.whole[0], ends[0]), Math.max(this.whole[1], ends[1])];
+    this.onZoom.push(call);
   }
 
   moveCursor(to: number | null): void {
     this.cursor = to;
-    if (to !== null && this.zoom && (to < this.zoom[0] || to > this.zoom[1])) this.pan((to - this.middle(0.5)) / this.length());
-    for (const each of this.followers) each.onCursor();
+    for (const call of this.onCursor) call();
+  }
+
+  // Moves the cursor, and what is shown to it.
+  goTo(at: number): void {
+    if (this.zoom && (at < this.zoom[0] || at > this.zoom[1])) this.pan((at - this.middle(0.5)) / this.length());
+    this.moveCursor(at);
   }
 
   setZoom(range: Range | null): void {
     this.zoom = range && range[1] > range[0] ? range : null;
-    for (const each of this.followers) each.onZoom();
+    for (const call of this.onZoom) call();
   }
 
   // Zooms by a factor, below 1: nearer; what is at ``about`` remains where it is.

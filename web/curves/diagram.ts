@@ -51,7 +51,7 @@ export class Diagram {
     document.addEventListener("pointerdown", (event) => {
       if (!(event.target as Element).closest("[data-signals]")) this.hide();
     });
-    time.follow([Infinity, -Infinity], () => void this.show(), () => undefined);
+    time.followCursor(() => void this.show());
   }
 
   private listen(element: SVGElement, index: number): void {

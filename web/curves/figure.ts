@@ -29,7 +29,7 @@ export class Figure {
     new ResizeObserver(([entry]) => this.resize(entry!.contentRect)).observe(this.frame);
     new IntersectionObserver((entries) => this.move(entries.at(-1)!.isIntersecting), MARGIN).observe(this.frame);
     this.frame.addEventListener("focusin", () => this.move(true));
-    for (const plot of plots) plot.time.follow([Infinity, -Infinity], () => this.showValues(), () => undefined);
+    for (const plot of plots) plot.time.followCursor(() => this.showValues());
   }
 
   // Figures of bars and bands alone remain pictures; all axes of the others become plots.
@@ -63,6 +63,7 @@ export class Figure {
     if (this.isDrawn) for (const plot of this.plots) plot.redraw();
     else this.plots.forEach((plot, index) => plot.place(placeOf(this.charts, index, width, height)));
     this.isDrawn = true;
+    this.frame.classList.add("drawn"); // from now on the picture is hidden
   }
 
   // Shows or hides the lines of a position in the legend.

@@ -12,7 +12,7 @@ export function markCursor(picture: SVGElement, charts: Chart[], sharing: (axis:
   picture.before(frame);
   frame.append(picture, line);
   for (const axis of new Set(charts.map((chart) => sharing(chart.x)))) {
-    axis.follow([Infinity, -Infinity], () => show(axis), () => undefined);
+    axis.followCursor(() => show(axis));
   }
 
   function show(axis: SharedAxis): void {

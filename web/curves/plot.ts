@@ -46,8 +46,8 @@ export class Plot {
       dot.style.background = each.curve.colour;
       return dot;
     });
-    this.axis.follow(chart.x.ends, () => undefined, () => this.redraw());
-    this.time.follow(this.isPath ? [Infinity, -Infinity] : chart.x.ends, () => this.showCursor(), () => undefined);
+    this.axis.followZoom(chart.x.ends, () => this.redraw());
+    this.time.followCursor(() => this.showCursor());
   }
 
   // ``sharing`` gives the axis of a label; paths have an abscissa of their own, and follow the time of the others.

@@ -48,7 +48,7 @@ export function listen(plot: Plot, area: HTMLElement, onFocus: () => void, picki
       if (event.timeStamp - lastTap < 300) plot.zoom(null, null);
       lastTap = event.timeStamp;
       follow(event, placeOf(event));
-    }
+    } else lastTap = 0; // a pinch is no tap
   });
   area.addEventListener("pointerleave", (event) => picking?.hover(null, placeOf(event)));
 
@@ -112,7 +112,7 @@ export function listenToKeys(plot: Plot, onFocus: () => void, onPress: (key: str
 
 // What a key does; false where it does nothing.
 export function press(plot: Plot, key: string, shift: boolean): boolean {
-  const step = (rows: number) => plot.time.moveCursor(plot.snap(plot.time.cursor ?? -Infinity, rows));
+  const step = (rows: number) => plot.time.goTo(plot.snap(plot.time.cursor ?? -Infinity, rows));
   const rows = shift ? ROWS : 1;
   switch (key) {
     case "ArrowLeft": step(-rows); break;
@@ -130,11 +130,12 @@ export function press(plot: Plot, key: string, shift: boolean): boolean {
   return true;
 }
 
+// The values under both fingers follow them: one rests, the other one moves.
 function pinch(plot: Plot, [one, other]: PointerEvent[], moved: PointerEvent, placeOf: (event: PointerEvent) => { x: number }): void {
   const still = one!.pointerId === moved.pointerId ? other! : one!;
   const before = one!.pointerId === moved.pointerId ? one! : other!;
   const [was, is] = [Math.abs(before.clientX - still.clientX), Math.abs(moved.clientX - still.clientX)];
-  if (was > 10 && is > 10) plot.axis.zoomBy(was / is, plot.valueAt((placeOf(still).x + placeOf(moved).x) / 2));
+  if (was > 10 && is > 10) plot.axis.zoomBy(was / is, plot.valueAt(placeOf(still).x));
 }
 
 function select(selection: HTMLElement, from: Place, to: Place, both: boolean, area: HTMLElement): void {

@@ -6,6 +6,7 @@ Truth: the flight's table (parquet), rounded to float32, in the digits of the pa
 from __future__ import annotations
 
 import re
+from time import sleep
 
 import numpy as np
 import pyarrow.parquet as parquet
@@ -41,6 +42,12 @@ return rows;
 """
 
 AT = "document.dispatchEvent(new CustomEvent('perilune-time', {detail: {time: arguments[0], from: 'test'}}))"
+# The figures that show both or neither of picture and plots.
+UNCLEAR = """
+const isShown = (picture) => getComputedStyle(picture).visibility === "visible";
+return [...document.querySelectorAll(".live")].filter((frame) => frame.clientHeight
+  && isShown(frame.querySelector("svg")) === (frame.querySelector("canvas") !== null)).length;
+"""
 POINT = "document.querySelector(arguments[0]).dispatchEvent(new PointerEvent('pointermove', {clientX: 9, clientY: 9}))"
 
 
@@ -76,6 +83,7 @@ def test_the_last_rows_of_a_landing(browser, flight):
         drag(driver, area, 0.905, 1.0)
         ticks = driver.execute_script("return document.querySelectorAll('.live').length")
         assert ticks > 30
+        assert driver.execute_script(UNCLEAR) == 0
         rows = np.flatnonzero(time >= time[-1] - LAST - 1e-9)
         assert rows.size == 201
         read = driver.execute_script(READ, plot, ["End", *["ArrowLeft"] * 200])
@@ -125,6 +133,81 @@ def test_touch_and_buttons_reach_a_row(browser, flight):
         next(button for button in buttons if button.get_attribute("aria-label") == "next row").click()
         assert float(re.fullmatch(r"time (\S+) s", cursor.text)[1]) == pytest.approx(before + 0.1, abs=1e-6)
         assert driver.execute_script("return document.documentElement.scrollWidth") == 390
+
+
+# Each action done with the cursor in the middle, the times at both ends of a plot.
+ENDS = """
+const [area, actions, done] = arguments;
+const { left, top, width, height } = area.getBoundingClientRect();
+const at = (fraction) => {
+  const place = { clientX: left + fraction * width, clientY: top + height / 2 };
+  area.dispatchEvent(new PointerEvent("pointermove", { ...place, pointerType: "mouse" }));
+  return parseFloat(document.querySelector(".explore output").textContent.split(" ")[1]);
+};
+const send = {
+  key: (key) => area.closest(".chart").dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true })),
+  wheel: (deltaY) => area.dispatchEvent(new WheelEvent("wheel", { deltaY, ctrlKey: true, clientX: left + width / 2 })),
+  button: (label) => document.querySelector(`.explore button[aria-label="${label}"]`).click(),
+};
+const all = [];
+const next = () => {
+  at(0.5);
+  const [kind, detail] = actions.shift() ?? [];
+  if (!kind) { done(all); return; }
+  send[kind](detail);
+  requestAnimationFrame(() => { all.push([at(0), at(1)]); next(); });
+};
+next();
+"""
+
+
+def test_keys_wheel_and_buttons_zoom_about_the_cursor(browser, flight):
+    """Truth: the range that is left of the whole one, by arithmetic; a row is 0.1 s."""
+    with driven(browser, flight / "page.html") as driver:
+        plot, area = panel_of(driver, "plant.altitude")
+        driver.execute_script("arguments[0].focus()", plot)
+        actions = [
+            ("key", "0"), ("key", "+"), ("key", "-"), ("wheel", -400.0), ("key", "0"),
+            ("button", "zoom in"), ("button", "zoom out"), ("key", "+"), ("key", "PageDown"), ("key", "PageUp"),
+        ]  # fmt: skip
+        ends = np.array(driver.execute_async_script(ENDS, area, actions))
+        scale = np.exp(0.0015 * -400.0)
+        middle, half = ends[0].mean(), 1.1 * ends[0].mean()  # axes reach a twentieth of the flight beyond both its ends
+        expected = [(0.0, 1.0), (0.0, 0.5), (0.0, 1.0), (0.0, scale), (0.0, 1.0)]
+        expected += [(0.0, 0.5), (0.0, 1.0), (0.0, 0.5), (0.5, 0.5), (0.0, 0.5)]
+        for actual, (shift, size) in zip(ends, expected, strict=True):
+            ideal = middle + half * shift + half * size * np.array([-1.0, 1.0])
+            assert actual == pytest.approx(np.clip(ideal, *ends[0]), abs=0.004 * half)
+
+
+def test_the_values_under_two_fingers_follow_them(browser, flight):
+    with driven(browser, flight / "page.html", phone=True) as driver:
+        _, area = panel_of(driver, "plant.altitude")
+        left, top, width, height = driver.execute_script(
+            "const b = arguments[0].getBoundingClientRect(); return [b.x, b.y, b.width, b.height]", area
+        )
+
+        def touch(kind, *fractions):
+            points = [
+                {"x": left + fraction * width, "y": top + height / 2, "id": number}
+                for number, fraction in enumerate(fractions)
+            ]
+            driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        def time_at(fraction):
+            touch("touchStart", fraction)
+            touch("touchEnd")
+            text = driver.find_element(By.CSS_SELECTOR, ".explore output").text
+            sleep(0.4)  # two taps at once show the whole range
+            return float(re.fullmatch(r"time (\S+) s", text)[1])
+
+        before = [time_at(fraction) for fraction in (0.4, 0.6)]
+        touch("touchStart", 0.4, 0.6)
+        for step in range(1, 11):
+            touch("touchMove", 0.4 - 0.02 * step, 0.6 + 0.02 * step)
+        touch("touchEnd")
+        after = [time_at(fraction) for fraction in (0.2, 0.8)]
+        assert after == pytest.approx(before, abs=0.005 * (before[1] - before[0]))
 
 
 def test_a_script_of_others_does_not_run(browser, flight, tmp_path):

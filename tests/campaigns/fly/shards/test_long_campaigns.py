@@ -71,7 +71,7 @@ def counted(tmp_path_factory):
 
 
 # From the folder, where there is one.
-REPLAYS = r"<p class=.note.>.*--output.*</p>|<code>perilune [^<]*|\"command\":\[[^]]*\]"
+REPLAYS = r"<p class=.note.>.*--output.*</p>|<code[^>]*>perilune [^<]*|\"command\":\[[^]]*\]"
 
 
 def test_a_result_in_a_folder_is_the_one_in_memory(tmp_path):
