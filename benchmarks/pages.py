@@ -1,18 +1,19 @@
 """Sizes and times of report pages: a run of landing_mission, and a batch of 3 x 10 000 trials.
 
-    python -m benchmarks.pages [TRIALS]
+    python -m benchmarks.pages [--trials N] [--swiftshader]
 
-Prints the table of docs/reports.md: medians over pages opened anew, in headless Chromium with WebGL in software, which
-needs Chromium and its driver. Times of pictures include the frame in which they are drawn.
+Prints the table of docs/reports.md: medians over pages opened anew, in headless Chromium as it is without a graphics
+processor: WebGL by SwiftShader, the page drawn and composed by the processor; ``--swiftshader``: composed
+by SwiftShader, too. Needs Chromium and its driver. Times of pictures include the frame in which they are drawn.
 """
 
 from __future__ import annotations
 
+import argparse
 import shutil
 import statistics
-import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.support.ui import WebDriverWait
 
 from perilune.analysis.cli import main as perilune
-from tests.support.pages.driven import FLAGS
+from tests.support.pages.driven import COMPOSITING, FLAGS
 
 OPENED = 3  # times that each page is opened
 FRAMES = 40
@@ -85,15 +86,15 @@ send("pointerup", end, end);
 """
 
 
-def main(trials: int) -> None:
+def main(trials: int, flags: Sequence[str]) -> None:
     """Write the pages, open them, print a table."""
     with tempfile.TemporaryDirectory() as scratch:
         run, batch = Path(scratch) / "run.html", Path(scratch) / "batch.html"
         perilune(["run", "landing_mission", "--report", str(run)])
         options = ["--campaign", "paper", "--trials", str(trials), "--output", str(Path(scratch) / "results")]
         perilune(["batch", "lunar_terminal_guidance", *options, "--report", str(batch)])
-        opened = [_open(run, _of_run) for _ in range(OPENED)]
-        brushed = [_open(batch, _of_batch) for _ in range(OPENED)]
+        opened = [_open(run, _of_run, flags) for _ in range(OPENED)]
+        brushed = [_open(batch, _of_batch, flags) for _ in range(OPENED)]
         sizes = [path.stat().st_size / 1e6 for path in (run, batch)]
     rows = [
         ("page of a run of landing_mission, MB", f"{sizes[0]:.2f}", "5"),
@@ -121,9 +122,9 @@ def _row(name: str, goal: str, opened: list[dict[str, float]]) -> tuple[str, str
     return name, f"{statistics.median(measured):.3g}, {max(measured):.3g}", goal
 
 
-def _open(page: Path, measure: Callable[[Any], list[float]]) -> dict[str, float]:
+def _open(page: Path, measure: Callable[[Any], list[float]], flags: Sequence[str]) -> dict[str, float]:
     options = ChromeOptions()
-    for flag in (*FLAGS, "--window-size=1400,1300"):
+    for flag in (*flags, "--window-size=1400,1300"):
         options.add_argument(flag)
     driver = Chrome(options=options, service=Service(shutil.which("chromedriver")))
     try:
@@ -162,4 +163,8 @@ def _frame(driver: Any, statement: str) -> float:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 10_000)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--trials", type=int, default=10_000, metavar="N")
+    parser.add_argument("--swiftshader", action="store_true")
+    options = parser.parse_args()
+    main(options.trials, [flag for flag in FLAGS if not (options.swiftshader and flag == COMPOSITING)])

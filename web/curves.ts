@@ -22,7 +22,7 @@ class Curves {
   private readonly figures = new Map<Element, Promise<Figure | null>>();
   private readonly toolbar = new Toolbar((key) => this.chosen && press(this.chosen.plot, key, false));
   private readonly selection = new Selection();
-  private readonly card = new Card();
+  private readonly card: Card;
   private chosen: { plot: Plot; figure: Figure } | null = null;
   private isFollowing = false;
 
@@ -30,6 +30,7 @@ class Curves {
     private readonly page: Page,
     private readonly trials: Trials | null,
   ) {
+    this.card = new Card(page, trials);
     followTime("curves", (at) => {
       this.isFollowing = true;
       this.axes.get(TIME)?.goTo(at);

@@ -14,7 +14,7 @@ FAILURES = 20_000  # behind those
 
 
 @dataclass(frozen=True)
-class Shown:
+class PlottedSample:
     """``first`` are the first trials of a variant, ``dots`` the same and failures behind them; of ``trials`` in all.
 
     ``failures`` is how many failures there are in all. Both have statuses, metrics and draws; ``numbers`` are those of
@@ -37,7 +37,7 @@ class Shown:
         return f"the first {FIRST} of {self.trials} trials; those over two values {failures}, too"
 
 
-def select_trials(rows: TrialRows, draws: list[str], metrics: list[str]) -> Shown:
+def select_trials(rows: TrialRows, draws: list[str], metrics: list[str]) -> PlottedSample:
     """What figures show of a variant's trials, with some draws and metrics."""
     names = ["trial", "status", "success", *(f"metric.{name}" for name in metrics), *(f"draw.{name}" for name in draws)]
     first: list[Part] = []
@@ -56,7 +56,7 @@ def select_trials(rows: TrialRows, draws: list[str], metrics: list[str]) -> Show
             behind.append({name: values[failed] for name, values in part.items()})
             retained += failed.size
     numbers = np.concatenate([part["trial"] for part in first + behind])
-    return Shown(_columns(first), _columns(first + behind), numbers, trials, failures)
+    return PlottedSample(_columns(first), _columns(first + behind), numbers, trials, failures)
 
 
 def _columns(parts: list[Part]) -> TrialColumns:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
@@ -108,6 +108,14 @@ class Trials(TrialColumns):
     def whole(self) -> Trials:
         """Already in memory: returns itself."""
         return self
+
+    def traced(self) -> list[int]:
+        """The trials with a trace, in order."""
+        return sorted(self.traces)
+
+    def trace(self, trial: int, names: Collection[str]) -> dict[str, np.ndarray]:
+        """What a traced trial has recorded of these signals, and ``time`` (s)."""
+        return {name: values for name, values in self.traces[trial].items() if name in names or name == "time"}
 
     def column(self, name: str) -> np.ndarray:
         kind, _, own = name.partition(".")

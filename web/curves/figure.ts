@@ -97,7 +97,8 @@ export class Figure {
   }
 }
 
-function describePlot(plot: Plot, at: number): [text: string, colour: string][] {
+// What the lines of a plot show at a place of the cursor, with their colours.
+export function describePlot(plot: Plot, at: number): [text: string, colour: string][] {
   const shown = plot.series.filter((each) => plot.isShown(each));
   return shown.flatMap((each) => {
     const row = each.rowWithin(at);

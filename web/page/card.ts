@@ -28,7 +28,7 @@ export class PinnedCard {
     const close = button("Close", () => {
       this.element.hidden = true;
     });
-    this.element.replaceChildren(definitions(entries), code, copyButton(code, "Copy command"), close);
+    this.element.replaceChildren(make("div", {}, definitions(entries), code, copyButton(code, "Copy command"), close));
     this.element.hidden = false;
   }
 }

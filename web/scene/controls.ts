@@ -19,6 +19,7 @@ export interface Wishes {
   camera: Camera;
   bodies: BodyData[];
   axes: boolean; // are shown at first
+  followed(): BodyData;
   follow(body: BodyData): void;
   setAxes(shown: boolean): void;
   changed(): void;
@@ -29,6 +30,7 @@ export class Controls {
   private readonly play: HTMLButtonElement;
   private readonly slider: HTMLInputElement;
   private readonly modes: HTMLButtonElement[];
+  private readonly menu: HTMLSelectElement | null; // of bodies
 
   constructor(private readonly wishes: Wishes) {
     const { playback, camera, changed } = wishes;
@@ -43,6 +45,7 @@ export class Controls {
       element.title = title;
       return element;
     });
+    this.menu = this.bodyMenu();
     const step = (rows: number) => () => {
       if (playback.playing) playback.pause();
       playback.row += rows;
@@ -59,7 +62,7 @@ export class Controls {
       this.speedMenu(),
     );
     time.classList.add("scene-time");
-    this.element.append(time, line("camera", ...this.bodyMenu(), ...this.modes));
+    this.element.append(time, line("camera", ...(this.menu ? [this.menu] : []), ...this.modes));
     this.element.append(
       line(
         "view",
@@ -76,7 +79,8 @@ export class Controls {
   }
 
   show(): void {
-    const { playback, camera } = this.wishes;
+    const { playback, camera, bodies, followed } = this.wishes;
+    if (this.menu) this.menu.value = String(bodies.indexOf(followed()));
     this.play.textContent = playback.playing ? "Pause" : "Play";
     this.slider.value = String(playback.row);
     this.slider.setAttribute("aria-valuetext", `${format(playback.instant.time, 6)} s`);
@@ -94,12 +98,12 @@ export class Controls {
     return menu;
   }
 
-  private bodyMenu(): HTMLElement[] {
+  private bodyMenu(): HTMLSelectElement | null {
     const { bodies, follow } = this.wishes;
-    if (bodies.length < 2) return [];
+    if (bodies.length < 2) return null;
     const menu = make("select", { "aria-label": "body" }, ...bodies.map(({ name }, index) => make("option", { value: index }, name)));
     menu.addEventListener("change", () => follow(bodies[Number(menu.value)]!));
-    return [menu];
+    return menu;
   }
 
   private axesButton(): HTMLElement {

@@ -30,9 +30,10 @@ interface Body<Column> {
   size: Triple;
   at: Triple;
   position: Column[];
-  attitude: Column[];
+  attitude: Column[]; // none where it is unknown
   thrusts?: Thrust<Column>[];
   jets?: Jet<Column>[];
+  flight?: { variant: string; trial: number; failed: boolean }; // where a scene is of several
 }
 
 interface Site<Column> {
@@ -80,7 +81,7 @@ export async function readScene(page: Page): Promise<SceneData | null> {
       scene.bodies.map(async (body) => ({
         ...body,
         position: await columns(body.position),
-        attitude: await columns(body.attitude),
+        attitude: await columns(body.attitude ?? []),
         thrusts: await Promise.all(
           (body.thrusts ?? []).map(async (thrust) => ({ ...thrust, values: await column(thrust.values) })),
         ),

@@ -47,6 +47,7 @@ const next = new Quaternion();
 
 // Whether the attitude is known. Columns are scalar first, three's quaternions scalar last.
 export function attitudeAt(columns: Values[], { row, fraction }: Instant, result: Quaternion): boolean {
+  if (!columns.length) return false;
   const read = (into: Quaternion, at: number) =>
     into.set(columns[1]![at]!, columns[2]![at]!, columns[3]![at]!, columns[0]![at]!);
   read(result, row);

@@ -10,34 +10,51 @@ import { strokeOf } from "./theme";
 
 const SMALL = 28; // px: bodies below get a mark
 const LARGE = 150; // px: bodies above need no name
+const FEW = 6; // bodies: of more, only the followed one is named
 const GAP = 10; // px, between a body and its name above it
 
+const RING = "M-7 0A7 7 0 0 1 7 0A7 7 0 0 1-7 0";
+const CROSS = "M-6-6L6 6M-6 6L6-6"; // of a failure
+const TARGET = "M-11 0H11M0-11V11"; // of a site
+
 export class Marks {
+  private readonly namesAll: boolean;
   readonly element = make("div", { class: "scene-marks", "aria-hidden": "true" });
-  private readonly entries: { position: BodyData["position"]; extent: number; stands: boolean; element: HTMLElement; ring: SVGElement; name: HTMLElement }[];
+  private readonly entries: {
+    data: BodyData | SiteData;
+    extent: number; // m; 0 for what is a mark at any distance
+    stands: boolean;
+    element: HTMLElement;
+    ring: SVGElement;
+    name: HTMLElement;
+  }[];
 
   constructor(bodies: BodyData[], sites: SiteData[]) {
     this.entries = [
-      ...bodies.map((body) => this.add(body, Math.max(...body.size), body.shape === "lander")),
-      ...sites.map((site) => this.add(site, 0, false)),
+      ...bodies.map((body) => {
+        const extent = body.attitude.length ? Math.max(...body.size) : 0;
+        return this.add(body, extent, body.shape === "lander", body.flight?.failed ? CROSS : RING);
+      }),
+      ...sites.map((site) => this.add(site, 0, false, RING, TARGET)),
     ];
+    this.namesAll = bodies.length <= FEW;
   }
 
-  private add({ name, colour, position }: BodyData | SiteData, extent: number, stands: boolean) {
+  private add(data: BodyData | SiteData, extent: number, stands: boolean, ...lines: string[]) {
     const ring = makeSvg("svg", { viewBox: "-12 -12 24 24", width: 24, height: 24 });
-    ring.append(makeSvg("circle", { r: 7, fill: "none", style: strokeOf(colour), "stroke-width": 2 }));
-    if (extent === 0) ring.append(makeSvg("path", { d: "M-11 0H11M0-11V11", style: strokeOf(colour), "stroke-width": 1.5 }));
-    const label = nameOf(name);
-    const element = make("div", { class: `scene-mark${extent === 0 ? " scene-site" : ""}` }, ring, label);
+    const stroke = lines.includes(CROSS) ? "stroke: currentColor" : strokeOf(data.colour);
+    ring.append(makeSvg("path", { d: lines.join(""), fill: "none", style: stroke, "stroke-width": 2 }));
+    const label = nameOf(data.name);
+    const element = make("div", { class: `scene-mark${lines.includes(TARGET) ? " scene-site" : ""}` }, ring, label);
     this.element.append(element);
-    return { position, extent, stands, element, ring, name: label };
+    return { data, extent, stands, element, ring, name: label };
   }
 
-  show(instant: Instant, camera: Camera, ground: Ground | null, width: number, height: number): void {
+  show(instant: Instant, followed: BodyData, camera: Camera, ground: Ground | null, width: number, height: number): void {
     const point = new Vector3();
     const eye = camera.view.position;
-    for (const { position, extent, stands, element, ring, name } of this.entries) {
-      const known = positionAt(position, instant, point);
+    for (const { data, extent, stands, element, ring, name } of this.entries) {
+      const known = positionAt(data.position, instant, point);
       const distance = eye.distanceTo(point);
       const inside = known && point.clone().applyMatrix4(camera.view.matrixWorldInverse).z < 0;
       const hidden = !inside || ground?.hides(eye, point);
@@ -47,7 +64,8 @@ export class Marks {
       if (!seen) continue;
       const pixels = (extent / distance) * (height / (2 * Math.tan((camera.view.fov * Math.PI) / 360)));
       ring.style.visibility = pixels < SMALL ? "" : "hidden";
-      name.style.visibility = pixels < LARGE ? "" : "hidden";
+      const isNamed = this.namesAll || !("size" in data) || data === followed;
+      name.style.visibility = isNamed && pixels < LARGE ? "" : "hidden";
       const right = ((x + 1) / 2) * width;
       const down = ((1 - y) / 2) * height;
       element.style.transform = `translate(${right.toFixed(1)}px, ${down.toFixed(1)}px)`;

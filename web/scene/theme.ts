@@ -8,6 +8,7 @@ export interface Theme {
   haze: string;
   grid: string;
   flame: string;
+  failed: string; // paths of failures
   lighter: number; // of lines' colours, from 0 to 1
 }
 
@@ -17,6 +18,7 @@ const LIGHT: Theme = {
   haze: "#e6e5e2",
   grid: "#8f8a80",
   flame: "#e8590c",
+  failed: "#222222",
   lighter: 0,
 };
 const DARK: Theme = {
@@ -25,6 +27,7 @@ const DARK: Theme = {
   haze: "#23252a",
   grid: "#7d7a74",
   flame: "#ffa94d",
+  failed: "#f1f3f5",
   lighter: 0.25,
 };
 

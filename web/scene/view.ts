@@ -2,6 +2,7 @@
 
 import { Color, DirectionalLight, Group, HemisphereLight, Quaternion, Scene, Vector3, WebGLRenderer } from "three";
 import { announceTime, followTime } from "../page/time";
+import { announceTrial, followTrial } from "../page/trial";
 import { Beams } from "./objects/beams";
 import { Camera } from "./camera";
 import { Controls } from "./controls";
@@ -67,6 +68,7 @@ export class View {
     this.followed = data.bodies[0]!;
     this.ground = data.ground ? new Ground(data) : null;
     this.camera = new Camera(data, this.followed, this.ground);
+    if (data.bodies[0]!.flight) this.camera.setMode("free");
     this.playback = new Playback(data.time, () => this.timeChanged());
     this.drawn = this.playback.instant;
     this.directions = this.ground ? null : new Directions(data.up);
@@ -83,7 +85,11 @@ export class View {
       camera: this.camera,
       bodies: data.bodies,
       axes: !this.ground,
-      follow: (body) => this.follow(body),
+      followed: () => this.followed,
+      follow: (body) => {
+        this.follow(body);
+        if (body.flight) announceTrial(body.flight, NAME);
+      },
       setAxes: (visible) => this.setAxes(visible),
       changed: () => this.changed(),
     });
@@ -117,6 +123,10 @@ export class View {
       this.fromElsewhere = true;
       this.playback.seek(time);
       this.fromElsewhere = false;
+    });
+    followTrial(NAME, ({ variant, trial }) => {
+      const body = this.shown.find(({ data: { flight } }) => flight?.variant === variant && flight.trial === trial);
+      if (body) this.follow(body.data);
     });
     followTheme(() => this.paint());
     new ResizeObserver(() => this.resize()).observe(this.stage);
@@ -212,7 +222,7 @@ export class View {
 
   private overlay(instant: Instant): void {
     const { clientWidth: width, clientHeight: height } = this.stage;
-    this.marks.show(instant, this.camera, this.ground, width, height);
+    this.marks.show(instant, this.followed, this.camera, this.ground, width, height);
     this.triad.show(this.camera.view);
     const position = new Vector3();
     const known = positionAt(this.followed.position, instant, position);

@@ -13,7 +13,7 @@ import pyarrow
 
 from ...common.atomic import write_atomically
 from ...common.to_json import to_json
-from ..plotted_sample import Shown, select_trials
+from ..plotted_sample import PlottedSample, select_trials
 from ..spec.plan import BatchPlan
 from ..summary import Summary, summarise
 from ..tables import assumption_lines, faults_line, summary_text
@@ -72,7 +72,7 @@ class BatchResult:
         return {variant: rows.whole() for variant, rows in self.rows.items()}
 
     @cached_property
-    def shown(self) -> dict[str, Shown]:
+    def plotted(self) -> dict[str, PlottedSample]:
         """What figures show of each variant."""
         campaign = self.plan.campaign
         metrics = [metric.name for metric in campaign.metrics]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
 import pyarrow
 import pyarrow.parquet
 
@@ -19,11 +21,9 @@ from .shards.files import (
     IDENTITY,
     NEW_FOLDER,
     check_rows,
-    describe_columns,
-    numbers,
-    read_table,
+    list_traces,
+    read_trace,
     shard_path,
-    trace_path,
     trials_of,
     unreadable,
     write_shard,
@@ -65,6 +65,18 @@ class ShardRows:
             flown.append(part)
         return join_trials(flown)
 
+    @cached_property
+    def _traces(self) -> dict[int, Path]:
+        flown = range(self.numbering.of(self.shards.start).start, self.numbering.of(self.shards.stop - 1).stop)
+        traces = list_traces(self.folder, self.batch, self.variant)
+        return {trial: path for trial, path in traces.items() if trial in flown}
+
+    def traced(self) -> list[int]:
+        return list(self._traces)
+
+    def trace(self, trial: int, names: Collection[str]) -> dict[str, np.ndarray]:
+        return read_trace(self._traces[trial], names)
+
     def _table(self, shard: int, names: list[str] | None = None) -> pyarrow.Table:
         path = shard_path(self.folder, shard)
         group = [variant.name for variant in self.plan.campaign.variants()].index(self.variant)
@@ -81,11 +93,9 @@ class ShardRows:
         path = shard_path(self.folder, shard)
         metrics = [metric.name for metric in self.plan.campaign.metrics]
         trials = trials_of(self._table(shard), metrics, path)[self.variant]
-        for trial in trials.trial.tolist():
-            trace = trace_path(self.folder, self.variant, trial)
-            if describe_columns(trace) == {"batch": self.batch, "variant": self.variant, "trial": trial}:
-                table = read_table(trace)
-                trials.traces[trial] = {name: numbers(table, name, trace) for name in table.column_names}
+        trials.traces.update(
+            {trial: read_trace(self._traces[trial]) for trial in trials.trial if trial in self._traces}
+        )
         return trials
 
 
@@ -96,6 +106,14 @@ class FlownRows(TrialRows, Protocol):
 
     def whole(self) -> Trials:
         """All of them in memory, with their traces."""
+        ...
+
+    def traced(self) -> list[int]:
+        """The trials with a trace, in order. Raises InputError for a trace that is damaged."""
+        ...
+
+    def trace(self, trial: int, names: Collection[str]) -> dict[str, np.ndarray]:
+        """What a traced trial has recorded of these signals, and ``time`` (s). Raises InputError."""
         ...
 
 

@@ -16,7 +16,6 @@ import pyarrow.compute
 from ...common.bounds import INPUT_BYTES
 from ...common.errors import InputError
 from ...common.regular import read_regular
-from ...runtime.ssp.names import split_name
 from ..fly.manifest import FILE as MANIFEST
 from ..fly.manifest import WRITE
 from ..fly.metadata import Provenance, batch_digest
@@ -26,9 +25,10 @@ from ..fly.shards.files import (
     NEW_FOLDER,
     SUMMARY,
     about_of,
-    describe_columns,
+    list_traces,
     numbers,
     read_table,
+    read_trace,
     shard_path,
     trace_path,
     trials_in,
@@ -95,17 +95,9 @@ class StoredBatch:
             raise InputError(*where, f"{self.group} is not a column of draws.parquet", NEW_FOLDER)
         return groups_of([self.draws[self.group]], where)
 
-    def split_rows(self, name: str) -> tuple[str, str]:
-        """Component and variable of a signal or parameter of any variant."""
-        return split_name(name, {component for fmus in self.document["fmus"].values() for component in fmus})
-
     def trace(self, variant: str, trial: int, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
         """The kept signals of one flight, ``time`` (s) among them; of ``names`` those that there are, or all."""
-        path = trace_path(self.folder, variant, trial)
-        table = read_table(path, names if names is None else [*names, "time"])
-        if "time" not in table.column_names:
-            raise InputError(path, "time", "no such column", NEW_FOLDER)
-        return {name: numbers(table, name, path) for name in table.column_names}
+        return read_trace(trace_path(self.folder, variant, trial), names)
 
 
 def read_batch(folder: Path) -> StoredBatch:
@@ -252,14 +244,6 @@ def _check_summary(document: SummaryDocument, variants: Mapping[str, Trials], pa
 
 def _list_traces(folder: Path, variants: list[str], batch: str) -> tuple[dict[str, list[int]], int]:
     """Trials of each variant with a trace of this batch, and how many traces are of others."""
-    traced: dict[str, list[int]] = {}
-    strangers = 0
-    for variant in variants:
-        traced[variant] = []
-        for path in sorted(trace_path(folder, variant, 0).parent.glob("*.parquet")):
-            trial = int(path.stem) if path.stem.isdecimal() else -1
-            if describe_columns(path) == {"batch": batch, "variant": variant, "trial": trial}:
-                traced[variant].append(trial)
-            else:
-                strangers += 1
-    return traced, strangers
+    traced = {variant: list(list_traces(folder, batch, variant)) for variant in variants}
+    there = sum(len(list(trace_path(folder, variant, 0).parent.glob("*.parquet"))) for variant in variants)
+    return traced, there - sum(map(len, traced.values()))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...common.errors import InputError, suggestion
-from ..fly.shards.files import NEW_FOLDER, describe_columns, numbers, read_table, trace_path
+from ..fly.shards.files import NEW_FOLDER, list_traces, numbers, read_table
 from .folder import ResultFolder
 
 TIME = "time"
@@ -54,13 +54,8 @@ def trace_dataset(results: ResultFolder, variant: str, names: Sequence[str] | No
 
 def _paths(results: ResultFolder, variant: str) -> dict[int, Path]:
     """The traces of the variant's flown trials, by trial."""
-    paths = {}
-    for path in sorted(trace_path(results.folder, variant, 0).parent.glob("*.parquet")):
-        trial = int(path.stem) if path.stem.isdecimal() else -1
-        ours = {"batch": results.batch, "variant": variant, "trial": trial}
-        if any(trial in shard.trials for shard in results.shards) and describe_columns(path) == ours:
-            paths[trial] = path
-    return paths
+    traces = list_traces(results.folder, results.batch, variant)
+    return {trial: path for trial, path in traces.items() if any(trial in shard.trials for shard in results.shards)}
 
 
 def _columns(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:

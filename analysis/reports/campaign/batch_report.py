@@ -9,6 +9,7 @@ from ...campaigns.fly.results import BatchResult
 from ...campaigns.lost_trials import lost_of
 from ..common.page import write_page
 from .distributions import distribution_panels, legend_of, rates_figure, sort_metrics
+from .embedded_flights import embedded_flights
 from .embedded_trials import trials_document, trials_notes
 from .scatters import failure_panels, influence_on_success, scatter_figures
 from .tables import (
@@ -30,6 +31,7 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
     campaign = result.plan.campaign
     varying, constant, empty = sort_metrics(result)
     influences = {variant: influence_on_success(result, variant) for variant in result.rows}
+    flights = embedded_flights(result)
     system = ("system", "all", result.provenance["system_sha256"])
     write_page(
         path,
@@ -44,7 +46,7 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         requirements=verdict_rows(result.summary, campaign),
         statistics=HEADINGS,
         rates=rates_figure(result),
-        samples={variant: sample.note for variant, sample in result.shown.items() if sample.note},
+        samples={variant: sample.note for variant, sample in result.plotted.items() if sample.note},
         looks=legend_of(result),
         distributions=distribution_panels(result, varying),
         constant=constant,
@@ -61,5 +63,6 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         draws=draw_rows(campaign),
         trials=trials_document(result),
         trials_notes=trials_notes(result),
+        flights=flights,
         hash_rows=[system, *fmu_rows(result.provenance["fmus"])],
     )

@@ -38,7 +38,7 @@ TAIL = 0.01  # on a logarithmic axis, the fraction of values drawn at its left e
 
 def metric_values(result: BatchResult, metric: str) -> dict[str, np.ndarray]:
     """A metric by variant, one value for each plotted trial, nan and inf included."""
-    return {name: sample.first.metrics[metric] for name, sample in result.shown.items()}
+    return {name: sample.first.metrics[metric] for name, sample in result.plotted.items()}
 
 
 def sort_metrics(result: BatchResult) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:

@@ -43,7 +43,7 @@ def trials_notes(batch: BatchResult) -> list[str]:
         f"selects trials in all figures. Numbers of the first {EXACT_LIMIT} failures of each variant and of trials "
         'with an extreme metric are exact; others are rounded, which "about" states.'
     ]
-    for variant, plotted in batch.shown.items():
+    for variant, plotted in batch.plotted.items():
         rows = min(_row_limit(batch), len(plotted.numbers))
         if rows < plotted.trials:
             notes.append(f"{variant}: {number(rows)} of {number(plotted.trials)} trials can be selected.")
@@ -62,7 +62,7 @@ def _row_limit(batch: BatchResult) -> int:
 
 
 def _variant(batch: BatchResult, variant: str, names: list[str], limit: int) -> dict[str, Any]:
-    plotted = batch.shown[variant]
+    plotted = batch.plotted[variant]
     dots = plotted.dots
     rows = slice(0, limit)
     columns = [dots.column(name)[rows] for name in names]

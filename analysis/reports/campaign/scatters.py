@@ -74,7 +74,7 @@ def _scatter_figure(result: BatchResult, scatter: Scatter) -> ScatterFigure:
     pair = (metrics[scatter.x], metrics[scatter.y])
     points = {
         variant: np.stack([sample.dots.metrics[metric.name] * display_factor(metric.unit) for metric in pair])
-        for variant, sample in result.shown.items()
+        for variant, sample in result.plotted.items()
     }
     title = scatter.title or f"{scatter.y} vs. {scatter.x}"
     everything = np.concatenate(list(points.values()), axis=1)
@@ -87,7 +87,7 @@ def _scatter_figure(result: BatchResult, scatter: Scatter) -> ScatterFigure:
     for index, (variant, values) in enumerate(points.items()):
 
         def draw(axes: Axes, variant: str = variant, values: np.ndarray = values) -> None:
-            success = result.shown[variant].dots.success
+            success = result.plotted[variant].dots.success
             columns = (f"metric.{scatter.x}", f"metric.{scatter.y}")
             plot_outcomes(axes, variant, (values[0], values[1]), columns, success, minimum_size=0.5)
             _frame(axes, pair, scatter, limits, to_scale)
@@ -151,12 +151,12 @@ def influence_on_success(result: BatchResult, variant: str) -> dict[str, float]:
     failures at both ends. Inputs that do not vary and derived values are left out; so are all inputs without both
     failures and successes.
     """
-    success = result.shown[variant].dots.success.astype(float)
+    success = result.plotted[variant].dots.success.astype(float)
     if success.min() == success.max():
         return {}
     influence = {}
     for name in input_names(result.plan.campaign):
-        values = result.shown[variant].dots.draws[name]
+        values = result.plotted[variant].dots.draws[name]
         columns = [column for column in (values, np.abs(values - values.mean())) if np.ptp(column) > 0.0]
         if columns:
             influence[name] = max(abs(float(np.corrcoef(success, column)[0, 1])) for column in columns)
@@ -170,7 +170,7 @@ def failure_panels(result: BatchResult) -> list[Panel]:
         names = list(influence_on_success(result, variant))[:2]
 
         def draw(axes: Axes, variant: str = variant, names: list[str] = names) -> None:
-            sample = result.shown[variant]
+            sample = result.plotted[variant]
             draws, success = sample.dots.draws, sample.dots.success
             columns = (f"draw.{names[0]}", f"draw.{names[1]}" if len(names) > 1 else "trial")
             points = (draws[names[0]], draws[names[1]] if len(names) > 1 else sample.numbers.astype(float))

@@ -79,7 +79,7 @@ def drivers(result: BatchResult) -> list[Driver]:
     """A row for each metric of each variant that has a rank correlation, the largest first."""
     names = input_names(result.plan.campaign)
     rows = []
-    for variant, sample in result.shown.items():
+    for variant, sample in result.plotted.items():
         trials = sample.first
         draws = {name: trials.draws[name] for name in names}
         for metric, correlations in rank_correlations(draws, trials.metrics).items():

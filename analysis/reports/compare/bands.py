@@ -10,10 +10,11 @@ from matplotlib.axes import Axes
 from scipy.stats import chi2, norm
 
 from ...campaigns.verdicts.order_statistics import quantiles
+from ..campaign.recorded_names import RATIO
 from ..common.panels import Panel, far, panel
 from ..common.quantities import display_factor, display_unit, number
 from ..common.style import FAILED, FAINT, Look, plain_ticks
-from .recorded import ALL, RATIO, Flight, Quantity, doubling
+from .recorded import ALL, Flight, Quantity, doubling
 
 LEVELS = (5.0, 25.0, 50.0, 75.0, 95.0)  # %
 MOST_TIMES = 300  # of a band

@@ -10,9 +10,10 @@ from matplotlib.axes import Axes
 
 from ...campaigns.compare.comparison import Contender
 from ...campaigns.verdicts.order_statistics import quantiles
+from ..campaign.recorded_names import find_vector, variable_of, vectors
 from ..common.panels import Panel, far, panel
 from ..common.style import FAINT, INK, LineStyle, Look, plain_ticks
-from .recorded import ALL, find_vector, vectors
+from .recorded import ALL
 
 TARGET: LineStyle = {
     "linestyle": "", "marker": "o", "markersize": 6, "markerfacecolor": "white", "markeredgecolor": INK,
@@ -46,7 +47,7 @@ def target_of(contender: Contender, variable: str) -> Target:
     known = {
         name: value
         for name, value in contender.stored.document.get("targets", {}).get(contender.name, {}).items()
-        if contender.stored.split_rows(name)[1].startswith(f"target_{variable}[")
+        if variable_of(contender.stored.document, name) == f"target_{variable}"
     }
     for base, elements in vectors(known).items():
         plotted = contender.stored.draws
@@ -57,7 +58,7 @@ def target_of(contender: Contender, variable: str) -> Target:
 
 def ends_of(contender: Contender, variable: str) -> Ends | None:
     """Final position or velocity less its target; None where the batch does not keep the final values."""
-    vector = find_vector(contender.stored, contender.trials.final, variable, UNITS[variable])
+    vector = find_vector(contender.stored.document, contender.trials.final, variable, UNITS[variable])
     if vector is None:
         return None
     target = target_of(contender, variable)

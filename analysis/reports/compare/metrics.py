@@ -16,9 +16,9 @@ from ...campaigns.spec.campaign import Metric
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.summary import success_interval
 from ..campaign.distributions import distribution_plot, draw_distribution
+from ..campaign.recorded_names import RATIO, variable_of
 from ..common.panels import Panel, panel
 from ..common.style import COLOURS, DASHES, FAILED, MARKERS, Look, look
-from .recorded import RATIO, variable_of
 
 MASS = "kg"
 NORMAL_REACH = 3.5  # deviations that are shown at least
@@ -59,7 +59,7 @@ def _final_masses(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]
         if all(name in contender.trials.final for contender in contenders.values())
     ]
     for name in common:
-        if any(variable_of(contender.stored, name) == "mass" for contender in contenders.values()):
+        if any(variable_of(contender.stored.document, name) == "mass" for contender in contenders.values()):
             metric = Metric(f"final {name}", NOT_EVALUATED, "final", unit=MASS)
             masses[metric] = {label: contender.trials.final[name] for label, contender in contenders.items()}
     return masses

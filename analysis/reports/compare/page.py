@@ -11,6 +11,7 @@ import numpy as np
 
 from ...campaigns.compare.comparison import Comparison, name_of
 from ...campaigns.summary import SummaryRow
+from ..campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, names_of_record, variable_of
 from ..campaign.tables import HEADINGS, fmu_rows, group_rows, variant_rows
 from ..common.page import write_page
 from ..common.panels import Panel, swatch
@@ -29,18 +30,7 @@ from .metrics import (
     sigma_rows,
     sort_metrics,
 )
-from .recorded import (
-    CONSISTENCY,
-    DIRECTIONS,
-    KNOWN,
-    Flight,
-    Quantity,
-    names_of_record,
-    quantities,
-    read_flights,
-    trials_with_traces,
-    variable_of,
-)
+from .recorded import Flight, Quantity, quantities, read_flights, trials_with_traces
 from .tables import failures_to_replay, metric_pairs, rate_pairs
 from .trajectories import DRAWN, bundle_of, plan_panels, side_panels
 
@@ -151,13 +141,15 @@ def _flights(comparison: Comparison) -> dict[str, list[Flight]]:
     """The flights with traces that are shown, by contender."""
     trials = trials_with_traces(comparison.contenders.values())
     return {
-        label: read_flights(contender, trials[label], names_of_record(contender.stored))
+        label: read_flights(contender, trials[label], names_of_record(contender.stored.document))
         for label, contender in comparison.contenders.items()
     }
 
 
 def _histories(comparison: Comparison, flights: Mapping[str, list[Flight]], looks: Mapping[str, Look]) -> list[History]:
-    by_label = {quantity.label: quantity for batch in comparison.batches.values() for quantity in quantities(batch)}
+    by_label = {
+        quantity.label: quantity for batch in comparison.batches.values() for quantity in quantities(batch.document)
+    }
     histories = []
     for index, quantity in enumerate(by_label.values()):
         bands = {label: bands_of(quantity, retained) for label, retained in flights.items()}
@@ -212,10 +204,12 @@ def missing_parts(
     goes nowhere, such as an attitude, no trajectory, thrust, end or propellant is missed.
     """
     reasons = {}
-    retained = {variable_of(batch, name) for batch in comparison.batches.values() for name in batch.document["signals"]}
+    retained = {
+        variable_of(batch.document, name) for batch in comparison.batches.values() for name in batch.document["signals"]
+    }
     goes = not retained or bool(retained & PATH)  # without any signal it may go somewhere
     has_mass = any(metric.unit == MASS for metric in comparison.metrics) or any(
-        variable_of(contender.stored, name) == "mass"
+        variable_of(contender.stored.document, name) == "mass"
         for contender in comparison.contenders.values()
         for name in contender.trials.final
     )

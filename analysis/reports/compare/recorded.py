@@ -8,22 +8,27 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...campaigns.compare.comparison import Contender
-from ...campaigns.folder.stored import StoredBatch
-from ..common.signals import INDEXED
+from ...campaigns.fly.metadata import Provenance
+from ..campaign.recorded_names import (
+    COMMANDS,
+    CONSISTENCY,
+    DIRECTIONS,
+    MOTION,
+    RATIO,
+    is_real,
+    names_of_record,
+    unit_of,
+    variable_of,
+    vectors,
+)
 
 Signals = Mapping[str, np.ndarray]
 
-COMMANDS = ("thrust_acceleration", "thrust", "delivered_thrust", "thrust_angle", "throttle")
-DIRECTIONS = ("thrust_direction", "attitude")
-MOTION = ("altitude", "speed", "path_angle", "mass")
-CONSISTENCY = ("normalised_error_square",)
-RATIO = "_error_ratio"
 KINDS = {
     **dict.fromkeys(COMMANDS, "commands"),
     **dict.fromkeys(MOTION, "motion"),
     **dict.fromkeys(CONSISTENCY, "consistency"),
 }
-KNOWN = (*COMMANDS, *DIRECTIONS, *MOTION, *CONSISTENCY, "position", "velocity", "central_angle")
 ALL = "all variants"
 MOST_FLIGHTS = 300  # of a contender that are read: bands do not change visibly with more
 MOST_ROWS = 500  # of a flight that are kept
@@ -53,86 +58,35 @@ class Flight:
     is_whole: bool
 
 
-def variable_of(batch: StoredBatch, name: str) -> str:
-    """``plant.position[1]`` and ``plant.position``: ``position``."""
-    variable = batch.split_rows(name)[1]
-    indexed = INDEXED.fullmatch(variable)
-    return indexed[1] if indexed else variable
-
-
-def names_of_record(batch: StoredBatch) -> list[str]:
-    """Signals over time that a page can use: those that were asked for, or of full traces the known ones.
-
-    Of a variable that several components have, as inputs repeat outputs, the first component's is taken.
-    """
-    record = batch.document["record"]
-    if record["every"] is not None:
-        return list(record["signals"])
-    if record["traces"] == "none":
-        return []
-    owners: dict[str, str] = {}
-    retained = []
-    for name in batch.document["signals"]:
-        owner, variable = batch.split_rows(name)[0], variable_of(batch, name)
-        known = variable in KNOWN or variable.endswith(RATIO)
-        if known and owners.setdefault(variable, owner) == owner:
-            retained.append(name)
-    return retained
-
-
-def vectors(names: Iterable[str]) -> dict[str, tuple[str, str, str]]:
-    """Names of elements 1 to 3 by the vector's name, for all that have exactly these."""
-    elements: dict[str, dict[str, str]] = {}
-    for name in names:
-        indexed = INDEXED.fullmatch(name)
-        if indexed:
-            elements.setdefault(indexed[1], {})[indexed[2]] = name
-    return {base: (parts["1"], parts["2"], parts["3"]) for base, parts in elements.items() if set(parts) == set("123")}
-
-
-def find_vector(
-    batch: StoredBatch, names: Iterable[str], variable: str, unit: str, owner: str = ""
-) -> tuple[str, str, str] | None:
-    """The first vector called ``variable`` with that unit, if there is one of the component ``owner``."""
-    candidates = {
-        base: elements
-        for base, elements in vectors(names).items()
-        if variable_of(batch, base) == variable and _unit(batch, elements[0]) == unit
-    }
-    return candidates.get(f"{owner}.{variable}") or next(iter(candidates.values()), None)
-
-
-def _unit(batch: StoredBatch, name: str) -> str | None:
-    return batch.document["signals"].get(name, {}).get("unit")
-
-
-def quantities(batch: StoredBatch) -> list[Quantity]:
+def quantities(document: Provenance) -> list[Quantity]:
     """Every quantity over time that can be drawn, in order of their signals."""
-    names = names_of_record(batch)
+    names = names_of_record(document)
     listed: list[Quantity] = []
     selected: set[str] = set()
-    altitude = any(variable_of(batch, name) == "altitude" for name in names)
+    altitude = any(variable_of(document, name) == "altitude" for name in names)
     for base, elements in vectors(names).items():
-        variable = variable_of(batch, base)
+        variable = variable_of(document, base)
         if variable in DIRECTIONS:
             listed.append(
                 Quantity(f"{base} above the horizontal", variable, "rad", "commands", elements, _elevation(elements))
             )
         elif variable == "velocity":
             listed.append(
-                Quantity(f"{base}, magnitude", variable, _unit(batch, elements[0]), "motion", elements, _norm(elements))
+                Quantity(
+                    f"{base}, magnitude", variable, unit_of(document, elements[0]), "motion", elements, _norm(elements)
+                )
             )
         elif variable == "position" and not altitude:
-            unit = _unit(batch, elements[2])
+            unit = unit_of(document, elements[2])
             listed.append(Quantity(elements[2], variable, unit, "motion", elements[2:], _element(elements[2])))
         elif variable != "position":
             continue
         selected |= set(elements)
     for name in names:
         if name not in selected:
-            variable = variable_of(batch, name)
-            held = batch.document["signals"].get(name, {}).get("type", "Real") != "Real"
-            unit = _unit(batch, name)
+            variable = variable_of(document, name)
+            held = not is_real(document, name)
+            unit = unit_of(document, name)
             kind = "consistency" if variable.endswith(RATIO) else KINDS.get(variable, "other")
             listed.append(Quantity(name, variable, unit, kind, (name,), _element(name), held))
     return sorted(listed, key=lambda quantity: names.index(quantity.names[0]))

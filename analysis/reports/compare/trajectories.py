@@ -9,11 +9,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ...campaigns.compare.comparison import Contender
+from ..campaign.recorded_names import find_vector, names_of_record, owner_of, variable_of
 from ..common.panels import Panel, far, panel
 from ..common.round_body import radius_of, track_angles
 from ..common.style import FAILED, FAINT, GRID, INK, Look, plain_ticks
 from .dispersions import TARGET, target_of
-from .recorded import Flight, find_vector, names_of_record, variable_of
+from .recorded import Flight
 
 DRAWN = 40  # flights of a panel
 SHAPE = 1.45  # width over height of a panel's axes
@@ -52,13 +53,14 @@ class Bundle:
 
 def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
     """The paths of a contender's flights, to their ends where the batch keeps the final values; None without any."""
-    names = names_of_record(contender.stored)
-    position = find_vector(contender.stored, names, "position", "m")
+    document = contender.stored.document
+    names = names_of_record(document)
+    position = find_vector(document, names, "position", "m")
     if position is None:
         return None
-    owner = contender.stored.split_rows(position[0])[0]
-    altitudes = [name for name in names if variable_of(contender.stored, name) == "altitude"]
-    height = next((name for name in altitudes if contender.stored.split_rows(name)[0] == owner), position[2])
+    owner = owner_of(document, position[0])
+    altitudes = [name for name in names if variable_of(document, name) == "altitude"]
+    height = next((name for name in altitudes if owner_of(document, name) == owner), position[2])
     target = target_of(contender, "position")
     row = {int(trial): index for index, trial in enumerate(contender.trials.trial)}
     plotted: list[tuple[bool, np.ndarray, np.ndarray, np.ndarray]] = []  # success, path, heights, target

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from ...runtime.flight.results import Result
@@ -11,16 +13,26 @@ from ..figures.scene.declared import Body, Scene, Thrust, ThrustAxis
 
 def scene_notes(scene: Scene, result: Result) -> list[str]:
     """The sentences below a view, and those on what was left out of it."""
-    axes = ", ".join(f"{axis} {name}" if axis != name else axis for axis, name in zip("xyz", scene.axes, strict=True))
-    sizes = "; ".join(f"{body.name} {' x '.join(number(extent) for extent in body.size)} m" for body in scene.bodies)
     return [
-        f"Frame: {scene.frame or 'of the signals'}; {axes}.",
-        f"To scale, along the body's axes: {sizes}.",
+        frame_note(scene),
+        size_note(scene.bodies),
         *(f"Dashed line: {line.name}." for line in scene.lines),
         *(note for body in scene.bodies for note in _body_notes(body, result)),
         "Marks, lines and paths have a constant width on the screen; the light is not the Sun's.",
         *scene.notes,
     ]
+
+
+def frame_note(scene: Scene) -> str:
+    """What the axes of the scene are."""
+    axes = ", ".join(f"{axis} {name}" if axis != name else axis for axis, name in zip("xyz", scene.axes, strict=True))
+    return f"Frame: {scene.frame or 'of the signals'}; {axes}."
+
+
+def size_note(bodies: Iterable[Body]) -> str:
+    """The extents of bodies."""
+    sizes = "; ".join(f"{body.name} {' x '.join(number(extent) for extent in body.size)} m" for body in bodies)
+    return f"To scale, along the body's axes: {sizes}."
 
 
 def _body_notes(body: Body, result: Result) -> list[str]:

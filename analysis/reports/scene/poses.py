@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import NamedTuple
 
 import numpy as np
 
 from ...runtime.flight.results import Flight
+from ..figures.declared import Signal
 from ..figures.scene.declared import (
     Angles,
     Attitude,
@@ -16,6 +18,7 @@ from ..figures.scene.declared import (
     Position,
     Quaternion,
     Scene,
+    Site,
     ThrustAxis,
     WindAngles,
 )
@@ -40,9 +43,7 @@ class LocalFrame(NamedTuple):
 def compute_poses(scene: Scene, flight: Flight) -> list[Pose]:
     """The pose of each body at each sample, in the scene's frame."""
     frame = local_frame(scene, flight)
-    return [
-        Pose(_positions(body, flight, frame), make_continuous(_attitudes(body, flight, frame))) for body in scene.bodies
-    ]
+    return [Pose(positions(body, flight, frame), attitudes(body, flight, frame)) for body in scene.bodies]
 
 
 def local_frame(scene: Scene, flight: Flight) -> LocalFrame | None:
@@ -56,7 +57,8 @@ def local_frame(scene: Scene, flight: Flight) -> LocalFrame | None:
     return LocalFrame(float(longitude), float(latitude), scene.surface.radius)
 
 
-def _positions(body: Body, flight: Flight, frame: LocalFrame | None) -> np.ndarray:
+def positions(body: Body, flight: Flight, frame: LocalFrame | None) -> np.ndarray:
+    """Positions (m) of a body at each sample, [3, n]; nan where unknown."""
     position: Position | None = body.position
     if isinstance(position, Cartesian):
         values = position.signal.values(flight)
@@ -81,6 +83,18 @@ def to_local(longitude: np.ndarray, latitude: np.ndarray, height: np.ndarray, fr
     north = np.sin(latitude - frame.latitude) + 2.0 * np.cos(latitude) * sine * np.sin(0.5 * difference) ** 2
     distance = frame.radius + height
     return np.stack([distance * east, distance * north, height - 2.0 * distance * haversine])
+
+
+def attitudes(body: Body, flight: Flight, frame: LocalFrame | None) -> np.ndarray:
+    """Unit quaternions from body to scene at each sample, scalar first, [4, n]; nan where unknown."""
+    return make_continuous(_attitudes(body, flight, frame))
+
+
+def signals_of(part: Position | Attitude | Site | None) -> set[str]:
+    """The names of the recorded signals that a position, an attitude or a site is computed from."""
+    stated = () if part is None else (getattr(part, each.name) for each in fields(part))
+    signals = (signal for each in stated for signal in (each if isinstance(each, tuple) else (each,)))
+    return {name for signal in signals if isinstance(signal, Signal) for name in signal.names}
 
 
 def _attitudes(body: Body, flight: Flight, frame: LocalFrame | None) -> np.ndarray:

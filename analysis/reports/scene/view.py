@@ -52,8 +52,20 @@ class JetView:
 
 
 @dataclass(frozen=True)
+class FlightName:
+    """Which trial of which variant a body is of, and whether that failed."""
+
+    variant: str
+    trial: int
+    failed: bool
+
+
+@dataclass(frozen=True)
 class BodyView:
-    """A body: three columns of position (m) and four of its attitude, a quaternion from body to scene, scalar first."""
+    """A body: three columns of position (m) and four of its attitude, a quaternion from body to scene, scalar first.
+
+    ``attitude`` is empty where it is unknown, ``flight`` is given in a scene of several flights.
+    """
 
     name: str
     colour: str
@@ -64,6 +76,7 @@ class BodyView:
     attitude: Sequence[np.ndarray]
     thrusts: Sequence[ThrustView]
     jets: Sequence[JetView]
+    flight: FlightName | None = None
 
 
 @dataclass(frozen=True)
@@ -114,7 +127,7 @@ def scene_view(scene: Scene, result: Result) -> SceneView | None:
     if not result.time.size:
         return None
     poses = compute_poses(scene, result)
-    origin = _origin(poses[0].position)
+    origin = find_origin(poses[0].position)
     names = [*(body.name for body in scene.bodies), *(site.name for site in scene.sites)]
     colours = {name: COLOURS[index % len(COLOURS)] for index, name in enumerate(names)}
     return SceneView(
@@ -123,7 +136,7 @@ def scene_view(scene: Scene, result: Result) -> SceneView | None:
         up=scene.up,
         origin=origin.tolist(),
         time=result.time,
-        ground=_ground(scene, poses[0].position),
+        ground=ground_view(scene, poses[0].position),
         bodies=[
             _body(body, pose, origin, colours[body.name], result)
             for body, pose in zip(scene.bodies, poses, strict=True)
@@ -133,13 +146,14 @@ def scene_view(scene: Scene, result: Result) -> SceneView | None:
     )
 
 
-def _origin(position: np.ndarray) -> np.ndarray:
-    """The last finite position, [3]."""
+def find_origin(position: np.ndarray) -> np.ndarray:
+    """What a view's positions are relative to: the last finite position, [3]."""
     finite = position[:, np.all(np.isfinite(position), axis=0)]
     return finite[:, -1] if finite.size else np.zeros(3)
 
 
-def _ground(scene: Scene, position: np.ndarray) -> GroundView | None:
+def ground_view(scene: Scene, position: np.ndarray) -> GroundView | None:
+    """The ground of a scene below a flight with these positions (m), [3, n]; None where it has none."""
     surface = scene.surface
     if surface is None:
         return None

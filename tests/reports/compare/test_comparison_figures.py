@@ -16,6 +16,7 @@ from matplotlib.path import Path
 from perilune.analysis.campaigns.compare.comparison import Contender
 from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.campaigns.folder.stored import read_batch
+from perilune.analysis.reports.campaign.recorded_names import names_of_record, vectors
 from perilune.analysis.reports.common.style import Look
 from perilune.analysis.reports.compare.bands import LEVELS, band_panels, bands_of
 from perilune.analysis.reports.compare.dispersions import Ends, dispersion, ellipse, ends_of, target_of
@@ -23,11 +24,9 @@ from perilune.analysis.reports.compare.recorded import (
     Flight,
     Quantity,
     doubling,
-    names_of_record,
     quantities,
     read_flights,
     trials_with_traces,
-    vectors,
 )
 from perilune.analysis.reports.compare.trajectories import bundle_of
 from tests.support.pages.comparison_samples import DIRECTION, POSITION, SIGNALS, TARGET, VELOCITY, write_sample
@@ -49,13 +48,13 @@ def comparison(batch):
 def flights(batch, comparison):
     trials = trials_with_traces(comparison.contenders.values())
     return {
-        label: read_flights(contender, trials[label], names_of_record(batch))
+        label: read_flights(contender, trials[label], names_of_record(batch.document))
         for label, contender in comparison.contenders.items()
     }
 
 
 def test_quantities_are_told_by_name_and_unit(batch):
-    actual = [(quantity.label, quantity.unit, quantity.kind, quantity.held) for quantity in quantities(batch)]
+    actual = [(quantity.label, quantity.unit, quantity.kind, quantity.held) for quantity in quantities(batch.document)]
     assert actual == [
         ("ship.position[3]", "m", "motion", False),
         ("ship.velocity, magnitude", "m/s", "motion", False),
@@ -77,9 +76,9 @@ def test_altitude_takes_the_place_of_height(tmp_path):
             trace["ship.altitude"] = trace["ship.position[3]"] + 5.0
     result.write(tmp_path / "out")
     batch = read_batch(tmp_path / "out")
-    assert "ship.position[3]" not in [quantity.label for quantity in quantities(batch)]
+    assert "ship.position[3]" not in [quantity.label for quantity in quantities(batch.document)]
     contender = compare([tmp_path / "out"]).contenders["alpha"]
-    bundle = bundle_of(contender, read_flights(contender, [0], names_of_record(batch)))
+    bundle = bundle_of(contender, read_flights(contender, [0], names_of_record(batch.document)))
     assert bundle.height == "ship.altitude"
     assert bundle.paths[0].height[0] == pytest.approx(505.0)
     # without a final altitude a path ends with its last sample, and none is lost
@@ -87,7 +86,7 @@ def test_altitude_takes_the_place_of_height(tmp_path):
         trials.end_time[:] += 0.3
     result.write(tmp_path / "out")
     contender = compare([tmp_path / "out"]).contenders["alpha"]
-    flights = read_flights(contender, range(12), names_of_record(batch))
+    flights = read_flights(contender, range(12), names_of_record(batch.document))
     paths = bundle_of(contender, flights).paths
     assert [path.plan.shape[1] for path in paths] == [flight.time.size for flight in flights]
 
@@ -114,7 +113,7 @@ def test_downrange_over_a_round_body_is_along_its_ground(tmp_path):
     result.write(tmp_path / "out")
     batch = read_batch(tmp_path / "out")
     contender = compare([tmp_path / "out"]).contenders["alpha"]
-    bundle = bundle_of(contender, read_flights(contender, [0, 1], names_of_record(batch)))
+    bundle = bundle_of(contender, read_flights(contender, [0, 1], names_of_record(batch.document)))
     assert bundle.radius == pytest.approx(radius, rel=1e-9)
     assert bundle.over_ground
     path = bundle.paths[1]
@@ -124,7 +123,7 @@ def test_downrange_over_a_round_body_is_along_its_ground(tmp_path):
 
 def test_values_of_quantities(batch, flights):
     flight = flights["beta"][3]
-    by_label = {quantity.label: quantity for quantity in quantities(batch)}
+    by_label = {quantity.label: quantity for quantity in quantities(batch.document)}
     signals = flight.signals
     speed = np.sqrt(sum(signals[name] ** 2 for name in VELOCITY))
     np.testing.assert_allclose(by_label["ship.velocity, magnitude"].values(signals), speed, rtol=1e-15)
@@ -139,7 +138,7 @@ def test_vectors_have_elements_1_to_3_and_nothing_else():
 
 
 def test_bands_are_percentiles_over_the_successful_flights(batch, flights):
-    quantity = next(quantity for quantity in quantities(batch) if quantity.label == "ship.mass")
+    quantity = next(quantity for quantity in quantities(batch.document) if quantity.label == "ship.mass")
     for label, actual in flights.items():
         good = np.stack([flight.signals["ship.mass"] for flight in actual if flight.success])
         bands = bands_of(quantity, actual)
@@ -150,14 +149,14 @@ def test_bands_are_percentiles_over_the_successful_flights(batch, flights):
 
 
 def test_errors_over_sigma_are_told_over_all_flights(batch, flights):
-    quantity = quantities(batch)[-1]
+    quantity = quantities(batch.document)[-1]
     values = np.stack([flight.signals[quantity.label] for flight in flights["gamma"]])
     expected = np.percentile(values, LEVELS, axis=0, method="inverted_cdf")
     assert np.array_equal(bands_of(quantity, flights["gamma"]).percentiles, expected)
 
 
 def test_a_command_in_the_last_row_is_left_out(batch, flights):
-    thrust = next(quantity for quantity in quantities(batch) if quantity.label == "pilot.thrust")
+    thrust = next(quantity for quantity in quantities(batch.document) if quantity.label == "pilot.thrust")
     assert bands_of(thrust, flights["alpha"]).time[-1] == flights["alpha"][0].time[-2]
 
 

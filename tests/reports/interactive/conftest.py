@@ -26,3 +26,23 @@ def batch(tmp_path_factory):
         assert main(["batch", "lunar_terminal_guidance", *options, "--report", str(folder / "page.html")]) == 0
 
     return made_once(tmp_path_factory, "batch_page", fly)
+
+
+@pytest.fixture(scope="session")
+def recorded(tmp_path_factory):
+    """A campaign's folder with recorded signals, out, and its page; a failure among its trials."""
+
+    def fly(folder):
+        options = [
+            "--campaign",
+            "compare",
+            "--trials",
+            "8",
+            "--parameters",
+            "noisy.ssv",
+            "--output",
+            str(folder / "out"),
+        ]
+        assert main(["batch", "lunar_landing", *options, "--report", str(folder / "page.html")]) == 0
+
+    return made_once(tmp_path_factory, "recorded_page", fly)

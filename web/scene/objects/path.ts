@@ -1,7 +1,7 @@
 // The path of a body: what it has flown, and, fainter, what lies ahead. Samples on a straight line are left out, and
 // vertices are relative to the first of their stretch, since float32 is not exact enough for all of a path.
 
-import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Vector3 } from "three";
+import { BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, Vector3 } from "three";
 import type { BodyData } from "../document";
 import { type Instant, positionAt, sampleAt } from "../instant";
 import { lineColour, type Theme } from "../theme";
@@ -42,7 +42,7 @@ export class Path {
   }
 
   setTheme(theme: Theme): void {
-    for (const material of [this.flown, this.ahead]) material.color = lineColour(this.body.colour, theme);
+    for (const material of [this.flown, this.ahead]) material.color = this.body.flight?.failed ? new Color(theme.failed) : lineColour(this.body.colour, theme);
   }
 
   show(instant: Instant): void {

@@ -148,6 +148,30 @@ def describe_columns(path: Path) -> object:
         raise unreadable(path, error) from error
 
 
+def list_traces(folder: Path, batch: str, variant: str) -> dict[int, Path]:
+    """The traces of a variant by trial; those of other batches in the folder are left out.
+
+    Raises InputError for one that is damaged.
+    """
+    traces = {}
+    for path in sorted(trace_path(folder, variant, 0).parent.glob("*.parquet")):
+        trial = int(path.stem) if path.stem.isdecimal() else -1
+        if describe_columns(path) == {"batch": batch, "variant": variant, "trial": trial}:
+            traces[trial] = path
+    return traces
+
+
+def read_trace(path: Path, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
+    """The recorded signals of one trial, ``time`` (s) among them; of ``names`` those that there are, or all.
+
+    Raises InputError.
+    """
+    table = read_table(path, names if names is None else [*names, "time"])
+    if "time" not in table.column_names:
+        raise InputError(path, "time", "no such column", NEW_FOLDER)
+    return {name: numbers(table, name, path) for name in table.column_names}
+
+
 def unreadable(path: Path, error: Exception) -> InputError:
     """What is said of a file that is damaged."""
     reason = str(error).split(": ")[-1] or type(error).__name__

@@ -139,7 +139,7 @@ def test_the_page_of_a_long_campaign_says_what_it_shows(tmp_path, monkeypatch):
     monkeypatch.setattr(shown_trials, "FAILURES", 4)
     result = mixed_batch(100)
     whole = mixed_batch(100)
-    shaky = result.shown["shaky"]
+    shaky = result.plotted["shaky"]
     failed = np.flatnonzero(~whole.trials["shaky"].success)
     behind = failed[failed >= 30]
     assert behind.size > 4
@@ -148,7 +148,7 @@ def test_the_page_of_a_long_campaign_says_what_it_shows(tmp_path, monkeypatch):
     assert shaky.dots.draws["offset"].tolist() == whole.plan.draws.columns["offset"][order].tolist()
     seen = np.count_nonzero(failed < 30) + 4
     assert shaky.note == f"the first 30 of 100 trials; those over two values {seen} of {failed.size} failures, too"
-    assert result.shown["steady"].note == "the first 30 of 100 trials; those over two values all failures, too"
+    assert result.plotted["steady"].note == "the first 30 of 100 trials; those over two values all failures, too"
     write_batch_report(result, tmp_path / "page.html", "Long")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert f"plots and rank correlations use {shaky.note}." in " ".join(page.split())

@@ -1,0 +1,103 @@
+"""Recorded flights inside the page of a batch: their signals over time, and a scene of all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any
+
+from ...campaigns.fly.metadata import Provenance
+from ...campaigns.fly.results import BatchResult
+from ...common.errors import InputError
+from ..common.quantities import display_factor, display_unit
+from ..common.signals import INDEXED
+from ..common.style import COLOURS
+from ..figures.reading import read_figures
+from ..figures.scene.declared import Scene
+from ..scene.flights import FlightsView, RecordedFlight, flights_view
+from ..scene.poses import signals_of
+from .recorded_flights import choose_flights, read_flights
+from .recorded_names import is_real, names_of_record, unit_of
+
+LINE_LIMIT = 24  # signals of a flight
+
+
+@dataclass(frozen=True)
+class EmbeddedFlights:
+    """What scripts get of flights, ``document``, the ``scene`` where there is one, and the sentences about both."""
+
+    document: dict[str, Any]
+    scene: FlightsView | None
+    notes: list[str]
+
+
+def embedded_flights(batch: BatchResult) -> EmbeddedFlights | None:
+    """The recorded flights of a batch for its page; None where it recorded none."""
+    chosen = choose_flights(batch)
+    if not chosen:
+        return None
+    notes = []
+    scene = None
+    try:
+        scene = _declared_scene(batch)
+    except InputError as error:  # the page of a campaign that flew is written all the same
+        notes.append(f"The system's scene cannot be read: {error}.")
+    plotted = names_of_record(batch.provenance)[:LINE_LIMIT]
+    flights, stride = read_flights(batch, chosen, {*plotted, *_scene_names(scene)})
+    if not flights:
+        return None
+    plotted = [name for name in plotted if all(name in each.flight.signals for each in flights)]
+    traced = sum(len(rows.traced()) for rows in batch.rows.values())
+    notes.insert(0, f"{len(flights)} of {traced} trials with recorded signals, half failures where there are as many.")
+    if stride > 1:
+        notes.append(f"Of each, one of {stride} recorded rows and the last.")
+    return EmbeddedFlights(
+        document=_document(batch.provenance, plotted, flights),
+        scene=None if scene is None else flights_view(scene, flights),
+        notes=notes,
+    )
+
+
+def _declared_scene(batch: BatchResult) -> Scene | None:
+    """The scene that the system declares, as its first variant has it. Raises InputError."""
+    prepared = batch.plan.prepare(next(iter(batch.plan.campaign.variants())))
+    return next((figure for figure in read_figures(prepared) if isinstance(figure, Scene)), None)
+
+
+def _scene_names(scene: Scene | None) -> set[str]:
+    bodies = () if scene is None else scene.bodies
+    sites = () if scene is None else scene.sites
+    poses = [part for body in bodies for part in (body.position, body.attitude)]
+    return set().union(*map(signals_of, poses), *map(signals_of, sites))
+
+
+def _document(provenance: Provenance, names: Sequence[str], flights: Sequence[RecordedFlight]) -> dict[str, Any]:
+    """Panels with a line for each signal of a vector, and by flight a column for each line."""
+    panels = [(base, list(lines)) for base, lines in groupby(names, key=_base)]
+    return {
+        "panels": [
+            {
+                "title": base,
+                "unit": display_unit(unit_of(provenance, lines[0])),
+                "factor": display_factor(unit_of(provenance, lines[0])),
+                "steps": not is_real(provenance, lines[0]),
+                "lines": [{"name": name, "colour": COLOURS[index % len(COLOURS)]} for index, name in enumerate(lines)],
+            }
+            for base, lines in panels
+        ],
+        "flights": [
+            {
+                "variant": each.name.variant,
+                "trial": each.name.trial,
+                "time": each.flight.time,
+                "columns": [each.flight.signals[name] for name in names],
+            }
+            for each in flights
+        ],
+    }
+
+
+def _base(name: str) -> str:
+    indexed = INDEXED.fullmatch(name)
+    return indexed[1] if indexed else name

@@ -1,0 +1,75 @@
+"""The flights of a batch whose signals over time are inside its page: which, and how many of their rows."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import numpy as np
+
+from ...campaigns.fly.results import BatchResult
+from ...runtime.flight.results import Flight
+from ..common.style import look
+from ..scene.flights import RecordedFlight
+from ..scene.view import FlightName
+
+FLIGHT_LIMIT = 40  # in a page, of all variants
+ROW_LIMIT = 500  # of a flight
+
+
+def choose_flights(batch: BatchResult) -> dict[str, list[int]]:
+    """Trials with recorded signals by variant, an equal quota of `FLIGHT_LIMIT` each.
+
+    Half of a quota are failures, where there are as many, the others successes; each in order of trial.
+    """
+    quota = max(1, FLIGHT_LIMIT // len(batch.rows))
+    chosen: dict[str, list[int]] = {}
+    for variant, rows in batch.rows.items():
+        success = _success_by_trial(batch, variant)
+        traced = [trial for trial in rows.traced() if trial in success]
+        failed = [trial for trial in traced if not success[trial]]
+        succeeded = [trial for trial in traced if success[trial]]
+        failures = failed[: max(quota // 2, quota - len(succeeded))]
+        chosen[variant] = sorted([*failures, *succeeded[: quota - len(failures)]])
+    return {variant: trials for variant, trials in chosen.items() if trials}
+
+
+def read_flights(
+    batch: BatchResult, chosen: dict[str, list[int]], names: Collection[str]
+) -> tuple[list[RecordedFlight], int]:
+    """What the chosen trials recorded of some signals, each ``stride``-th row and the last; the stride.
+
+    All have the same stride, so that their times are common but for their ends. Trials that ended before their first
+    sample are left out.
+    """
+    traces = {
+        FlightName(variant, trial, not _success_by_trial(batch, variant)[trial]): batch.rows[variant].trace(
+            trial, names
+        )
+        for variant, trials in chosen.items()
+        for trial in trials
+    }
+    stride = max((-(-trace["time"].size // ROW_LIMIT) for trace in traces.values()), default=1)
+    colours = {variant: look(index).colour for index, variant in enumerate(batch.rows)}
+    flights = [
+        RecordedFlight(
+            name,
+            f"trial {name.trial}" if len(batch.rows) == 1 else f"{name.variant}, trial {name.trial}",
+            colours[name.variant],
+            _thin(trace, stride),
+        )
+        for name, trace in traces.items()
+        if trace["time"].size
+    ]
+    return flights, stride
+
+
+def _thin(trace: dict[str, np.ndarray], stride: int) -> Flight:
+    last = trace["time"].size - 1
+    rows = np.unique(np.append(np.arange(0, last, stride), last))
+    signals = {name: values[rows].astype(float) for name, values in trace.items()}
+    return Flight(signals.pop("time"), signals, {}, "", "")
+
+
+def _success_by_trial(batch: BatchResult, variant: str) -> dict[int, bool]:
+    sample = batch.plotted[variant]
+    return dict(zip(sample.numbers.tolist(), sample.dots.success.tolist(), strict=True))

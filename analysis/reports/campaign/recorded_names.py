@@ -1,0 +1,84 @@
+"""Which signals over time a batch recorded that a page plots, by names and units alone; nothing is of one system."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ...campaigns.fly.metadata import Provenance
+from ...runtime.ssp.names import split_name
+from ..common.signals import INDEXED
+
+COMMANDS = ("thrust_acceleration", "thrust", "delivered_thrust", "thrust_angle", "throttle")
+DIRECTIONS = ("thrust_direction", "attitude")
+MOTION = ("altitude", "speed", "path_angle", "mass")
+CONSISTENCY = ("normalised_error_square",)
+RATIO = "_error_ratio"
+KNOWN = (*COMMANDS, *DIRECTIONS, *MOTION, *CONSISTENCY, "position", "velocity", "central_angle")
+
+
+def names_of_record(provenance: Provenance) -> list[str]:
+    """Signals over time that a page can use: those that the campaign lists, or of full traces the known ones.
+
+    Of a variable that several components have, as inputs repeat outputs, the first component's is taken.
+    """
+    record = provenance["record"]
+    if record["every"] is not None:
+        return list(record["signals"])
+    if record["traces"] == "none":
+        return []
+    owners: dict[str, str] = {}
+    retained = []
+    for name in provenance["signals"]:
+        owner, variable = owner_of(provenance, name), variable_of(provenance, name)
+        known = variable in KNOWN or variable.endswith(RATIO)
+        if known and owners.setdefault(variable, owner) == owner:
+            retained.append(name)
+    return retained
+
+
+def owner_of(provenance: Provenance, name: str) -> str:
+    """The component of a signal; empty for a connector of the system."""
+    return split_name(name, _components(provenance))[0]
+
+
+def variable_of(provenance: Provenance, name: str) -> str:
+    """``plant.position[1]`` and ``plant.position``: ``position``."""
+    variable = split_name(name, _components(provenance))[1]
+    indexed = INDEXED.fullmatch(variable)
+    return indexed[1] if indexed else variable
+
+
+def unit_of(provenance: Provenance, name: str) -> str | None:
+    """The unit of a recorded signal; None where none is declared."""
+    return provenance["signals"].get(name, {}).get("unit")
+
+
+def is_real(provenance: Provenance, name: str) -> bool:
+    """Whether a recorded signal is a Real; others are constant between samples."""
+    return provenance["signals"].get(name, {}).get("type", "Real") == "Real"
+
+
+def vectors(names: Iterable[str]) -> dict[str, tuple[str, str, str]]:
+    """Names of elements 1 to 3 by the vector's name, for all that have exactly these."""
+    elements: dict[str, dict[str, str]] = {}
+    for name in names:
+        indexed = INDEXED.fullmatch(name)
+        if indexed:
+            elements.setdefault(indexed[1], {})[indexed[2]] = name
+    return {base: (parts["1"], parts["2"], parts["3"]) for base, parts in elements.items() if set(parts) == set("123")}
+
+
+def find_vector(
+    provenance: Provenance, names: Iterable[str], variable: str, unit: str, owner: str = ""
+) -> tuple[str, str, str] | None:
+    """The first vector called ``variable`` with that unit, if there is one of the component ``owner``."""
+    candidates = {
+        base: elements
+        for base, elements in vectors(names).items()
+        if variable_of(provenance, base) == variable and unit_of(provenance, elements[0]) == unit
+    }
+    return candidates.get(f"{owner}.{variable}") or next(iter(candidates.values()), None)
+
+
+def _components(provenance: Provenance) -> set[str]:
+    return {component for fmus in provenance["fmus"].values() for component in fmus}

@@ -1,0 +1,64 @@
+// What trials have recorded over time: analysis/reports/campaign/embedded_flights.py.
+
+import type { Chart, Page } from "../page/document";
+import type { TrialName } from "../page/trial";
+
+const MARGIN = 0.06; // of an ordinate, above and below its values
+
+interface Panel {
+  title: string;
+  unit?: string;
+  factor: number;
+  steps: boolean;
+  lines: { name: string; colour: string }[];
+}
+
+interface Flight extends TrialName {
+  time: number; // of a column, as are columns
+  columns: number[]; // one for each line of the panels
+}
+
+export class Flights {
+  private constructor(
+    private readonly page: Page,
+    private readonly panels: Panel[],
+    private readonly flights: Flight[],
+  ) {}
+
+  // Null where the page has none.
+  static of(page: Page): Flights | null {
+    const document = page.document["recorded"] as { panels: Panel[]; flights: Flight[] } | undefined;
+    return document ? new Flights(page, document.panels, document.flights) : null;
+  }
+
+  // A chart over time for each panel; null for a trial that has recorded nothing in this page.
+  async charts({ variant, trial }: TrialName): Promise<Chart[] | null> {
+    const flight = this.flights.find((each) => each.variant === variant && each.trial === trial);
+    if (!flight) return null;
+    const time = await this.page.column(flight.time);
+    const ends: [number, number] = [time[0]!, time[time.length - 1]!];
+    let line = 0;
+    return Promise.all(
+      this.panels.map((panel) => {
+        const columns = flight.columns.slice(line, (line += panel.lines.length));
+        return this.chart(panel, flight.time, columns, ends);
+      }),
+    );
+  }
+
+  private async chart({ title, unit = "", factor, steps, lines }: Panel, time: number, columns: number[], ends: [number, number]): Promise<Chart> {
+    const numbers = await Promise.all(columns.map((each) => this.page.column(each)));
+    const finite = numbers.flatMap((each) => [...each]).filter(Number.isFinite);
+    const [low, high] = [Math.min(...finite), Math.max(...finite)].map((each) => each * factor) as [number, number];
+    const margin = MARGIN * (high - low) || MARGIN * Math.abs(high) || 1;
+    return {
+      box: [0, 0, 1, 1],
+      title: unit ? `${title}, ${unit}` : title,
+      x: { label: "time, s", ends },
+      y: { ends: finite.length ? [low - margin, high + margin] : [0, 1] },
+      curves: lines.map(({ name, colour }, index) => ({
+        x: time, y: columns[index]!, factor, name, unit, colour, width: 1.2, steps, joined: true, marker: 0,
+      })),
+    };
+  }
+}
