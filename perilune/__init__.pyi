@@ -18,6 +18,8 @@ from .analysis.verbs.benchmark import benchmark as benchmark
 from .analysis.verbs.compare import Comparison as Comparison
 from .analysis.verbs.compare import compare as compare
 from .analysis.verbs.describe import describe as describe
+from .analysis.verbs.diff import Differences as Differences
+from .analysis.verbs.diff import diff as diff
 from .analysis.verbs.export import Exported as Exported
 from .analysis.verbs.export import export as export
 from .analysis.verbs.inventory import inventory as inventory

@@ -67,6 +67,9 @@ ROWS = [
     ("compare {folder}/flown", 0),
     ("compare {folder}/empty", 2),
     ("show {folder}/empty", 2),
+    ("diff {folder}/one.csv {folder}/one.csv --tolerance 0", 0),
+    ("diff {folder}/one.csv {folder}/other.csv --tolerance 0.1", 1),
+    ("diff {folder}/one.csv nothing.csv", 2),
     (f"rare {STUDY} --failure 'flight_time > 100'", 0),
     (f"rare {STUDY} --failure 'flight_time > 100' --require 'probability < 0.5'", 1),
     (f"rare {ONE} --samples 1", 2),
@@ -122,25 +125,27 @@ confidence = 0.9
 @pytest.fixture(scope="module")
 def folder(fmus, exact_fmus, tmp_path_factory):
     """A campaign's folder in each state, a system that never finishes, a loop within and beyond its limits."""
-    place = tmp_path_factory.mktemp("verbs")
-    (place / "empty").mkdir()
-    (place / "undecided.toml").write_text(UNDECIDED)
+    made = tmp_path_factory.mktemp("verbs")
+    (made / "empty").mkdir()
+    (made / "undecided.toml").write_text(UNDECIDED)
+    for name, height in (("one", 1), ("other", 2)):
+        (made / f"{name}.csv").write_text(f"time,height\n0,{height}\n")
     for name, words in (
         ("prepared", ""), ("failing", FAILING), ("flown", ""), ("failed", FAILING)
     ):  # fmt: skip
         command = ONE.removesuffix(" --workers 1").split()
         verb = "prepare" if name in ("prepared", "failing") else "batch"
-        assert main([verb, *command, "--trials", "2", *words.split(), "--output", str(place / name)]) in (0, 1)
-    short = place / "short"
+        assert main([verb, *command, "--trials", "2", *words.split(), "--output", str(made / name)]) in (0, 1)
+    short = made / "short"
     shutil.copytree(SYSTEMS / SYSTEM, short)
     text = (short / "SystemStructure.ssd").read_text()
     text = re.sub(r'stopTime="[^"]*"', 'stopTime="5"', re.sub(r"<Limits.*?</Limits>", "", text, flags=re.DOTALL))
     (short / "SystemStructure.ssd").write_text(text)
     loop = late_double_integrator()
-    loop.packed(place, exact_fmus).rename(place / "late.ssp")
+    loop.packed(made, exact_fmus).rename(made / "late.ssp")
     strict = replace(loop, ssd=loop.ssd.replace("<Point", '<Limits modulus_margin="0.99"/>\n<Point', 1))
-    strict.packed(place, exact_fmus).rename(place / "strict.ssp")
-    return place
+    strict.packed(made, exact_fmus).rename(made / "strict.ssp")
+    return made
 
 
 @pytest.mark.parametrize(("command", "status"), ROWS)

@@ -66,6 +66,7 @@ ARGUMENTS = {
     "sensitivity": [*BATCH[1:4], "--base", "32"],
     "compare": ["there"],
     "show": ["there"],
+    "diff": ["one.csv", "other.csv"],
     "design law": ["paper"],
     "design search": ["none.toml"],
     "design transfer": [],

@@ -134,7 +134,8 @@ function traceLine(context: CanvasRenderingContext2D, plot: uPlot, series: Serie
   context.stroke();
 }
 
-// Of all rows in a column of pixels the first, least, greatest and last: the same picture as of all rows.
+// Of all rows in a column of pixels the first, least, greatest and last, as one line along which dashes go on: the same
+// picture as of all rows.
 function traceColumns(context: CanvasRenderingContext2D, series: Series, to: Positions, begin: number, end: number): void {
   let pen = false;
   let row = begin;
@@ -151,11 +152,13 @@ function traceColumns(context: CanvasRenderingContext2D, series: Series, to: Pos
       pen = false;
       continue;
     }
-    if (pen && !Number.isNaN(first)) context.lineTo(column, to.y(first));
-    context.moveTo(column, to.y(least));
+    if (pen && !Number.isNaN(first)) {
+      context.lineTo(column, to.y(first));
+      context.lineTo(column, to.y(least));
+    } else context.moveTo(column, to.y(least));
     context.lineTo(column, to.y(greatest));
     pen = !Number.isNaN(last);
-    if (pen) context.moveTo(column, to.y(last));
+    if (pen) context.lineTo(column, to.y(last));
   }
 }
 

@@ -153,7 +153,7 @@ class Result(Flight):
         return self.table().to_pandas().set_index("time")
 
     def write(self, path: str | Path) -> None:
-        """Write .parquet, or .csv with units and provenance in a .json file beside it."""
+        """Write .parquet, or .csv with units, types other than Real and provenance in a .json file of the same name."""
         path = Path(path)
         if path.suffix == ".parquet":
             with whole_file(path) as partial:
@@ -165,7 +165,8 @@ class Result(Flight):
             with whole_file(path) as partial:
                 pyarrow.csv.write_csv(table, partial, options)
             units = {"time": "s"} | {name: unit for name, unit in self.units.items() if unit}
-            text = json.dumps(self.summary() | {"units": units}, indent=1)
+            types = {name: kind for name, kind in self.types.items() if kind != "Real"}
+            text = json.dumps(self.summary() | {"units": units, "types": types}, indent=1)
             write_atomically(path.with_name(f"{path.name}.json"), f"{text}\n".encode())
 
 

@@ -83,6 +83,36 @@ VALIDATE = Verb(
 )
 
 
+class DiffOptions(TypedDict, total=False):
+    """Options of diff"""
+
+    tolerance: Annotated[
+        float | None,
+        Option(
+            "a signal may differ by this fraction of its largest magnitude; more, or a missing signal, is a problem",
+            metavar="R",
+        ),
+    ]
+
+
+DIFF = Verb(
+    "diff",
+    "put two runs over each other, signal by signal",
+    (
+        Argument("first", "FIRST", "a .parquet or .csv that `run --output` wrote, or another tool's"),
+        Argument("second", "SECOND", "another one"),
+    ),
+    options=DiffOptions,
+    files=ReportFiles,
+    examples={
+        "perilune run lunar_terminal_guidance --output analytic.parquet": "what is compared",
+        "perilune run lunar_terminal_guidance --use guidance=astar_guidance --output astar.parquet": "with what",
+        "perilune diff analytic.parquet astar.parquet --report diff.html": "both, and their differences",
+    },
+    not_met="a signal differs by more than --tolerance, or with it only one run has the signal",
+)
+
+
 class BenchmarkOptions(TypedDict, total=False):
     """Options of benchmark"""
 

@@ -1,0 +1,116 @@
+"""The page of two runs over each other: each signal of both, and its difference."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+
+from ...differences.differences import RunDifferences, SignalDifference
+from ..common.page import write_page
+from ..common.panels import HALF_WIDTH, Panel, panel, swatch
+from ..common.quantities import display_factor, display_unit, label_with_unit
+from ..common.signals import INDEXED
+from ..common.style import COLOURS, DASHES, Look, plain_ticks
+from ..interactive.lines import QuantityLine
+
+PLOTTED = 24  # signals and vectors that are plotted
+HEIGHT = 1.9  # in, of a panel
+FIRST, SECOND = (Look(COLOURS[0], dashes, "") for dashes in DASHES[:2])
+
+
+class Row(NamedTuple):
+    """A signal of the table, in its unit."""
+
+    difference: SignalDifference
+    time: float
+    first: float
+    second: float
+
+
+def write_differences_page(runs: RunDifferences, statements: Sequence[str], path: Path) -> None:
+    """Write one self-contained HTML page about two runs; the same runs give the same bytes.
+
+    ``statements`` are sentences about what was compared. The signals that differ most are plotted.
+    """
+    vectors: dict[str, list[SignalDifference]] = {}
+    for each in runs.differing:
+        vectors.setdefault(_base(each.name), []).append(each)
+    plotted = list(vectors.items())[:PLOTTED]
+    write_page(
+        path,
+        Path(__file__).with_name("differences.html"),
+        title="Differences of two runs",
+        statements=statements,
+        looks=_legend(),
+        panels=[each for index, (name, group) in enumerate(plotted) for each in _panels(index, name, group, runs.time)],
+        left_out=len(vectors) - len(plotted),
+        rows=[
+            Row(each, float(runs.time[each.row]), float(each.first[each.row]), float(each.second[each.row]))
+            for each in runs.differing
+        ],
+        identical=[each.name for each in runs.signals if not each.differs],
+    )
+
+
+def _legend() -> list[tuple[Markup, str]]:
+    return [(swatch(FIRST), "first"), (swatch(SECOND), "second")]
+
+
+def _base(name: str) -> str:
+    indexed = INDEXED.fullmatch(name)
+    return indexed[1] if indexed else name
+
+
+def _panels(index: int, name: str, elements: Iterable[SignalDifference], time: np.ndarray) -> list[Panel]:
+    """A signal or a vector in both runs, and its difference."""
+    ordered = sorted(elements, key=lambda each: each.name)
+    unit = ordered[0].unit
+
+    def draw_both(axes: Axes) -> None:
+        for colour, each in zip(_colours(), ordered, strict=False):
+            for which, values, dashes in (("first", each.first, DASHES[0]), ("second", each.second, DASHES[1])):
+                _add_line(axes, time, values, f"{which} {_index(each.name)}".strip(), unit, colour, dashes)
+        _finish(axes)
+
+    def draw_difference(axes: Axes) -> None:
+        for colour, each in zip(_colours(), ordered, strict=False):
+            _add_line(axes, time, each.difference, each.name, unit, colour, DASHES[0])
+        _finish(axes)
+
+    label = label_with_unit(name, unit)
+    return [
+        panel(label, f"both-{index}", f"{name} in both runs over time", draw_both, HEIGHT, HALF_WIDTH),
+        panel(
+            f"{label}: second less first", f"difference-{index}", f"Difference of {name} over time",
+            draw_difference, HEIGHT, HALF_WIDTH,
+        ),
+    ]  # fmt: skip
+
+
+def _colours() -> Sequence[str]:
+    return [COLOURS[index % len(COLOURS)] for index in range(64)]
+
+
+def _index(name: str) -> str:
+    indexed = INDEXED.fullmatch(name)
+    return indexed[2] if indexed else ""
+
+
+def _add_line(
+    axes: Axes, time: np.ndarray, values: np.ndarray, name: str, unit: str | None, colour: str, dashes: object
+) -> None:
+    finite = np.where(np.isfinite(values), values, np.nan)
+    displayed, factor = display_unit(unit), display_factor(unit)
+    line = QuantityLine(time, finite, name=name, unit=displayed, factor=factor, color=colour, linestyle=dashes)
+    axes.add_line(line)
+
+
+def _finish(axes: Axes) -> None:
+    axes.autoscale_view()
+    axes.set_xlabel("time, s")
+    plain_ticks(axes, x=6, y=5)
