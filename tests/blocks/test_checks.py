@@ -1,7 +1,9 @@
 """Each block's check, flown in both flavours by FMPy as another tool would.
 
 Truth: checks/NAME.csv next to the block, computed by tests/support/checks without a line of `fmus_src`, within the
-tolerances of checks/NAME.toml. Recomputed, a check is the stored one to 1e-12 of each column's largest value.
+tolerances of checks/NAME.toml. Recomputed, a check is the stored one within these, or to 1e-11 of each column's largest:
+LAPACK and numpy round inputs differently from processor to processor (AVX-512 of Intel and of AMD), which outputs near
+the end of a flight multiply. Measured: 3e-12.
 """
 
 import io
@@ -65,9 +67,14 @@ def test_a_check_is_what_its_truth_computes(name):
     expected, actual = read_table(stored.read_text()), read_table(computed.csv())
     assert stored.with_suffix(".toml").read_text() == computed.toml()
     assert actual.dtype.names == expected.dtype.names
+    tolerances = read_declarations(computed.toml().encode())["tolerances"]
     for column in expected.dtype.names:
-        largest = np.nanmax(np.abs(expected[column]))  # a sample may be not finite
-        assert actual[column] == pytest.approx(expected[column], rel=0, abs=1e-12 * largest, nan_ok=True)
+        permitted = 1e-11 * np.nanmax(np.abs(expected[column]))  # a sample may be not finite
+        if column in tolerances:
+            declared = tolerances[column]
+            permitted = np.maximum(permitted, declared["absolute"] + declared["relative"] * np.abs(expected[column]))
+        same = np.isnan(actual[column]) & np.isnan(expected[column])
+        assert np.all(same | (np.abs(actual[column] - expected[column]) <= permitted)), column
 
 
 def read_table(text):
