@@ -1,11 +1,12 @@
-"""The terminal guidances' problem without their code: the published box, roots and thrust by numpy.
+"""The terminal guidances' problem without their code: the published box, roots and thrust by numpy and mpmath.
 
-The thrust acceleration a0 + a1 t is numpy's solution of the boundary conditions, times-to-go are `numpy.roots` of the
+The thrust acceleration a0 + a1 t is mpmath's solution of the boundary conditions, times-to-go are `numpy.roots` of the
 conditions multiplied out as polynomials.
 """
 
 import math
 
+import mpmath
 import numpy as np
 from numpy.polynomial import Polynomial
 
@@ -39,11 +40,19 @@ def states_of_the_box(count, seed):
 
 
 def linear_thrust(position, velocity, time):
-    """a0 and a1 of the thrust acceleration that arrives at rest at the target after ``time``."""
-    conditions = np.array([[time, time**2 / 2.0], [time**2 / 2.0, time**3 / 6.0]])
-    gain = -velocity + GRAVITY * time * UP
-    way = TARGET - position - velocity * time + GRAVITY * time**2 / 2.0 * UP
-    return np.linalg.solve(conditions, np.array([gain, way]))
+    """a0 and a1 of the thrust acceleration that arrives at rest at the target after ``time``.
+
+    In 30 digits: the equations are ill-conditioned, and LAPACK rounds differently from processor to processor.
+    """
+    with mpmath.workdps(30):
+        t = mpmath.mpf(time)
+        conditions = mpmath.matrix([[t, t**2 / 2], [t**2 / 2, t**3 / 6]])
+        gain, way = [], []
+        for x, v, target, up in zip(position, velocity, TARGET, UP, strict=True):
+            gain.append(-mpmath.mpf(v) + GRAVITY * t * up)
+            way.append(mpmath.mpf(target) - x - v * t + GRAVITY * t**2 / 2 * up)
+        columns = [mpmath.lu_solve(conditions, mpmath.matrix(pair)) for pair in zip(gain, way, strict=True)]
+        return np.array([[float(column[row]) for column in columns] for row in (0, 1)])
 
 
 def impulse_and_miss(position, velocity, time):
