@@ -1,7 +1,7 @@
 """Each block's check, flown in both flavours by FMPy as another tool would.
 
 Truth: checks/NAME.csv next to the block, computed by tests/support/checks without a line of `fmus_src`, within the
-tolerances of checks/NAME.toml. Recomputed, a check is the stored one within these, or to 1e-12 of a column's largest value.
+tolerances of checks/NAME.toml. Recomputed, a check is the stored one within these, or to 1e-12 of a column's largest.
 """
 
 import io
