@@ -30,6 +30,7 @@ from ..runtime.system.inputs import missing_outputs
 from ..runtime.system.options import SystemOptions as System
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import prepare_system
+from ..runtime.system.times import MissingStopTimeError
 from ..stability.request.channels import channels_of
 from ..stability.request.declaration import Declaration
 from ..stability.request.reading import read_declaration
@@ -152,7 +153,12 @@ def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
     others = [name for name in open_system(path).variants() if name != DEFAULT_VARIANT] if all_variants else []
     for variant in (options.variant, *others):
         subject = Subject(path, replace(options, variant=variant))
-        prepared = prepare_system(path, subject.options, subject.fmus)
+        try:
+            prepared = prepare_system(path, subject.options, subject.fmus)
+        except MissingStopTimeError as error:
+            subject = Subject(path, replace(subject.options, stop_time=error.earliest))
+            prepared = prepare_system(path, subject.options, subject.fmus)
+            notes.append(f"{error.file}: no {error.element}: `run` needs `stop_time`")
         _check_loops(subject, read_declaration(prepared.network.description))
         read_figures(prepared)
         bound = find_bound(prepared)

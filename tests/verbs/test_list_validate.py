@@ -53,7 +53,7 @@ def test_notes_of_a_system(tiny_folder, tmp_path, capsys):
     (actual,) = json.loads(capsys.readouterr().out)
     assert actual["problems"] == []
     assert actual["notes"] == [
-        "left.a: input not declared in the SSD, keeps 0.25",
+        "left.a: input not declared in the description, keeps 0.25",
         "right.ya -> left.b: read one step late",
     ]
     assert main(["validate", str(path)]) == 0

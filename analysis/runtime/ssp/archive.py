@@ -26,6 +26,7 @@ HOW_TO_BUILD = (
     "build_fmus.py builds this repository's, " if IS_CHECKOUT else ""
 ) + "perilune export FILE.py those of your own"
 OSP_DESCRIPTION = "OspSystemStructure.xml"
+OSP_SUFFIX = ".xml"
 OTHER = "give another file"
 MOST_LEVELS = 2  # that the files of a system's folder may lie above it, as in config/ next to fmus/
 DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
@@ -80,14 +81,21 @@ class SystemArchive:
 
     def _content(self, name: str, element: str) -> bytes:
         if name not in self.files and not self._inside(name) and _leaves(name):
-            problem = f"{name} lies outside the system's {'folder' if self.path.is_dir() else 'archive'}"
-            raise InputError(self.label, element, problem, "put the file inside and correct the reference")
+            raise InputError(self.label, element, *self._outside(name))
         if not self.has(name):
             raise InputError(self.label, element, f"no file {name}", "add the file or correct the reference")
         if name not in self.files:
             self.besides[name] = None
         content = self.files.get(name, self.path / name)
         return content if isinstance(content, bytes) else read_input(content, OTHER, bound_of(name))
+
+    def _outside(self, name: str) -> tuple[str, str]:
+        """What is wrong with a name that leads out of the system, and what to do."""
+        if self.path.is_dir() and self.known_digest is None and name.startswith("../"):
+            remedy = "move the file nearer, or the description, and correct the reference"
+            return f"{name} lies more than {MOST_LEVELS} folders above the system's", remedy
+        where = "folder" if self.path.is_dir() else "archive"
+        return f"{name} lies outside the system's {where}", "put the file inside and correct the reference"
 
     def fmu(self, source: str, element: str, flavour: str) -> tuple[Callable[[], bytes], str]:
         """What reads an FMU's content, and its name in messages.
@@ -108,7 +116,7 @@ class SystemArchive:
             places = " or ".join(map(str, own_fmus(Path(name).stem, flavour, self.path)))
             if not self.path.is_relative_to(SYSTEMS.resolve()):
                 problem = f"no file {name} in the system's folder, and no FMU of this name is built ({places})"
-                remedy = "build it: perilune export FILE.py, the file of its block; or correct the source"
+                remedy = "add the file or correct the source; a block of your own is built by perilune export FILE.py"
                 raise InputError(self.label, element, problem, remedy)
             problem = f"no file {name} in the system, no {flavour} FMU of this repository, and none is built ({places})"
             raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
@@ -229,7 +237,7 @@ def open_system(system: str | Path) -> SystemArchive:
     path = Path(text)
     if path.is_dir():
         return _folder(path)
-    if path.is_file() and (path.suffix == ".ssd" or path.name == OSP_DESCRIPTION):
+    if path.is_file() and path.suffix in (".ssd", OSP_SUFFIX):
         return _folder(path.parent, path.name)
     if names_fmu(path):
         if not path.is_file():
@@ -267,9 +275,10 @@ def _folder(path: Path, description: str | None = None) -> SystemArchive:
     if description is None:
         has_ssd = any(path.glob("*.ssd"))  # before the folder is searched, which may be a large one
         if not has_ssd and not (path / OSP_DESCRIPTION).is_file():
-            raise InputError(label, DESCRIPTION, "not found", "give a folder with an SSD in it, or add one")
+            remedy = f"give a folder with an SSD or an {OSP_DESCRIPTION}, or such a file by its name"
+            raise InputError(label, DESCRIPTION, "not found", remedy)
         description = DESCRIPTION if has_ssd else OSP_DESCRIPTION
     files = system_files(path)
-    if description == OSP_DESCRIPTION:
-        files[OSP_DESCRIPTION] = path / OSP_DESCRIPTION
+    if description.endswith(OSP_SUFFIX):
+        files[description] = path / description
     return SystemArchive(path.name, label, path, files, description)

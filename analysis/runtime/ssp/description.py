@@ -113,6 +113,7 @@ class Description:
     algorithm: str | None = None
     varies: int | None = None
     annotations: dict[str, etree._Element] = field(default_factory=dict)  # of the whole document, by type
+    notes: list[str] = field(default_factory=list)  # on what has no effect
 
 
 PROXY = "proxyfmu://"
@@ -133,5 +134,5 @@ def source_file(source: str) -> str:
 
 
 def is_elsewhere(source: str) -> bool:
-    """Whether a source is on another machine."""
-    return source.startswith(PROXY)
+    """Whether a source is none of the system's files but an address, as of fmu-proxy://."""
+    return "://" in source and not source.startswith("file://")

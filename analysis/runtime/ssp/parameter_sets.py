@@ -55,10 +55,15 @@ def _flaw(notes: Notes, file: str, where: str, problem: str, effect: str, remedy
     notes.append(f"{file}: {where}: {problem}: {effect}")
 
 
-def read_parameter_set(root: etree._Element, file: str, notes: Notes = None) -> list[Assignment]:
-    """The values of a ParameterSet element, valid already or not. Raises InputError."""
+def read_parameter_set(
+    root: etree._Element, file: str, notes: Notes = None, units: Mapping[str, Unit] | None = None
+) -> list[Assignment]:
+    """The values of a ParameterSet element, valid already or not; ``units`` are those of a document around it.
+
+    Raises InputError.
+    """
     check_schema(root, "ssv", file)
-    units = units_of_document(root, "ssv")
+    units = {**(units or {}), **units_of_document(root, "ssv")}
     assignments: dict[str, Assignment] = {}
     for parameter in children(child(root, "ssv:Parameters"), "ssv:Parameter"):
         name, line = parameter.get("name", ""), parameter.sourceline
@@ -147,9 +152,9 @@ def write_parameter_set(name: str, values: Mapping[str, float], description: str
 
 
 def read_binding(
-    archive: SystemArchive, file: str, binding: Binding, notes: Notes = None
+    archive: SystemArchive, file: str, binding: Binding, units: Mapping[str, Unit], notes: Notes = None
 ) -> tuple[list[Assignment], Sequence[Assignment]]:
-    """The values of a binding of the document ``file``, the prefix put before their names and then mapped.
+    """The values of a binding of the document ``file`` with ``units``, the prefix put before their names, then mapped.
 
     With those that its mapping has no entry for, which are not applied (SSP 1.0, ParameterBindings). Raises InputError.
     """
@@ -159,7 +164,7 @@ def read_binding(
         values = read_parameter_file(archive.read(binding.source, element), source, notes)
     else:
         assert binding.inline is not None  # the reader refuses a binding with neither
-        values = read_parameter_set(binding.inline, file, notes)
+        values = read_parameter_set(binding.inline, file, notes, units)
     values = [replace(value, name=binding.prefix + value.name) for value in values]
     entries = binding.mapping_inline
     if binding.mapping_source is not None:

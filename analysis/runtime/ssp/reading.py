@@ -9,7 +9,7 @@ from lxml import etree
 from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError
 from .annotations import check_annotations, feedthrough_of_component
-from .archive import OSP_DESCRIPTION, SystemArchive
+from .archive import OSP_SUFFIX, SystemArchive
 from .conversions import Unit, read_transformation, units_of_document
 from .description import (
     Binding,
@@ -34,7 +34,7 @@ def read_description(archive: SystemArchive, variant: str | None = None) -> Desc
     """The SSD of an archive, the default one or a variant's; raises InputError."""
     name = archive.description_name(variant)
     data, file = archive.read(name, "SSD"), f"{archive.label}/{name}"
-    return read_osp(data, file, archive) if name == OSP_DESCRIPTION else read_ssd(data, file, archive.read)
+    return read_osp(data, file, archive) if name.endswith(OSP_SUFFIX) else read_ssd(data, file, archive.read)
 
 
 def read_ssd(data: bytes, file: str, load: Load) -> Description:
@@ -122,10 +122,11 @@ class Reader:
             problem = 'implementation="ModelExchange" is not supported'
             raise self.refuse(element, name, problem, 'use a co-simulation FMU and write implementation="CoSimulation"')
         source = source_file(element.get("source", ""))
+        if is_elsewhere(source):
+            problem = f"source {source} is of another process or machine"
+            raise self.refuse(element, name, problem, "name a file of the system")
         if not names_fmu(source):
             raise self.refuse(element, name, f"source {source} is not an .fmu", "use an FMU as the component's source")
-        if is_elsewhere(source):
-            raise self.refuse(element, name, f"source {source} is on another machine", "name a file of the system")
         return Component(
             **self.common(element),
             source=source,

@@ -106,7 +106,7 @@ def _bound(
     """Assignments of parameter bindings in order; ``place`` stands before their names in the flat network."""
     assignments: list[Assignment] = []
     for binding in bindings:
-        values, without = read_binding(archive, network.file, binding, notes)
+        values, without = read_binding(archive, network.file, binding, network.description.units, notes)
         assignments += values
         settings.left_out |= {place + value.name: f"{value.name} of {value.origin}" for value in without}
         if without:

@@ -52,7 +52,7 @@ class Feedthrough:
 
 ASSUMED = (
     " does not declare which inputs its outputs depend on directly: assumed none, so it is stepped with the inputs of"
-    " the step's start; where it is known, give the option feedthrough or no_feedthrough"
+    " the step's start; where it is known, give `feedthrough` or `no_feedthrough`"
 )
 
 

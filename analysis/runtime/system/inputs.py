@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from dataclasses import dataclass
 from typing import TypedDict
 
@@ -33,7 +34,7 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
     if not keep_starts:
         one = len(open_inputs) == 1
         problem = f"{'input is' if one else f'{len(open_inputs)} inputs are'} neither connected nor given a value"
-        setting = f"`set` {open_inputs[0].name}=VALUE"
+        setting = f"`set` {shlex.quote(f'{open_inputs[0].name}=VALUE')}"
         remedy = f"connect {'it' if one else 'them'}, give a value: {setting}, or `open_inputs` start"
         given = next((settings.left_out[node.name] for node in open_inputs if node.name in settings.left_out), None)
         if given is not None:
@@ -76,8 +77,9 @@ def check_signals(network: Network, settings: Settings) -> None:
         for name, variable in fmu.variables.items():
             full = f"{component}.{name}"
             if variable.causality == "input" and full not in network.nodes and full not in network.driven:
-                start = settings.variables.get((component, name), variable.start)
-                network.notes.append(f"{component}.{name}: input not declared in the SSD, keeps {start}")
+                given = settings.variables.get((component, name))
+                during = f"keeps {variable.start}" if given is None else f"is {given} throughout"
+                network.notes.append(f"{component}.{name}: input not declared in the description, {during}")
 
 
 HELD = ("discrete", "tunable")  # variabilities of Reals that are held, not interpolated

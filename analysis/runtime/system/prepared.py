@@ -168,7 +168,7 @@ def _prepare(
         if slot is None or error.file != description.file:
             raise
         raise unfit(slot, options.use[slot], used[slot], error) from error
-    network.notes += remarks
+    network.notes += [*remarks, *(f"{description.file}: {note}" for note in description.notes)]
     for slot in options.use:
         if slot not in network.fmus:
             raise InputError("`use`", slot, "no such component", suggestion(slot, network.fmus))

@@ -5,10 +5,20 @@ from __future__ import annotations
 import math
 
 from ...common.errors import InputError
+from ..ssp.archive import OSP_SUFFIX
 from .network import Network
 from .options import SystemOptions
 
 LONGEST_PERIOD = 10_000  # communication steps of a component's step
+
+
+class MissingStopTimeError(InputError):
+    """A system that does not say when its simulations end, and options that do not either.
+
+    ``earliest`` (s) is the end of the first communication step.
+    """
+
+    earliest = 0.0
 
 
 def flight_times(network: Network, options: SystemOptions) -> tuple[float, float, int]:
@@ -29,9 +39,13 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     if not 0.0 < step < float("inf"):
         raise InputError("`step`", str(step), "not a positive number of seconds", "give a positive step")
     stop = options.stop_time if options.stop_time is not None else description.stop_time
-    experiment = f"{network.file}: DefaultExperiment"
+    is_osp = network.file.endswith(OSP_SUFFIX)
+    experiment = network.file if is_osp else f"{network.file}: DefaultExperiment"
     if stop is None:
-        raise InputError(experiment, "stopTime", "there is none", "give `stop_time`")
+        element = "EndTime" if is_osp else "stopTime"
+        error = MissingStopTimeError(experiment, element, "there is none", "give `stop_time`")
+        error.earliest = description.start_time + step
+        raise error
     start = description.start_time
     if not math.isfinite(start):
         raise InputError(experiment, "startTime", f"{start} is not finite", "correct it")

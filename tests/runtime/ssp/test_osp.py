@@ -69,8 +69,40 @@ def test_simulators_in_a_process_of_their_own(folder):
         actual.append(fly(folder(CHAIN.replace('"delay.fmu"', f'"{source}"')), stop_time=1.5)["after.y"])
     np.testing.assert_array_equal(*actual)
     text = CHAIN.replace('"ramp.fmu"', '"proxyfmu://lab:9090?file=ramp.fmu"')
-    with pytest.raises(InputError, match=r"source proxyfmu://lab:9090\?file=ramp\.fmu of ramp is on another machine"):
+    with pytest.raises(InputError, match=r"source proxyfmu://lab:9090\?file=ramp\.fmu of ramp is of another process"):
         fly(folder(text))
+
+
+def test_a_file_of_another_name(folder):
+    """Beside the platform's own name, and alone in its folder."""
+    written = folder(CHAIN)
+    expected = fly(written, stop_time=1.5)["after.y"]
+    other = (written / "OspSystemStructure.xml").rename(written / "Chain.xml")
+    np.testing.assert_array_equal(fly(other, stop_time=1.5)["after.y"], expected)
+    with pytest.raises(InputError, match=r"not found; .* or such a file by its name"):
+        fly(written)
+
+
+def test_what_has_no_effect_in_fixed_steps_is_noted(folder, capsys):
+    """The configuration of ECCO and its bonds, as libcosim, which joins the variables and no more."""
+    bond = CHAIN.replace("<VariableConnection>", '<VariableConnection powerBond="b">', 1)
+    text = bond.replace("</OspSystemStructure>", "<EccoConfiguration/></OspSystemStructure>")
+    assert text.count("EccoConfiguration") == text.count("powerBond") == 1
+    actual = fly(folder(text), stop_time=1.5)["after.y"]
+    np.testing.assert_array_equal(actual, fly(folder(CHAIN), stop_time=1.5)["after.y"])
+    assert main(["validate", str(folder(text)), "--stop-time", "1"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "without effect in the algorithm fixedStep" in said
+    assert "powerBond b (line" in said
+
+
+def test_validate_needs_no_end(folder, capsys):
+    """EndTime is optional; `run` cannot do without."""
+    written = folder(CHAIN)
+    assert main(["validate", str(written)]) == 0
+    assert "no EndTime: run needs --stop-time" in " ".join(capsys.readouterr().out.split())
+    assert main(["run", str(written)]) == 2
+    assert "EndTime: there is none; give --stop-time" in capsys.readouterr().err
 
 
 def test_an_end_of_its_own(folder):
@@ -87,7 +119,11 @@ def test_groups_of_variables(folder):
     result = fly(written, stop_time=1)
     np.testing.assert_array_equal(result["other.u"], result["one.ya"])
     assert np.ptp(result["other.y"]) > 0.0
-    (written / "gain_OspModelDescription.xml").unlink()
+    description = written / "gain_OspModelDescription.xml"
+    description.write_text(groups(plug="u").replace("ref=", "name="))
+    with pytest.raises(InputError, match=r"gain_OspModelDescription\.xml: Variable \(line \d+\): has no ref"):
+        fly(written, stop_time=1)
+    description.unlink()
     with pytest.raises(InputError, match=r"VariableGroup \(line \d+\): no file gain_OspModelDescription\.xml"):
         fly(written, stop_time=1)
 
@@ -96,13 +132,16 @@ def test_groups_of_variables(folder):
     ("text", "words"),
     [
         ("<a/>", "a is not an OspSystemStructure"),
-        (CHAIN.replace("ramp.fmu", "proxyfmu://here"), r"Simulator \(line 5\): source proxyfmu.* is not an \.fmu"),
+        (
+            CHAIN.replace("ramp.fmu", "proxyfmu://here"),
+            r"Simulator \(line 5\): source proxyfmu://here of ramp is of another process or machine",
+        ),
         (
             CHAIN.replace('simulator="fast"', 'simulator="vast"'),
             r"Variable \(line \d+\): no simulator vast; name one of",
         ),
         (CHAIN.replace(">0.125<", ">ten<"), r"BaseStepSize is not a positive number of seconds"),
-        (CHAIN.replace("fixedStep", "ecco"), r"ecco is not flown here"),
+        (CHAIN.replace("fixedStep", "ecco"), r"ecco is not supported"),
         (
             CHAIN.replace("<Connections>", "<VariableConnections/><Connections>"),
             r"VariableConnections \(line \d+\): is not part of an OspSystemStructure 0\.1",

@@ -6,6 +6,7 @@ over earlier ones; and pencil and paper for the numbers.
 """
 
 import math
+import re
 
 import pytest
 
@@ -240,7 +241,7 @@ def test_unconnected_inputs_take_values_and_undeclared_ones_keep_their_start(tin
     assert fly(path, set={"gain.u": 4.0})["gain.y"].tolist() == [12.0] * 5
     assert fly(path, set={"gain.u": 4.0})["delay.y"].tolist() == [5.0, 7.0, 7.0, 7.0, 7.0]
     prepared = prepare_system(path, SystemOptions(set={"gain.u": 4.0}))
-    assert prepared.network.notes == ["delay.u: input not declared in the SSD, keeps 7.0"]
+    assert prepared.network.notes == ["delay.u: input not declared in the description, keeps 7.0"]
 
 
 def test_an_output_without_source_is_noted_and_not_recorded(tiny, tmp_path):
@@ -261,6 +262,15 @@ def test_parameter_sets_inline_and_external_in_any_unit(flown):
     result = flown(root, files=files)
     assert result["gain.u"].tolist() == ramp(2.0)
     assert result["gain.y"].tolist() == [4 * y for y in ramp(2.0)]
+
+
+def test_an_inline_set_has_the_units_of_its_ssd(flown):
+    """SSP 1.0: a unit is one of the enclosing file."""
+    values = inline("start=Real:0.002 km")
+    without = re.sub(r"<ssv:Units>.*?</ssv:Units>", "", values, flags=re.DOTALL)
+    assert without != values
+    result = flown(system(component("ramp", "ramp", "output y Real m", without)))
+    assert result["ramp.y"].tolist() == ramp(2.0)
 
 
 def entry(source, target, inner="", attributes=""):

@@ -6,6 +6,9 @@ import itertools
 import posixpath
 from pathlib import PurePosixPath
 
+from lxml import etree
+
+from ....common.errors import InputError
 from ....common.zips import open_zip, read_entry
 from ..archive import SystemArchive
 from ..documents import parse_xml
@@ -23,9 +26,16 @@ def read_groups(archive: SystemArchive, source: str, element: str) -> dict[str, 
     candidates = list(dict.fromkeys(_candidates(archive, source, element)))
     file = next((file for file in candidates if archive.has(file)), candidates[0])
     groups = parse_xml(archive.read(file, element), file).findall("{*}VariableGroups//*[@name]")
-    return {
-        group.get("name", ""): [variable.get("ref", "") for variable in group.iter("{*}Variable")] for group in groups
-    }
+    return {group.get("name", ""): [_variable(each, file) for each in group.iter("{*}Variable")] for group in groups}
+
+
+def _variable(element: etree._Element, file: str) -> str:
+    """The variable of the FMU that a Variable of a group refers to."""
+    ref = element.get("ref")
+    if ref is None:
+        where = f"Variable (line {element.sourceline})"
+        raise InputError(file, where, "has no ref, the name of the FMU's variable", "write ref")
+    return ref
 
 
 def _candidates(archive: SystemArchive, source: str, element: str) -> list[str]:

@@ -1,6 +1,6 @@
 """OspSystemStructure.xml, the Open Simulation Platform's own way of writing a system, read as a `Description`.
 
-Bonds of the ECCO algorithm are refused by name. Kinds and types of variables are those of the FMUs, which the file does
+The ECCO algorithm is refused by name. Kinds and types of variables are those of the FMUs, which the file does
 not repeat. Sources: libcosim's schemas OspSystemStructure 0.1 and OspModelDescription 1.0.
 """
 
@@ -21,6 +21,7 @@ from .functions import OUT, Function, FunctionError, Point, read_function
 from .groups import read_groups
 
 NAMESPACE = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
+ECCO = "EccoConfiguration"
 ELEMENTS = ("StartTime", "EndTime", "BaseStepSize", "Algorithm", "Simulators", "Functions", "Connections")
 VARIABLES, SIGNALS = ("Variable", "VariableGroup"), ("Signal", "SignalGroup")
 
@@ -37,6 +38,7 @@ class _Reader:
         self.system = System("root", {}, [], 0)
         self.functions: dict[str, Function] = {}
         self.groups: dict[str, dict[str, list[str]]] = {}  # by simulator, then by name of the group
+        self.notes: list[str] = []
 
     def refuse(self, element: etree._Element, problem: str, remedy: str) -> InputError:
         return InputError(self.file, f"{tag(element)} (line {element.sourceline})", problem, remedy)
@@ -45,12 +47,14 @@ class _Reader:
         if root.tag != f"{{{NAMESPACE}}}OspSystemStructure":
             problem = f"{root.tag} is not an OspSystemStructure of {NAMESPACE}"
             raise InputError(self.file, f"line {root.sourceline}", problem, "give an OspSystemStructure.xml")
-        for element in root.iterchildren(etree.Element):
-            if tag(element) not in ELEMENTS:  # of drafts before 0.1, or of later versions
-                raise self.refuse(element, "is not part of an OspSystemStructure 0.1", f"use {', '.join(ELEMENTS)}")
         algorithm = root.find("{*}Algorithm")
         if algorithm is not None and (algorithm.text or "").strip() != "fixedStep":
-            raise self.refuse(algorithm, f"{(algorithm.text or '').strip()} is not flown here", "write fixedStep")
+            raise self.refuse(algorithm, f"{(algorithm.text or '').strip()} is not supported", "write fixedStep")
+        for element in root.iterchildren(etree.Element):
+            if tag(element) == ECCO:
+                self.notes.append(f"{ECCO} (line {element.sourceline}): without effect in the algorithm fixedStep")
+            elif tag(element) not in ELEMENTS:  # of drafts before 0.1, or of later versions
+                raise self.refuse(element, "is not part of an OspSystemStructure 0.1", f"use {', '.join(ELEMENTS)}")
         for simulator in root.findall("{*}Simulators/{*}Simulator"):
             self.simulator(simulator)
         for function in root.findall("{*}Functions/*"):
@@ -67,6 +71,7 @@ class _Reader:
             stop_time=None if end is None else self.number(end),
             step=None if step is None else self.step(step, step.text or ""),
             algorithm="jacobi",
+            notes=self.notes,
         )
 
     def number(self, element: etree._Element) -> float:
@@ -81,10 +86,11 @@ class _Reader:
 
     def simulator(self, element: etree._Element) -> None:
         name, source = element.get("name", ""), source_file(element.get("source", ""))
+        if is_elsewhere(source):
+            problem = f"source {source} of {name} is of another process or machine"
+            raise self.refuse(element, problem, "name a file of this system")
         if not names_fmu(source):
             raise self.refuse(element, f"source {source} of {name} is not an .fmu", "name the file of an FMU")
-        if is_elsewhere(source):
-            raise self.refuse(element, f"source {source} of {name} is on another machine", "name a file of this system")
         if name in self.system.elements:
             raise self.refuse(element, f"a second one of the name {name}", "rename one")
         values = element.findall("{*}InitialValues/{*}InitialValue")
@@ -124,8 +130,8 @@ class _Reader:
     def connections(self, elements: list[etree._Element]) -> None:
         outputs: list[tuple[Function, list[Point], etree._Element]] = []
         for element in elements:
-            if element.get("powerBond"):
-                raise self.refuse(element, "bonds of the ECCO algorithm are not supported", "remove powerBond")
+            if bond := element.get("powerBond"):  # libcosim, too, joins the variables and no more
+                self.notes.append(f"powerBond {bond} (line {element.sourceline}): without effect in fixedStep")
             ends = list(element.iterchildren(etree.Element))
             kinds = [tag(end) for end in ends]
             if kinds in ([each, each] for each in VARIABLES):
