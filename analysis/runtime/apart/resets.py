@@ -17,20 +17,48 @@ from .protocol import messages
 from .servers import Subject, begin_child
 
 
-def find_verdicts(prepared: PreparedSystem) -> Mapping[str, ResetVerdict]:
-    """The verdicts on a system's foreign FMUs, by their SHA-256; no reset is trusted of one that cannot be tried."""
+class Watch:
+    """The trials of one system's FMUs, which another thread can end."""
+
+    def __init__(self) -> None:
+        self._connection: Connection | None = None
+        self._why = ""
+
+    @property
+    def is_given_up(self) -> bool:
+        return bool(self._why)
+
+    def begin(self, connection: Connection) -> None:
+        """A trial begins, which ends at once after `give_up`."""
+        self._connection = connection
+        if self._why:
+            connection.give_up(self._why)
+
+    def give_up(self, why: str) -> None:
+        """End the child of the trial that is under way, and of those that follow."""
+        self._why = why
+        if self._connection is not None:
+            self._connection.give_up(why)
+
+
+def find_verdicts(prepared: PreparedSystem, watch: Watch) -> Mapping[str, ResetVerdict]:
+    """The verdicts on a system's foreign FMUs, by their SHA-256; no reset is trusted of one that cannot be tried.
+
+    Nor is it where the ``watch`` is given up, which is no verdict for other simulations.
+    """
     verdicts = {}
     for fmu in prepared.network.fmus.values():
         if not fmu.is_own:
             try:
-                verdicts[fmu.digest] = find_verdict(fmu, prepared.options)
+                verdicts[fmu.digest] = find_verdict(fmu, prepared.options, watch)
             except InputError as error:
                 verdicts[fmu.digest] = ResetVerdict(False, error.problem)
-                store_verdict(fmu.digest, verdicts[fmu.digest])
+                if not watch.is_given_up:
+                    store_verdict(fmu.digest, verdicts[fmu.digest])
     return verdicts
 
 
-def find_verdict(fmu: Fmu, options: SystemOptions) -> ResetVerdict:
+def find_verdict(fmu: Fmu, options: SystemOptions, watch: Watch | None = None) -> ResetVerdict:
     """Whether an FMU resets; one that ends its process in the trial does not.
 
     Raises InputError where it cannot be instantiated, or ends its process before it has flown with its declared values.
@@ -38,7 +66,7 @@ def find_verdict(fmu: Fmu, options: SystemOptions) -> ResetVerdict:
     verdict = verdict_in_cache(fmu)
     if verdict is None:
         try:
-            verdict = _try_twice(fmu, options)
+            verdict = _try_twice(fmu, options, watch or Watch())
         except ChildEndedError as error:
             problem = f"tried alone, with its declared values: {error.how}"
             raise InputError(
@@ -48,16 +76,17 @@ def find_verdict(fmu: Fmu, options: SystemOptions) -> ResetVerdict:
     return verdict
 
 
-def _try_twice(fmu: Fmu, options: SystemOptions) -> ResetVerdict:
+def _try_twice(fmu: Fmu, options: SystemOptions, watch: Watch) -> ResetVerdict:
     try:
-        return _try(fmu, options, formats=True)
+        return _try(fmu, options, watch, formats=True)
     except ChildEndedError as error:
         if error.status != CRASHED:
             raise
-    return _try(fmu, options, formats=False)  # a message that is a format without its arguments may have ended it
+    # A message that is a format without its arguments may have ended it.
+    return _try(fmu, options, watch, formats=False)
 
 
-def _try(fmu: Fmu, options: SystemOptions, *, formats: bool) -> ResetVerdict:
+def _try(fmu: Fmu, options: SystemOptions, watch: Watch, *, formats: bool) -> ResetVerdict:
     """A trial in a child of its own; ``formats`` are as in `SystemFlights`.
 
     Raises ChildEndedError where it ends before the FMU has flown with its declared values.
@@ -65,6 +94,7 @@ def _try(fmu: Fmu, options: SystemOptions, *, formats: bool) -> ResetVerdict:
     task = messages.ResetTrial(formats)
     child = begin_child(Subject(fmu, fmu), task, folder=os.getcwd(), limits=limits_for([fmu], options))
     connection = Connection(child, lambda line: None, Stillness(lambda: None, options.call_timeout))
+    watch.begin(connection)
     has_flown = False
     try:
         answer = connection.hear(messages.Verdict)
@@ -72,7 +102,7 @@ def _try(fmu: Fmu, options: SystemOptions, *, formats: bool) -> ResetVerdict:
             has_flown = True
             answer = connection.hear(messages.Verdict)
     except ChildEndedError as error:
-        if not has_flown:
+        if not has_flown or watch.is_given_up:
             raise
         return ResetVerdict(False, f"when it was tried, {error.how}")
     finally:
