@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | screenshots | bench | sanitize | fuzz | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | screenshots | bench | crosscheck | sanitize | fuzz | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # On a terminal pip shows what it does, in a log nothing.
@@ -86,6 +86,17 @@ bench: build
 large: build
 	$(BIN)/python -m benchmarks.large_systems
 
+# The same flights here and in Basilisk, which has an environment of its own: the tables and the figure of docs/concepts/crosscheck.md.
+CROSSCHECK := build/crosscheck
+
+crosscheck: build $(CROSSCHECK)/ready
+	$(BIN)/python -m crosscheck $(CROSSCHECK)/bin/python
+
+$(CROSSCHECK)/ready: crosscheck/requirements.txt
+	$(PYTHON) -m venv $(CROSSCHECK)
+	$(CROSSCHECK)/bin/pip install $(QUIET) --disable-pip-version-check -r crosscheck/requirements.txt
+	touch $@
+
 # The C of every block under the address and undefined-behaviour sanitizers, 10000 steps each.
 sanitize: .venv/ready
 	PERILUNE_LONG=1 PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py
@@ -152,4 +163,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench large sanitize fuzz processors emulator windows browser browser-firefox lint clean
+.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench large crosscheck sanitize fuzz processors emulator windows browser browser-firefox lint clean

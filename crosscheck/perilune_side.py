@@ -1,0 +1,35 @@
+"""Flights of Perilune's FMUs for cross-checks, with commands over time."""
+
+import numpy as np
+
+import perilune
+from crosscheck.table import Table
+from perilune.fmus_src.paths import shipped_fmu
+
+
+def fly(
+    block: str,
+    step: float,
+    duration: float,
+    parameters: dict,
+    outputs: dict[str, str],
+    commands: dict[str, np.ndarray] | None = None,
+) -> Table:
+    """The table of a block's FMU alone: each name with the output that it is, vectors by element.
+
+    ``commands`` are inputs over time, held between their samples, ``time`` (s) among them.
+    """
+    inputs = {name if name == "time" else f"{block}.{name}": values for name, values in (commands or {}).items()}
+    flight = perilune.simulate(
+        shipped_fmu(block, "native"),
+        step=step,
+        stop_time=duration,
+        set={f"{block}.{name}": setting for name, setting in parameters.items()},
+        input=inputs or None,
+    )
+    table: Table = {"time": flight.time}
+    for name, output in outputs.items():
+        values = flight[f"{block}.{output}"]
+        rows = {name: values} if values.ndim == 1 else {f"{name}[{k + 1}]": row for k, row in enumerate(values.T)}
+        table.update(rows)
+    return table
