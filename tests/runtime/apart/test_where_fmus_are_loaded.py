@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import psutil
@@ -66,6 +67,15 @@ def maps(process):
         return ""
 
 
+def family_of(command):
+    """The processes that a command has started, and those that these have."""
+    servers, children = [], []
+    for each in psutil.Process(command.pid).children(recursive=True):
+        with suppress(psutil.NoSuchProcess):  # it has ended in the meantime
+            (servers if each.ppid() == command.pid else children).append(each.pid)
+    return servers, children
+
+
 def waiting(tmp_path, words, **quirks):
     """A command whose FMU waits in its calls, and the processes that belong to it: command, server, children."""
     fmu = odd_fmu(tmp_path, **quirks)
@@ -80,10 +90,9 @@ def waiting(tmp_path, words, **quirks):
     )
     deadline = time.monotonic() + 60.0
     while time.monotonic() < deadline and command.poll() is None:
-        family = psutil.Process(command.pid).children(recursive=True)
-        children = [each.pid for each in family if each.ppid() != command.pid]
+        servers, children = family_of(command)
         if any("/odd.so" in maps(child) for child in children):
-            return command, [each.pid for each in family if each.ppid() == command.pid], children
+            return command, servers, children
         time.sleep(0.02)
     command.kill()
     raise AssertionError(f"{line}: no child has loaded the FMU")
