@@ -21,7 +21,7 @@ def draw_differences(cases: dict[str, Case], flown: dict[str, list[dict[str, np.
             for rows, dashes in zip(flown[name], DASHES, strict=False):
                 for colour, (quantity, (unit, _)) in zip(COLOURS, case.quantities.items(), strict=False):
                     label = f"{quantity}, {unit}" if dashes == DASHES[0] else None
-                    thin = slice(None, None, max(1, rows["time"].size // 200))
+                    thin = slice(None, None, max(1, rows["time"].size // 150))
                     values = np.maximum(rows[quantity][thin], FLOOR)
                     axes.semilogy(
                         rows["time"][thin], values, color=colour, linestyle=dashes, linewidth=1.0, label=label

@@ -27,9 +27,14 @@ def fly(
         set={f"{block}.{name}": setting for name, setting in parameters.items()},
         input=inputs or None,
     )
+    return table_of(flight, {name: f"{block}.{output}" for name, output in outputs.items()})
+
+
+def table_of(flight: perilune.Result, signals: dict[str, str]) -> Table:
+    """The table of a flight: each name with the signal that it is, vectors by element."""
     table: Table = {"time": flight.time}
-    for name, output in outputs.items():
-        values = flight[f"{block}.{output}"]
-        rows = {name: values} if values.ndim == 1 else {f"{name}[{k + 1}]": row for k, row in enumerate(values.T)}
+    for name, signal in signals.items():
+        columns = flight[signal]
+        rows = {name: columns} if columns.ndim == 1 else {f"{name}[{k + 1}]": row for k, row in enumerate(columns.T)}
         table.update(rows)
     return table

@@ -8,6 +8,7 @@ from typing import TypedDict
 
 import numpy as np
 
+from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError, suggestion
 from .assignments import Settings
 from .checks import INTEGERS
@@ -73,6 +74,8 @@ def check_signals(network: Network, settings: Settings) -> None:
     for node in network.nodes.values():
         if node.component is None and node.kind == "output" and node.name not in network.driver:
             network.notes.append(f"{node.name}: output without a source, not recorded")
+    if names_fmu(network.file):
+        return  # of an FMU alone all inputs are declared
     for component, fmu in network.fmus.items():
         for name, variable in fmu.variables.items():
             full = f"{component}.{name}"
