@@ -54,7 +54,9 @@ class InputError(ValueError):
     def text(self) -> str:
         """The error in one line, parameters between backquotes."""
         location = ": ".join(_shorten(part) for part in (self.file, self.element, self.problem) if part)
-        return " ".join(f"{location}; {_shorten(self.remedy)}".split())
+        # others' texts may end with a full stop
+        ended = location if location.endswith("..") else location.removesuffix(".")
+        return " ".join(f"{ended}; {_shorten(self.remedy)}".split())
 
 
 LONGEST = 1000  # characters of each part of a line, whose names and values may be those of a file

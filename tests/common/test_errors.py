@@ -3,6 +3,8 @@
 import pickle
 import warnings
 
+import pytest
+
 from perilune.analysis.common.errors import InputError, suggestion, warn_in_one_line
 
 
@@ -42,3 +44,8 @@ def test_suggestions_are_few_nearest_first_and_in_natural_order():
     assert suggestion("contrl", few) == "use one of control, guidance, plant"
     many = [f"block_{chr(97 + i)}" for i in range(20)]
     assert suggestion("f.html", many) == "use one of block_a, block_b, block_c, block_d and 16 more"
+
+
+@pytest.mark.parametrize(("problem", "said"), [("ends.", "ends"), ("goes on ...", "goes on ..."), ("ends", "ends")])
+def test_a_full_stop_before_the_remedy_is_left_out(problem, said):
+    assert str(InputError("f", "e", problem, "mend it")) == f"f: e: {said}; mend it"

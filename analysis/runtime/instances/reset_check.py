@@ -65,7 +65,7 @@ def reset_verdict(fmu: Fmu, flown: Callable[[], None] = lambda: None) -> ResetVe
 
 
 def _try_reset(fmu: Fmu, flown: Callable[[], None]) -> ResetVerdict:
-    fresh = instantiate(fmu, "fresh")
+    fresh = instantiate(fmu, fmu.name)
     try:
         expected = [*_simulate(fresh, {}), _read(fresh.slave, fmu, "parameter")]
     except FMICallException as error:
@@ -74,7 +74,7 @@ def _try_reset(fmu: Fmu, flown: Callable[[], None]) -> ResetVerdict:
     flown()
     _free(fresh)
     for changes in _changes(fmu):
-        used = instantiate(fmu, "used")
+        used = instantiate(fmu, fmu.name)
         try:
             _simulate(used, changes)
         except FMICallException as error:  # does not fly with these
@@ -88,8 +88,10 @@ def _try_reset(fmu: Fmu, flown: Callable[[], None]) -> ResetVerdict:
             _free(used, error)
             return ResetVerdict(False, f"after a flight {_words(error)}")
         _free(used)
-        if state != expected:
+        if state[:-1] != expected[:-1]:
             return ResetVerdict(False, "after its reset it flies other than a fresh instance")
+        if state != expected:
+            return ResetVerdict(False, "after its reset parameters have other values than in a fresh instance")
         return ResetVerdict(True)
     return ResetVerdict(False, "it cannot be tried: it flies only once")
 

@@ -12,6 +12,7 @@
  * UNREADABLE_GAIN  the status that getting gain returns; from then on it fails, as FMI says, where it is fmi2Error
  * UNREADABLE_WORD  likewise word
  * KEEPS_PARAMETERS, KEEPS_STATE   what fmi2Reset forgets to put back
+ * REPORTS_OLD_GAIN fmi2Reset puts gain back, but getting it gives what was set before
  * RESET            the status that fmi2Reset returns
  * BREAKS           a step with gain < 0 returns fmi2Error, and no reset mends it
  * GOES_TO          the folder that it makes the process's own when it is instantiated
@@ -35,7 +36,7 @@ typedef enum { INSTANTIATED, INITIALISING, STEPPING, FAILED_STEP, TERMINATED, BR
 typedef struct {
     double real[REALS];
     int whole[INTEGERS], on, ended, spent, hurt;
-    double time;
+    double time, old_gain;
     char word[64];
     State state;
 } Odd;
@@ -143,6 +144,9 @@ fmi2Status fmi2Reset(fmi2Component c)
     note("r");
     MAY_DO(RESETTING);
     odd->state = INSTANTIATED;
+#ifdef REPORTS_OLD_GAIN
+    odd->old_gain = odd->real[GAIN];
+#endif
 #ifndef KEEPS_PARAMETERS
     forget_parameters(odd);
 #endif
@@ -162,6 +166,9 @@ fmi2Status fmi2GetReal(fmi2Component c, References r, size_t n, fmi2Real v[])
     odd->real[LENGTH] = (double)strlen(odd->word);
     for (size_t i = 0; i < n; i++) {
         v[i] = odd->real[r[i]];
+#ifdef REPORTS_OLD_GAIN
+        if (r[i] == GAIN && odd->old_gain != 0.0) v[i] = odd->old_gain;
+#endif
 #ifdef UNREADABLE_GAIN
         if (r[i] == GAIN) {
             if (UNREADABLE_GAIN >= fmi2Error) odd->state = BROKEN;

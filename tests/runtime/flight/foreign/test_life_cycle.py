@@ -27,6 +27,7 @@ GOOD = (
 BAD = (
     ({"KEEPS_STATE": True}, "after its reset it flies other than a fresh instance"),
     ({"KEEPS_PARAMETERS": True}, "after its reset it flies other than a fresh instance"),
+    ({"REPORTS_OLD_GAIN": True}, "after its reset parameters have other values than in a fresh instance"),
     ({"RESET": 3}, "after a flight fmi2Reset returned status 3"),
     ({"ANSWERS": 3, "AT": 0.5}, "it cannot be tried on its declared starts: fmi2DoStep returned status 3"),
 )
