@@ -113,8 +113,10 @@ class Trials(TrialColumns):
         """The trials with a trace, in order."""
         return sorted(self.traces)
 
-    def trace(self, trial: int, names: Collection[str]) -> dict[str, np.ndarray]:
-        """What a traced trial has recorded of these signals, and ``time`` (s)."""
+    def trace(self, trial: int, names: Collection[str]) -> dict[str, np.ndarray] | None:
+        """What a trial has recorded of these signals, and ``time`` (s); None where it has no trace."""
+        if trial not in self.traces:
+            return None
         return {name: values for name, values in self.traces[trial].items() if name in names or name == "time"}
 
     def column(self, name: str) -> np.ndarray:

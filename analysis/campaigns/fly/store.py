@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 from pathlib import Path
 from typing import Protocol
 
@@ -21,9 +20,11 @@ from .shards.files import (
     IDENTITY,
     NEW_FOLDER,
     check_rows,
-    list_traces,
+    describe_columns,
     read_trace,
     shard_path,
+    trace_files,
+    trace_path,
     trials_of,
     unreadable,
     write_shard,
@@ -65,17 +66,14 @@ class ShardRows:
             flown.append(part)
         return join_trials(flown)
 
-    @cached_property
-    def _traces(self) -> dict[int, Path]:
-        flown = range(self.numbering.of(self.shards.start).start, self.numbering.of(self.shards.stop - 1).stop)
-        traces = list_traces(self.folder, self.batch, self.variant)
-        return {trial: path for trial, path in traces.items() if trial in flown}
-
     def traced(self) -> list[int]:
-        return list(self._traces)
+        flown = range(self.numbering.of(self.shards.start).start, self.numbering.of(self.shards.stop - 1).stop)
+        return [trial for trial in trace_files(self.folder, self.variant) if trial in flown]
 
-    def trace(self, trial: int, names: Collection[str]) -> dict[str, np.ndarray]:
-        return read_trace(self._traces[trial], names)
+    def trace(self, trial: int, names: Collection[str] | None = None) -> dict[str, np.ndarray] | None:
+        path = trace_path(self.folder, self.variant, trial)
+        is_own = describe_columns(path) == {"batch": self.batch, "variant": self.variant, "trial": trial}
+        return read_trace(path, names) if is_own else None
 
     def _table(self, shard: int, names: list[str] | None = None) -> pyarrow.Table:
         path = shard_path(self.folder, shard)
@@ -93,9 +91,9 @@ class ShardRows:
         path = shard_path(self.folder, shard)
         metrics = [metric.name for metric in self.plan.campaign.metrics]
         trials = trials_of(self._table(shard), metrics, path)[self.variant]
-        trials.traces.update(
-            {trial: read_trace(self._traces[trial]) for trial in trials.trial if trial in self._traces}
-        )
+        for trial in trials.trial.tolist():
+            if (trace := self.trace(trial)) is not None:
+                trials.traces[trial] = trace
         return trials
 
 
@@ -109,11 +107,14 @@ class FlownRows(TrialRows, Protocol):
         ...
 
     def traced(self) -> list[int]:
-        """The trials with a trace, in order. Raises InputError for a trace that is damaged."""
+        """The trials with the file of a trace, in order, which may be another batch's."""
         ...
 
-    def trace(self, trial: int, names: Collection[str]) -> dict[str, np.ndarray]:
-        """What a traced trial has recorded of these signals, and ``time`` (s). Raises InputError."""
+    def trace(self, trial: int, names: Collection[str]) -> dict[str, np.ndarray] | None:
+        """What a trial has recorded of these signals, and ``time`` (s); None without a trace of this batch.
+
+        Raises InputError for one that is damaged.
+        """
         ...
 
 

@@ -41,13 +41,13 @@ def read_flights(
     All have the same stride, so that their times are common but for their ends. Trials that ended before their first
     sample are left out.
     """
-    traces = {
-        FlightName(variant, trial, not _success_by_trial(batch, variant)[trial]): batch.rows[variant].trace(
-            trial, names
-        )
-        for variant, trials in chosen.items()
-        for trial in trials
-    }
+    traces = {}
+    for variant, trials in chosen.items():
+        success = _success_by_trial(batch, variant)
+        for trial in trials:
+            trace = batch.rows[variant].trace(trial, names)
+            if trace is not None and trace["time"].size:
+                traces[FlightName(variant, trial, not success[trial])] = trace
     stride = max((-(-trace["time"].size // ROW_LIMIT) for trace in traces.values()), default=1)
     colours = {variant: look(index).colour for index, variant in enumerate(batch.rows)}
     flights = [
@@ -58,7 +58,6 @@ def read_flights(
             _thin(trace, stride),
         )
         for name, trace in traces.items()
-        if trace["time"].size
     ]
     return flights, stride
 

@@ -153,12 +153,18 @@ def list_traces(folder: Path, batch: str, variant: str) -> dict[int, Path]:
 
     Raises InputError for one that is damaged.
     """
-    traces = {}
-    for path in sorted(trace_path(folder, variant, 0).parent.glob("*.parquet")):
-        trial = int(path.stem) if path.stem.isdecimal() else -1
-        if describe_columns(path) == {"batch": batch, "variant": variant, "trial": trial}:
-            traces[trial] = path
-    return traces
+    return {
+        trial: path
+        for trial, path in trace_files(folder, variant).items()
+        if describe_columns(path) == {"batch": batch, "variant": variant, "trial": trial}
+    }
+
+
+def trace_files(folder: Path, variant: str) -> dict[int, Path]:
+    """The files of a variant's traces by trial, in order, whichever batch they are of."""
+    files = trace_path(folder, variant, 0).parent.glob("*.parquet")
+    numbered = {int(path.stem): path for path in files if path.stem.isdecimal()}
+    return dict(sorted(numbered.items()))
 
 
 def read_trace(path: Path, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
