@@ -8,7 +8,7 @@ from importlib import import_module
 from pathlib import Path
 
 import numpy as np
-from Basilisk.simulation import spacecraft
+from Basilisk.simulation import gravityEffector, spacecraft
 from Basilisk.utilities import SimulationBaseClass, macros
 
 from crosscheck.table import Table, write_table
@@ -35,8 +35,6 @@ class Flight:
 
     def attract(self, mu: float) -> None:
         """Put a point mass with this gravitational parameter (m3/s2) at the origin."""
-        from Basilisk.simulation import gravityEffector
-
         body = gravityEffector.GravBodyData()
         body.planetName, body.mu, body.isCentralBody = "centre", mu, True
         self.craft.gravField.gravBodies = spacecraft.GravBodyVector([body])

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from crosscheck.__main__ import CASES, HEADS, QUANTITIES, statements
+from crosscheck.__main__ import CASES, HEADS, QUANTITIES, row_of, statements
 from crosscheck.case import MASS, POSITION, Case
 from crosscheck.table import angles_between, at_common_times, differences, read_table, write_table
 from perilune.fmus_src.paths import ROOT
@@ -125,3 +125,10 @@ def test_the_side_of_basilisk_imports_nothing_of_ours():
             names = [node.module] if isinstance(node, ast.ImportFrom) else []
             names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
             assert not [name for name in names if name.startswith("perilune")], path
+
+
+@pytest.mark.parametrize(("fine", "said"), [(0.5, "1.0"), (0.25, "2.0"), (1.0 / 16.0, "4.0"), (1.3, "rounding")])
+def test_the_order_of_a_difference(fine, said):
+    """2^-p with half the step is of order p, also of the first; one that does not fall is rounding."""
+    case = Case("title", "", "", "", "", "", 0.1, 0.3, {"mass": MASS}, {})
+    assert row_of(case, {"mass": 1.0}, {"mass": fine})[-1] == said

@@ -1,4 +1,4 @@
-// What is known of a trial: beside the pointer, or pinned by a click with what it recorded.
+// What is known of a trial: at the pointer, or pinned by a click with what it recorded.
 
 import { PinnedCard, definitions, moveBeside } from "../page/card";
 import type { Page } from "../page/document";

@@ -11,7 +11,7 @@ from ...campaigns.fly.metadata import Provenance
 from ...campaigns.fly.results import BatchResult
 from ...common.errors import InputError
 from ..common.quantities import display_factor, display_unit
-from ..common.signals import INDEXED
+from ..common.signals import vector_of
 from ..common.style import COLOURS
 from ..figures.reading import read_figures
 from ..figures.scene.declared import Scene
@@ -43,13 +43,16 @@ def embedded_flights(batch: BatchResult) -> EmbeddedFlights | None:
         scene = _declared_scene(batch)
     except InputError as error:  # the page of a campaign that flew is written all the same
         notes.append(f"The system's scene cannot be read: {error}.")
-    plotted = names_of_record(batch.provenance)[:LINE_LIMIT]
+    usable = names_of_record(batch.provenance)
+    plotted = usable[:LINE_LIMIT]
     flights, stride = read_flights(batch, chosen, {*plotted, *_scene_names(scene)})
     if not flights:
         return None
     plotted = [name for name in plotted if all(name in each.flight.signals for each in flights)]
     traced = sum(len(rows.traced()) for rows in batch.rows.values())
     notes.insert(0, f"{len(flights)} of {traced} trials with recorded signals, half failures where there are as many.")
+    if len(usable) > LINE_LIMIT:
+        notes.append(f"Plotted are the first {LINE_LIMIT} of {len(usable)} signals.")
     if stride > 1:
         notes.append(f"Of each, one of {stride} recorded rows and the last.")
     return EmbeddedFlights(
@@ -74,7 +77,7 @@ def _scene_names(scene: Scene | None) -> set[str]:
 
 def _document(provenance: Provenance, names: Sequence[str], flights: Sequence[RecordedFlight]) -> dict[str, Any]:
     """Panels with a line for each signal of a vector, and by flight a column for each line."""
-    panels = [(base, list(lines)) for base, lines in groupby(names, key=_base)]
+    panels = [(base, list(lines)) for base, lines in groupby(names, key=vector_of)]
     return {
         "panels": [
             {
@@ -96,8 +99,3 @@ def _document(provenance: Provenance, names: Sequence[str], flights: Sequence[Re
             for each in flights
         ],
     }
-
-
-def _base(name: str) -> str:
-    indexed = INDEXED.fullmatch(name)
-    return indexed[1] if indexed else name

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from ...campaigns.fly.metadata import Provenance
 from ...runtime.ssp.names import split_name
-from ..common.signals import INDEXED
+from ..common.signals import INDEXED, vector_of
 
 COMMANDS = ("thrust_acceleration", "thrust", "delivered_thrust", "thrust_angle", "throttle")
 DIRECTIONS = ("thrust_direction", "attitude")
@@ -43,9 +43,7 @@ def owner_of(provenance: Provenance, name: str) -> str:
 
 def variable_of(provenance: Provenance, name: str) -> str:
     """``plant.position[1]`` and ``plant.position``: ``position``."""
-    variable = split_name(name, _components(provenance))[1]
-    indexed = INDEXED.fullmatch(variable)
-    return indexed[1] if indexed else variable
+    return vector_of(split_name(name, _components(provenance))[1])
 
 
 def unit_of(provenance: Provenance, name: str) -> str | None:

@@ -23,6 +23,12 @@ COMMANDS = (
 INDEXED = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 
 
+def vector_of(name: str) -> str:
+    """The vector that a signal is an element of: ``plant.position`` of ``plant.position[1]``; else the signal."""
+    indexed = INDEXED.fullmatch(name)
+    return indexed[1] if indexed else name
+
+
 @dataclass(frozen=True)
 class SignalGroup:
     """A scalar, or the elements of a vector that share name, unit and type.

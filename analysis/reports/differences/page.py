@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import cycle
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,7 +15,7 @@ from ...differences.differences import RunDifferences, SignalDifference
 from ..common.page import write_page
 from ..common.panels import HALF_WIDTH, Panel, panel, swatch
 from ..common.quantities import display_factor, display_unit, label_with_unit
-from ..common.signals import INDEXED
+from ..common.signals import INDEXED, vector_of
 from ..common.style import COLOURS, DASHES, Look, plain_ticks
 from ..interactive.lines import QuantityLine
 
@@ -39,7 +40,7 @@ def write_differences_page(runs: RunDifferences, statements: Sequence[str], path
     """
     vectors: dict[str, list[SignalDifference]] = {}
     for each in runs.differing:
-        vectors.setdefault(_base(each.name), []).append(each)
+        vectors.setdefault(vector_of(each.name), []).append(each)
     plotted = list(vectors.items())[:PLOTTED]
     write_page(
         path,
@@ -61,24 +62,19 @@ def _legend() -> list[tuple[Markup, str]]:
     return [(swatch(FIRST), "first"), (swatch(SECOND), "second")]
 
 
-def _base(name: str) -> str:
-    indexed = INDEXED.fullmatch(name)
-    return indexed[1] if indexed else name
-
-
 def _panels(index: int, name: str, elements: Iterable[SignalDifference], time: np.ndarray) -> list[Panel]:
     """A signal or a vector in both runs, and its difference."""
     ordered = sorted(elements, key=lambda each: each.name)
     unit = ordered[0].unit
 
     def draw_both(axes: Axes) -> None:
-        for colour, each in zip(_colours(), ordered, strict=False):
+        for colour, each in zip(cycle(COLOURS), ordered, strict=False):
             for which, values, dashes in (("first", each.first, DASHES[0]), ("second", each.second, DASHES[1])):
                 _add_line(axes, time, values, f"{which} {_index(each.name)}".strip(), unit, colour, dashes)
         _finish(axes)
 
     def draw_difference(axes: Axes) -> None:
-        for colour, each in zip(_colours(), ordered, strict=False):
+        for colour, each in zip(cycle(COLOURS), ordered, strict=False):
             _add_line(axes, time, each.difference, each.name, unit, colour, DASHES[0])
         _finish(axes)
 
@@ -90,10 +86,6 @@ def _panels(index: int, name: str, elements: Iterable[SignalDifference], time: n
             draw_difference, HEIGHT, HALF_WIDTH,
         ),
     ]  # fmt: skip
-
-
-def _colours() -> Sequence[str]:
-    return [COLOURS[index % len(COLOURS)] for index in range(64)]
 
 
 def _index(name: str) -> str:

@@ -17,7 +17,7 @@ from .protocol import messages
 from .servers import Subject, begin_child
 
 
-class Watch:
+class TrialWatch:
     """The trials of one system's FMUs, which another thread can end."""
 
     def __init__(self) -> None:
@@ -41,7 +41,7 @@ class Watch:
             self._connection.give_up(why)
 
 
-def find_verdicts(prepared: PreparedSystem, watch: Watch) -> Mapping[str, ResetVerdict]:
+def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, ResetVerdict]:
     """The verdicts on a system's foreign FMUs, by their SHA-256; no reset is trusted of one that cannot be tried.
 
     Nor is it where the ``watch`` is given up, which is no verdict for other simulations.
@@ -58,7 +58,7 @@ def find_verdicts(prepared: PreparedSystem, watch: Watch) -> Mapping[str, ResetV
     return verdicts
 
 
-def find_verdict(fmu: Fmu, options: SystemOptions, watch: Watch | None = None) -> ResetVerdict:
+def find_verdict(fmu: Fmu, options: SystemOptions, watch: TrialWatch | None = None) -> ResetVerdict:
     """Whether an FMU resets; one that ends its process in the trial does not.
 
     Raises InputError where it cannot be instantiated, or ends its process before it has flown with its declared values.
@@ -66,7 +66,7 @@ def find_verdict(fmu: Fmu, options: SystemOptions, watch: Watch | None = None) -
     verdict = verdict_in_cache(fmu)
     if verdict is None:
         try:
-            verdict = _try_twice(fmu, options, watch or Watch())
+            verdict = _try_twice(fmu, options, watch or TrialWatch())
         except ChildEndedError as error:
             problem = f"tried alone, with its declared values: {error.how}"
             raise InputError(
@@ -76,7 +76,7 @@ def find_verdict(fmu: Fmu, options: SystemOptions, watch: Watch | None = None) -
     return verdict
 
 
-def _try_twice(fmu: Fmu, options: SystemOptions, watch: Watch) -> ResetVerdict:
+def _try_twice(fmu: Fmu, options: SystemOptions, watch: TrialWatch) -> ResetVerdict:
     try:
         return _try(fmu, options, watch, formats=True)
     except ChildEndedError as error:
@@ -86,7 +86,7 @@ def _try_twice(fmu: Fmu, options: SystemOptions, watch: Watch) -> ResetVerdict:
     return _try(fmu, options, watch, formats=False)
 
 
-def _try(fmu: Fmu, options: SystemOptions, watch: Watch, *, formats: bool) -> ResetVerdict:
+def _try(fmu: Fmu, options: SystemOptions, watch: TrialWatch, *, formats: bool) -> ResetVerdict:
     """A trial in a child of its own; ``formats`` are as in `SystemFlights`.
 
     Raises ChildEndedError where it ends before the FMU has flown with its declared values.

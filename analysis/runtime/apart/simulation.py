@@ -27,7 +27,7 @@ from .containment import limits_for
 from .memory import ApartMemory
 from .protocol import messages
 from .protocol.shared_recorder import SharedRecorder, make_recorder
-from .resets import Watch, find_verdicts
+from .resets import TrialWatch, find_verdicts
 from .servers import Subject, begin_child
 
 RECORDERS = 2  # one flight is looked at while the next one flies
@@ -65,7 +65,7 @@ class ApartSimulation(BaseSimulation):
         self._recorders: list[SharedRecorder] = []  # of the child
         self._turn = 0  # which of them takes the flight that is under way
         self._announced: deque[_Departure] = deque()  # under way, or to follow
-        self._resets = Watch()  # of trials that are under way in another thread
+        self._resets = TrialWatch()  # of trials that are under way in another thread
         self._is_halted = False
         self._renews = True  # whether a child flies more than once
         self._formats = True  # of messages, which can end a process whose arguments are missing
@@ -204,7 +204,7 @@ class ApartSimulation(BaseSimulation):
             self._connection = self._begin()
         elif self._last is not None and not self._knows_verdicts:
             self._knows_verdicts = True
-            self._resets = Watch()
+            self._resets = TrialWatch()
             verdicts = find_verdicts(self.prepared, self._resets)
             self._connection.send(messages.KnownVerdicts({key: (it.resets, it.reason) for key, it in verdicts.items()}))
 

@@ -1,4 +1,4 @@
-"""From a mark on a batch's page to what its trial recorded: plots beside its numbers, and the scene of all flights.
+"""From a mark on a batch's page to what its trial recorded: plots next to its numbers, and the scene of all flights.
 
 Truth: the campaign's own traces and table.
 """

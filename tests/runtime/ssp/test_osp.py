@@ -74,7 +74,7 @@ def test_simulators_in_a_process_of_their_own(folder):
 
 
 def test_a_file_of_another_name(folder):
-    """Beside the platform's own name, and alone in its folder."""
+    """It is read by its own name; its folder then has no description of the platform's name."""
     written = folder(CHAIN)
     expected = fly(written, stop_time=1.5)["after.y"]
     other = (written / "OspSystemStructure.xml").rename(written / "Chain.xml")
