@@ -9,6 +9,7 @@ from typing import Unpack
 import numpy as np
 
 from ..campaigns.tables import align_columns
+from ..common.errors import InputError
 from ..common.to_json import to_json
 from ..differences.differences import RunDifferences, compare_runs
 from ..differences.recorded_run import read_run
@@ -87,8 +88,8 @@ class Differences:
         rows = [
             {
                 "signal": each.name, "unit": each.unit, "difference": each.greatest, "relative": each.relative,
-                "copy_of": each.copy_of, "time": float(runs.time[each.row]), "first": float(each.first[each.row]),
-                "second": float(each.second[each.row]),
+                "copy_of": each.copy_of, "time": float(runs.time[each.row]), "first": _known(each.first[each.row]),
+                "second": _known(each.second[each.row]),
             }
             for each in runs.signals
         ]  # fmt: skip
@@ -110,6 +111,11 @@ class Differences:
         write_differences_page(self.runs, self.statements(), Path(path))
 
 
+def _known(sample: float) -> float | None:
+    """A sample for JSON, which has no nan: None."""
+    return None if np.isnan(sample) else float(sample)
+
+
 @verb(DIFF)
 def diff(first: FilePath, second: FilePath, **options: Unpack[DiffOptions]) -> Differences:
     """Put two runs over each other, signal by signal: `perilune diff`.
@@ -118,4 +124,7 @@ def diff(first: FilePath, second: FilePath, **options: Unpack[DiffOptions]) -> D
     With ``tolerance`` a signal that differs by more than this fraction of its largest magnitude is a problem, and so is
     one that only one run has. Raises InputError.
     """
-    return Differences(compare_runs(read_run(Path(first)), read_run(Path(second))), options["tolerance"])
+    tolerance = options["tolerance"]
+    if tolerance is not None and not tolerance >= 0.0:  # nan neither
+        raise InputError("`tolerance`", str(tolerance), "not a number of 0 or more", "give a fraction, as 1e-6")
+    return Differences(compare_runs(read_run(Path(first)), read_run(Path(second))), tolerance)

@@ -173,3 +173,18 @@ def test_a_signal_of_one_run_is_a_problem_under_a_tolerance(tmp_path):
     (tmp_path / "b.csv").write_text("time,h\n0,1\n1,1\n")
     assert perilune.diff(tmp_path / "a.csv", tmp_path / "b.csv").problems() == []
     assert perilune.diff(tmp_path / "a.csv", tmp_path / "b.csv", tolerance=0.0).problems() == ["v: in one run only"]
+
+
+@pytest.mark.parametrize("tolerance", ["nan", "-1"])
+def test_a_tolerance_that_decides_nothing_is_refused(tmp_path, capsys, tolerance):
+    (tmp_path / "a.csv").write_text("time,h\n0,1\n")
+    assert main(["diff", str(tmp_path / "a.csv"), str(tmp_path / "a.csv"), f"--tolerance={tolerance}"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_differences_that_are_not_finite_are_json(tmp_path):
+    (tmp_path / "a.csv").write_text("time,h\n0,1\n1,nan\n")
+    (tmp_path / "b.csv").write_text("time,h\n0,1\n1,2\n")
+    assert main(["diff", str(tmp_path / "a.csv"), str(tmp_path / "b.csv"), "--json", str(tmp_path / "d.json")]) == 0
+    (row,) = json.loads((tmp_path / "d.json").read_text())["signals"]
+    assert (row["difference"], row["first"], row["second"]) == ("inf", None, 2.0)
