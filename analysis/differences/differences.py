@@ -28,7 +28,7 @@ class SignalDifference:
     @cached_property
     def difference(self) -> np.ndarray:
         """Second less first, [n]; infinite where only one is finite, 0 where both are the same infinity or nan."""
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore", over="ignore"):
             difference = self.second - self.first
         same = (self.first == self.second) | (np.isnan(self.first) & np.isnan(self.second))
         return np.where(same, 0.0, np.where(np.isnan(difference), np.inf, difference))
