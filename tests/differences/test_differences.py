@@ -102,6 +102,7 @@ def test_copies_are_listed_once():
         (np.nan, 1.0, np.inf),
         (1.0, np.inf, np.inf),
         (-np.inf, np.inf, np.inf),
+        (-1e308, 1e308, np.inf),
     ],
 )
 def test_what_is_not_finite_is_the_same_or_infinitely_far(first, second, greatest):
