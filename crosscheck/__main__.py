@@ -20,7 +20,15 @@ from crosscheck.table import Table, differences, read_table
 
 ROOT = Path(__file__).parents[1]
 FIGURE = ROOT / "docs" / "images" / "crosscheck" / "differences.svg"
-CASES = ("moon_thrust", "moon_coast", "robot_jets", "gravity_gradient", "free_rotation", "guided_descent")
+CASES = (
+    "moon_thrust",
+    "moon_coast",
+    "robot_jets",
+    "gravity_gradient",
+    "free_rotation",
+    "guided_descent",
+    "robot_gyros",
+)
 HEADS = ("case", "step, s", "position, m", "velocity, m/s", "attitude, rad", "rate, rad/s", "mass, kg", "order")
 QUANTITIES = ("position", "velocity", "attitude", "rate", "mass")
 ROUNDING = 0.5  # an order below is one of rounding: half the step does not bring both nearer
