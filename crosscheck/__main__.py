@@ -28,6 +28,7 @@ CASES = (
     "free_rotation",
     "guided_descent",
     "robot_gyros",
+    "capsule_entry",
 )
 HEADS = ("case", "step, s", "position, m", "velocity, m/s", "attitude, rad", "rate, rad/s", "mass, kg", "order")
 QUANTITIES = ("position", "velocity", "attitude", "rate", "mass")
