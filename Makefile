@@ -1,6 +1,9 @@
-# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | screenshots | bench | crosscheck | basilisk | sanitize | fuzz | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | screenshots | bench | bench-basilisk | crosscheck | basilisk | sanitize | fuzz | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
+# Basilisk: an environment of its own for cross-checks, and what stands beside ours for a plant.
+CROSSCHECK := build/crosscheck
+BASILISK := $(CURDIR)/build/basilisk
 # On a terminal pip shows what it does, in a log nothing.
 QUIET := $(shell [ -t 2 ] || echo --quiet)
 
@@ -82,13 +85,15 @@ screenshots: build browser
 bench: build
 	$(BIN)/python -m benchmarks.importers
 
+# Trials a second of a landing here and in Basilisk's Monte Carlo controller, on the same draws: ten minutes.
+bench-basilisk: build $(CROSSCHECK)/ready $(BASILISK)/ready
+	PYTHONPATH=$(CURDIR):$(BASILISK) $(BIN)/python -m benchmarks.basilisk $(CURDIR)/$(CROSSCHECK)/bin/python
+
 # How time and memory grow with the size of a system, to 10 000 components and 100 000 connections.
 large: build
 	$(BIN)/python -m benchmarks.large_systems
 
 # The same flights here and in Basilisk, which has an environment of its own: the tables and the figure of docs/concepts/crosscheck.md.
-CROSSCHECK := build/crosscheck
-
 crosscheck: build $(CROSSCHECK)/ready
 	$(BIN)/python -m crosscheck $(CROSSCHECK)/bin/python
 
@@ -98,8 +103,6 @@ $(CROSSCHECK)/ready: crosscheck/requirements.txt
 	touch $@
 
 # A plant that Basilisk simulates (docs/guides/basilisk.md), with Basilisk beside the packages of .venv.
-BASILISK := build/basilisk
-
 basilisk: build $(BASILISK)/ready
 	PYTHONPATH=$(BASILISK) $(BIN)/python -m pytest tests/examples
 
@@ -173,4 +176,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench large crosscheck basilisk sanitize fuzz processors emulator windows browser browser-firefox lint clean
+.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench bench-basilisk large crosscheck basilisk sanitize fuzz processors emulator windows browser browser-firefox lint clean

@@ -52,11 +52,11 @@ def test_an_orbit_is_keplers(exported):
 
 def test_a_force_gives_its_impulse(exported):
     fmu = exported / "basilisk_orbiter.fmu"
-    pushed, free = (
+    forced, free = (
         perilune.simulate(fmu, step=0.1, stop_time=0.1, set={"basilisk_orbiter.internal_step": 0.1, **force})
         for force in ({"basilisk_orbiter.force[3]": 75.0}, {})
     )
-    gained = pushed["basilisk_orbiter.velocity"][-1] - free["basilisk_orbiter.velocity"][-1]
+    gained = forced["basilisk_orbiter.velocity"][-1] - free["basilisk_orbiter.velocity"][-1]
     np.testing.assert_allclose(gained, [0.0, 0.0, 0.01], atol=1e-9)
 
 

@@ -1,0 +1,1 @@
+"""The same Monte Carlo here and in Basilisk's controller: the same draws, guidance and end."""

@@ -1,0 +1,70 @@
+"""The landing in Basilisk's Monte Carlo controller: initial conditions from files, states retained.
+
+    python -m benchmarks.basilisk.monte_carlo FOLDER TRIALS WORKERS [--no-pause]
+
+FOLDER/draws has a JSON file a trial. Prints the time of the controller (s) and the last state of each trial. The
+controller pauses for a second in every trial that retains data, unless --no-pause leaves that out. Runs in Basilisk's
+environment.
+"""
+
+import json
+import os
+import sys
+import time
+from types import SimpleNamespace
+
+import numpy as np
+from Basilisk.utilities.MonteCarlo.Controller import Controller
+from Basilisk.utilities.MonteCarlo.RetentionPolicy import RetentionPolicy
+
+from benchmarks.basilisk.landing import Landing
+from crosscheck.basilisk_side import TASK
+
+
+def create() -> object:
+    """A simulation that the controller gives its initial conditions."""
+    landing = Landing()
+    simulation = landing.simulation
+    simulation.landing, simulation.craft, simulation.guidance = landing, landing.craft, landing.guide()
+    simulation.msgRecList = {"state": landing.craft.scStateOutMsg.recorder()}
+    simulation.AddModelToTask(TASK, simulation.msgRecList["state"])
+    return simulation
+
+
+def execute(simulation: object) -> None:
+    simulation.landing.run_to_end(simulation.guidance)
+
+
+def run(folder: str, trials: int, workers: int) -> tuple[float, list[list[float]]]:
+    """Time (s) that the controller takes, and the last position (from the Moon's centre) and velocity of each trial."""
+    controller = Controller()
+    controller.setSimulationFunction(create)
+    controller.setExecutionFunction(execute)
+    controller.setExecutionCount(trials)
+    controller.setThreadCount(workers)
+    controller.setShouldDisperseSeeds(False)
+    controller.setShowProgressBar(False)
+    controller.setICDir(os.path.join(folder, "draws"))
+    controller.setICRunFlag(True)
+    controller.setArchiveDir(os.path.join(folder, "archive"))
+    policy = RetentionPolicy()
+    policy.addMessageLog("state", ["r_CN_N", "v_CN_N"])
+    controller.addRetentionPolicy(policy)
+    start = time.perf_counter()
+    failed = controller.runInitialConditions(list(range(trials)))
+    elapsed = time.perf_counter() - start
+    if failed:
+        raise SystemExit(f"trials failed in Basilisk: {failed}")
+    last = []
+    for trial in range(trials):
+        messages = controller.getRetainedData(trial)["messages"]
+        last.append(np.concatenate([messages[f"state.{name}"][-1, 1:] for name in ("r_CN_N", "v_CN_N")]).tolist())
+    return elapsed, last
+
+
+if __name__ == "__main__":
+    where, count, processes, *options = sys.argv[1:]
+    if options == ["--no-pause"]:
+        sys.modules[Controller.__module__].time = SimpleNamespace(sleep=lambda _: None)
+    seconds, states = run(where, int(count), int(processes))
+    print(json.dumps({"seconds": seconds, "states": states}))
