@@ -1,10 +1,10 @@
 """The landing in Basilisk's Monte Carlo controller: initial conditions from files, states retained.
 
-    python -m benchmarks.basilisk.monte_carlo FOLDER TRIALS WORKERS [--no-pause]
+    python -m benchmarks.basilisk.monte_carlo FOLDER TRIALS WORKERS [--no-pause] [--unguided]
 
 FOLDER/draws has a JSON file a trial. Prints the time of the controller (s) and the last state of each trial. The
-controller pauses for a second in every trial that retains data, unless --no-pause leaves that out. Runs in Basilisk's
-environment.
+controller pauses for a second in every trial that retains data, unless --no-pause leaves that out. With --unguided the
+lander falls without a module in Python, for as many steps. Runs in Basilisk's environment.
 """
 
 import json
@@ -14,18 +14,28 @@ import time
 from types import SimpleNamespace
 
 import numpy as np
+from Basilisk.utilities import macros
 from Basilisk.utilities.MonteCarlo.Controller import Controller
 from Basilisk.utilities.MonteCarlo.RetentionPolicy import RetentionPolicy
 
 from benchmarks.basilisk.landing import Landing
 from crosscheck.basilisk_side import TASK
 
+TYPICAL = 321.0  # s, of a landing
+
 
 def create() -> object:
-    """A simulation that the controller gives its initial conditions."""
+    """A landing that the controller gives its initial conditions."""
+    simulation = create_unguided()
+    simulation.guidance = simulation.landing.guide()
+    return simulation
+
+
+def create_unguided() -> object:
+    """The same, without guidance."""
     landing = Landing()
     simulation = landing.simulation
-    simulation.landing, simulation.craft, simulation.guidance = landing, landing.craft, landing.guide()
+    simulation.landing, simulation.craft = landing, landing.craft
     simulation.msgRecList = {"state": landing.craft.scStateOutMsg.recorder()}
     simulation.AddModelToTask(TASK, simulation.msgRecList["state"])
     return simulation
@@ -35,11 +45,17 @@ def execute(simulation: object) -> None:
     simulation.landing.run_to_end(simulation.guidance)
 
 
-def run(folder: str, trials: int, workers: int) -> tuple[float, list[list[float]]]:
+def execute_unguided(simulation: object) -> None:
+    simulation.InitializeSimulation()
+    simulation.ConfigureStopTime(macros.sec2nano(TYPICAL))
+    simulation.ExecuteSimulation()
+
+
+def run(folder: str, trials: int, workers: int, *, guided: bool) -> tuple[float, list[list[float]]]:
     """Time (s) that the controller takes, and the last position (from the Moon's centre) and velocity of each trial."""
     controller = Controller()
-    controller.setSimulationFunction(create)
-    controller.setExecutionFunction(execute)
+    controller.setSimulationFunction(create if guided else create_unguided)
+    controller.setExecutionFunction(execute if guided else execute_unguided)
     controller.setExecutionCount(trials)
     controller.setThreadCount(workers)
     controller.setShouldDisperseSeeds(False)
@@ -64,7 +80,7 @@ def run(folder: str, trials: int, workers: int) -> tuple[float, list[list[float]
 
 if __name__ == "__main__":
     where, count, processes, *options = sys.argv[1:]
-    if options == ["--no-pause"]:
+    if "--no-pause" in options:
         sys.modules[Controller.__module__].time = SimpleNamespace(sleep=lambda _: None)
-    seconds, states = run(where, int(count), int(processes))
+    seconds, states = run(where, int(count), int(processes), guided="--unguided" not in options)
     print(json.dumps({"seconds": seconds, "states": states}))
