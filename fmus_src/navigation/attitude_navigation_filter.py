@@ -21,23 +21,25 @@ from .attitude_navigation import AttitudeNavigation, AttitudeNavigationStatus
 class AttitudeNavigationFilter(AttitudeNavigation):
     """Multiplicative extended Kalman filter of attitude and gyro bias.
 
-    Between samples the attitude turns with the mean of the last two gyro samples less the bias. A star sample corrects
-    it by a small rotation in body axes, and the bias; the first one is the first attitude. The covariance is 6 x 6;
-    three components are taken in one after another, as exact as at once. A sample that is not finite is left out and
-    reported. Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2.
-    Assumes errors as declared, alike about all axes.
+    The attitude turns with the mean of the last two gyro samples less the bias, or with the last one until the next.
+    A star sample corrects it by a small rotation in body axes, and the bias; the first one is the first attitude. The
+    covariance is 6 x 6; three components are taken in one after another, as exact as at once. A sample that is not
+    finite is left out and reported. Assumes errors as declared, alike about all axes.
+    Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2.
     """
 
     rate = body.ANGULAR_VELOCITY.state("last finite gyro sample")
     covariance = State(zeros(6, 6), frozen=True, description="of the errors of attitude and bias, SI")
     start_time = sampling.START_TIME.state()
     last_time = State(0.0, unit="s", description="time of the last cycle")
-    counted = State(0, description="star_count of the last sample")
+    star_counted = State(0, description="star_count of the last sample")
+    gyro_counted = State(0, description="gyro_count of the last sample")
     begun = State(False, description="an attitude was measured")
 
     def initialize(self) -> None:
         self.last_time = self.start_time
-        self.counted = self.star_count - 1
+        self.star_counted = self.star_count - 1
+        self.gyro_counted = self.gyro_count - 1
         sigma = self.first_bias_sigma
         self.covariance[ROTATION, ROTATION] = identity(3)
         self.covariance[BIAS, BIAS] = sigma * sigma * identity(3)
@@ -46,8 +48,11 @@ class AttitudeNavigationFilter(AttitudeNavigation):
         self.report()
 
     def gyro_rate(self) -> Vector3:
-        """The gyros' sample if it is finite, or else the last one that was."""
+        """The gyros' new sample if there is one that is finite, or else the last one that was."""
         self.status = AttitudeNavigationStatus.GOOD
+        if self.gyro_count == self.gyro_counted:
+            return self.rate
+        self.gyro_counted = self.gyro_count
         if is_finite(self.measured_angular_velocity):
             return self.measured_angular_velocity
         self.status = AttitudeNavigationStatus.NO_GYROS
@@ -63,9 +68,9 @@ class AttitudeNavigationFilter(AttitudeNavigation):
 
     def take_star_sample(self) -> None:
         """Take a new star sample in, if there is one."""
-        if self.star_count == self.counted:
+        if self.star_count == self.star_counted:
             return
-        self.counted = self.star_count
+        self.star_counted = self.star_count
         if not (math.isfinite(self.measured_quaternion.w) and is_finite(self.measured_quaternion[1:4])):
             self.status = AttitudeNavigationStatus.NO_STARS
         elif self.begun:

@@ -6,13 +6,15 @@ Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 
 
 import math
 
+from ...kernel.functions import sin
 from ...kernel.matrices import Matrix, block, identity, matrix, zeros
 from ..attitude.quaternion import from_rotation_vector, to_body
-from ..vectors import Vector3, vector
+from ..vectors import Vector3, norm, vector
 from .kalman import predict
 
 ROTATION = block(0, 3)
 BIAS = block(3, 3)
+SMALL = 1e-6  # rad, below which the factors of [turn] are those of no turn
 
 
 def cross_matrix(v: Vector3) -> Matrix:
@@ -23,14 +25,23 @@ def cross_matrix(v: Vector3) -> Matrix:
 def transition(turn: Vector3, h: float) -> Matrix:
     """F (6 x 6) over h (s), in which the body turns by ``turn`` (rad).
 
-    Rotations by the exact rotation; biases by -h (1 - [turn]/2), what is left out is below h |turn|^2/6.
+    The rotation turns back with the body; a bias adds -h (1 - (1 - cos a)/a^2 [turn] + (a - sin a)/a^3 [turn]^2) times
+    itself, a = |turn|.
     """
     f = identity(6)
     q = from_rotation_vector(turn)
     f[ROTATION, 0] = to_body(q, vector(1.0, 0.0, 0.0))
     f[ROTATION, 1] = to_body(q, vector(0.0, 1.0, 0.0))
     f[ROTATION, 2] = to_body(q, vector(0.0, 0.0, 1.0))
-    f[ROTATION, BIAS] = 0.5 * h * cross_matrix(turn) - h * identity(3)
+    angle = norm(turn)
+    first = 0.5
+    second = 1.0 / 6.0
+    if angle > SMALL:
+        half = sin(0.5 * angle) / angle
+        first = 2.0 * half * half
+        second = (angle - sin(angle)) / (angle * angle * angle)
+    c = cross_matrix(turn)
+    f[ROTATION, BIAS] = -h * (identity(3) - first * c + second * c @ c)
     return f
 
 
