@@ -83,10 +83,10 @@ def rate_gyros():
     velocity, bias, limit, sigma = wave(0.05, 0.0, 1.0, 2.0), np.array([0.001, -0.002, 0.003]), 0.004, 0.002
     numbers, walk = Numbers(SEED, STREAM), 0.003
     first = bias + limit * (2.0 * numbers.uniform(3) - 1.0)
-    fresh, drawn = numbers.normal(1, 3), numbers.normal(SAMPLES - 1, 2, 3)
-    steps = walk * np.sqrt(EVERY * STEP) * np.concatenate([np.zeros((1, 3)), drawn[:, 0]])
+    fresh, later = numbers.normal(1, 3), numbers.normal(SAMPLES - 1, 2, 3)
+    steps = walk * np.sqrt(EVERY * STEP) * np.concatenate([np.zeros((1, 3)), later[:, 0]])
     whole = first + np.cumsum(steps, axis=0)
-    errors = sigma * np.concatenate([fresh, drawn[:, 1]])
+    errors = sigma * np.concatenate([fresh, later[:, 1]])
     return check_sensor(
         "closed form with exact random numbers",
         {"angular_velocity": velocity},

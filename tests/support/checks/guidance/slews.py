@@ -19,9 +19,9 @@ def check_slew(truth, angle, duration):
         inside = (at > 0.0) & (at < duration)
         return np.where(inside, angle.derivative()(np.clip(at, 0.0, duration)), 0.0)
 
-    turned = angle(np.clip(time, 0.0, duration))
+    angles = angle(np.clip(time, 0.0, duration))
     axis = TURN / ANGLE
-    attitude = START * Rotation.from_rotvec(np.outer(turned, axis))
+    attitude = START * Rotation.from_rotvec(np.outer(angles, axis))
     quaternion = attitude.as_quat(scalar_first=True)
     quaternion *= np.sign(quaternion @ START.as_quat(scalar_first=True))[:, None]
     target = -2.0 * (START * Rotation.from_rotvec(TURN)).as_quat(scalar_first=True)
