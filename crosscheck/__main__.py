@@ -20,9 +20,27 @@ from crosscheck.table import Table, differences, read_table
 
 ROOT = Path(__file__).parents[1]
 FIGURE = ROOT / "docs" / "images" / "crosscheck" / "differences.svg"
-CASES = ("moon_thrust", "moon_coast", "robot_jets", "gravity_gradient", "free_rotation", "guided_descent")
-HEADS = ("case", "step, s", "position, m", "velocity, m/s", "attitude, rad", "rate, rad/s", "mass, kg", "order")
-QUANTITIES = ("position", "velocity", "attitude", "rate", "mass")
+CASES = (
+    "moon_thrust",
+    "moon_coast",
+    "robot_jets",
+    "gravity_gradient",
+    "free_rotation",
+    "guided_descent",
+    "wheel_satellite",
+)
+HEADS = (
+    "case",
+    "step, s",
+    "position, m",
+    "velocity, m/s",
+    "attitude, rad",
+    "rate, rad/s",
+    "mass, kg",
+    "wheel speed, rad/s",
+    "order",
+)
+QUANTITIES = ("position", "velocity", "attitude", "rate", "mass", "wheel speed")
 ROUNDING = 0.5  # an order below is one of rounding: half the step does not bring both nearer
 
 
