@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | screenshots | bench | crosscheck | sanitize | fuzz | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | screenshots | bench | crosscheck | basilisk | sanitize | fuzz | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # On a terminal pip shows what it does, in a log nothing.
@@ -97,6 +97,16 @@ $(CROSSCHECK)/ready: crosscheck/requirements.txt
 	$(CROSSCHECK)/bin/pip install $(QUIET) --disable-pip-version-check -r crosscheck/requirements.txt
 	touch $@
 
+# A plant that Basilisk simulates (docs/guides/basilisk.md), with Basilisk beside the packages of .venv.
+BASILISK := build/basilisk
+
+basilisk: build $(BASILISK)/ready
+	PYTHONPATH=$(BASILISK) $(BIN)/python -m pytest tests/examples
+
+$(BASILISK)/ready: .venv/ready
+	$(BIN)/pip install $(QUIET) --disable-pip-version-check --no-deps --upgrade --target $(BASILISK) bsk==2.12.1 colorama tqdm
+	touch $@
+
 # The C of every block under the address and undefined-behaviour sanitizers, 10000 steps each.
 sanitize: .venv/ready
 	PERILUNE_LONG=1 PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py
@@ -163,4 +173,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench large crosscheck sanitize fuzz processors emulator windows browser browser-firefox lint clean
+.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench large crosscheck basilisk sanitize fuzz processors emulator windows browser browser-firefox lint clean

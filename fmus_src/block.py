@@ -13,10 +13,11 @@ from typing import Any, ClassVar
 
 from .bundles import Connectors, Inputs, Outputs
 from .data_files import DataFiles, data_problem
+from .external_state import ExternalState, HasExternalState
 from .variables import DeclarationError, Input, Output, Parameter, State, Variable
 
 # What the file of a block takes from here.
-__all__ = ["Block", "Input", "Inputs", "Output", "Outputs", "Parameter", "State"]
+__all__ = ["Block", "ExternalState", "Input", "Inputs", "Output", "Outputs", "Parameter", "State"]
 
 
 def snake_case(name: str) -> str:
@@ -24,7 +25,7 @@ def snake_case(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
 
 
-class Block(DataFiles):
+class Block(DataFiles, HasExternalState):
     """A component: declared variables, `initialize` and `step`.
 
     Subclasses declare variables and write `initialize` (states and outputs at the start, from
@@ -39,7 +40,8 @@ class Block(DataFiles):
     ``class Name(Block, interface=True)`` declares connectors only and builds no FMU; ``to_write`` names the methods
     that its blocks write, without which a class is refused.
     ``python_only = True`` with ``requires`` lets a block use libraries; it then has no C form. ``data`` names files
-    next to its source, which it reads by `data_path` and which travel in its FMU.
+    next to its source, which it reads by `data_path` and which travel in its FMU. Objects of a library with state of
+    their own are declared as `ExternalState`.
     """
 
     variables: ClassVar[dict[str, Variable]] = {}
@@ -73,6 +75,7 @@ class Block(DataFiles):
         problem = data_problem(cls.data, cls.python_only)
         if problem is not None:
             raise DeclarationError(f"{cls.__name__}: {problem}")
+        cls.collect_external()
         cls._check_dependencies()
         if not interface:
             cls._check_written()
@@ -108,6 +111,7 @@ class Block(DataFiles):
     def __init__(self, **parameters: Any) -> None:
         for name, variable in self.variables.items():
             setattr(self, name, variable.start)
+        self.drop_external()
         for name, value in parameters.items():
             if not isinstance(self.variables.get(name), Parameter | Input):
                 raise TypeError(f"{self.fmu_name} has no parameter or input {name!r}")

@@ -16,6 +16,7 @@ HOMES = {
     "interfaces.allocation": ("Allocation",),
     "interfaces.navigation": ("Navigation",),
     "interfaces.ports.landing": ("TerminalStatus", "ThrustCommand"),
+    "external_state": ("ExternalState",),
     "kernel.enumerations": ("Enumeration", "member"),
     "kernel.functions": (
         *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "exp2", "expm1"),

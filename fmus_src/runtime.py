@@ -25,6 +25,10 @@ class StepError(ValueError):
     """A communication step that the block cannot take; the message says why."""
 
 
+class StateError(ValueError):
+    """A block's state cannot be saved; the message says why."""
+
+
 class Component:
     """One instance of a block, driven as an FMI importer drives an FMU.
 
@@ -139,6 +143,7 @@ class Component:
         for name, variable in self.block.variables.items():
             if isinstance(variable, State | Output):
                 setattr(self.block, name, variable.start)
+        self.block.drop_external()  # before others are made: two simulations at once would take twice the memory
         self.tick = 0
         if "start_time" in self.block.variables:
             self.block.start_time = self.start_time
@@ -176,7 +181,10 @@ class Component:
         self.block.step(t, h)
 
     def get_state(self) -> dict[str, Any]:
-        """Complete state: every variable and the life-cycle counters."""
+        """Complete state: every variable and the life-cycle counters. Raises StateError for a block with more."""
+        if self.block.external:
+            names = ", ".join(self.block.external)
+            raise StateError(f"{names} of {self.block.fmu_name} is external state, which cannot be saved")
         return {
             "values": self.values(),
             "life_cycle": [self.initialising, self.unsettled, self.start_time, self.tick],

@@ -65,6 +65,7 @@ from .fmus_src.bundles import Inputs as Inputs
 from .fmus_src.bundles import Outputs as Outputs
 from .fmus_src.control.entry_control import EntryControl as EntryControl
 from .fmus_src.control.orbital_control import OrbitalControl as OrbitalControl
+from .fmus_src.external_state import ExternalState as ExternalState
 from .fmus_src.guidance.terminal_guidance import TerminalGuidance as TerminalGuidance
 from .fmus_src.interfaces.allocation import Allocation as Allocation
 from .fmus_src.interfaces.navigation import Navigation as Navigation

@@ -50,9 +50,10 @@ def _check_method(block_class: type[Block], method: FunctionType) -> None:
             continue
         near = difflib.get_close_matches(node.attr, block_class.variables, n=3)
         remedy = f"did you mean {' or '.join(near)}? Else declare" if near else "declare"
+        external = ", or ExternalState(...) for an object of a library," if block_class.python_only else ","
         raise UndeclaredError(
             f"{where}: self.{node.attr} is not declared in {block_class.__name__}; "
-            f"{remedy} it in the class, {node.attr} = State(...), or keep it in a local variable"
+            f"{remedy} it in the class, {node.attr} = State(...){external} or keep it in a local variable"
         )
 
 

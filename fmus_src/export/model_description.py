@@ -48,8 +48,8 @@ def model_description(
         modelIdentifier=block_class.fmu_name,
         needsExecutionTool=_boolean(needs_execution_tool),
         canHandleVariableCommunicationStepSize="true",
-        canGetAndSetFMUstate="true",
-        canSerializeFMUstate="true",
+        canGetAndSetFMUstate=_boolean(not block_class.external),
+        canSerializeFMUstate=_boolean(not block_class.external),
         canNotUseMemoryManagementFunctions=_boolean(not native_memory),
     )
     if sources:
@@ -62,7 +62,7 @@ def model_description(
     for name, description in LOG_CATEGORIES.items():
         etree.SubElement(categories, "Category", name=name, description=description)
     etree.SubElement(root, "DefaultExperiment", startTime="0.0", stepSize=repr(block_class.default_step))
-    _state_layout(root, variables, "json" if needs_execution_tool else "words")
+    _state_layout(root, block_class, "json" if needs_execution_tool else "words")
     sampled = "sample_period" in block_class.variables
     model_variables = etree.SubElement(root, "ModelVariables")
     indices: dict[str, list[int]] = {}
@@ -123,21 +123,25 @@ def _scalar_variable(
     etree.SubElement(element, variable.type_name, details)
 
 
-def _state_layout(root: etree._Element, variables: list[Variable], encoding: str) -> None:
+def _state_layout(root: etree._Element, block_class: type[Block], encoding: str) -> None:
     """How fmi2SerializeFMUstate writes the complete memory, so that analyses can read and change it.
 
     "words": 6 words of 8 bytes, then one for every value reference; "json": the list "values" by value
-    reference. ``frozen`` lists the value references of what a linearisation leaves alone.
+    reference. ``frozen`` lists the value references of what a linearisation leaves alone. A block with external state
+    names that instead: its memory is not serialised.
     """
+    annotations = etree.SubElement(root, "VendorAnnotations")
+    tool = etree.SubElement(annotations, "Tool", name=STATE_ANNOTATION)
+    if block_class.external:
+        etree.SubElement(tool, "ExternalState", names=" ".join(block_class.external))
+        return
     frozen: list[int] = []
     reference = 0
-    for variable in variables:
+    for variable in block_class.variables.values():
         if isinstance(variable, State):
             flags = enumerate(variable.frozen_elements(), reference)
             frozen += [element for element, is_frozen in flags if is_frozen]
         reference += variable.size
-    annotations = etree.SubElement(root, "VendorAnnotations")
-    tool = etree.SubElement(annotations, "Tool", name=STATE_ANNOTATION)
     etree.SubElement(tool, "SerializedState", encoding=encoding, frozen=" ".join(map(str, frozen)))
 
 

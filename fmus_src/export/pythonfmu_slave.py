@@ -80,6 +80,9 @@ class BlockSlave(Fmi2Slave):
             return False
         return True
 
+    def terminate(self) -> None:
+        self.component.block.drop_external()
+
     def _get_fmu_state(self) -> dict[str, Any]:
         return self.component.get_state()
 

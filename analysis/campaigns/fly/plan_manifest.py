@@ -115,7 +115,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
         resets={
             digest: cast(ResetDocument, asdict(find_verdict(fmu, plan.options)))
             for digest, fmu in fmus.items()
-            if not fmu.is_own
+            if not fmu.is_self_contained
         },
         until_decided=plan.until_decided,
         seed=campaign.seed,

@@ -1,4 +1,7 @@
-"""Where systems fly: Perilune's own FMUs in this process, those of others in a child. All verbs come through here."""
+"""Where systems fly: Perilune's own FMUs in this process, those of others, and those with external state, in a child.
+
+All verbs come through here.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ from .simulation import ApartSimulation
 
 def flies_here(prepared: PreparedSystem) -> bool:
     """Whether a system's FMUs may be loaded into this process."""
-    return prepared.is_own or prepared.options.in_process
+    return prepared.is_self_contained or prepared.options.in_process
 
 
 def open_simulation(prepared: PreparedSystem, *, apart: bool = False, **choices: Unpack[Choices]) -> BaseSimulation:

@@ -42,13 +42,13 @@ class TrialWatch:
 
 
 def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, ResetVerdict]:
-    """The verdicts on a system's foreign FMUs, by their SHA-256; no reset is trusted of one that cannot be tried.
+    """The verdicts on FMUs that are not self-contained, by their SHA-256.
 
-    Nor is it where the ``watch`` is given up, which is no verdict for other simulations.
+    No reset is trusted of an FMU that cannot be tried. Nor is it where the ``watch`` is given up, which is no verdict for other simulations.
     """
     verdicts = {}
     for fmu in prepared.network.fmus.values():
-        if not fmu.is_own:
+        if not fmu.is_self_contained:
             try:
                 verdicts[fmu.digest] = find_verdict(fmu, prepared.options, watch)
             except InputError as error:

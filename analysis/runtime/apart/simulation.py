@@ -155,7 +155,7 @@ class ApartSimulation(BaseSimulation):
         if flown.status not in FLIGHT_STATUSES or not 0 <= flown.rows <= self.recorder.times.size:
             self._connection.kill()
             return self._flight(0, CRASHED, "answers that cannot be read")
-        if (flown.status not in COMPLETE and not self.prepared.is_own) or not self._formats:
+        if (flown.status not in COMPLETE and not self.prepared.is_self_contained) or not self._formats:
             self._recall()
             self._free()
             self._formats = True

@@ -35,7 +35,7 @@ class LifeCycle:
         self._program = program
         self._instructions = instructions
         self._note_subject = note_subject
-        self._are_own = all(instance.fmu.is_own for instance in instances.values())
+        self._are_self_contained = all(instance.fmu.is_self_contained for instance in instances.values())
         self._fresh = True
         self._running: AbstractSet[str] = set()  # initialised, so that they can be terminated
         self._broken: set[str] = set()  # returned an error
@@ -63,7 +63,7 @@ class LifeCycle:
         """
         if self._fresh:
             return False
-        if self._are_own and len(self._running) == len(self._instances):
+        if self._are_self_contained and len(self._running) == len(self._instances):
             self._running = set()
             return True
         for index, (name, instance) in enumerate(self._instances.items()):
@@ -79,7 +79,7 @@ class LifeCycle:
 
     def _is_reset(self, name: str, instance: Instance) -> bool:
         """Whether an instance has been reset, and is as good as a new one for it."""
-        sound = instance.fmu.is_own or name not in self._broken | self._discarded
+        sound = instance.fmu.is_self_contained or name not in self._broken | self._discarded
         if not instance.is_there or not self._terminate(name, instance) or not sound:
             return False
         if verdict_in_cache(instance.fmu) is None and instance.fmu.is_alone:

@@ -12,13 +12,13 @@ from lxml import etree
 
 from ...common.errors import InputError
 from ..instances.instance import Instance
+from ..ssp.fmu_description import STATE_ANNOTATION
 from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem
 from .base_memory import BaseMemory, Cell
 from .compiled import arrays
 from .program import Layout
 
-STATE_ANNOTATION = "org.perilune.state"  # in modelDescription.xml of FMUs that tell how they serialise their memory
 HEADER_WORDS = 6
 REMEMBERED = ("local", "output", "input")
 
@@ -136,6 +136,10 @@ class Memory(BaseMemory[Snapshot]):
 
 def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:
     """Encoding of an FMU's serialised state, and the value references that are no cells."""
+    if fmu.external_state:
+        names = ", ".join(fmu.external_state)
+        problem = f"{names} is external state, which cannot be saved or perturbed"
+        raise InputError(fmu.label, component, problem, "measure by injection, or use another FMU")
     description = etree.parse(fmu.folder / "modelDescription.xml")
     declared = description.find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/SerializedState")
     if declared is None or declared.get("encoding") not in ENCODINGS:

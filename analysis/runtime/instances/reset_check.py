@@ -41,7 +41,7 @@ _trying = threading.Lock()
 
 def verdict_in_cache(fmu: Fmu) -> ResetVerdict | None:
     """The verdict on an FMU, if there is one yet; our own reset, which their tests show."""
-    return ResetVerdict(True) if fmu.is_own else _verdicts.get(fmu.digest)
+    return ResetVerdict(True) if fmu.is_self_contained else _verdicts.get(fmu.digest)
 
 
 def store_verdict(digest: str, verdict: ResetVerdict) -> None:

@@ -14,6 +14,7 @@ from .documents import check_violations, parse_xml
 
 DESCRIPTION = "modelDescription.xml"
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi2" / "fmi2ModelDescription.xsd"
+STATE_ANNOTATION = "org.perilune.state"  # of FMUs that declare how they serialise their memory, or that they do not
 MANY_BYTES = 1_000_000  # of a description that may have many violations
 FIX = f"fix the FMU's {DESCRIPTION}"
 VARIABLE = "ModelVariables/ScalarVariable"
@@ -61,6 +62,14 @@ def check_description(xml: bytes, label: str) -> None:
         raise InputError(label, str(twice), "two variables of this name", FIX)
     if len(xml) > MANY_BYTES:
         check_violations(etree.XMLSchema(etree.parse(SCHEMA)), xml, f"{label}!{DESCRIPTION}")
+
+
+def external_state_of(xml: bytes) -> tuple[str, ...]:
+    """The names of a block's external state, which its FMU can neither save nor restore."""
+    if b"ExternalState" not in xml:
+        return ()
+    declared = parse_xml(xml, DESCRIPTION).find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/ExternalState")
+    return () if declared is None else tuple(declared.get("names", "").split())
 
 
 def _check_indices(root: etree._Element, label: str) -> None:

@@ -23,7 +23,7 @@ from ...common.scratch import make_folder
 from ...common.zips import REMEDY, UNREADABLE, open_zip, read_entry
 from ..ssp.conversions import Unit, units_of_fmu
 from ..ssp.documents import parse_xml
-from ..ssp.fmu_description import DESCRIPTION, check_description
+from ..ssp.fmu_description import DESCRIPTION, check_description, external_state_of
 
 MOST_FLAWS = 3  # named in one line
 MOST_DESCRIPTIONS = 32  # kept at once
@@ -39,7 +39,8 @@ class Fmu:
     folder: Path  # unpacked; removed with the object
     variables: dict[str, ScalarVariable] = field(default_factory=dict)
     units: dict[str, Unit] = field(default_factory=dict)
-    is_own: bool = False  # built by Perilune, whose reset and whose errors leave nothing behind
+    is_own: bool = False  # built by Perilune
+    external_state: tuple[str, ...] = ()  # names of a block's objects that its FMU state does not contain
     flaws: list[str] = field(default_factory=list)  # rules of FMI that its description breaks, though it is readable
 
     @property
@@ -50,6 +51,11 @@ class Fmu:
     def is_alone(self) -> bool:
         """Whether a process can hold one instance of it only."""
         return bool(self.description.coSimulation.canBeInstantiatedOnlyOncePerProcess)
+
+    @property
+    def is_self_contained(self) -> bool:
+        """Whether its reset and its errors leave nothing behind, so that it may fly in this process."""
+        return self.is_own and not self.external_state
 
     @property
     def is_native(self) -> bool:
@@ -98,7 +104,8 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
         raise InputError(label, binary, "no binary for this platform", remedy)
     folder = make_folder()
     digest = hashlib.sha256(data).hexdigest()
-    fmu = Fmu(label, digest, description, folder, is_own=is_own(digest), flaws=list(flaws))
+    external = external_state_of(xml)
+    fmu = Fmu(label, digest, description, folder, is_own=is_own(digest), external_state=external, flaws=list(flaws))
     # Others' may reach for any of their files: FMPy's remoting starts a server of binaries/win32 from binaries/win64.
     read_here = (DESCRIPTION, f"binaries/{fmpy.platform}/", "resources/")
     names = [name for name in archive.namelist() if name.startswith(read_here) or not fmu.is_own]

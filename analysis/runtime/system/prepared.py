@@ -61,9 +61,9 @@ class PreparedSystem:
         return self.schedule.feedthrough.notes(self.network, self.algorithm)
 
     @property
-    def is_own(self) -> bool:
-        """Whether Perilune built all of its FMUs; a system with any other is foreign."""
-        return all(fmu.is_own for fmu in self.network.fmus.values())
+    def is_self_contained(self) -> bool:
+        """Whether all of its FMUs are; see `Fmu`."""
+        return all(fmu.is_self_contained for fmu in self.network.fmus.values())
 
     def of_flights(self) -> PreparedSystem:
         """What flights take of it, and another process can be sent: without documents, and readers of files."""

@@ -36,6 +36,10 @@ ELSEWHERE = {
     "job=$(sbatch ": "likewise",
     "perilune docs": "tests/verbs/test_docs.py",
     "perilune show": "tests/show/test_process.py; it ends with Ctrl-C only",
+    "perilune export basilisk_": "tests/examples/test_basilisk.py, where Basilisk is installed",
+    "perilune run lunar_landing --use plant=basilisk_moon_lander": "likewise",
+    "perilune batch lunar_landing --campaign compare --use plant=basilisk_moon_lander": "likewise",
+    "perilune run build/fmus/python/basilisk_orbiter.fmu": "likewise",
     "LD_PRELOAD=": "of a host of the reader's own",
     "python -m tests.fuzz": "hours of random inputs; tests/fuzz/test_documents.py tries a thousand of each",
 }
@@ -48,6 +52,7 @@ TAKES_LONG = {
     "--campaign noisy": "30 000 flights, or 4000 of the orbit",
     "lunar_landing --campaign compare --parameters noisy.ssv --output": "6000 flights",
     "lunar_landing --campaign compare --parameters noisy.ssv --trials 50 --output": "300 flights, and their page",
+    "lunar_landing --campaign compare --trials 50 --output perilune": "300 flights of 320 s",
     "--campaign compare --trials 100": "100 flights of 320 s",
     "perilune replay results": "what it is a trial of takes long",
     "perilune compare": "what it compares takes long, and so do its pages; see tests/commands/test_compare.py",
