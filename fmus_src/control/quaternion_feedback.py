@@ -28,7 +28,7 @@ class QuaternionFeedback(Block):
     adds the pole -1/T: k = w0^2 + 2 z w0/T, c = 2 z w0 + 1/T and i' = w0^2/T 2 q, where 2 |q| is below
     integral_band. error_limit bounds 2 |q| in k 2 q, and so the rate of a turn without reference to k error_limit/c.
     The torque stays until the next sample. Inputs that are not finite leave it as it is.
-    Frame: body. Equations and margins: docs/systems/satellite_pointing.md.
+    Frame: body. Equations and margins: docs/systems/satellite_pointing.md. Assumes a rigid body with inertia as known.
     Source: Wie, Weiss and Arapostathis 1989; Wie 1998, section 7.
     """
 

@@ -34,6 +34,7 @@ class SlewGuidance(Block, interface=True):
     angular acceleration is the mean over the sample_period that follows, so that a torque in steps meets the rate.
     A guidance writes `plan`, which sets duration from slew_angle, and `follow`, which sets progress within it.
     Equations: docs/systems/satellite_pointing.md. Source: Wie 1998, section 7.
+    Assumes a satellite at rest at the start.
     """
 
     to_write = ("plan", "follow")

@@ -9,9 +9,9 @@ PEAK_ACCELERATION = 5.773502691896258  # 10/sqrt(3) of angle/duration^2, at (3 -
 
 
 class SlewQuintic(SlewGuidance):
-    """The angle is a polynomial of fifth degree of time, 10 s^3 - 15 s^4 + 6 s^5: acceleration is continuous and 0 at
-    both ends, which spares flexible modes.
+    """A turn whose angle is a polynomial of fifth degree of time, 10 s^3 - 15 s^4 + 6 s^5.
 
+    Its acceleration is continuous and 0 at both ends, which spares flexible modes.
     The duration is the shortest within both limits. Source: Biagiotti and Melchiorri 2008, section 2.1.
     """
 

@@ -4,7 +4,10 @@ from .attitude_navigation import AttitudeNavigation
 
 
 class AttitudeNavigationIdeal(AttitudeNavigation):
-    """The true attitude and angular velocity: what control does when nothing is unknown."""
+    """The true attitude and angular velocity: what control does when nothing is unknown.
+
+    Assumes no sensors and no errors.
+    """
 
     def initialize(self) -> None:
         self.pass_on()

@@ -11,7 +11,7 @@ class PointingMonitor(Block):
 
     Pointing: pointing_error is within angle_limit and the angular velocity within rate_limit. settling_time is when
     the present spell of it began, or the time of now outside one; finished once it has lasted for hold_time.
-    Frame: body. Equations: docs/systems/satellite_pointing.md.
+    Frame: body. Equations: docs/systems/satellite_pointing.md. Assumes that it is given the true motion.
     """
 
     default_step = 0.125

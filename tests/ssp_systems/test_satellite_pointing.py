@@ -28,7 +28,7 @@ def fly(*sets, stop_time=400.0, use=None, **values):
         parameters=[f"{name}.ssv" for name in sets],
         use=use or {},
         stop_time=stop_time,
-        set={name.replace("__", "."): value for name, value in values.items()},
+        set={name.replace("__", "."): setting for name, setting in values.items()},
     )
 
 

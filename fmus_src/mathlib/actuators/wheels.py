@@ -39,7 +39,10 @@ def drag_torque(speed: float, viscous: float, coulomb: float, band: float) -> fl
 
 
 def null_direction(a: Matrix) -> Vector4:
-    """Unit vector n with A n = 0; of length 0 where all axes lie in a plane, or where one column is 0."""
+    """Unit vector n with A n = 0, its first element not negative.
+
+    Of length 0 where all axes lie in a plane, or where one column is 0.
+    """
     first = a[0:3, 0]
     second = a[0:3, 1]
     third = a[0:3, 2]
@@ -55,6 +58,8 @@ def null_direction(a: Matrix) -> Vector4:
         if norm(a[0:3, j]) == 0.0:
             length = 0.0  # the wheel's axis itself is null then, and is not used
     if length > SMALLEST_VOLUME:
+        if n.w < 0.0:
+            return -n / length
         return n / length
     return vector(0.0, 0.0, 0.0, 0.0)
 

@@ -117,7 +117,7 @@ def test_null_motion_of_the_pseudo_inverse_ends_at_its_speed():
     end = settle(WheelAllocationPseudoInverse, start, null_speed=80.0)
     null = np.array([1.0, -1.0, 1.0, -1.0])
     np.testing.assert_allclose(PYRAMID.T @ end, PYRAMID.T @ start, atol=1e-9)
-    assert abs(null @ end) / 4.0 == pytest.approx(80.0, rel=1e-3)
+    assert null @ end / 4.0 == pytest.approx(80.0, rel=1e-3)
 
 
 def test_null_motion_of_the_minimax_ends_at_the_smallest_maximum():

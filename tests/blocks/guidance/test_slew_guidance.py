@@ -70,12 +70,12 @@ def test_the_reference_is_a_turn_about_one_axis_within_its_limits(seed, kind):
     block = guidance(kind, turn, start)
     quaternions, rates, accelerations = follow(block, 0.5 + block.duration + 1.0)
     first = Rotation.from_quat(start, scalar_first=True)
-    turned = (first.inv() * Rotation.from_quat(quaternions, scalar_first=True)).as_rotvec()
-    for rows in (turned, rates, accelerations):
+    rotations = (first.inv() * Rotation.from_quat(quaternions, scalar_first=True)).as_rotvec()
+    for rows in (rotations, rates, accelerations):
         np.testing.assert_allclose(np.cross(rows, turn), 0.0, atol=1e-12)
     assert np.linalg.norm(rates, axis=1).max() <= 0.3 * (1.0 + 1e-12)
     assert np.linalg.norm(accelerations, axis=1).max() <= 0.2 * (1.0 + 1e-9)
-    np.testing.assert_allclose(turned[[0, -1]], [0.0 * turn, turn], atol=1e-12)
+    np.testing.assert_allclose(rotations[[0, -1]], [0.0 * turn, turn], atol=1e-12)
     np.testing.assert_allclose(rates[[0, -1]], 0.0, atol=1e-15)
 
 

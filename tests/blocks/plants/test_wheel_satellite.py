@@ -25,8 +25,8 @@ seeds = st.integers(0, 2**32 - 1)
 def plant(inertia=INERTIA, axes=AXES, **settings):
     settings = {"wheel_inertia": SPIN, "motor_torque_limit": 10.0, "speed_limit": 0.0} | settings
     block = WheelSatellite(inertia=Matrix(np.asarray(inertia).tolist()), wheel_axes=Matrix(np.asarray(axes).tolist()))
-    for name, value in settings.items():
-        setattr(block, name, np.asarray(value, dtype=float).tolist() if np.ndim(value) else value)
+    for name, setting in settings.items():
+        setattr(block, name, np.asarray(setting, dtype=float).tolist() if np.ndim(setting) else setting)
     block.initialize()
     return block
 

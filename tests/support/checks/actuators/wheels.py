@@ -25,9 +25,8 @@ def check_allocation(truth, distribute):
     wanted[20] = 1e102
     a = unit(AXES).T
     n = null_space(a)[:, 0]
+    n = n * np.sign(n[0])
     motors, statuses = np.zeros((ROWS, 4)), np.zeros(ROWS)
-    # positive along the generalised vector product of the rows of A
-    n = n * np.sign(n @ [(-1) ** (j + 1) * np.linalg.det(np.delete(a, j, axis=1)) for j in range(4)])
     for row in range(ROWS):
         if np.abs(wanted[row]).max() > 1e100:
             statuses[row] = 2

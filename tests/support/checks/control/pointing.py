@@ -28,8 +28,8 @@ def quaternion_feedback():
     # a tick sees the inputs of the row before, the first one those of the first row: they are integrated twice
     seen = follow(np.arange(ROWS))
     integral = np.cumsum(np.where((length < band)[:, None], 2.0 * q, 0.0)[seen], axis=0) * STEP * w0**2 / time
-    turned_rate, turned_acceleration = error.inv().apply(wanted), error.inv().apply(acceleration)
-    answer = turned_acceleration + np.cross(turned_rate, rate) - stiffness * bounded - friction * (rate - turned_rate)
+    seen_rate, seen_acceleration = error.inv().apply(wanted), error.inv().apply(acceleration)
+    answer = seen_acceleration + np.cross(seen_rate, rate) - stiffness * bounded - friction * (rate - seen_rate)
     torque = np.cross(rate, rate @ inertia.T + wheels) + answer @ inertia.T
     return Check(
         truth="rotations by scipy, the law by numpy",
