@@ -61,5 +61,10 @@ def predict_attitude(p: Matrix, turn: Vector3, gyro: float, bias: float, h: floa
 
 
 def standard_deviations(p: Matrix, k: int) -> Vector3:
-    """Those of the states k to k + 2 of a covariance."""
-    return vector(math.sqrt(p[k, k]), math.sqrt(p[k + 1, k + 1]), math.sqrt(p[k + 2, k + 2]))
+    """Those of the states k to k + 2 of a covariance; 0 where rounding has left less than that."""
+    variances = vector(p[k, k], p[k + 1, k + 1], p[k + 2, k + 2])
+    deviations = [0.0] * 3
+    for i in range(3):
+        if variances[i] > 0.0:
+            deviations[i] = math.sqrt(variances[i])
+    return vector(*deviations)
