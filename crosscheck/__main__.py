@@ -29,9 +29,13 @@ CASES = (
     "guided_descent",
     "robot_gyros",
     "capsule_entry",
+    "wheel_satellite",
 )
-HEADS = ("case", "step, s", "position, m", "velocity, m/s", "attitude, rad", "rate, rad/s", "mass, kg", "order")
-QUANTITIES = ("position", "velocity", "attitude", "rate", "mass")
+HEADS = (
+    *("case", "step, s", "position, m", "velocity, m/s", "attitude, rad", "rate, rad/s", "mass, kg"),
+    *("wheel speed, rad/s", "order"),
+)
+QUANTITIES = ("position", "velocity", "attitude", "rate", "mass", "wheel speed")
 ROUNDING = 0.5  # an order below is one of rounding: half the step does not bring both nearer
 
 

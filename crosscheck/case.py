@@ -33,3 +33,4 @@ VELOCITY = ("m/s", vector("velocity"))
 ATTITUDE = ("rad", vector("quaternion", 4))  # compared by the angle between both
 RATE = ("rad/s", vector("rate"))
 MASS = ("kg", ("mass",))
+WHEEL_SPEED = ("rad/s", vector("wheel_speed", 4))

@@ -42,5 +42,5 @@ def draw_differences(cases: dict[str, Case], flown: dict[str, list[dict[str, np.
             axes.remove()
         lines = [Line2D([], [], color=colour) for colour in colours.values()]
         labels = [f"{quantity}, {unit}" for quantity, unit in units.items()]
-        figure.legend(lines, labels, loc="outside upper left", ncols=len(lines))
+        figure.legend(lines, labels, loc="outside upper left", ncols=len(lines), columnspacing=0.9, handlelength=1.2)
         write_picture(figure, path)

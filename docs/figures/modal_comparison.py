@@ -1,6 +1,6 @@
 """What the choices of docs/modal_synthesis.md are worth: `python -m docs.figures.modal_comparison`.
 
-Prints the page's tables and draws docs/images/modal_*.svg. Random systems: elements of A, B and C normal, real poles
+Prints the page's tables and draws docs/images/modal/*.svg. Random systems: elements of A, B and C normal, real poles
 from -4 to -0.5, at least 0.2 apart.
 """
 
@@ -110,4 +110,4 @@ if __name__ == "__main__":
             for what, way in ((KAPPA, "least_condition"), (NORM, "least_norm"))
         )
         drawn = {"choices": choices_figure(kappa, norm), "spreads": spreads_figure(*norms), "free": free_figure()}
-        print(*draw(ROOT / "docs" / "images", drawn), sep="\n")
+        print(*draw(ROOT / "docs" / "images" / "modal", drawn), sep="\n")

@@ -61,6 +61,8 @@ def size_over_time(vector: str, factor: float = 1.0) -> Callable[[Result], Curve
 
 
 DEG = 180.0 / np.pi
+ARCSEC = 3600.0 * DEG
+RPM = 30.0 / np.pi
 TIME = "time, s"
 NORTH = "distance north of the site"
 ANGLES = ("roll", "yaw", "pitch")
@@ -114,6 +116,22 @@ PICTURES = {
             ),
         ),
         {"parameters": ["noisy.ssv"], "stop_time": 150.0},
+    ),
+    "satellite_pointing": SystemPicture(
+        (
+            Panel(TIME, "angle to the target, deg", {"": over_time("monitor.pointing_error", DEG)}),
+            Panel(
+                TIME,
+                "attitude error, arcsec",
+                {axis: over_time(f"monitor.attitude_error[{k}]", ARCSEC) for k, axis in enumerate("xyz", 1)},
+                band=(-10.0, 10.0),
+            ),
+            Panel(
+                TIME,
+                "wheel speed, rpm",
+                {f"wheel {k}": over_time(f"satellite.wheel_speeds[{k}]", RPM) for k in (1, 2, 3, 4)},
+            ),
+        ),
     ),
     "entry_attitude": SystemPicture(
         (

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from crosscheck.__main__ import CASES, HEADS, QUANTITIES, row_of, statements
-from crosscheck.case import MASS, POSITION, Case
+from crosscheck.case import ATTITUDE, MASS, POSITION, RATE, WHEEL_SPEED, Case
 from crosscheck.table import angles_between, at_common_times, differences, read_table, write_table
 from perilune.fmus_src.paths import ROOT
 
@@ -132,3 +132,21 @@ def test_the_order_of_a_difference(fine, said):
     """2^-p with half the step is of order p, also of the first; one that does not fall is rounding."""
     case = Case("title", "", "", "", "", "", 0.1, 0.3, {"mass": MASS}, {})
     assert row_of(case, {"mass": 1.0}, {"mass": fine})[-1] == said
+
+
+def test_wheels_keep_the_momentum_that_the_torque_does_not_change(fmus):
+    """The torque is constant in body axes: in inertial ones momentum grows by its integral, here by trapezoids.
+
+    With step h these are wrong by h^2/12 times the change of the torque's rate, below 1e-4 of what it adds up to.
+    """
+    values = import_module("crosscheck.cases.wheel_satellite.case")
+    table = side_of("wheel_satellite", values.CASE.step)
+    rate, speeds = (np.stack([table[name] for name in names]) for names in (RATE[1], WHEEL_SPEED[1]))
+    axes = np.array(values.AXES).T / np.linalg.norm(values.AXES, axis=1)
+    body = np.array(values.INERTIA) @ rate + values.SPIN_INERTIA * axes @ speeds
+    attitude = Rotation.from_quat(np.stack([table[name] for name in ATTITUDE[1]], axis=1), scalar_first=True)
+    momentum, torque = attitude.apply(body.T), attitude.apply(values.TORQUE)
+    gained = np.cumsum(0.5 * values.CASE.step * (torque[1:] + torque[:-1]), axis=0)
+    np.testing.assert_allclose(momentum[1:] - momentum[0], gained, atol=1e-4 * np.abs(gained).max())
+    assert np.abs(gained).max() > 0.1
+    assert np.abs(speeds).min() > 10.0  # far from rest

@@ -23,6 +23,7 @@ DEFAULTS = {
     "lunar_terminal_guidance": "ideal",
     "orbital_attitude": "ideal",
     "robot_rendezvous": "noisy",
+    "satellite_pointing": "noisy",
 }
 STOP = 3.0  # s: every sensor has been sampled twice
 # What is known at the start belongs to the start, and this system has ten: its noisy.ssv leaves it as it is.

@@ -50,6 +50,11 @@ TRUTH = {
         lambda final: largest(vector(final, "monitor.position_error")),
         lambda final: largest(vector(final, "monitor.attitude_error")) * 648000.0 / math.pi,
     ],
+    "satellite_pointing": [
+        lambda final: final["monitor.pointing_error"] * 648000.0 / math.pi,
+        lambda final: math.hypot(*vector(final, "satellite.angular_velocity")) * 648000.0 / math.pi,
+        lambda final: largest([final[f"satellite.wheel_speeds[{k}]"] for k in (1, 2, 3, 4)]) * 30.0 / math.pi,
+    ],
     "orbital_attitude": [
         lambda final: math.degrees(largest(vector(final, "plant.angles"))),
         lambda final: math.degrees(

@@ -79,18 +79,19 @@ def bank_sensor():
 
 
 def rate_gyros():
-    """A drawn bias, a declared one and white errors."""
+    """A drawn bias that walks, a declared one and white errors; a sample has the bias half way of its step."""
     velocity, bias, limit, sigma = wave(0.05, 0.0, 1.0, 2.0), np.array([0.001, -0.002, 0.003]), 0.004, 0.002
-    numbers = Numbers(SEED, STREAM)
-    whole = bias + limit * (2.0 * numbers.uniform(3) - 1.0)
+    numbers, walk = Numbers(SEED, STREAM), 0.003
+    first = bias + limit * (2.0 * numbers.uniform(3) - 1.0)
+    fresh, later = numbers.normal(1, 3), numbers.normal(SAMPLES - 1, 2, 3)
+    steps = walk * np.sqrt(EVERY * STEP) * np.concatenate([np.zeros((1, 3)), later[:, 0]])
+    whole = first + np.cumsum(steps, axis=0)
+    errors = sigma * np.concatenate([fresh, later[:, 1]])
     return check_sensor(
         "closed form with exact random numbers",
         {"angular_velocity": velocity},
-        {
-            "measured_angular_velocity": sampled(velocity) + whole + sigma * numbers.normal(SAMPLES, 3),
-            "true_bias": np.tile(whole, (SAMPLES, 1)),
-        },
-        {"bias": bias, "bias_limit": limit, "sigma": sigma},
+        {"measured_angular_velocity": sampled(velocity) + whole - 0.5 * steps + errors, "true_bias": whole},
+        {"bias": bias, "bias_limit": limit, "sigma": sigma, "bias_walk": walk},
         (1e-15, 0.0),
     )
 

@@ -1,5 +1,6 @@
 """Truths of actuators: optimisation and linear algebra. Direct outputs follow one row later."""
 
-from tests.support.checks.actuators import engine, gyros, jets, pulses, quantised_jets
+from tests.support.checks.actuators import engine, gyros, jets, pulses, quantised_jets, wheels
 
-TRUTHS = {**engine.TRUTHS, **gyros.TRUTHS, **jets.TRUTHS, **pulses.TRUTHS, **quantised_jets.TRUTHS}
+MODULES = (engine, gyros, jets, pulses, quantised_jets, wheels)
+TRUTHS = {name: truth for module in MODULES for name, truth in module.TRUTHS.items()}

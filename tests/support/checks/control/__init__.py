@@ -1,5 +1,6 @@
 """Truths of regulators: their equations as matrices. Direct outputs follow one row later."""
 
-from tests.support.checks.control import entry, orbital, relays, robot, thrust_axis
+from tests.support.checks.control import entry, orbital, pointing, relays, robot, thrust_axis
 
-TRUTHS = {**entry.TRUTHS, **orbital.TRUTHS, **relays.TRUTHS, **robot.TRUTHS, **thrust_axis.TRUTHS}
+MODULES = (entry, orbital, pointing, relays, robot, thrust_axis)
+TRUTHS = {name: truth for module in MODULES for name, truth in module.TRUTHS.items()}

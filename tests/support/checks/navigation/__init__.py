@@ -1,6 +1,6 @@
 """Truths of navigation."""
 
-from tests.support.checks.navigation import lunar, monitors, orbital_observers, passing
+from tests.support.checks.navigation import attitude_navigation, lunar, monitors, orbital_observers, passing
 from tests.support.checks.navigation.attitude_filter import attitude_filter
 from tests.support.checks.navigation.kalman_navigation import kalman_navigation
 from tests.support.checks.navigation.orbital_filter import orbital_filter
@@ -8,6 +8,7 @@ from tests.support.checks.navigation.raw_navigation import raw_navigation
 from tests.support.checks.navigation.translation_filter import translation_filter
 
 TRUTHS = {
+    **attitude_navigation.TRUTHS,
     **lunar.TRUTHS,
     **monitors.TRUTHS,
     **orbital_observers.TRUTHS,

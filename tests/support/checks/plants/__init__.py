@@ -1,5 +1,5 @@
 """Truths of plants: closed forms, and scipy's DOP853 on equations written out anew."""
 
-from tests.support.checks.plants import attitude_lander, bodies, landers
+from tests.support.checks.plants import attitude_lander, bodies, landers, wheels
 
-TRUTHS = {**attitude_lander.TRUTHS, **bodies.TRUTHS, **landers.TRUTHS}
+TRUTHS = {**attitude_lander.TRUTHS, **bodies.TRUTHS, **landers.TRUTHS, **wheels.TRUTHS}

@@ -1,0 +1,98 @@
+"""From attitude and angular velocity, estimated and wanted, to the torque of reaction wheels."""
+
+import math
+
+from ..block import Block, Inputs, Output, Parameter, State
+from ..interfaces.ports import body, robot, sampling, satellite
+from ..interfaces.ports.satellite import AttitudeReference
+from ..kernel.enumerations import Enumeration, member
+from ..mathlib.attitude.quaternion import difference, normalise, to_body
+from ..mathlib.vectors import Vector3, cross, is_finite, limit_length, norm
+
+
+class QuaternionFeedbackStatus(Enumeration):
+    """Whether the torque is new."""
+
+    GOOD = member("good")
+    NOT_FINITE = member("last inputs not finite, torque held")
+
+
+class QuaternionFeedback(Block):
+    """Quaternion feedback with gyroscopic feedforward.
+
+    torque = w x (J w + h) + J (C er + (C wr) x w - k 2 q - c d - i).
+
+    q is the vector part of the rotation C from the reference to the estimated attitude, the shorter way round; d =
+    w - C wr the error of the angular velocity w; wr and er are the reference's angular velocity and acceleration; h is
+    wheel_momentum. With the natural frequency w0 and the damping z, k = w0^2 and c = 2 z w0. An integral_time T > 0
+    adds the pole -1/T: k = w0^2 + 2 z w0/T, c = 2 z w0 + 1/T and i' = w0^2/T 2 q, where 2 |q| is below
+    integral_band. error_limit bounds 2 |q| in k 2 q, and so the rate of a turn without reference to k error_limit/c.
+    The torque stays until the next sample. Inputs that are not finite leave it as it is.
+    Frame: body. Equations and margins: docs/systems/satellite_pointing.md. Assumes a rigid body with inertia as known.
+    Source: Wie, Weiss and Arapostathis 1989; Wie 1998, section 7.
+    """
+
+    default_step = 0.125
+
+    inertia = satellite.INERTIA.parameter(description="matrix of inertia of the satellite with its wheels, as known")
+    natural_frequency = Parameter(0.3, unit="rad/s", minimum=0.0, description="w0")
+    damping = Parameter(0.9, unit="1", minimum=0.0, description="z")
+    integral_time = Parameter(0.0, unit="s", minimum=0.0, description="T; 0: no integral")
+    integral_band = Parameter(0.01, unit="rad", minimum=0.0, description="error below which it is integrated")
+    error_limit = Parameter(2.0, unit="rad", minimum=0.0, description="largest 2 |q| that the torque answers")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "between ticks; 0: every communication point")
+    estimated_quaternion = robot.QUATERNION.input()
+    estimated_angular_velocity = body.ANGULAR_VELOCITY.input("angular velocity, estimated")
+    reference = Inputs(AttitudeReference)
+    wheel_momentum = satellite.WHEEL_MOMENTUM.input("of the wheels relative to the body")
+    torque_command = body.TORQUE.output("torque on the body wanted from the wheels", direct=True)
+    attitude_error = body.ROTATION.output("2 q, from the reference to the estimated attitude", direct=True)
+    status = Output(QuaternionFeedbackStatus, direct=True)
+    integral = body.ANGULAR_ACCELERATION.state("of the error: i of the torque")
+    period = State(0.0, unit="s", description="to the next tick")
+
+    def initialize(self) -> None:
+        self.period = self.sample_period
+        self.command()
+
+    def finite(self) -> bool:
+        """Whether all inputs are."""
+        q = self.estimated_quaternion
+        r = self.reference.reference_quaternion
+        attitudes = math.isfinite(q.w) and is_finite(q[1:4]) and math.isfinite(r.w) and is_finite(r[1:4])
+        rates = is_finite(self.estimated_angular_velocity) and is_finite(self.reference.reference_angular_velocity)
+        known = is_finite(self.reference.reference_angular_acceleration) and is_finite(self.wheel_momentum)
+        return attitudes and rates and known
+
+    def correction(self, error: Vector3, rate_error: Vector3) -> Vector3:
+        """What to take off the angular acceleration (rad/s2); integrates to the next tick."""
+        w = self.natural_frequency
+        stiffness = w * w
+        damping = 2.0 * self.damping * w
+        if self.integral_time > 0.0:
+            stiffness = stiffness + damping / self.integral_time
+            damping = damping + 1.0 / self.integral_time
+            if norm(error) < self.integral_band:
+                self.integral = self.integral + self.period * w * w / self.integral_time * error
+        return stiffness * limit_length(error, self.error_limit) + damping * rate_error + self.integral
+
+    def command(self) -> None:
+        """Command a new torque."""
+        if not self.finite():
+            self.status = QuaternionFeedbackStatus.NOT_FINITE
+            return
+        self.status = QuaternionFeedbackStatus.GOOD
+        rotation = difference(normalise(self.reference.reference_quaternion), normalise(self.estimated_quaternion))
+        self.attitude_error = 2.0 * rotation[1:4]
+        w = self.estimated_angular_velocity
+        wanted_rate = to_body(rotation, self.reference.reference_angular_velocity)
+        wanted = to_body(rotation, self.reference.reference_angular_acceleration) + cross(wanted_rate, w)
+        correction = self.correction(self.attitude_error, w - wanted_rate)
+        wanted = wanted - correction
+        self.torque_command = cross(w, self.inertia @ w + self.wheel_momentum) + self.inertia @ wanted
+
+    def step(self, t: float, h: float) -> None:
+        self.period = self.sample_period
+        if self.period <= 0.0:
+            self.period = h
+        self.command()

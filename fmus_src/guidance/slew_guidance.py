@@ -1,0 +1,110 @@
+"""The slot of slew guidance: the attitude to follow while a satellite turns to a target attitude."""
+
+from ..block import Block, Output, Outputs, Parameter, State
+from ..interfaces.ports import robot, sampling
+from ..interfaces.ports.satellite import AttitudeReference
+from ..kernel.enumerations import Enumeration, member
+from ..kernel.records import Field, Record
+from ..mathlib.attitude.quaternion import difference, from_rotation_vector, multiply, normalise, to_rotation_vector
+from ..mathlib.vectors import norm, vector
+
+ROUNDING = 1e-9  # s, allowed for in times of communication points
+
+
+class SlewPhase(Enumeration):
+    """What the reference does."""
+
+    WAITING = member("waiting")
+    SLEWING = member("slewing")
+    HOLDING = member("holding")
+
+
+class SlewProgress(Record):
+    """Where a slew is."""
+
+    angle = Field(unit="rad", description="turned so far")
+    rate = Field(unit="rad/s", description="its rate")
+
+
+class SlewGuidance(Block, interface=True):
+    """Reference of a turn about one axis (the eigenaxis) from the first estimated attitude to the target, at rest both.
+
+    The axis e and the angle are those of the shorter rotation from start to target: the reference is start * rotation
+    (angle e), its angular velocity rate e, both in axes of its body, in which e stays. It waits until slew_start. The
+    angular acceleration is the mean over the sample_period that follows, so that a torque in steps meets the rate.
+    A guidance writes `plan`, which sets duration from slew_angle, and `follow`, which sets progress within it.
+    Equations: docs/systems/satellite_pointing.md. Source: Wie 1998, section 7.
+    Assumes a satellite at rest at the start.
+    """
+
+    to_write = ("plan", "follow")
+
+    default_step = 0.125
+
+    target_quaternion = Parameter(
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="target attitude, from body to inertial, scalar first"
+    )
+    slew_start = Parameter(20.0, unit="s", minimum=0.0, description="when the turn begins, after the flight's start")
+    rate_limit = Parameter(0.02, unit="rad/s", minimum=1e-9, description="largest rate of the turn")
+    acceleration_limit = Parameter(1e-3, unit="rad/s2", minimum=1e-12, description="largest angular acceleration")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "guidance cycle; 0: every communication point")
+    estimated_quaternion = robot.QUATERNION.input()
+    reference = Outputs(AttitudeReference, direct=True)
+    slew_angle = Output(0.0, unit="rad", direct=True, description="angle of the turn")
+    duration = Output(0.0, unit="s", direct=True, description="of the turn")
+    phase = Output(SlewPhase, direct=True)
+    start_time = sampling.START_TIME.state()
+    start_quaternion = robot.QUATERNION.state("attitude at the start of the turn, of length one")
+    eigenaxis = State([0.0, 0.0, 0.0], unit="1", frame="body", description="axis of the turn, or 0")
+    progress = State(SlewProgress)
+
+    def plan(self) -> None:
+        """Set duration (s) for slew_angle (rad)."""
+
+    def follow(self, time: float) -> None:
+        """Set progress for a time (s) of 0 to duration."""
+
+    def proceed(self, time: float) -> None:
+        """Set progress for a time (s) of the flight, whatever the phase."""
+        elapsed = time - self.start_time - self.slew_start
+        if elapsed <= ROUNDING:
+            self.progress = SlewProgress(angle=0.0, rate=0.0)
+        elif elapsed >= self.duration - ROUNDING:
+            self.progress = SlewProgress(angle=self.slew_angle, rate=0.0)
+        else:
+            self.follow(elapsed)
+
+    def refer(self, time: float, period: float) -> None:
+        """The reference at a time (s), until the next sample a period (s) later."""
+        elapsed = time - self.start_time - self.slew_start
+        self.phase = SlewPhase.SLEWING
+        if elapsed < -ROUNDING:
+            self.phase = SlewPhase.WAITING
+        elif elapsed >= self.duration - ROUNDING:
+            self.phase = SlewPhase.HOLDING
+        self.proceed(time + period)
+        rate_later = self.progress.rate
+        self.proceed(time)
+        turn = from_rotation_vector(self.progress.angle * self.eigenaxis)
+        self.reference.reference_quaternion = multiply(self.start_quaternion, turn)
+        self.reference.reference_angular_velocity = self.progress.rate * self.eigenaxis
+        acceleration = 0.0
+        if period > 0.0:
+            acceleration = (rate_later - self.progress.rate) / period
+        self.reference.reference_angular_acceleration = acceleration * self.eigenaxis
+
+    def initialize(self) -> None:
+        self.start_quaternion = normalise(self.estimated_quaternion)
+        turn = to_rotation_vector(difference(self.start_quaternion, normalise(self.target_quaternion)))
+        self.slew_angle = norm(turn)
+        self.eigenaxis = vector(0.0, 0.0, 0.0)
+        if self.slew_angle > 0.0:
+            self.eigenaxis = turn / self.slew_angle
+        self.plan()
+        self.refer(self.start_time, self.sample_period)
+
+    def step(self, t: float, h: float) -> None:
+        period = self.sample_period
+        if period <= 0.0:
+            period = h
+        self.refer(t + h, period)

@@ -1,0 +1,30 @@
+"""Slew with continuous acceleration."""
+
+import math
+
+from .slew_guidance import SlewGuidance, SlewProgress
+
+PEAK_RATE = 1.875  # of angle/duration, half way
+PEAK_ACCELERATION = 5.773502691896258  # 10/sqrt(3) of angle/duration^2, at (3 -+ sqrt(3))/6 of the duration
+
+
+class SlewQuintic(SlewGuidance):
+    """A turn whose angle is a polynomial of fifth degree of time, 10 s^3 - 15 s^4 + 6 s^5.
+
+    Its acceleration is continuous and 0 at both ends, which spares flexible modes.
+    The duration is the shortest within both limits. Source: Biagiotti and Melchiorri 2008, section 2.1.
+    """
+
+    def plan(self) -> None:
+        self.duration = PEAK_RATE * self.slew_angle / self.rate_limit
+        by_acceleration = math.sqrt(PEAK_ACCELERATION * self.slew_angle / self.acceleration_limit)
+        if by_acceleration > self.duration:
+            self.duration = by_acceleration
+
+    def follow(self, time: float) -> None:
+        s = time / self.duration
+        remaining = 1.0 - s
+        self.progress = SlewProgress(
+            angle=self.slew_angle * s * s * s * (10.0 - s * (15.0 - 6.0 * s)),
+            rate=30.0 * self.slew_angle / self.duration * s * s * remaining * remaining,
+        )

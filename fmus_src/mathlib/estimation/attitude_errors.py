@@ -1,0 +1,70 @@
+"""How errors of an attitude propagated by gyros grow. Kernel functions.
+
+States: small rotation from the estimated to the true attitude in body axes (rad), error of the gyros' bias (rad/s).
+Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2.1; Farrenkopf 1978.
+"""
+
+import math
+
+from ...kernel.functions import sin
+from ...kernel.matrices import Matrix, block, identity, matrix, zeros
+from ..attitude.quaternion import from_rotation_vector, to_body
+from ..vectors import Vector3, norm, vector
+from .kalman import predict
+
+ROTATION = block(0, 3)
+BIAS = block(3, 3)
+SMALL = 1e-6  # rad, below which the factors of [turn] are those of no turn
+
+
+def cross_matrix(v: Vector3) -> Matrix:
+    """[v], the matrix of v x."""
+    return matrix([0.0, -v.z, v.y], [v.z, 0.0, -v.x], [-v.y, v.x, 0.0])
+
+
+def transition(turn: Vector3, h: float) -> Matrix:
+    """F (6 x 6) over h (s), in which the body turns by ``turn`` (rad).
+
+    The rotation turns back with the body; a bias adds -h (1 - (1 - cos a)/a^2 [turn] + (a - sin a)/a^3 [turn]^2) times
+    itself, a = |turn|.
+    """
+    f = identity(6)
+    q = from_rotation_vector(turn)
+    f[ROTATION, 0] = to_body(q, vector(1.0, 0.0, 0.0))
+    f[ROTATION, 1] = to_body(q, vector(0.0, 1.0, 0.0))
+    f[ROTATION, 2] = to_body(q, vector(0.0, 0.0, 1.0))
+    angle = norm(turn)
+    first = 0.5
+    second = 1.0 / 6.0
+    if angle > SMALL:
+        half = sin(0.5 * angle) / angle
+        first = 2.0 * half * half
+        second = (angle - sin(angle)) / (angle * angle * angle)
+    c = cross_matrix(turn)
+    f[ROTATION, BIAS] = -h * (identity(3) - first * c + second * c @ c)
+    return f
+
+
+def random_walks(gyro: float, bias: float, h: float) -> Matrix:
+    """Q (6 x 6) of an angle random walk (rad/sqrt(s)) and a random walk of the bias (rad/s/sqrt(s)) over h (s)."""
+    q = zeros(6, 6)
+    q[ROTATION, ROTATION] = (gyro * gyro * h + bias * bias * h * h * h / 3.0) * identity(3)
+    q[ROTATION, BIAS] = -0.5 * bias * bias * h * h * identity(3)
+    q[BIAS, ROTATION] = q[ROTATION, BIAS].T
+    q[BIAS, BIAS] = bias * bias * h * identity(3)
+    return q
+
+
+def predict_attitude(p: Matrix, turn: Vector3, gyro: float, bias: float, h: float) -> Matrix:
+    """Covariance (6 x 6) after h (s)."""
+    return predict(p, transition(turn, h), random_walks(gyro, bias, h))
+
+
+def standard_deviations(p: Matrix, k: int) -> Vector3:
+    """Those of the states k to k + 2 of a covariance; 0 where rounding has left less than that."""
+    variances = vector(p[k, k], p[k + 1, k + 1], p[k + 2, k + 2])
+    deviations = [0.0] * 3
+    for i in range(3):
+        if variances[i] > 0.0:
+            deviations[i] = math.sqrt(variances[i])
+    return vector(*deviations)

@@ -1,0 +1,56 @@
+"""The slot of attitude navigation: from star tracker and gyros to attitude and angular velocity."""
+
+from ..block import Block, Input, Output, Parameter
+from ..interfaces.ports import body, robot, sampling, satellite
+from ..kernel.enumerations import Enumeration, member
+
+
+class AttitudeNavigationStatus(Enumeration):
+    """What the estimate rests on."""
+
+    GOOD = member("good")
+    NO_GYROS = member("last gyro sample not finite, last rate used")
+    NO_STARS = member("last star sample not finite and left out")
+
+
+class AttitudeNavigation(Block, interface=True):
+    """Attitude and angular velocity as the satellite knows them.
+
+    Samples of star tracker and gyros come with a count that reports new ones. The true motion is connected too, for
+    navigation without errors. The parameters are those that any navigation of the slot may need, so that one set of
+    them serves all. Frames: body; quaternions from body to inertial. Equations: docs/systems/satellite_pointing.md.
+    """
+
+    default_step = 0.125
+
+    star_sigma = Parameter(
+        2.9088820866572157e-05,
+        unit="rad",
+        minimum=1e-12,
+        description="error of a star sample, 1 sigma per axis; 6 arcsec",
+    )
+    gyro_random_walk = satellite.GYRO_RANDOM_WALK.parameter()
+    bias_random_walk = satellite.BIAS_RANDOM_WALK.parameter()
+    first_bias_sigma = Parameter(
+        3e-6, unit="rad/s", minimum=0.0, description="bias of the gyros at the start, 1 sigma per axis"
+    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "navigation cycle; 0: every communication point")
+    quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
+    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity")
+    measured_quaternion = robot.MEASURED_QUATERNION.input()
+    star_count = Input(0, description="star samples so far; a change signals a new one")
+    measured_angular_velocity = body.ANGULAR_VELOCITY.input("measured by the gyros")
+    gyro_count = Input(0, description="gyro samples so far; a change signals a new one")
+    estimated_quaternion = robot.QUATERNION.output(direct=True)
+    estimated_angular_velocity = body.ANGULAR_VELOCITY.output("estimated angular velocity", direct=True)
+    estimated_bias = satellite.BIAS.output("estimated bias of the gyros", direct=True)
+    attitude_sigma = Output(
+        [0.0, 0.0, 0.0],
+        unit="rad",
+        frame="body",
+        direct=True,
+        description="standard deviation of the estimated attitude; 0: not known",
+    )
+    bias_sigma = satellite.BIAS.output("standard deviation of the estimated bias; 0: not known", direct=True)
+    innovation_square = sampling.INNOVATION_SQUARE.output(direct=True)
+    status = Output(AttitudeNavigationStatus, direct=True)

@@ -1,0 +1,21 @@
+"""Attitude as it is."""
+
+from .attitude_navigation import AttitudeNavigation
+
+
+class AttitudeNavigationIdeal(AttitudeNavigation):
+    """The true attitude and angular velocity: what control does when nothing is unknown.
+
+    Assumes no sensors and no errors.
+    """
+
+    def initialize(self) -> None:
+        self.pass_on()
+
+    def pass_on(self) -> None:
+        """Pass the truth on."""
+        self.estimated_quaternion = self.quaternion
+        self.estimated_angular_velocity = self.angular_velocity
+
+    def step(self, t: float, h: float) -> None:
+        self.pass_on()

@@ -1,0 +1,54 @@
+"""How well a satellite points: true motion against reference and target, and the end of the flight."""
+
+from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import body, landing, robot, sampling
+from ..mathlib.attitude.quaternion import difference, to_rotation_vector
+from ..mathlib.vectors import norm
+
+
+class PointingMonitor(Block):
+    """Errors of attitude against reference and target; the flight ends when the satellite has pointed long enough.
+
+    Pointing: pointing_error is within angle_limit and the angular velocity within rate_limit. settling_time is when
+    the present spell of it began, or the time of now outside one; finished once it has lasted for hold_time.
+    Frame: body. Equations: docs/systems/satellite_pointing.md. Assumes that it is given the true motion.
+    """
+
+    default_step = 0.125
+
+    target_quaternion = Parameter(
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="target attitude, from body to inertial, scalar first"
+    )
+    angle_limit = Parameter(4.84813681109536e-5, unit="rad", minimum=0.0, description="of pointing; 10 arcsec")
+    rate_limit = Parameter(1e-5, unit="rad/s", minimum=0.0, description="of pointing")
+    hold_time = Parameter(60.0, unit="s", minimum=0.0, description="how long to point before the end")
+    quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
+    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity")
+    reference_quaternion = robot.PLANNED_QUATERNION.input("attitude to follow, body to inertial, scalar first")
+    attitude_error = body.ROTATION.output("rotation vector from the reference to the true attitude", direct=True)
+    pointing_error = Output(
+        0.0, unit="rad", direct=True, description="angle between the target attitude and the true one"
+    )
+    rate = Output(0.0, unit="rad/s", direct=True, description="magnitude of the angular velocity")
+    settling_time = Output(0.0, unit="s", direct=True, description="since when it points, after the flight's start")
+    finished = landing.FINISHED.output(direct=True)
+    start_time = sampling.START_TIME.state()
+    pointing = State(False, description="within both limits")
+
+    def initialize(self) -> None:
+        self.compare(self.start_time)
+
+    def compare(self, time: float) -> None:
+        """Compare the true motion at a time (s) with reference and target."""
+        self.attitude_error = to_rotation_vector(difference(self.reference_quaternion, self.quaternion))
+        self.pointing_error = norm(to_rotation_vector(difference(self.target_quaternion, self.quaternion)))
+        self.rate = norm(self.angular_velocity)
+        within = self.pointing_error <= self.angle_limit and self.rate <= self.rate_limit
+        if not (within and self.pointing):
+            self.settling_time = time - self.start_time
+        self.pointing = within
+        if within and time - self.start_time - self.settling_time >= self.hold_time:
+            self.finished = True
+
+    def step(self, t: float, h: float) -> None:
+        self.compare(t + h)

@@ -1,0 +1,63 @@
+"""Truth of quaternion feedback: rotations by scipy, the law in matrices."""
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from tests.support.checks.check import STEP, Check, follow
+
+ROWS = 33
+
+
+def quaternion_feedback():
+    """Errors within and beyond the band of the integral and the limit; quaternions of either sign, any length."""
+    inertia = np.array([[12.0, -0.7, 0.3], [-0.7, 9.0, 0.5], [0.3, 0.5, 7.0]])
+    w0, damping, time, band, limit = 0.8, 0.7, 5.0, 0.3, 0.5
+    random = np.random.default_rng(46)
+    size = np.where(np.arange(ROWS) % 4 == 0, 0.5, 0.06)
+    reference = Rotation.from_rotvec(random.normal(size=(ROWS, 3)))
+    error = Rotation.from_rotvec(size[:, None] * random.normal(size=(ROWS, 3)))
+    rate, wanted, acceleration = (scale * random.normal(size=(ROWS, 3)) for scale in (0.05, 0.05, 0.01))
+    wheels = random.normal(0.0, 3.0, (ROWS, 3))
+    estimated = random.choice([-2.0, -1.0, 1.0], (ROWS, 1)) * (reference * error).as_quat(scalar_first=True)
+    q = error.as_quat(canonical=True, scalar_first=True)[:, 1:]
+    length = 2.0 * np.linalg.norm(q, axis=1)
+    assert (length > limit).any()
+    assert 0 < (length < band).sum() < ROWS
+    bounded = 2.0 * q * np.minimum(1.0, limit / length)[:, None]
+    stiffness, friction = w0**2 + 2.0 * damping * w0 / time, 2.0 * damping * w0 + 1.0 / time
+    # a tick sees the inputs of the row before, the first one those of the first row: they are integrated twice
+    seen = follow(np.arange(ROWS))
+    integral = np.cumsum(np.where((length < band)[:, None], 2.0 * q, 0.0)[seen], axis=0) * STEP * w0**2 / time
+    seen_rate, seen_acceleration = error.inv().apply(wanted), error.inv().apply(acceleration)
+    answer = seen_acceleration + np.cross(seen_rate, rate) - stiffness * bounded - friction * (rate - seen_rate)
+    torque = np.cross(rate, rate @ inertia.T + wheels) + answer @ inertia.T
+    return Check(
+        truth="rotations by scipy, the law by numpy",
+        step=STEP,
+        inputs={
+            "estimated_quaternion": estimated,
+            "estimated_angular_velocity": rate,
+            "reference_quaternion": reference.as_quat(scalar_first=True),
+            "reference_angular_velocity": wanted,
+            "reference_angular_acceleration": acceleration,
+            "wheel_momentum": wheels,
+        },
+        outputs={
+            "torque_command": torque[seen] - integral @ inertia.T,
+            "attitude_error": 2.0 * q[seen],
+            "status": np.zeros(ROWS),
+        },
+        tolerances={"torque_command": (1e-12, 0.0), "attitude_error": (1e-14, 0.0), "status": (0.0, 0.0)},
+        parameters={
+            "inertia": inertia,
+            "natural_frequency": w0,
+            "damping": damping,
+            "integral_time": time,
+            "integral_band": band,
+            "error_limit": limit,
+            "sample_period": STEP,
+        },
+    )
+
+
+TRUTHS = {"quaternion_feedback": quaternion_feedback}
