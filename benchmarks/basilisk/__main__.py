@@ -68,7 +68,7 @@ def fly_there(folder: Path, python: str, trials: int, workers: int, *options: st
 
 @dataclass(frozen=True)
 class Contestant:
-    """Whoever flies, here by ``plant`` or in Basilisk with ``options``; the few and many ``trials`` of a measurement."""
+    """Trials here with a ``plant``, or in Basilisk with ``options``; how many a measurement has, few and many."""
 
     name: str
     trials: tuple[int, int]
@@ -118,10 +118,8 @@ def main(python: str) -> None:
                 apart = np.abs(np.array(states)[: len(reference)] - np.array(reference)).max()
                 if contestant.lands and apart > AGREEMENT:
                     sys.exit(f"{contestant.name}: not the same landings: {apart:.3g} m or m/s apart at the end")
-                print(
-                    f"| {contestant.name} | {workers} | {rate:.2f} | {apart:.1e} |".replace(" 0.0e+00", " 0"),
-                    flush=True,
-                )
+                difference = f"{apart:.1e}" if contestant.lands else "does not land"
+                print(f"| {contestant.name} | {workers} | {rate:.2f} | {difference} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -44,7 +44,8 @@ class TrialWatch:
 def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, ResetVerdict]:
     """The verdicts on FMUs that are not self-contained, by their SHA-256.
 
-    No reset is trusted of an FMU that cannot be tried. Nor is it where the ``watch`` is given up, which is no verdict for other simulations.
+    No reset is trusted of an FMU that cannot be tried, or where the ``watch`` is given up; the latter is no verdict for
+    other simulations.
     """
     verdicts = {}
     for fmu in prepared.network.fmus.values():
