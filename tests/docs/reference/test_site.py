@@ -55,6 +55,22 @@ def test_links_between_pages(page):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_links_do_not_leave_the_site(page):
+    """It has the folder docs and the pages of the root, and no other file of the repository."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    for target in re.findall(r"\]\((?!\w+:|#)([^)#\s]+)", text):
+        path = (page.parent / target).resolve()
+        assert path.is_relative_to(ROOT / "docs") or path in PAGES, target
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_lists_are_nested_alike_everywhere(page):
+    """The site nests items that are indented by four spaces, GitHub by two or more."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    assert not re.findall(r"^ {1,3}- .*", text, re.MULTILINE)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
 def test_tables_are_read_alike_everywhere(page):
     """The site ends a table at a blank line only, and shows the backslash before a bar in code that GitHub needs."""
     text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
