@@ -99,8 +99,10 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     identifier = description.coSimulation.modelIdentifier
     binary = f"binaries/{fmpy.platform}/{identifier}{fmpy.sharedLibraryExtension}"
     if binary not in archive.namelist():
-        runs_python = description.coSimulation.needsExecutionTool
-        remedy = "take its native flavour" if runs_python else "compile the FMU's sources for it"
+        has_sources = any(name.startswith("sources/") and name.endswith(".c") for name in archive.namelist())
+        remedy = "compile the FMU's sources for it" if has_sources else "export it for this platform"
+        if description.coSimulation.needsExecutionTool:
+            remedy = "take its native flavour"
         raise InputError(label, binary, "no binary for this platform", remedy)
     folder = make_folder()
     digest = hashlib.sha256(data).hexdigest()

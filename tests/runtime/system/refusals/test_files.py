@@ -80,6 +80,13 @@ def described(tiny, change):
     return zipped(files)
 
 
+def of_another_platform(tiny, source):
+    """The FMU as one that runs without Python, with a file in sources and no binary for Linux."""
+    files = {path: content for path, content in fmu_files(tiny).items() if "linux" not in path}
+    text = files["modelDescription.xml"].decode().replace('needsExecutionTool="true"', 'needsExecutionTool="false"')
+    return zipped(files | {"modelDescription.xml": text.encode(), f"sources/{source}": b""})
+
+
 def model_exchange(text):
     text = re.sub(r"<CoSimulation[^>]*?(/>|>)", r'<ModelExchange modelIdentifier="ramp"\1', text)
     return text.replace("</CoSimulation>", "</ModelExchange>")
@@ -113,7 +120,15 @@ BROKEN_FMUS = {
     "model exchange": (lambda tiny: described(tiny, model_exchange), ["CoSimulation", "not a co-simulation FMU"]),
     "other platform": (
         lambda tiny: zipped({key: value for key, value in fmu_files(tiny).items() if "linux" not in key}),
-        ["binaries/", "no binary for this platform"],
+        ["binaries/", "no binary for this platform; take its native flavour"],
+    ),
+    "other platform, with sources": (
+        lambda tiny: of_another_platform(tiny, "compile.c"),
+        ["no binary for this platform; compile the FMU's sources for it"],
+    ),
+    "other platform, without sources": (
+        lambda tiny: of_another_platform(tiny, "readme.txt"),
+        ["no binary for this platform; export it for this platform"],
     ),
     "binary that is none": (
         lambda tiny: zipped({key: b"x" if "linux" in key else value for key, value in fmu_files(tiny).items()}),
