@@ -1,7 +1,7 @@
 # make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | screenshots | bench | bench-basilisk | crosscheck | basilisk | sanitize | fuzz | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
-# Basilisk: an environment of its own for cross-checks, and what stands beside ours for a plant.
+# Basilisk: an environment of its own for cross-checks, and a folder next to ours for a plant.
 CROSSCHECK := build/crosscheck
 BASILISK := $(CURDIR)/build/basilisk
 # On a terminal pip shows what it does, in a log nothing.
@@ -85,7 +85,7 @@ screenshots: build browser
 bench: build
 	$(BIN)/python -m benchmarks.importers
 
-# Trials a second of a landing here and in Basilisk's Monte Carlo controller, on the same draws: ten minutes.
+# Trials a second of a landing here and in Basilisk's Monte Carlo controller, on the same draws: five minutes.
 bench-basilisk: build $(CROSSCHECK)/ready $(BASILISK)/ready
 	PYTHONPATH=$(CURDIR):$(BASILISK) $(BIN)/python -m benchmarks.basilisk $(CURDIR)/$(CROSSCHECK)/bin/python
 
@@ -102,7 +102,7 @@ $(CROSSCHECK)/ready: crosscheck/requirements.txt
 	$(CROSSCHECK)/bin/pip install $(QUIET) --disable-pip-version-check -r crosscheck/requirements.txt
 	touch $@
 
-# A plant that Basilisk simulates (docs/guides/basilisk.md), with Basilisk beside the packages of .venv.
+# A plant that Basilisk simulates (docs/guides/basilisk.md), with Basilisk next to the packages of .venv.
 basilisk: build $(BASILISK)/ready
 	PYTHONPATH=$(BASILISK) $(BIN)/python -m pytest tests/examples
 

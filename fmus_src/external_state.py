@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from .variables import DeclarationError
+from .variables import DeclarationError, Variable
 
 
 class ExternalState:
@@ -29,12 +29,16 @@ class HasExternalState:
 
     external: ClassVar[tuple[str, ...]] = ()
     python_only: ClassVar[bool]
+    variables: ClassVar[dict[str, Variable]]
 
     @classmethod
     def collect_external(cls) -> None:
         """Note the names of all that is declared, in order. Raises DeclarationError."""
         names = [name for owner in reversed(cls.__mro__) for name, each in vars(owner).items() if _is_external(each)]
         cls.external = tuple(dict.fromkeys(names))
+        twice = next((name for name in names if name in cls.variables), None)
+        if twice is not None:
+            raise DeclarationError(f"{cls.__name__}.{twice}: an ExternalState and a variable; give one another name")
         if names and not cls.python_only:
             problem = "an ExternalState, which a native FMU cannot have"
             raise DeclarationError(f"{cls.__name__}.{names[0]}: {problem}; add python_only = True, or declare a State")

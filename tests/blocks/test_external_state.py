@@ -200,6 +200,12 @@ def test_a_native_block_cannot_have_one(folder, tmp_path, capsys):
     assert "MyOscillator.simulation: an ExternalState, which a native FMU cannot have; add python_only = True" in line
 
 
+def test_one_name_for_two_is_refused(folder):
+    base = block_in(folder / "my_oscillator.py")
+    with pytest.raises(perilune.DeclarationError, match="simulation: an ExternalState and a variable"):
+        type("Other", (base,), {"__doc__": "Other.", "simulation": perilune.State(0.0, description="a number")})
+
+
 def test_an_undeclared_object_is_refused_with_the_remedy(folder, tmp_path, capsys):
     (tmp_path / "library.py").write_text(LIBRARY)
     (tmp_path / "mine.py").write_text(BLOCK.replace('    simulation = ExternalState("the oscillator")\n', ""))
