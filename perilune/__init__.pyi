@@ -53,6 +53,8 @@ from .analysis.verbs.show import show as show
 from .analysis.verbs.stability import StabilityReport as StabilityReport
 from .analysis.verbs.stability import stability as stability
 from .analysis.verbs.validate import validate as validate
+from .analysis.verbs.verify import Verifications as Verifications
+from .analysis.verbs.verify import verify as verify
 from .analysis.verbs.worst import WorstResult as WorstResult
 from .analysis.verbs.worst import worst as worst
 from .fmus_src.actuators.gyro_steering import GyroSteering as GyroSteering

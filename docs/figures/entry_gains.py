@@ -19,7 +19,7 @@ from scipy.optimize import fsolve
 
 from perilune.analysis.common.atomic import write_atomically
 from perilune.analysis.design.poles.zeroth_level import output_feedback_levels
-from perilune.analysis.runtime.ssp.parameter_sets import write_parameter_set
+from perilune.fmus_src.evidence.parameter_set import write_parameter_set
 from perilune.fmus_src.kernel.records import replace
 from perilune.fmus_src.mathlib.entry.motion import body_axes, in_body
 from perilune.fmus_src.mathlib.entry.standard_atmosphere import Air, air

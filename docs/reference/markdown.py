@@ -50,10 +50,3 @@ def linked(text: str, root: str) -> str:
         return f"[{match.group(1).rpartition('/')[2]}]({root}{name}.md)"
 
     return PAGE.sub(link, text)
-
-
-def number(value: float | int | bool) -> str:
-    """A start or bound, as it is written in a parameter set."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return f"{value:.10g}" if isinstance(value, float) else str(value)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from perilune.fmus_src.block import Block
+from perilune.fmus_src.evidence.variable_text import bounds_text, sized_name, start_text, unit_text
 from perilune.fmus_src.kernel.records import count_numbers
 from perilune.fmus_src.variables import Input, Output, Parameter, State, Variable
 
-from .markdown import escaped, number, table
-
-SHOWN = 12  # start values of a list, beyond which the first ones are enough
+from .markdown import escaped, table
 
 
 def declared(block: type[Block], kind: type[Variable]) -> list[Variable]:
@@ -19,8 +18,7 @@ def declared(block: type[Block], kind: type[Variable]) -> list[Variable]:
 def inputs(block: type[Block]) -> str:
     """The table of its inputs; like the others here empty where there are none, and without columns that are empty."""
     rows = [
-        [*_name(variable), _unit(variable), _bounds(variable), _frame(variable), _words(variable)]
-        for variable in declared(block, Input)
+        [*_name(variable), *_range(variable), _frame(variable), _words(variable)] for variable in declared(block, Input)
     ]
     return _filled(["input", "type", "unit", "bounds", "frame", "what it is"], rows)
 
@@ -28,7 +26,7 @@ def inputs(block: type[Block]) -> str:
 def outputs(block: type[Block]) -> str:
     """The table of its outputs, with the inputs of the same communication point that each depends on."""
     rows = [
-        [*_name(variable), _unit(variable), _bounds(variable), _frame(variable), _at_once(block, variable),
+        [*_name(variable), *_range(variable), _frame(variable), _at_once(block, variable),
          _words(variable)]
         for variable in declared(block, Output)
     ]  # fmt: skip
@@ -38,7 +36,14 @@ def outputs(block: type[Block]) -> str:
 def parameters(block: type[Block]) -> str:
     """The table of its parameters with what they are unless set, and between what they may be set."""
     rows = [
-        [*_name(variable), start(variable), _unit(variable), _bounds(variable), _frame(variable), _words(variable)]
+        [
+            *_name(variable),
+            start_text(variable),
+            escaped(unit_text(variable)),
+            bounds_text(variable),
+            _frame(variable),
+            _words(variable),
+        ]
         for variable in declared(block, Parameter)
     ]
     return _filled(["parameter", "type", "default", "unit", "bounds", "frame", "what it is"], rows)
@@ -49,7 +54,15 @@ def states(block: type[Block]) -> str:
     rows = []
     for variable in declared(block, State):
         if variable.record is None:
-            rows.append([*_name(variable), _unit(variable), _bounds(variable), _frame(variable), _words(variable)])
+            rows.append(
+                [
+                    *_name(variable),
+                    escaped(unit_text(variable)),
+                    bounds_text(variable),
+                    _frame(variable),
+                    _words(variable),
+                ]
+            )
             continue
         for name, field in variable.record.fields.items():
             size = count_numbers(field.kind)
@@ -57,16 +70,6 @@ def states(block: type[Block]) -> str:
             words = escaped(field.description)
             rows.append([label, "Real", escaped(field.unit or "1"), "", escaped(field.frame or ""), words])
     return _filled(["state", "type", "unit", "bounds", "frame", "what it is"], rows)
-
-
-def start(variable: Variable) -> str:
-    """Its start value in few characters: one for all where all are alike, the first ones of many."""
-    values = [number(value) for value in variable.elements]
-    if not variable.is_array:
-        return values[0]
-    if len(set(values)) == 1:
-        return f"all {values[0]}"
-    return ", ".join(values) if len(values) <= SHOWN else ", ".join(values[:SHOWN]) + ", ..."
 
 
 def _filled(head: list[str], rows: list[list[str]]) -> str:
@@ -78,16 +81,11 @@ def _filled(head: list[str], rows: list[list[str]]) -> str:
 
 
 def _name(variable: Variable) -> list[str]:
-    size = ""
-    if variable.columns is not None:
-        size = f"[{variable.size // variable.columns}, {variable.columns}]"
-    elif variable.is_array:
-        size = f"[{variable.size}]"
-    return [f"`{variable.name}{size}`", variable.type_name]
+    return [f"`{sized_name(variable)}`", variable.type_name]
 
 
-def _unit(variable: Variable) -> str:
-    return escaped(variable.unit or ("1" if variable.type_name == "Real" else ""))
+def _range(variable: Variable) -> list[str]:
+    return [escaped(unit_text(variable)), bounds_text(variable)]
 
 
 def _frame(variable: Variable) -> str:
@@ -96,13 +94,6 @@ def _frame(variable: Variable) -> str:
 
 def _words(variable: Variable) -> str:
     return escaped(variable.description)
-
-
-def _bounds(variable: Variable) -> str:
-    low, high = variable.minimum, variable.maximum
-    if low is not None and high is not None:
-        return f"{low:g} to {high:g}"
-    return f"at least {low:g}" if low is not None else f"at most {high:g}" if high is not None else ""
 
 
 def _at_once(block: type[Block], variable: Variable) -> str:

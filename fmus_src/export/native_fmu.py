@@ -9,7 +9,7 @@ from pathlib import Path
 import fmpy
 
 from ..block import Block
-from ..checks import check_files
+from ..evidence.block import add_evidence
 from ..own_digests import note_own
 from ..paths import CACHE
 from .archive import content_guid, write_zip
@@ -70,7 +70,7 @@ def build_native_fmu(
     for platform in platforms:
         library = build_library(sources, f"{name}.c", platform, cache, portable=portable)
         files[f"binaries/{platform}/{name}{PLATFORMS[platform].extension}"] = library
-    write_zip(path, files | check_files(block_class))
+    write_zip(path, add_evidence(block_class, files))
     note_own(path)
     return path
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from pythonfmu import FmuBuilder
 
 from ..block import Block
-from ..checks import check_files
+from ..evidence.block import add_evidence
 from ..own_digests import note_own
 from .archive import content_guid, read_zip, write_zip
 from .attributes import check_attributes
@@ -59,7 +59,7 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
     files["modelDescription.xml"] = model_description(
         block_class, guid=guid, generation_tool=tool, needs_execution_tool=True
     )
-    write_zip(path, files | check_files(block_class))
+    write_zip(path, add_evidence(block_class, files))
     note_own(path)
     return path
 

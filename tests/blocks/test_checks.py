@@ -12,12 +12,12 @@ import zipfile
 import fmpy
 import numpy as np
 import pytest
-from fmpy import read_model_description
 from fmpy.util import read_csv
+from lxml import etree
 
-from perilune.fmus_src.catalogue import blocks_in_file, catalogue
-from perilune.fmus_src.checks import ARCHIVE_FOLDER, check_files
-from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.evidence.check import read_check
+from perilune.fmus_src.evidence.manifest import FOLDER
 from perilune.fmus_src.paths import ROOT, shipped_fmu
 from tests.support.checks.check import read_declarations
 from tests.support.checks.truths import TRUTHS
@@ -30,32 +30,43 @@ FLOWN = [
 
 
 @pytest.mark.parametrize(("name", "flavour"), FLOWN)
-def test_an_fmu_passes_the_check_that_it_carries(name, flavour, tmp_path):
+def test_fmpy_reproduces_the_evidence_of_an_fmu(name, flavour, tmp_path):
+    """The independent trajectory within its tolerances, the FMU's own outputs bit by bit."""
     fmu = shipped_fmu(name, flavour)
     with zipfile.ZipFile(fmu) as archive:
-        carried = {name: archive.read(name) for name in archive.namelist() if name.startswith("extra/")}
-    assert carried == check_files(catalogue()[name])
-    (tmp_path / "check.csv").write_bytes(carried[f"{ARCHIVE_FOLDER}/check.csv"])
-    declared = read_declarations(carried[f"{ARCHIVE_FOLDER}/check.toml"])
+        carried = {name: archive.read(name) for name in archive.namelist() if name.startswith(FOLDER)}
+    declared = read_declarations(check_file(name, ".toml").read_bytes())
+    assert carried[f"{FOLDER}/check.csv"] == check_file(name, ".csv").read_bytes()
+    (tmp_path / "check.csv").write_bytes(carried[f"{FOLDER}/check.csv"])
     reference = read_csv(tmp_path / "check.csv")
     inputs = [name for name in reference.dtype.names if name not in declared["tolerances"]]
+    parameters = etree.fromstring(carried[f"{FOLDER}/check.ssv"]).findall(".//{*}Parameter")
+    (check, *others) = etree.fromstring(carried[f"{FOLDER}/check.exp"]).findall("Experiment")
+    step, stop = (float(check.find("TransientSimulation").get(key)) for key in ("stepSize", "stopTime"))
     actual = fmpy.simulate_fmu(
         str(fmu),
-        start_values=declared["parameters"],
+        start_values={parameter.get("name"): parameter[0].get("value") for parameter in parameters},
         input=reference[inputs],
         output=list(declared["tolerances"]),
-        step_size=declared["step_size"],
-        output_interval=declared["step_size"],
-        stop_time=declared["stop_time"],
+        step_size=step,
+        output_interval=step,
+        stop_time=stop,
     )
     assert actual["time"].tolist() == reference["time"].tolist()
-    for column, tolerance in declared["tolerances"].items():
-        permitted = tolerance["absolute"] + tolerance["relative"] * np.abs(reference[column])
+    assert {signal.get("name") for signal in check.iter("Signal")} == set(declared["tolerances"])
+    for signal in check.iter("Signal"):
+        column = signal.get("name")
+        permitted = float(signal.get("absolute")) + float(signal.get("relative")) * np.abs(reference[column])
         error = np.abs(actual[column].astype(float) - reference[column])
         row = int(np.argmax(error - permitted))
         assert bool((error <= permitted).all()), (
             f"{column} at {reference['time'][row]} s: {error[row]} > {permitted[row]}"
         )
+    assert len(others) == (0 if catalogue()[name].python_only else 1)
+    if others:
+        recorded = read_table(carried[f"{FOLDER}/outputs.csv"].decode())
+        for column in declared["tolerances"]:
+            assert np.array_equal(actual[column].astype(float), recorded[column], equal_nan=True), column
 
 
 @pytest.mark.parametrize("name", TRUTHS)
@@ -75,6 +86,10 @@ def test_a_check_is_what_its_truth_computes(name):
         assert np.all(same | (np.abs(actual[column] - expected[column]) <= permitted)), column
 
 
+def check_file(name, suffix):
+    return ROOT / "fmus_src" / TRUTHS[name][0] / "checks" / f"{name}{suffix}"
+
+
 def read_table(text):
     return np.genfromtxt(io.StringIO(text), delimiter=",", names=True, deletechars="", replace_space=" ")
 
@@ -85,38 +100,4 @@ def test_truths_import_nothing_of_the_blocks():
 
 
 def test_each_block_has_a_check():
-    assert {name for name, block in catalogue().items() if check_files(block)} == set(TRUTHS) == set(catalogue())
-
-
-LONE = '''
-from perilune import Block, Output
-
-
-class Lone(Block):
-    """Lone."""
-
-    y = Output(0.0, description="y")
-
-    def step(self, t: float, h: float) -> None:
-        self.y = t + h
-'''
-
-
-def test_a_block_of_ones_own_takes_the_check_next_to_its_file(tmp_path):
-    """Both files, in both flavours' builds to the byte; one of them alone is refused."""
-    (tmp_path / "lone.py").write_text(LONE)
-    (block,) = blocks_in_file(tmp_path / "lone.py")
-    assert check_files(block) == {}
-    guid = read_model_description(build_python_fmu(block, tmp_path / "lone.fmu"), validate=False).guid
-    (tmp_path / "checks").mkdir()
-    (tmp_path / "checks" / "lone.csv").write_bytes(b"time,y\n0.0,0.0\n")
-    with pytest.raises(ValueError, match=r"checks/lone\.toml: no such file; a check is a trajectory, .csv, and"):
-        check_files(block)
-    (tmp_path / "checks" / "lone.toml").write_bytes(b"step_size = 0.125\n")
-    build_python_fmu(block, tmp_path / "again.fmu")
-    build_python_fmu(block, tmp_path / "lone.fmu")
-    assert (tmp_path / "again.fmu").read_bytes() == (tmp_path / "lone.fmu").read_bytes()
-    assert read_model_description(tmp_path / "lone.fmu", validate=False).guid == guid
-    with zipfile.ZipFile(tmp_path / "lone.fmu") as archive:
-        assert archive.read("extra/org.perilune/check.csv") == b"time,y\n0.0,0.0\n"
-        assert archive.read("extra/org.perilune/check.toml") == b"step_size = 0.125\n"
+    assert {name for name, block in catalogue().items() if read_check(block)} == set(TRUTHS) == set(catalogue())

@@ -9,13 +9,15 @@ from __future__ import annotations
 import re
 import shlex
 import shutil
+import zipfile
 from dataclasses import replace
 
 import pytest
 
 from perilune.analysis.cli import main
 from perilune.analysis.verbs.options.verbs import VERBS
-from perilune.fmus_src.paths import ROOT, SYSTEMS
+from perilune.fmus_src.paths import ROOT, SYSTEMS, shipped_fmu
+from tests.support.builders import write_zip
 from tests.support.loops.exact_systems import late_double_integrator
 
 SYSTEM = "lunar_terminal_guidance"
@@ -70,6 +72,9 @@ ROWS = [
     ("diff {folder}/one.csv {folder}/one.csv --tolerance 0", 0),
     ("diff {folder}/one.csv {folder}/other.csv --tolerance 0.1", 1),
     ("diff {folder}/one.csv nothing.csv", 2),
+    ("verify flat_moon_lander", 0),
+    ("verify {folder}/changed.fmu", 1),
+    ("verify nothing", 2),
     (f"rare {STUDY} --failure 'flight_time > 100'", 0),
     (f"rare {STUDY} --failure 'flight_time > 100' --require 'probability < 0.5'", 1),
     (f"rare {ONE} --samples 1", 2),
@@ -136,6 +141,9 @@ def folder(fmus, exact_fmus, tmp_path_factory):
         command = ONE.removesuffix(" --workers 1").split()
         verb = "prepare" if name in ("prepared", "failing") else "batch"
         assert main([verb, *command, "--trials", "2", *words.split(), "--output", str(made / name)]) in (0, 1)
+    with zipfile.ZipFile(shipped_fmu("flat_moon_lander", "native")) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    write_zip(made / "changed.fmu", files | {"documentation/index.html": b""})
     short = made / "short"
     shutil.copytree(SYSTEMS / SYSTEM, short)
     text = (short / "SystemStructure.ssd").read_text()

@@ -67,6 +67,7 @@ ARGUMENTS = {
     "compare": ["there"],
     "show": ["there"],
     "diff": ["one.csv", "other.csv"],
+    "verify": ["flat_moon_lander"],
     "design law": ["paper"],
     "design search": ["none.toml"],
     "design transfer": [],

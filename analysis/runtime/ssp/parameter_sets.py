@@ -11,7 +11,7 @@ from ...common.errors import InputError
 from .archive import SystemArchive
 from .conversions import Transformation, Unit, check_type, read_transformation, units_of_document
 from .description import Binding
-from .documents import NAMESPACES, check_schema, child, children, read_document, tag
+from .documents import check_schema, child, children, read_document, tag
 
 ParameterValue = float | int | bool | str
 SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
@@ -133,22 +133,6 @@ def apply_mapping(
 def read_parameter_file(data: bytes, file: str, notes: Notes = None) -> list[Assignment]:
     """The values of an .ssv document. Raises InputError."""
     return read_parameter_set(read_document(data, "ssv", file), file, notes)
-
-
-def write_parameter_set(name: str, values: Mapping[str, float], description: str = "") -> bytes:
-    """The content of an .ssv file: Real and Integer parameters (SI) by name."""
-    space = f"{{{NAMESPACES['ssv']}}}"
-    root = etree.Element(f"{space}ParameterSet", nsmap={"ssv": NAMESPACES["ssv"], "ssc": NAMESPACES["ssc"]})
-    root.set("version", "1.0")
-    root.set("name", name)
-    if description:
-        root.set("description", description)
-    parameters = etree.SubElement(root, f"{space}Parameters")
-    for parameter_name, value in values.items():
-        parameter = etree.SubElement(parameters, f"{space}Parameter", name=parameter_name)
-        kind = "Integer" if isinstance(value, int) else "Real"
-        etree.SubElement(parameter, f"{space}{kind}", value=repr(value))
-    return etree.tostring(root, encoding="UTF-8", xml_declaration=True, pretty_print=True)
 
 
 def read_binding(

@@ -45,17 +45,23 @@ def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[
     return Description(fmu.label, fmu.name, root, {}, {}, start, stop, step), remarks
 
 
+def proposed_step(fmu: Fmu) -> float | None:
+    """The step (s) of an FMU's default experiment, else its fixed internal one; None where it states neither."""
+    step = (
+        getattr(fmu.description.defaultExperiment, "stepSize", None)
+        or fmu.description.coSimulation.fixedInternalStepSize
+    )
+    return None if step is None else float(step)
+
+
 def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[str]]:
     """Start, end and step (s), and what is to be said of them."""
     experiment = fmu.description.defaultExperiment
-    start, stop, step = (
+    start, stop = (
         None if value is None else float(value)
-        for value in (
-            getattr(experiment, "startTime", None),
-            getattr(experiment, "stopTime", None),
-            getattr(experiment, "stepSize", None) or fmu.description.coSimulation.fixedInternalStepSize,
-        )
+        for value in (getattr(experiment, "startTime", None), getattr(experiment, "stopTime", None))
     )
+    step = proposed_step(fmu)
     remarks: list[str] = []
     start = 0.0 if start is None else start
     if stop is None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Annotated, Literal, TypedDict
 
 from .option import FilePath, Option
-from .system import ReportFiles, SystemOptions
+from .system import ReportFiles, SystemOptions, TrustOptions
 from .verb import Argument, Verb
 
 PATHS = Argument(
@@ -80,6 +80,35 @@ VALIDATE = Verb(
     (PATHS,),
     options=ValidateOptions,
     examples={"perilune validate lunar_landing": "a system; a folder, .ssp, .fmu, .ssv or campaign .toml likewise"},
+)
+
+
+class VerifyOptions(TrustOptions, total=False):
+    """Options of verify"""
+
+    tolerance: Annotated[
+        float | None,
+        Option(
+            "signals without a declared tolerance may differ by this fraction of their largest magnitude; default: 0, "
+            "the same bits, of Perilune's files, 1e-6 of others'",
+            metavar="R",
+            minimum=0.0,
+        ),
+    ]
+    flavour: Annotated[Literal["native", "python"] | None, Option("which build of an FMU that is given by name")]
+    timeout: Annotated[float | None, Option("limit of a simulation on the wall clock", metavar="T", unit="s")]
+
+
+VERIFY = Verb(
+    "verify",
+    "simulate the reference trajectories inside FMUs and systems again, and check their files",
+    (Argument("paths", "PATH", "an .fmu or .ssp, or the name of an FMU", "systems_and_fmus", many=True),),
+    options=VerifyOptions,
+    examples={
+        "perilune export flat_moon_lander": "an FMU with its evidence inside",
+        "perilune verify flat_moon_lander.fmu": "its trajectories simulated here and compared, its files checked",
+    },
+    not_met="a signal differs by more than its tolerance, a file was changed or is missing, or a simulation failed",
 )
 
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from .campaigns import BATCH, COMPARE, MERGE, PREPARE, REPLAY, RUN, SHARD, SHOW
 from .design import BOUND, LAW, SEARCH, TRANSFER
-from .library import BENCHMARK, DESCRIBE, DIFF, DOCS, EXPORT, LIST, NEW_BLOCK, NEW_SYSTEM, VALIDATE
+from .library import BENCHMARK, DESCRIBE, DIFF, DOCS, EXPORT, LIST, NEW_BLOCK, NEW_SYSTEM, VALIDATE, VERIFY
 from .studies import RARE, SENSITIVITY, STABILITY, WORST
 from .verb import Verb
 
 PURPOSES = {  # headings of `perilune --help`
     "Simulate": (RUN, BATCH, REPLAY),
     "Study": (COMPARE, SHOW, DIFF, STABILITY, RARE, WORST, SENSITIVITY),
-    "Inspect": (LIST, DESCRIBE, VALIDATE, BENCHMARK, DOCS),
+    "Inspect": (LIST, DESCRIBE, VALIDATE, VERIFY, BENCHMARK, DOCS),
     "Create": (NEW_BLOCK, NEW_SYSTEM, LAW, SEARCH, TRANSFER, BOUND),
     "Distribute": (EXPORT, PREPARE, SHARD, MERGE),
 }

@@ -1,0 +1,1 @@
+"""Evidence that travels with an FMU or a system, read and reproduced."""

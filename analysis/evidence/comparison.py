@@ -1,0 +1,95 @@
+"""A flight beside its reference trajectory: which signal differs most, where, and whether it may."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...fmus_src.evidence.check import Tolerances
+
+SMALLEST = 1e-6  # magnitude of a signal that differences are taken of; what is smaller may be rounding alone
+CLOSE = 1e-9  # of a time: communication points carry rounding
+
+
+@dataclass(frozen=True)
+class SignalCheck:
+    """A signal where it is worst: at ``time`` (s) its ``reference``, what was simulated (``actual``), the difference
+    and what is ``permitted`` of it. ``excess`` is the greatest difference over what is permitted, infinite where
+    nothing is.
+    """
+
+    name: str
+    time: float
+    reference: float
+    actual: float
+    difference: float
+    permitted: float
+    excess: float
+
+    @property
+    def met(self) -> bool:
+        """Whether no sample differs by more than it may."""
+        return self.excess <= 1.0
+
+
+def match_rows(flown: np.ndarray, reference: np.ndarray) -> np.ndarray | None:
+    """The rows of a flight at a reference's times (s), the last of equal ones; None where one lies between rows."""
+    margin = CLOSE * np.maximum(np.abs(reference), 1.0)
+    rows = np.clip(np.searchsorted(flown, reference + margin, side="right") - 1, 0, None)
+    return rows if np.all(np.abs(flown[rows] - reference) <= margin) else None
+
+
+def compare_signal(
+    name: str, time: np.ndarray, reference: np.ndarray, actual: np.ndarray, permitted: np.ndarray | None
+) -> SignalCheck:
+    """A signal's worst sample, [n] each. ``permitted`` None asks for the same bits; NaN is as good as NaN."""
+    same = (reference.view(np.int64) == actual.view(np.int64)) | (np.isnan(reference) & np.isnan(actual))
+    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
+        difference = np.where(same, 0.0, np.abs(actual - reference))
+        difference = np.where(np.isnan(difference), np.inf, difference)
+        limits = np.zeros_like(difference) if permitted is None else permitted
+        excess = np.where(difference > 0.0, difference / limits, 0.0)
+    if permitted is None:
+        excess = np.where(same, 0.0, np.inf)  # 0.0 and -0.0 are not the same bits
+    row = int(np.argmax(excess if excess.any() else difference))
+    samples = (float(array[row]) for array in (time, reference, actual, difference, limits, excess))
+    return SignalCheck(name, *samples)
+
+
+def permitted_differences(
+    name: str, reference: np.ndarray, tolerances: Tolerances | None, relative: float
+) -> np.ndarray | None:
+    """What each sample of a signal may differ by, [n]; None where it has to be the same bits.
+
+    By its own tolerance where one is declared; else by ``relative`` of the signal's greatest magnitude, or of SMALLEST.
+    """
+    declared = None if tolerances is None else tolerances.get(name)
+    if declared is not None:
+        return declared[0] + declared[1] * np.abs(reference)
+    if relative == 0.0:
+        return None
+    finite = np.abs(reference[np.isfinite(reference)])
+    return np.full(reference.size, relative * float(np.max(finite, initial=SMALLEST)))
+
+
+def compare(
+    reference_time: np.ndarray,
+    references: Mapping[str, np.ndarray],
+    flown_time: np.ndarray,
+    flown: Mapping[str, np.ndarray],
+    tolerances: Tolerances | None,
+    relative: float,
+) -> tuple[list[SignalCheck], bool]:
+    """All signals, the worst first, and whether the flight was interpolated at times between its samples."""
+    is_last = np.append(np.diff(reference_time) > 0.0, True)  # of samples at one time, the last one counts
+    reference_time = reference_time[is_last]
+    rows = match_rows(flown_time, reference_time)
+    checks = []
+    for name, samples in references.items():
+        reference = samples[is_last]
+        actual = np.interp(reference_time, flown_time, flown[name]) if rows is None else flown[name][rows]
+        permitted = permitted_differences(name, reference, tolerances, relative)
+        checks.append(compare_signal(name, reference_time, reference, np.ascontiguousarray(actual), permitted))
+    return sorted(checks, key=lambda each: -each.excess), rows is None

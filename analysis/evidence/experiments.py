@@ -1,0 +1,153 @@
+"""Experiments of a manifest: what to simulate, and the trajectory that should come out.
+
+Read are the Experiments format (ma-hs-experiments, 2026), its form of 2025, where times are attributes of the
+experiment, experiments in the manifest itself (FMI-LS-REF 1.0.0-rc.1), and results without an experiment, which are of
+the default experiment, as the Reference-FMUs have them.
+"""
+
+from __future__ import annotations
+
+import math
+import posixpath
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from lxml import etree
+
+from ...fmus_src.evidence.check import Tolerances
+from ...fmus_src.evidence.experiments import TOLERANCES
+from ...fmus_src.evidence.manifest import EXPERIMENTS, MANIFEST, PARAMETERS
+from ..common.errors import InputError
+from ..runtime.ssp.documents import parse_xml
+from .manifest import Manifest, file_of
+
+CSV = "text/csv"
+TYPES = {"Parameters": PARAMETERS, "Stimuli": CSV, "References": CSV}
+TRANSIENT = "TransientSimulation"
+KINDS = (
+    "SteadyState",
+    "ParameterOptimization",
+    "SetPointOptimization",
+    "SensitivityAnalysis",
+    "TrajectoryOptimization",
+    "Linearization",
+)
+TIMES = ("startTime", "stopTime", "stepSize")
+
+
+@dataclass(frozen=True)
+class PlannedExperiment:
+    """An experiment (times in s, None where it leaves them to the FMU) with the names of its files in the archive.
+
+    ``tolerances`` is None where none are declared; else signal -> (absolute, relative), of others 0.
+    """
+
+    name: str
+    start: float | None
+    stop: float | None
+    step: float | None
+    references: str
+    parameters: str | None = None
+    stimuli: str | None = None
+    tolerances: Tolerances | None = None
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The experiments of a manifest; ``notes`` say which are not simulated, and why."""
+
+    experiments: tuple[PlannedExperiment, ...]
+    notes: tuple[str, ...]
+
+
+def plan_experiments(manifest: Manifest, files: Mapping[str, bytes], label: str) -> Plan:
+    """The experiments of an archive. Raises InputError for files of experiments that cannot be read."""
+    experiments: list[PlannedExperiment] = []
+    notes: list[str] = []
+    for file, element in _elements(manifest, files, label):
+        made = _read(element, file, label)
+        if isinstance(made, str):
+            notes.append(made)
+        else:
+            experiments.append(made)
+    used = {each.references for each in experiments} | {each.stimuli for each in experiments}
+    for related in manifest.files:
+        if related.role == "result" and related.name is not None and related.name not in used:
+            if related.type != CSV:
+                notes.append(f"{related.source}: {related.type} is not read, text/csv is: not compared")
+            else:
+                experiments.append(PlannedExperiment("default experiment", None, None, None, related.name))
+    return Plan(tuple(experiments), tuple(notes))
+
+
+def _elements(manifest: Manifest, files: Mapping[str, bytes], label: str) -> Iterator[tuple[str, etree._Element]]:
+    for element in manifest.root.iterfind("Experiment"):
+        yield MANIFEST, element
+    for related in manifest.files:
+        is_experiment = related.role.partition("/")[0] == "experiment" and related.type == EXPERIMENTS
+        if is_experiment and related.name is not None and related.name in files:
+            root = parse_xml(files[related.name], f"{label}!{related.name}")
+            if root.tag != "Experiments":
+                raise InputError(f"{label}!{related.name}", str(root.tag), "not Experiments", "write ma-hs-experiments")
+            for element in root.iterfind("Experiment"):
+                yield related.name, element
+
+
+def _read(element: etree._Element, file: str, label: str) -> PlannedExperiment | str:
+    """An experiment, or why it is not simulated."""
+    name = element.get("name", "")
+    kind = next((kind for kind in KINDS if element.find(kind) is not None), None)
+    if kind is not None:
+        return f"{name}: an experiment of kind {kind}, not simulated"
+    sources: dict[str, str | None] = {}
+    for tag, expected in TYPES.items():
+        child = element.find(tag)
+        source = None if child is None else child.get("source")
+        if child is not None and child.get("type", expected) != expected:
+            return f"{name}: {tag} of type {child.get('type')} are not read, {expected} is: not simulated"
+        sources[tag] = None if source is None else file_of(source, posixpath.dirname(file))
+        if source is not None and sources[tag] is None:
+            return f"{name}: {source} lies outside the archive: not simulated"
+    if sources["References"] is None:
+        return f"{name}: without References: nothing to compare"
+    transient = element.find(TRANSIENT)
+    start, stop, step = (_number(element if transient is None else transient, key, file, label) for key in TIMES)
+    return PlannedExperiment(
+        name,
+        start,
+        stop,
+        step,
+        sources["References"],
+        sources["Parameters"],
+        sources["Stimuli"],
+        _tolerances(element, file, label),
+    )
+
+
+def _tolerances(element: etree._Element, file: str, label: str) -> Tolerances | None:
+    declared = element.find(f"Annotations/Annotation[@type='{TOLERANCES}']/Tolerances")
+    if declared is None:
+        return None
+    return {
+        signal.get("name", ""): (_bound(signal, "absolute", file, label), _bound(signal, "relative", file, label))
+        for signal in declared.iterfind("Signal")
+    }
+
+
+def _bound(element: etree._Element, key: str, file: str, label: str) -> float:
+    bound = _number(element, key, file, label)
+    return 0.0 if bound is None else bound
+
+
+def _number(element: etree._Element, key: str, file: str, label: str) -> float | None:
+    text = element.get(key)
+    if text is None:
+        return None
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        where = f"{element.tag} (line {element.sourceline}), {key}"
+        raise InputError(f"{label}!{file}", where, f"{text!r} is not a finite number", "correct it")
+    return number

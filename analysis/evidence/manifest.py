@@ -1,0 +1,113 @@
+"""The manifest of FMI-LS-REF in an FMU or a system, ours or another tool's: read, with what it breaks of the schema."""
+
+from __future__ import annotations
+
+import hashlib
+import posixpath
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from urllib.parse import unquote, urlsplit
+
+from lxml import etree
+
+from ...fmus_src.evidence.manifest import CHECKSUM, MANIFEST, NAMESPACE, STANDARD
+from ..common.errors import InputError
+from ..runtime.ssp.documents import parse_xml
+
+ROOT = "fmiReferences"
+ATTRIBUTES = ("name", "version", "description")
+ROLES = re.compile(
+    "document|requirement|specification|model|parameter|system|testcase|"
+    "experiment(/(smoke-test|validation|uncertainty-analysis))?|result|method|rationale|report|request|delivery|"
+    "configuration|signature|serialized-state(/.*)?|meta-data|other"
+)
+ALGORITHMS = {f"SHA-{bits}": f"sha{bits}" for bits in (224, 256, 384, 512)} | {
+    f"SHA3-{bits}": f"sha3_{bits}" for bits in (224, 256, 384, 512)
+}
+
+
+@dataclass(frozen=True)
+class RelatedFile:
+    """A file that a manifest lists: ``name`` in the archive, None of one elsewhere; ``checksum`` None without one."""
+
+    source: str
+    name: str | None
+    role: str
+    type: str
+    checksum: str | None
+    algorithm: str
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """What a manifest lists; ``flaws`` are rules of the schema that it breaks, each in a line."""
+
+    root: etree._Element
+    files: tuple[RelatedFile, ...]
+    flaws: tuple[str, ...]
+
+
+def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
+    """The manifest of an archive's files. Raises InputError where there is none, or another document in its stead."""
+    if MANIFEST not in files:
+        problem = f"holds no {MANIFEST}: nothing to verify"
+        raise InputError(label, "evidence", problem, "export it with Perilune, or add reference trajectories")
+    file = f"{label}!{MANIFEST}"
+    root = parse_xml(files[MANIFEST], file)
+    if root.tag != ROOT:
+        raise InputError(file, str(root.tag), f"not {ROOT}", "write a manifest of FMI-LS-REF")
+    flaws = [
+        f"line {root.sourceline}: no attribute fmi-ls-{name}"
+        for name in ATTRIBUTES
+        if root.get(f"{{{NAMESPACE}}}fmi-ls-{name}") is None
+    ]
+    name = root.get(f"{{{NAMESPACE}}}fmi-ls-name", STANDARD)
+    if name != STANDARD:
+        raise InputError(file, "fmi-ls-name", f"{name!r} is another layered standard", f"write {STANDARD}")
+    related = []
+    for element in root.iterfind("Related"):
+        line = f"Related (line {element.sourceline})"
+        for required in ("source", "role"):
+            if element.get(required) is None:
+                flaws.append(f"{line}: no attribute {required}")
+        if not ROLES.fullmatch(element.get("role", "other")):
+            flaws.append(f"{line}: role {element.get('role')!r} is none of the standard")
+        if element.get("checksumType", CHECKSUM) not in ALGORITHMS:
+            flaws.append(f"{line}: checksumType {element.get('checksumType')!r} is none of the standard: not checked")
+        related.append(_related(element))
+    return Manifest(root, tuple(related), tuple(flaws))
+
+
+def file_of(source: str, base: str) -> str | None:
+    """The name in the archive that a URI means, relative to the folder ``base``; None for one that leads outside."""
+    if urlsplit(source).scheme or source.startswith("/"):
+        return None
+    name = posixpath.normpath(posixpath.join(base, unquote(source)))
+    return None if name.startswith("../") else name
+
+
+def checksum_problem(related: RelatedFile, files: Mapping[str, bytes]) -> str | None:
+    """What is wrong with a listed file: it is missing, or not the one that was listed; None where nothing is."""
+    if related.name is None:
+        return None
+    if related.name not in files:
+        return f"{related.name}: missing, though the manifest lists it"
+    if related.checksum is None or related.algorithm not in ALGORITHMS:
+        return None
+    digest = hashlib.new(ALGORITHMS[related.algorithm], files[related.name]).hexdigest()
+    if digest != related.checksum.lower():
+        return f"{related.name}: changed: its {related.algorithm} is not the manifest's"
+    return None
+
+
+def _related(element: etree._Element) -> RelatedFile:
+    source = element.get("source", "")
+    return RelatedFile(
+        source,
+        file_of(source, posixpath.dirname(MANIFEST)),
+        element.get("role", "other"),
+        element.get("type", "application/octet-stream"),
+        element.get("checksum"),
+        element.get("checksumType", CHECKSUM),
+    )

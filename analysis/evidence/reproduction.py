@@ -1,0 +1,156 @@
+"""One experiment simulated again, and compared with its reference trajectory."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Mapping
+from contextlib import chdir
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from lxml import etree
+
+from ..common.errors import InputError
+from ..runtime.apart.opening import open_simulation
+from ..runtime.flight.interruptible import fly
+from ..runtime.flight.selection import find_variables
+from ..runtime.ssp.archive import SystemArchive, read_fmu
+from ..runtime.ssp.documents import NAMESPACES, read_document
+from ..runtime.system.alone import describe_alone, proposed_step
+from ..runtime.system.fmu import Fmu, load_fmu
+from ..runtime.system.options import SystemOptions
+from ..runtime.system.prepared import PreparedSystem, prepare_system
+from .comparison import CLOSE, SignalCheck, compare
+from .experiments import PlannedExperiment
+from .trajectory import Trajectory, read_trajectory
+
+RELATIVE = 1e-6  # of a signal's greatest magnitude, where no tolerance is declared
+SET = "resources/experiment.ssv"  # the parameters of an experiment among the files of its archive
+
+
+@dataclass(frozen=True)
+class Reproduction:
+    """An experiment's comparison: ``signals`` the worst first, ``problems`` that kept it from being complete.
+
+    ``not_compared`` are columns of texts, ``interpolated`` says that reference times lie between communication points.
+    """
+
+    name: str
+    references: str
+    samples: int
+    signals: tuple[SignalCheck, ...]
+    problems: tuple[str, ...] = ()
+    not_compared: tuple[str, ...] = ()
+    interpolated: bool = False
+
+    @property
+    def exact(self) -> bool:
+        """Whether all signals have the bits of the reference."""
+        return not any(each.difference or each.excess for each in self.signals)
+
+
+def reproduce(
+    archive: SystemArchive,
+    files: Mapping[str, bytes],
+    experiment: PlannedExperiment,
+    options: SystemOptions,
+    relative: float | None,
+    timeout: float | None,
+    loaded: dict[str, Fmu],
+) -> Reproduction:
+    """Simulate an experiment and compare; ``files`` are the archive's, ``loaded`` as of `prepare_system`.
+
+    ``relative`` is for signals without a declared tolerance: by default none, the same bits, where an experiment
+    declares tolerances, else RELATIVE. Raises InputError.
+    """
+    reference = _table(files, experiment.references, archive.label)
+    prepared = _prepare(archive, files, experiment, reference, options, loaded)
+    made = Reproduction(experiment.name, experiment.references, reference.time.size, (), not_compared=reference.texts)
+    if experiment.start is not None and experiment.start != prepared.start:
+        problem = f"starts at {experiment.start:g} s, where the default experiment starts at {prepared.start:g} s"
+        return replace(made, problems=(f"{problem}: not simulated",))
+    variables, problems = _variables(prepared, reference)
+    with chdir(Path.cwd()), open_simulation(prepared, more=[*variables.values()]) as simulation:
+        flight = fly(simulation, timeout)
+    last = float(reference.time[-1])
+    if not flight.complete:
+        problems.append(f"{flight.ending}: {flight.message}")
+    elif flight.time[-1] < last - CLOSE * max(abs(last), 1.0):
+        problems.append(f"ends at t = {flight.time[-1]:g} s, the reference at {last:g} s")
+    else:
+        fraction = (0.0 if experiment.tolerances is not None else RELATIVE) if relative is None else relative
+        references = {name: reference.signals[name] for name in variables}
+        signals = {name: flight.signals[full] for name, full in variables.items()}
+        checks, interpolated = compare(
+            reference.time, references, flight.time, signals, experiment.tolerances, fraction
+        )
+        made = replace(made, signals=tuple(checks), interpolated=interpolated)
+    return replace(made, problems=tuple(problems))
+
+
+def _variables(prepared: PreparedSystem, reference: Trajectory) -> tuple[dict[str, str], list[str]]:
+    """What is compared: variables as the flight records them, by column; and a problem for each column without one."""
+    is_alone = prepared.archive.is_fmu
+    variables: dict[str, str] = {}
+    problems = []
+    for name in reference.signals:
+        try:
+            matches = find_variables(prepared.network, [name], is_alone=is_alone)
+        except InputError as error:
+            problems.append(f"column {name}: {error.problem}; {error.remedy}")
+            continue
+        if len(matches) > 1:
+            problems.append(f"column {name}: a vector without index; name its elements")
+        elif matches[0] not in prepared.network.driven:
+            variables[name] = matches[0]
+    return variables, problems
+
+
+def _table(files: Mapping[str, bytes], name: str, label: str) -> Trajectory:
+    return read_trajectory(_content(files, name, label), f"{label}!{name}")
+
+
+def _content(files: Mapping[str, bytes], name: str, label: str) -> bytes:
+    if name not in files:
+        raise InputError(f"{label}!{name}", "file", "missing, though an experiment names it", "export the file again")
+    return files[name]
+
+
+def _prepare(
+    archive: SystemArchive,
+    files: Mapping[str, bytes],
+    experiment: PlannedExperiment,
+    reference: Trajectory,
+    options: SystemOptions,
+    loaded: dict[str, Fmu],
+) -> PreparedSystem:
+    stop = float(reference.time[-1]) if experiment.stop is None else experiment.stop
+    options = replace(options, stop_time=stop, step=experiment.step)
+    others: set[str] = set()
+    component = ""
+    if archive.is_fmu:
+        fmu = loaded.setdefault(archive.label, load_fmu(read_fmu(archive.path)(), archive.label))
+        component = describe_alone(fmu, options)[0].system.name
+        others = {name for name, variable in fmu.variables.items() if variable.causality != "input"}
+        spacing = np.diff(reference.time)
+        if options.step is None and proposed_step(fmu) is None and (spacing > 0.0).any():
+            options = replace(options, step=float(spacing[spacing > 0.0].min()))
+    if experiment.parameters is not None:
+        content = _content(files, experiment.parameters, archive.label)
+        if component:
+            content = _with_component(content, component, f"{archive.label}!{experiment.parameters}")
+        archive = replace(archive, files={**archive.files, SET: content}, known_digest=None)
+        options = replace(options, parameters=(*options.parameters, posixpath.basename(SET)))
+    series = None
+    if experiment.stimuli is not None:
+        series = _table(files, experiment.stimuli, archive.label).series(without=others)
+    return prepare_system(archive, options, loaded, series)
+
+
+def _with_component(content: bytes, component: str, file: str) -> bytes:
+    """A parameter set of an FMU's own names as one of a system that has the FMU as ``component``."""
+    root = read_document(content, "ssv", file)
+    for parameter in root.iter(f"{{{NAMESPACES['ssv']}}}Parameter"):
+        parameter.set("name", f"{component}.{parameter.get('name', '')}")
+    return etree.tostring(root)

@@ -1,0 +1,68 @@
+"""A reference trajectory or stimuli: a CSV table of signals over time."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pyarrow
+import pyarrow.csv
+
+from ..common.errors import InputError
+from ..runtime.system.series import TIME, InputSeries
+
+FORM = "write comma-separated columns, time first"
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """``signals`` over ``time`` (s, [n], ascending), float64 [n] each; ``texts`` are columns that are no numbers."""
+
+    file: str
+    sha256: str
+    time: np.ndarray
+    signals: Mapping[str, np.ndarray]
+    texts: tuple[str, ...]
+
+    def series(self, without: set[str]) -> InputSeries:
+        """Its columns but those ``without`` as inputs over time; samples that are not finite are as good as others."""
+        columns = {name: samples for name, samples in self.signals.items() if name not in without}
+        return InputSeries(self.file, self.sha256, self.time, columns)
+
+
+def read_trajectory(content: bytes, file: str) -> Trajectory:
+    """The trajectory of a CSV file. Raises InputError, naming the column, for what is none."""
+    try:
+        table = pyarrow.csv.read_csv(io.BytesIO(content))
+    except pyarrow.ArrowException as error:
+        raise InputError(file, "", f"not a table: {' '.join(str(error).split())}", FORM) from error
+    names = [name.strip() for name in table.column_names]
+    repeated = sorted({name for name in names if names.count(name) > 1})
+    if repeated:
+        raise InputError(file, repeated[0], "two columns of this name", "remove one")
+    signals: dict[str, np.ndarray] = {}
+    texts = []
+    for name, column in zip(names, table.columns, strict=True):
+        numbers = _numbers(column)
+        if numbers is None:
+            texts.append(name)
+        else:
+            signals[name] = numbers
+    if TIME not in signals or not table.num_rows:
+        raise InputError(file, TIME, "no such column of numbers, or no samples", FORM)
+    time = signals.pop(TIME)
+    if not np.all(np.isfinite(time)) or np.any(np.diff(time) < 0.0):
+        raise InputError(file, TIME, "times that are not finite, or fall", "sort the samples by time")
+    return Trajectory(file, hashlib.sha256(content).hexdigest(), time, signals, tuple(texts))
+
+
+def _numbers(column: pyarrow.ChunkedArray) -> np.ndarray | None:
+    """A column as float64, truths as 0 and 1; None of texts."""
+    if pyarrow.types.is_boolean(column.type):
+        column = column.cast(pyarrow.int8())
+    if not (pyarrow.types.is_integer(column.type) or pyarrow.types.is_floating(column.type)):
+        return None
+    return np.asarray(column.cast(pyarrow.float64()).to_numpy(), dtype=np.float64)

@@ -1,0 +1,131 @@
+"""`perilune.verify` and `perilune verify`: the evidence inside FMUs and systems, reproduced."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Unpack, overload
+
+from ...fmus_src.export.available import fmu_file, fmu_flavours
+from ...fmus_src.paths import FLAVOURS, names_fmu
+from ..common.errors import InputError, suggestion
+from ..common.to_json import to_json
+from ..common.visible import on_one_line
+from ..evidence.comparison import SignalCheck
+from ..evidence.reproduction import Reproduction
+from ..evidence.verification import Verification, verify_archive
+from ..reports.common.quantities import number
+from ..runtime.ssp.archive import open_system, system_names
+from ..runtime.system.options import SystemOptions, Watch, trust_of
+from .common.arguments import path_list
+from .common.description_text import wrap
+from .options.library import VERIFY, VerifyOptions
+from .options.option import FilePath
+from .options.verb import verb
+
+NAMED = 6  # signals of an experiment that do not fit
+
+
+@dataclass(frozen=True)
+class Verifications(Sequence[Verification]):
+    """What was verified, in the order of the paths."""
+
+    files: tuple[Verification, ...]
+
+    @overload
+    def __getitem__(self, index: int) -> Verification: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Verification, ...]: ...
+    def __getitem__(self, index: int | slice) -> Verification | tuple[Verification, ...]:
+        return self.files[index]
+
+    def __len__(self) -> int:
+        return len(self.files)
+
+    def lines(self) -> list[str]:
+        """What `perilune verify` prints: each experiment, notes, and which files are as they were handed on."""
+        lines = []
+        for each in self.files:
+            lines += [f"{each.file}: {_summary(made)}" for made in each.reproductions]
+            lines += [line for note in each.notes for line in wrap(f"{each.file}: note: {note}", 4)]
+            lines += [] if _problems(each) else [f"{each.file}: verified"]
+        return [on_one_line(line) for line in lines]
+
+    def problems(self) -> list[str]:
+        """What of all files is not as it was handed on, or not reproduced."""
+        return [problem for each in self.files for problem in _problems(each)]
+
+    def to_json(self) -> object:
+        """All comparisons, for other programs."""
+        return to_json([{**asdict(each), "verified": not _problems(each)} for each in self.files])
+
+
+@verb(VERIFY)
+def verify(*paths: FilePath | Sequence[FilePath], **options: Unpack[VerifyOptions]) -> Verifications:
+    """Simulate the reference trajectories inside FMUs and systems again, and check their files: `perilune verify`.
+
+    ``paths`` are .fmu and .ssp files with a manifest of FMI-LS-REF, Perilune's or another tool's, or names of FMUs, of
+    which ``flavour`` says the build. Signals without a declared tolerance may differ by ``tolerance`` of their greatest
+    magnitude: by default 1e-6, and 0, the same bits, in Perilune's own. ``timeout`` (s, wall clock) is of each
+    simulation; the other options say what foreign FMUs may do. Raises InputError for a file without evidence.
+    """
+    system = SystemOptions(**trust_of(options).trust)
+    watch = Watch(options["timeout"])
+    made = [
+        verify_archive(
+            open_system(_path(path, options["flavour"])), system, relative=options["tolerance"], timeout=watch.timeout
+        )
+        for path in path_list(paths)
+    ]
+    return Verifications(tuple(made))
+
+
+def _path(text: str, flavour: str | None) -> Path:
+    """The file that a path or the name of an FMU means. Raises InputError for folders and other files."""
+    path = Path(text)
+    if names_fmu(path) or path.suffix == ".ssp":
+        return path
+    for candidate in FLAVOURS if flavour is None else (flavour,):
+        file = fmu_file(text, candidate)
+        if file is not None:
+            return file
+    is_system = text in system_names() or path.is_dir()
+    remedy = f"perilune export {text} writes it with its evidence" if is_system else suggestion(text, fmu_flavours())
+    raise InputError("verify", text, "neither an .fmu, an .ssp nor the name of an FMU that is built", remedy)
+
+
+def _summary(made: Reproduction) -> str:
+    compared = (
+        f"{made.name}: {made.references.rpartition('/')[2]}: {made.samples} samples of {len(made.signals)} signals"
+    )
+    if not made.signals:
+        return f"{compared}: not compared"
+    more = "; reference times lie between communication points: interpolated" if made.interpolated else ""
+    more += f"; not numbers, not compared: {', '.join(made.not_compared)}" if made.not_compared else ""
+    if made.exact:
+        return f"{compared}: the same bits{more}"
+    worst = made.signals[0]
+    if not worst.met:
+        return f"{compared}: {sum(not each.met for each in made.signals)} signals differ{more}"
+    fraction = f"{number(worst.excess, 2)} of the tolerance"
+    return f"{compared}: differ by at most {fraction}, {worst.name} at t = {number(worst.time)} s{more}"
+
+
+def _problems(verification: Verification) -> list[str]:
+    problems = [f"{verification.file}: {problem}" for problem in verification.problems]
+    for made in verification.reproductions:
+        where = f"{verification.file}: {made.name}"
+        problems += [f"{where}: {problem}" for problem in made.problems]
+        wrong = [each for each in made.signals if not each.met]
+        problems += [f"{where}: {_difference(each)}" for each in wrong[:NAMED]]
+        problems += [f"{where}: and {len(wrong) - NAMED} more signals"] if len(wrong) > NAMED else []
+    return problems
+
+
+def _difference(check: SignalCheck) -> str:
+    permitted = f"{number(check.permitted, 3)} permitted" if check.permitted else "the same bits required"
+    numbers = f"reference {check.reference!r}, simulated {check.actual!r}"
+    return (
+        f"{check.name} differs by {number(check.difference, 3)} at t = {number(check.time)} s: {numbers}; {permitted}"
+    )

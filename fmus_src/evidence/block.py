@@ -1,0 +1,62 @@
+"""The evidence of a block's FMU: its check, its outputs, its page, and the digests of all files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ..block import Block
+from .check import Check, Tolerances, elements_of, read_check
+from .experiments import Experiment, write_experiments
+from .manifest import EXPERIMENTS, FOLDER, PARAMETERS, Related, add_manifest
+from .page import block_page
+from .parameter_set import write_parameter_set
+from .recorded import record_outputs
+
+CHECK, OUTPUTS, SET, EXPERIMENT = "check.csv", "outputs.csv", "check.ssv", "check.exp"
+PAGE = "documentation/index.html"
+CSV = "text/csv"
+
+
+def add_evidence(block_class: type[Block], files: Mapping[str, bytes]) -> dict[str, bytes]:
+    """The files of a block's FMU with its evidence.
+
+    Its outputs for the check are recorded where they are the same on every processor, which Python libraries do not
+    promise. Raises CheckError for a check that does not fit the block.
+    """
+    page = Related(PAGE, "document", "text/html", "what the block computes, its variables, its source")
+    complete = {**files, PAGE: block_page(block_class)}
+    related = [page]
+    check = read_check(block_class)
+    if check is not None:
+        added, roles = _check_files(block_class, check)
+        complete |= added
+        related += roles
+    return add_manifest(complete, related)
+
+
+def _check_files(block_class: type[Block], check: Check) -> tuple[dict[str, bytes], list[Related]]:
+    elements = elements_of(block_class)
+    types = {"Real": float, "Integer": int, "Boolean": bool}
+    parameters = {name: types[elements[name].type_name](number) for name, number in check.parameters.items()}
+    has_inputs = any(elements[name].causality == "input" for name in check.columns() if name in elements)
+    start = check.columns()["time"][0]
+    files = {CHECK: check.table, SET: write_parameter_set("check", parameters)}
+    related = [
+        Related(CHECK, "result", CSV, f"inputs, and outputs computed without the block's code: {check.truth}"),
+        Related(SET, "parameter", PARAMETERS, "the parameters of check.csv"),
+    ]
+
+    def experiment(name: str, description: str, references: str, tolerances: Tolerances) -> Experiment:
+        stimuli = CHECK if has_inputs else None
+        times = (start, check.stop_time)
+        return Experiment(name, description, times, check.step, references, SET, stimuli, tolerances)
+
+    experiments = [experiment("check", "outputs against an independent computation", CHECK, check.tolerances)]
+    if not block_class.python_only:
+        files[OUTPUTS] = record_outputs(block_class, check)
+        related.append(Related(OUTPUTS, "result", CSV, "the FMU's outputs for the inputs of check.csv, all bits"))
+        experiments.append(experiment("outputs", "the FMU's outputs, bit by bit", OUTPUTS, {}))
+    files[EXPERIMENT] = write_experiments(block_class.fmu_name, experiments)
+    related.append(Related(EXPERIMENT, "experiment/validation", EXPERIMENTS, "how to reproduce the trajectories"))
+    named = {f"{FOLDER}/{name}": content for name, content in files.items()}
+    return named, [Related(f"{FOLDER}/{each.name}", each.role, each.type, each.description) for each in related]

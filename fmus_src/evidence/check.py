@@ -1,0 +1,117 @@
+"""The check of a block: a short reference trajectory that is computed without the block's code."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import sys
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..block import Block
+from ..variables import Input, Output, Parameter, Variable
+
+TIME = "time"
+TABLE, DECLARATIONS = ".csv", ".toml"
+KEYS = {"truth": str, "step_size": float, "stop_time": float, "parameters": dict, "tolerances": dict}
+BOUNDS = ("absolute", "relative")
+Tolerances = Mapping[str, tuple[float, float]]  # of signals: absolute, relative
+
+
+class CheckError(ValueError):
+    """A check that is incomplete or does not fit its block; the message names file and element."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """Row n of ``table`` (CSV) has the inputs from its time (s) to the next row's, and the outputs at its time.
+
+    An output may differ by ``absolute + relative |reference|`` of its ``tolerances``. ``truth`` says how the reference
+    was computed. Steps in s; ``parameters`` are set before initialisation.
+    """
+
+    table: bytes
+    truth: str
+    step: float
+    stop_time: float
+    parameters: Mapping[str, float | int | bool]
+    tolerances: Tolerances
+
+    def columns(self) -> dict[str, list[float]]:
+        """The table's numbers by column, ``time`` first."""
+        names, *rows = csv.reader(io.StringIO(self.table.decode()))
+        columns = zip(*([float(text) for text in row] for row in rows), strict=True)
+        return dict(zip(names, map(list, columns), strict=True))
+
+
+def elements_of(block_class: type[Block]) -> dict[str, Variable]:
+    """The FMI names of a block's variables, each element of a vector, with the variable that declares it."""
+    return {name: variable for variable in block_class.variables.values() for name in variable.element_names()}
+
+
+def read_check(block_class: type[Block]) -> Check | None:
+    """The check next to a block's file, checks/NAME.csv and checks/NAME.toml; None without one.
+
+    Raises CheckError, naming file and element, where one of the two is missing or does not fit the block.
+    """
+    source = getattr(sys.modules.get(block_class.__module__), "__file__", None)
+    if source is None:
+        return None
+    folder = Path(source).parent / "checks"
+    table, declarations = (folder / f"{block_class.fmu_name}{suffix}" for suffix in (TABLE, DECLARATIONS))
+    missing = [path for path in (table, declarations) if not path.is_file()]
+    if len(missing) == 1:
+        raise CheckError(f"{missing[0]}: no such file; a check is a trajectory, .csv, and its tolerances, .toml")
+    if missing:
+        return None
+    declared = _read_declarations(declarations)
+    check = Check(
+        table.read_bytes(),
+        declared["truth"],
+        float(declared["step_size"]),
+        float(declared["stop_time"]),
+        declared["parameters"],
+        {name: (float(each["absolute"]), float(each["relative"])) for name, each in declared["tolerances"].items()},
+    )
+    _refuse_unknown(block_class, check, table, declarations)
+    return check
+
+
+def _read_declarations(path: Path) -> dict[str, Any]:
+    try:
+        declared = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise CheckError(f"{path}: not TOML: {error}") from None
+    for key, kind in KEYS.items():
+        number = kind is float and isinstance(declared.get(key), int | float) and math.isfinite(declared[key])
+        if not number and not isinstance(declared.get(key), kind):
+            raise CheckError(f"{path}: {key}: missing, or of another type than {kind.__name__}; add it")
+    for name, bounds in declared["tolerances"].items():
+        if not isinstance(bounds, dict) or any(not isinstance(bounds.get(key), int | float) for key in BOUNDS):
+            raise CheckError(f"{path}: tolerances.{name}: write {{ absolute = 0.0, relative = 1e-9 }}")
+    return declared
+
+
+def _refuse_unknown(block_class: type[Block], check: Check, table: Path, declarations: Path) -> None:
+    """Refuse columns, tolerances and parameters that the block does not have."""
+    elements = elements_of(block_class)
+    try:
+        columns = check.columns()
+    except ValueError as error:
+        raise CheckError(f"{table}: not a table of numbers: {error}") from None
+    if next(iter(columns), None) != TIME:
+        raise CheckError(f"{table}: line 1: the first column is not {TIME}; write time, inputs, outputs")
+    for name in check.tolerances:
+        if name not in columns:
+            raise CheckError(f"{declarations}: tolerances.{name}: {table.name} has no such column; add it")
+    for name in columns:
+        is_output = isinstance(elements.get(name), Output) and name in check.tolerances
+        if name != TIME and not isinstance(elements.get(name), Input) and not is_output:
+            raise CheckError(f"{table}: column {name}: neither an input nor an output with a tolerance; remove it")
+    for name in check.parameters:
+        if not isinstance(elements.get(name), Parameter | Input):
+            raise CheckError(f"{declarations}: parameters.{name}: no such parameter; correct the name")

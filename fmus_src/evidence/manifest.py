@@ -1,0 +1,64 @@
+"""The manifest of an FMU's or a system's evidence: which file has which role, with its digest.
+
+Format: FMI Layered Standard for References (FMI-LS-REF), Modelica Association 2025, for FMI 2.0 and 3.0.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import posixpath
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from lxml import etree
+
+STANDARD = "org.fmi-standard.fmi-ls-ref"
+FOLDER = f"extra/{STANDARD}"
+MANIFEST = f"{FOLDER}/fmi-ls-manifest.xml"
+NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
+VERSION = "1.0.0-beta.1"
+DESCRIPTION = "Layered Standard providing information on related files included in an FMU."
+CHECKSUM = "SHA3-256"  # the standard's default
+SUMS = f"{FOLDER}/SHA256SUMS"
+NOT_LISTED = (MANIFEST, SUMS)
+
+PARAMETERS = "application/x-ssp-parameter-set"
+EXPERIMENTS = "application/x-ma-hs-experiments"
+
+
+@dataclass(frozen=True)
+class Related:
+    """A file of the archive by its ``name`` there, with its role in FMI-LS-REF and its MIME ``type``."""
+
+    name: str
+    role: str
+    type: str
+    description: str
+
+
+def add_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> dict[str, bytes]:
+    """The files of an archive with SHA256SUMS of all of them, in the format of sha256sum, and with the manifest."""
+    sums = "".join(
+        f"{hashlib.sha256(files[name]).hexdigest()}  {name}\n" for name in sorted(files) if name not in NOT_LISTED
+    )
+    complete = {**files, SUMS: sums.encode()}
+    listed = Related(SUMS, "meta-data", "text/plain", "SHA-256 of every file but this one and the manifest")
+    return {**complete, MANIFEST: _write_manifest(complete, [*related, listed])}
+
+
+def _write_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> bytes:
+    root = etree.Element("fmiReferences", nsmap={"fmi-ls": NAMESPACE})
+    for name, text in (("name", STANDARD), ("version", VERSION), ("description", DESCRIPTION)):
+        root.set(f"{{{NAMESPACE}}}fmi-ls-{name}", text)
+    for each in related:
+        etree.SubElement(
+            root,
+            "Related",
+            type=each.type,
+            source=posixpath.relpath(each.name, FOLDER),
+            role=each.role,
+            description=each.description,
+            checksum=hashlib.sha3_256(files[each.name]).hexdigest(),
+            checksumType=CHECKSUM,
+        )
+    return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)

@@ -1,0 +1,67 @@
+"""The page of a block inside its FMU, documentation/index.html: HTML without script, from the declaration."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Sequence
+from itertools import groupby
+
+from lxml import etree, html
+from lxml.html import builder
+
+from ..block import Block
+from ..variables import Input, Output, Parameter, Variable
+from .variable_text import bounds_text, sized_name, start_text, unit_text
+
+STYLE = """body { font: 15px/1.5 system-ui, sans-serif; max-width: 64rem; margin: 2rem auto; padding: 0 1rem; }
+table { border-collapse: collapse; }
+th, td { text-align: left; vertical-align: top; padding: 0.2rem 1rem 0.2rem 0; border-bottom: 1px solid #ddd; }
+pre { margin-left: 2rem; }"""
+VERIFY = "pip install perilune, then perilune verify FILE.fmu reproduces the trajectories of "
+PARAGRAPH = re.compile(r"\n\s*\n|\n(?=Sources?\b|Frames?\b|Equations\b|Assumes\b)")
+SECTIONS = (("Inputs", Input), ("Outputs", Output), ("Parameters", Parameter))
+
+
+def block_page(block_class: type[Block]) -> bytes:
+    """The page: purpose, equations and source from the docstring, tables of inputs, outputs and parameters."""
+    body = [builder.H1(block_class.fmu_name), *_prose(block_class)]
+    for base in block_class.__mro__[1:]:
+        if issubclass(base, Block) and base is not Block:
+            body += [builder.H2(base.fmu_name), *_prose(base)]
+    for title, kind in SECTIONS:
+        variables = [each for each in block_class.variables.values() if isinstance(each, kind)]
+        if variables:
+            body += [builder.H2(title), _table(variables)]
+    folder = "extra/org.fmi-standard.fmi-ls-ref"
+    body += [builder.H2("Verification"), builder.P(VERIFY, builder.CODE(folder), ", where there are any.")]
+    head = builder.HEAD(builder.META(charset="utf-8"), builder.TITLE(block_class.fmu_name), builder.STYLE(STYLE))
+    page = builder.HTML(head, builder.BODY(*body), lang="en")
+    return html.tostring(page, doctype="<!DOCTYPE html>", encoding="utf-8", pretty_print=True)
+
+
+def _prose(block_class: type[Block]) -> list[etree._Element]:
+    """The docstring as paragraphs, indented equations as they are."""
+    paragraphs: list[etree._Element] = []
+    for is_equation, lines in groupby(inspect.cleandoc(block_class.__doc__ or "").splitlines(), _is_equation):
+        if is_equation:
+            paragraphs.append(builder.PRE(inspect.cleandoc("\n".join(lines))))
+        else:
+            paragraphs += [builder.P(text) for text in PARAGRAPH.split("\n".join(lines)) if text.strip()]
+    return paragraphs
+
+
+def _is_equation(line: str) -> bool:
+    return line.startswith("    ")
+
+
+def _table(variables: Sequence[Variable]) -> etree._Element:
+    rows = [["name", "type", "start", "unit", "bounds", "frame", "description"]]
+    for each in variables:
+        start = "" if isinstance(each, Output) else start_text(each)
+        limits = [unit_text(each), bounds_text(each), each.frame or ""]
+        rows.append([sized_name(each), each.type_name, start, *limits, each.description])
+    filled = [index for index in range(len(rows[0])) if any(row[index] for row in rows[1:])]
+    header, *others = [[row[index] for index in filled] for row in rows]
+    lines = [builder.TR(*map(builder.TH, header)), *(builder.TR(*map(builder.TD, row)) for row in others)]
+    return builder.TABLE(*lines)

@@ -1,0 +1,44 @@
+"""A variable's declaration in words: its name with its size, start values, bounds."""
+
+from __future__ import annotations
+
+from ..variables import Variable
+
+SHOWN = 12  # start values of a list, beyond which the first ones are enough
+
+
+def sized_name(variable: Variable) -> str:
+    """The name, of a vector with its number of elements, of a matrix with rows and columns."""
+    if variable.columns is not None:
+        return f"{variable.name}[{variable.size // variable.columns}, {variable.columns}]"
+    return f"{variable.name}[{variable.size}]" if variable.is_array else variable.name
+
+
+def unit_text(variable: Variable) -> str:
+    """The unit; 1 of a Real without one, empty of other types."""
+    return variable.unit or ("1" if variable.type_name == "Real" else "")
+
+
+def bounds_text(variable: Variable) -> str:
+    """The range that is declared; empty without one."""
+    low, high = variable.minimum, variable.maximum
+    if low is not None and high is not None:
+        return f"{low:g} to {high:g}"
+    return f"at least {low:g}" if low is not None else f"at most {high:g}" if high is not None else ""
+
+
+def start_text(variable: Variable) -> str:
+    """The start in few characters: one for all where all are alike, the first ones of many."""
+    numbers = [number_text(number) for number in variable.elements]
+    if not variable.is_array:
+        return numbers[0]
+    if len(set(numbers)) == 1:
+        return f"all {numbers[0]}"
+    return ", ".join(numbers) if len(numbers) <= SHOWN else ", ".join(numbers[:SHOWN]) + ", ..."
+
+
+def number_text(number: float | int | bool) -> str:
+    """A number as it is written in a parameter set."""
+    if isinstance(number, bool):
+        return "true" if number else "false"
+    return f"{number:.10g}" if isinstance(number, float) else str(number)
