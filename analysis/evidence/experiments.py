@@ -16,12 +16,11 @@ from lxml import etree
 
 from ...fmus_src.evidence.check import Tolerances
 from ...fmus_src.evidence.experiments import TOLERANCES
-from ...fmus_src.evidence.manifest import EXPERIMENTS, MANIFEST, PARAMETERS
+from ...fmus_src.evidence.manifest import CSV, EXPERIMENTS, MANIFEST, PARAMETERS
 from ..common.errors import InputError
 from ..runtime.ssp.documents import parse_xml
 from .manifest import Manifest, file_of
 
-CSV = "text/csv"
 TYPES = {"Parameters": PARAMETERS, "Stimuli": CSV, "References": CSV}
 TRANSIENT = "TransientSimulation"
 KINDS = (

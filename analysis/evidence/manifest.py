@@ -11,7 +11,7 @@ from urllib.parse import unquote, urlsplit
 
 from lxml import etree
 
-from ...fmus_src.evidence.manifest import CHECKSUM, MANIFEST, NAMESPACE, STANDARD
+from ...fmus_src.evidence.manifest import CHECKSUM, MANIFEST, NAMESPACE, STANDARD, STUDY
 from ..common.errors import InputError
 from ..runtime.ssp.documents import parse_xml
 
@@ -29,7 +29,10 @@ ALGORITHMS = {f"SHA-{bits}": f"sha{bits}" for bits in (224, 256, 384, 512)} | {
 
 @dataclass(frozen=True)
 class RelatedFile:
-    """A file that a manifest lists: ``name`` in the archive, None of one elsewhere; ``checksum`` None without one."""
+    """A file that a manifest lists: ``name`` in the archive, None of one elsewhere; ``checksum`` None without one.
+
+    ``study`` is what a report of Perilune's is of, a campaign or the stability study.
+    """
 
     source: str
     name: str | None
@@ -37,6 +40,7 @@ class RelatedFile:
     type: str
     checksum: str | None
     algorithm: str
+    study: str | None = None
 
 
 @dataclass(frozen=True)
@@ -103,6 +107,7 @@ def checksum_problem(related: RelatedFile, files: Mapping[str, bytes]) -> str | 
 
 def _related(element: etree._Element) -> RelatedFile:
     source = element.get("source", "")
+    study = element.find(f"Annotations/Annotation[@type='{STUDY}']/Study")
     return RelatedFile(
         source,
         file_of(source, posixpath.dirname(MANIFEST)),
@@ -110,4 +115,5 @@ def _related(element: etree._Element) -> RelatedFile:
         element.get("type", "application/octet-stream"),
         element.get("checksum"),
         element.get("checksumType", CHECKSUM),
+        None if study is None else study.get("name"),
     )

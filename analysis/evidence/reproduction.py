@@ -71,7 +71,8 @@ def reproduce(
         problem = f"starts at {experiment.start:g} s, where the default experiment starts at {prepared.start:g} s"
         return replace(made, problems=(f"{problem}: not simulated",))
     variables, problems = _variables(prepared, reference)
-    with chdir(Path.cwd()), open_simulation(prepared, more=[*variables.values()]) as simulation:
+    more = [name for name in variables.values() if name not in prepared.network.nodes]
+    with chdir(Path.cwd()), open_simulation(prepared, more=more) as simulation:
         flight = fly(simulation, timeout)
     last = float(reference.time[-1])
     if not flight.complete:
@@ -95,6 +96,10 @@ def _variables(prepared: PreparedSystem, reference: Trajectory) -> tuple[dict[st
     variables: dict[str, str] = {}
     problems = []
     for name in reference.signals:
+        node = prepared.network.nodes.get(name)
+        if node is not None and node.component is None:
+            variables[name] = name
+            continue
         try:
             matches = find_variables(prepared.network, [name], is_alone=is_alone)
         except InputError as error:

@@ -14,15 +14,17 @@ from ..runtime.system.options import SystemOptions
 from .experiments import plan_experiments
 from .manifest import checksum_problem, read_manifest
 from .reproduction import Reproduction, reproduce
+from .studies import compare_report
 from .sums import check_sums
 
 
 @dataclass(frozen=True)
 class Verification:
-    """What is known of one archive: its experiments reproduced, ``problems`` and ``notes``, each a line."""
+    """What is known of one archive: its experiments reproduced, its ``studies`` made anew; ``problems``, ``notes``."""
 
     file: str
     reproductions: tuple[Reproduction, ...]
+    studies: tuple[str, ...]
     problems: tuple[str, ...]
     notes: tuple[str, ...]
 
@@ -46,11 +48,17 @@ def verify_archive(
     notes += plan.notes
     loaded: dict[str, Fmu] = {}
     reproductions = []
+    studies: list[str] = []
     for experiment in plan.experiments:
         try:
             reproductions.append(reproduce(archive, files, experiment, options, relative, timeout, loaded))
         except InputError as error:
             problems.append(f"{experiment.name}: {error.text}")
-    if not plan.experiments:
+    for related in manifest.files:
+        if related.study is not None and related.name is not None and related.name in files:
+            where = f"{archive.label}!{related.name}"
+            problems += compare_report(files[related.name], archive.path, related.study, options, where)
+            studies.append(related.study)
+    if not plan.experiments and not studies:
         problems.append("holds no trajectory: nothing to reproduce")
-    return Verification(archive.label, tuple(reproductions), tuple(problems), tuple(notes))
+    return Verification(archive.label, tuple(reproductions), tuple(studies), tuple(problems), tuple(notes))

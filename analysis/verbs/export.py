@@ -13,6 +13,7 @@ from typing import Literal, Unpack
 
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
+from ...fmus_src.evidence.block import add_evidence
 from ...fmus_src.export.archive import read_zip, write_zip
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
@@ -26,6 +27,7 @@ from ...fmus_src.paths import FLAVOURS, IS_CHECKOUT, own_fmu, own_fmus, shipped_
 from ..common.atomic import write_atomically
 from ..common.errors import InputError, SeveralProblemsError, suggestion
 from ..common.targets import check_file
+from ..evidence.system import add_system_evidence, check_studies
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.documents import parse_xml
 from .options.library import EXPORT, ExportOptions
@@ -59,7 +61,8 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
 
     ``name`` is a block's, a system's (or its folder), or a file; a block of one's own is looked up by its name in the
     .py files of the working folder. ``platforms`` are of native FMUs (linux64, win64, darwin64), by default those that
-    are prebuilt, or for which a compiler is installed; ``flavour`` is native by default, of a file both where one
+    are prebuilt, or for which a compiler is installed; ``studies`` are campaigns of a system, stability or all, whose
+    reports its .ssp has as evidence; ``flavour`` is native by default, of a file both where one
     is installed; ``output`` is NAME.fmu or NAME.ssp in the working folder, of a file its build/fmus. Raises InputError,
     with a line for each thing that is wrong with a block.
     """
@@ -70,7 +73,7 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
         raise InputError("`platforms`", platforms[0], "Python FMUs have no platform to choose", "leave it out")
     check_file("`output`", target)
     try:
-        exported = _export(text, platforms, flavour, target)
+        exported = _export(text, platforms, flavour, target, options["studies"])
     except CompilerMissing as error:
         raise InputError("export", text, "cannot be compiled here", str(error)) from error
     except CompilationFailed as error:
@@ -86,14 +89,19 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
     return exported
 
 
-def _export(text: str, platforms: Sequence[str], flavour: Flavour | None, target: Path | None) -> Exported:
+def _export(
+    text: str, platforms: Sequence[str], flavour: Flavour | None, target: Path | None, studies: Sequence[str]
+) -> Exported:
+    is_system = text in system_names() or (Path(text).is_dir() and text not in catalogue())
+    if studies and not is_system:
+        raise InputError("`studies`", studies[0], f"{text} is no system, which alone has studies", "leave it out")
     if text.endswith(".py"):
         _check_there(Path(text))
         return _export_file(Path(text), platforms, flavour, target)
     own = _own_file(text)
     if own is not None:
         return _export_file(own, platforms, flavour, target, text if text in defines(own) else None)
-    return _export_named(text, platforms, flavour or "native", target)
+    return _export_named(text, platforms, flavour or "native", target, studies)
 
 
 def _check_there(file: Path) -> None:
@@ -122,7 +130,9 @@ def _own_file(name: str) -> Path | None:
     return files[0] if files else None
 
 
-def _export_named(name: str, requested: Sequence[str], flavour: Flavour, output: Path | None) -> Exported:
+def _export_named(
+    name: str, requested: Sequence[str], flavour: Flavour, output: Path | None, studies: Sequence[str]
+) -> Exported:
     """An FMU or a system of this repository or of a folder."""
     platforms = [] if flavour == "python" else _platforms(requested, own=False)
     blocks = catalogue()
@@ -133,7 +143,7 @@ def _export_named(name: str, requested: Sequence[str], flavour: Flavour, output:
     elif name in system_names() or Path(name).is_dir():
         path = output or Path(f"{Path(name).resolve().name}.ssp")
         check_file("`output`", path, (".ssp",))
-        _export_system(open_system(name), path, flavour, platforms)
+        _export_system(open_system(name), path, flavour, platforms, studies)
     else:
         problem = "neither an FMU, a system nor a .py file, and no block of a .py file here"
         own = [block for path in sorted(Path().glob("*.py")) for block in (path.stem, *defines(path))]
@@ -156,7 +166,8 @@ def _build(block: type[Block], path: Path, flavour: str, platforms: list[str]) -
     elif not IS_CHECKOUT:
         files = read_zip(shipped_fmu(block.fmu_name, flavour))
         left_out = tuple(f"binaries/{name}/" for name in PLATFORMS if name not in platforms)
-        write_zip(path, {name: content for name, content in files.items() if not name.startswith(left_out)})
+        files = {name: content for name, content in files.items() if not name.startswith(left_out)}
+        write_zip(path, add_evidence(block, files))  # with the digests of these files alone
     elif not platforms:
         raise InputError(
             "export", block.fmu_name, "no C compiler here", "pip install ziglang, or give `flavour` python"
@@ -170,9 +181,12 @@ def _zig_is_here() -> bool:
     return "win64" in available_platforms()
 
 
-def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: list[str]) -> None:
+def _export_system(
+    archive: SystemArchive, path: Path, flavour: str, platforms: list[str], studies: Sequence[str]
+) -> None:
     """The system's folder as one archive, with the FMUs of this repository and of the working folder that it names."""
     blocks = catalogue()
+    requested = check_studies(archive, studies)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for entry in [entry for entry in archive.files if entry.endswith(".ssd")]:
@@ -194,7 +208,7 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
                     remedy = f"build your own with perilune export FILE.py and `flavour` {flavour}, or add the FMU"
                     raise InputError(f"{archive.label}/{entry}", element, problem, remedy)
         packed = pack_system(archive.path, [folder], folder / "packed")
-        write_atomically(path, packed.read_bytes())
+        write_zip(path, add_system_evidence(packed, requested))
 
 
 def _export_file(

@@ -48,6 +48,8 @@ class Verifications(Sequence[Verification]):
         lines = []
         for each in self.files:
             lines += [f"{each.file}: {_summary(made)}" for made in each.reproductions]
+            different = {problem.partition(":")[0] for problem in each.problems}
+            lines += [f"{each.file}: {name}: report reproduced" for name in each.studies if name not in different]
             lines += [line for note in each.notes for line in wrap(f"{each.file}: note: {note}", 4)]
             lines += [] if _problems(each) else [f"{each.file}: verified"]
         return [on_one_line(line) for line in lines]

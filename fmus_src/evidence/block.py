@@ -7,14 +7,13 @@ from collections.abc import Mapping
 from ..block import Block
 from .check import Check, Tolerances, elements_of, read_check
 from .experiments import Experiment, write_experiments
-from .manifest import EXPERIMENTS, FOLDER, PARAMETERS, Related, add_manifest
+from .manifest import CSV, EXPERIMENTS, FOLDER, PARAMETERS, Related, add_manifest
 from .page import block_page
 from .parameter_set import write_parameter_set
 from .recorded import record_outputs
 
 CHECK, OUTPUTS, SET, EXPERIMENT = "check.csv", "outputs.csv", "check.ssv", "check.exp"
 PAGE = "documentation/index.html"
-CSV = "text/csv"
 
 
 def add_evidence(block_class: type[Block], files: Mapping[str, bytes]) -> dict[str, bytes]:

@@ -20,7 +20,8 @@ TOLERANCES = "org.perilune.tolerances"
 class Experiment:
     """One simulation (times in s) with its files, named relative to that of the experiments; None where it has none.
 
-    ``tolerances``: signal -> (absolute, relative). A signal that they do not name has to be equal, bit by bit.
+    ``tolerances``: signal -> (absolute, relative). A signal that they do not name has to be equal, bit by bit; with
+    None, which writes no annotation, every signal may differ by what whoever compares permits.
     """
 
     name: str
@@ -30,7 +31,7 @@ class Experiment:
     references: str
     parameters: str | None = None
     stimuli: str | None = None
-    tolerances: Tolerances = field(default_factory=dict)
+    tolerances: Tolerances | None = field(default_factory=dict)
 
 
 def write_experiments(name: str, experiments: Sequence[Experiment]) -> bytes:
@@ -46,6 +47,8 @@ def write_experiments(name: str, experiments: Sequence[Experiment]) -> bytes:
         for tag, source in files.items():
             if source is not None:
                 etree.SubElement(element, tag, source=source)
+        if each.tolerances is None:
+            continue
         annotation = etree.SubElement(etree.SubElement(element, "Annotations"), "Annotation", type=TOLERANCES)
         tolerances = etree.SubElement(annotation, "Tolerances", absolute="0.0", relative="0.0")
         for signal, (absolute, relative) in each.tolerances.items():

@@ -22,6 +22,10 @@ CHECKSUM = "SHA3-256"  # the standard's default
 SUMS = f"{FOLDER}/SHA256SUMS"
 NOT_LISTED = (MANIFEST, SUMS)
 
+STUDY = "org.perilune.study"
+STABILITY = "stability"
+
+CSV = "text/csv"
 PARAMETERS = "application/x-ssp-parameter-set"
 EXPERIMENTS = "application/x-ma-hs-experiments"
 
@@ -34,6 +38,7 @@ class Related:
     role: str
     type: str
     description: str
+    study: str | None = None  # of a report: what it is of, a campaign's name or `STABILITY`
 
 
 def add_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> dict[str, bytes]:
@@ -51,7 +56,7 @@ def _write_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> b
     for name, text in (("name", STANDARD), ("version", VERSION), ("description", DESCRIPTION)):
         root.set(f"{{{NAMESPACE}}}fmi-ls-{name}", text)
     for each in related:
-        etree.SubElement(
+        element = etree.SubElement(
             root,
             "Related",
             type=each.type,
@@ -61,4 +66,7 @@ def _write_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> b
             checksum=hashlib.sha3_256(files[each.name]).hexdigest(),
             checksumType=CHECKSUM,
         )
+        if each.study is not None:
+            annotation = etree.SubElement(etree.SubElement(element, "Annotations"), "Annotation", type=STUDY)
+            etree.SubElement(annotation, "Study", name=each.study)
     return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)

@@ -213,7 +213,9 @@ def read_plan(
     raw, label = archive.campaign(campaign)
     source = read_source(raw, label, archive)
     read = parse_campaign(source.table())
-    if (read.system[:-4] if names_fmu(read.system) else read.system.removesuffix(".ssp")) != archive.name:
+    name = read.system[:-4] if names_fmu(read.system) else read.system.removesuffix(".ssp")
+    is_its = archive.path.suffix == ".ssp" and label.startswith(f"{archive.label}!")  # whatever the archive is called
+    if name != archive.name and not is_its:
         raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
     changes: dict = {}
     if trials is not None:

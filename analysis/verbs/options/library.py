@@ -203,6 +203,16 @@ class ExportOptions(TypedDict, total=False):
         Literal["native", "python"] | None,
         Option("default: native; of FILE.py both, as far as a compiler is here"),
     ]
+    studies: Annotated[
+        Sequence[str],
+        Option(
+            "of a system: put the report of a campaign, or of `stability`, into it as evidence; `all` of them",
+            (),
+            metavar="CAMPAIGN",
+            flag="study",
+            completer="campaigns",
+        ),
+    ]
     output: Annotated[
         FilePath | None,
         Option("write to F; default: NAME.fmu or NAME.ssp here, of FILE.py in build/fmus", metavar="F"),

@@ -1,0 +1,84 @@
+"""Studies as evidence: the verdicts of a campaign, the margins of the loops, made anew and compared."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping
+from contextlib import chdir
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from ...fmus_src.evidence.manifest import STABILITY
+from ..campaigns.fly.campaign import open_campaign
+from ..campaigns.fly.results import BatchResult
+from ..campaigns.fly.runner import fly_campaign
+from ..campaigns.spec.plan import read_plan
+from ..common.errors import InputError
+from ..runtime.system.options import SystemOptions
+from ..stability.request.request import read_request
+from ..stability.results.document import document
+from ..stability.study import study
+
+ALL = "all"
+MARGINS = ("gain_margin_db", "phase_margin_deg", "modulus_margin", "disk_margin", "delay_margin_s")
+KEYS = ("name", "point", "verdict", "stable", *MARGINS)
+LAPACK = 1e-6  # margins depend on eigenvalues, whose last bits are the linear algebra library's
+NAMED = 6
+
+
+def make_report(system: Path, name: str, options: SystemOptions) -> bytes:
+    """The report of a study as JSON: a campaign by name, or `STABILITY`. Raises InputError for no such study."""
+    report = _margins(system, options) if name == STABILITY else _verdicts(system, name, options)
+    return f"{json.dumps({'perilune': version('perilune'), **report}, indent=1)}\n".encode()
+
+
+def compare_report(stored: bytes, system: Path, name: str, options: SystemOptions, file: str) -> list[str]:
+    """Where a study made anew differs from its stored report, a line each. Raises InputError."""
+    try:
+        before = json.loads(stored)
+    except (ValueError, RecursionError) as error:
+        raise InputError(file, "", f"not JSON: {error}", "export the system again") from error
+    after = json.loads(make_report(system, name, options))
+    relative = LAPACK if name == STABILITY else 0.0
+    numbers, now = dict(_leaves(before, "")), dict(_leaves(after, ""))
+    differences = [
+        f"{key}: {numbers.get(key, 'absent')} in the report, {now.get(key, 'absent')} now"
+        for key in {**numbers, **now}
+        if key != ".perilune" and not _same(numbers.get(key), now.get(key), relative)
+    ]
+    more = [f"and {len(differences) - NAMED} more"] if len(differences) > NAMED else []
+    return [f"{name}: {line}" for line in [*differences[:NAMED], *more]]
+
+
+def _verdicts(system: Path, name: str, options: SystemOptions) -> dict[str, object]:
+    plan = read_plan(system, name, options)
+    with chdir(Path.cwd()):  # an FMU may change the folder
+        campaign = open_campaign(plan, None)
+        made = BatchResult.finish(campaign, fly_campaign(campaign, campaign.missing())).document()
+    return {"campaign": name, **{key: made[key] for key in ("trials", "seed", "success", "metrics", "variants")}}
+
+
+def _margins(system: Path, options: SystemOptions) -> dict[str, object]:
+    made: dict[str, Any] = document(study(read_request(system, options)))
+    loops = [{key: loop[key] for key in KEYS if key in loop} for loop in made["loops"]]
+    return {"verdict": made["verdict"], "limits": made["limits"], "loops": loops}
+
+
+def _leaves(entry: object, path: str) -> Iterator[tuple[str, object]]:
+    """Every number and text of a JSON document under its path."""
+    if isinstance(entry, Mapping):
+        for key, inner in entry.items():
+            yield from _leaves(inner, f"{path}.{key}")
+    elif isinstance(entry, list):
+        for index, inner in enumerate(entry):
+            yield from _leaves(inner, f"{path}[{index + 1}]")
+    else:
+        yield path, entry
+
+
+def _same(before: object, after: object, relative: float) -> bool:
+    if isinstance(before, float) and isinstance(after, float):
+        return before == after or math.isclose(before, after, rel_tol=relative, abs_tol=0.0)
+    return before == after

@@ -1,0 +1,125 @@
+"""The evidence of a system that is handed on: its flight, its campaigns and parameter sets, its studies."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from contextlib import chdir
+from pathlib import Path, PurePosixPath
+
+import numpy as np
+
+from ...fmus_src.catalogue import catalogue
+from ...fmus_src.evidence.experiments import Experiment, write_experiments
+from ...fmus_src.evidence.manifest import (
+    CSV,
+    EXPERIMENTS,
+    FOLDER,
+    PARAMETERS,
+    STABILITY,
+    Related,
+    add_manifest,
+)
+from ...fmus_src.export.archive import read_zip
+from ..common.errors import InputError, suggestion
+from ..runtime.apart.opening import open_simulation
+from ..runtime.flight.interruptible import fly
+from ..runtime.flight.results import Flight
+from ..runtime.ssp.archive import SystemArchive
+from ..runtime.ssp.names import split_name
+from ..runtime.ssp.reading import read_description
+from ..runtime.system.fmu import Fmu
+from ..runtime.system.options import SystemOptions
+from ..runtime.system.prepared import PreparedSystem, prepare_system
+from ..stability.request.reading import read_declaration
+from .studies import ALL, make_report
+
+ROWS = 200  # of a trajectory, at most: a flight that differs anywhere differs at its end
+TRAJECTORY, EXPERIMENT = f"{FOLDER}/outputs.csv", f"{FOLDER}/outputs.exp"
+
+
+def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
+    """The studies that are asked for, all that there are for `ALL`. Raises InputError for one that there is not."""
+    has_loops = bool(read_declaration(read_description(archive)).loops)
+    known = [*sorted(archive.campaign_names()), *([STABILITY] if has_loops else [])]
+    for name in studies:
+        if name not in (*known, ALL):
+            raise InputError("`studies`", name, f"no such study of {archive.label}", suggestion(name, [*known, ALL]))
+    return known if ALL in studies else list(dict.fromkeys(studies))
+
+
+def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes]:
+    """The files of a packed system with its evidence: a flight of the system as it stands, and reports of ``studies``.
+
+    A system that cannot be simulated as it stands has no trajectory, which a warning says. Raises InputError.
+    """
+    files = read_zip(packed)
+    related = _listed(files)
+    try:
+        prepared = prepare_system(packed)
+        with chdir(Path.cwd()), open_simulation(prepared) as simulation:
+            flight = fly(simulation)
+    except InputError as error:
+        warnings.warn(f"no trajectory inside: {error.text}", stacklevel=5)
+    else:
+        if flight.complete:
+            files[TRAJECTORY] = _table(flight, prepared)
+            files[EXPERIMENT] = _experiment(prepared)
+            what = f"the system's outputs at {ROWS} communication points or less, all bits"
+            related.append(Related(TRAJECTORY, "result", CSV, what))
+            related.append(Related(EXPERIMENT, "experiment/validation", EXPERIMENTS, "how to reproduce the trajectory"))
+        else:
+            warnings.warn(f"no trajectory inside: {flight.ending}: {flight.message}", stacklevel=5)
+    for name in studies:
+        report = f"{FOLDER}/reports/{name}.json"
+        files[report] = make_report(packed, name, SystemOptions())
+        what = "margins of the loops" if name == STABILITY else f"verdicts and statistics of the campaign {name}"
+        related.append(Related(report, "report", "application/json", what, study=name))
+    return add_manifest(files, related)
+
+
+def _listed(files: dict[str, bytes]) -> list[Related]:
+    """What the system's own files are."""
+    related = []
+    archive_files = sorted(files)
+    for name in archive_files:
+        stem = PurePosixPath(name).stem
+        if name.endswith(".ssv"):
+            related.append(Related(name, "parameter", PARAMETERS, f"parameter set {stem}"))
+        elif name.endswith(".toml") and name.startswith("extra/org.perilune/campaigns/"):
+            role = "experiment/uncertainty-analysis"
+            related.append(Related(name, role, "application/toml", f"campaign {stem}"))
+        elif name.startswith("documentation/"):
+            related.append(Related(name, "document", "text/markdown", "what the system is"))
+    return related
+
+
+def _table(flight: Flight, prepared: PreparedSystem) -> bytes:
+    """Outputs over time (s), rows thinned to `ROWS` with the first and the last."""
+    last = flight.time.size - 1
+    rows = np.unique(np.linspace(0.0, last, min(ROWS, last + 1)).round().astype(int))
+    columns = {"time": flight.time[rows].tolist()}
+    for name, samples in flight.signals.items():
+        component, variable = split_name(name, prepared.network.fmus)
+        if not component or prepared.network.fmus[component].variables[variable].causality == "output":
+            is_real = flight.types[name] == "Real"
+            columns[name] = samples[rows].tolist() if is_real else samples[rows].astype(int).tolist()
+    lines = (",".join(map(repr, row)) for row in zip(*columns.values(), strict=True))
+    header = ",".join(f'"{name}"' if "," in name else name for name in columns)
+    return "\n".join([header, *lines, ""]).encode()
+
+
+def _experiment(prepared: PreparedSystem) -> bytes:
+    stop = prepared.start + prepared.steps * prepared.step
+    exact = all(_is_exact(fmu) for fmu in prepared.network.fmus.values())
+    description = "the system as it stands, bit by bit" if exact else "the system as it stands"
+    times = (prepared.start, stop)
+    source = PurePosixPath(TRAJECTORY).name
+    experiment = Experiment("outputs", description, times, prepared.step, source, tolerances={} if exact else None)
+    return write_experiments(prepared.archive.name, [experiment])
+
+
+def _is_exact(fmu: Fmu) -> bool:
+    """Whether an FMU gives the same bits on every processor: Perilune's without Python libraries."""
+    block = catalogue().get(fmu.name)
+    return fmu.is_own and (fmu.is_native or (block is not None and not block.python_only))
