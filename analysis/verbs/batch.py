@@ -25,6 +25,7 @@ from ..reports.campaign.distributions import metric_plot, sort_metrics
 from ..reports.common.notebook import Grid, metric_grid, notebook_view
 from ..runtime.flight.results import require_pandas
 from ..studies.sobol import rank_correlations
+from ..traceability.campaign_task import write_task
 from .common.campaign_text import campaign_problems, campaign_requirements, status_meanings
 from .common.campaigns import name_foreign, read_campaign, resume_hint
 from .options.campaigns import BATCH, BatchOptions
@@ -79,6 +80,12 @@ class BatchResult(results.BatchResult):
     def write(self, folder: FilePath) -> None:
         """Write what `perilune batch --output` does: trials, draws, summary, traces where the campaign keeps them."""
         super().write(Path(folder))
+
+    def write_task(self, path: FilePath) -> None:
+        """Write the simulation task of `perilune batch --trace`, of a batch with ``output``. Raises InputError."""
+        if self.folder is None:
+            raise InputError("`trace`", str(path), "the batch has no folder, whose files it describes", "give `output`")
+        write_task(self, Path(path))
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune batch --report`: one HTML file."""

@@ -55,11 +55,6 @@ def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]
     """Refuse files that cannot be written, and options without their file, before any work. Raises InputError."""
     declared = options_of(verb.files)
     everything = {**options_of(verb.options), **declared}
-    for name, value in {**options, **files}.items():
-        needed = everything[name].option.needs
-        if needed and files.get(needed) is None:
-            given = "" if value is True else str(value)
-            raise InputError(f"`{name}`", given, f"without effect unless `{needed}` is given", "give both or neither")
     for name, path in files.items():
         if declared[name].kind is Kind.PATH and str(path) != STANDARD_OUTPUT:
             option = declared[name].option
@@ -67,6 +62,11 @@ def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]
                 check_folder(f"`{name}`", Path(path), overwrite=True)
             else:
                 check_file(f"`{name}`", Path(path), option.suffixes)
+    for name, value in {**options, **files}.items():
+        needed = everything[name].option.needs
+        if needed and {**options, **files}.get(needed) is None:
+            given = "" if value is True else str(value)
+            raise InputError(f"`{name}`", given, f"without effect unless `{needed}` is given", "give both or neither")
     if "open" in files:
         require_browser("`open`")
 

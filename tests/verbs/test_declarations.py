@@ -59,7 +59,7 @@ def test_every_declared_word_has_a_text(name):
     for each in declared:
         assert each.option.text, each.name
         assert not each.option.text.endswith("."), each.name
-        assert not each.option.needs or each.option.needs in options_of(verb.files)
+        assert not each.option.needs or each.option.needs in {**options_of(verb.options), **options_of(verb.files)}
     names = [each.name for each in declared] + [each.name for each in verb.arguments]
     assert len(names) == len(set(names))
     assert all(each.text for each in verb.arguments)

@@ -130,6 +130,21 @@ class BatchOptions(CampaignOptions, TrialsOptions, ExecutionOptions, RequireOpti
     until_decided: UntilDecided
 
 
+class BatchFiles(ReportFiles, total=False):
+    """Files"""
+
+    trace: Annotated[
+        FilePath | None,
+        Option(
+            "describe the campaign in --output as a simulation task of SSP-LS-Traceability",
+            metavar="F.stmd",
+            suffixes=(".stmd",),
+            needs="output",
+            writer="write_task",
+        ),
+    ]
+
+
 class CompareOptions(TypedDict, total=False):
     """Options of compare"""
 
@@ -170,7 +185,7 @@ BATCH = Verb(
     "simulate a campaign: many trials, variants compared on the same samples",
     (SYSTEM, CAMPAIGN),
     options=BatchOptions,
-    files=ReportFiles,
+    files=BatchFiles,
     examples={
         "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results "
         "--report batch.html": "three guidance laws on the same fifty samples",

@@ -1,0 +1,1 @@
+"""A campaign as a simulation task of SSP-LS-Traceability."""

@@ -1,0 +1,99 @@
+"""A campaign in a folder as a simulation task: requirements, draws, systems, flights, verdicts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib.metadata import version
+from pathlib import Path
+
+from ..campaigns.fly.manifest import CONTENTS, FILE, CampaignDocument, Manifest, SourceDocument, read_manifest
+from ..campaigns.fly.results import BatchResult
+from ..campaigns.fly.shards.files import DRAWS, FOLDER, SUMMARY
+from ..campaigns.replay_command import campaign_command
+from ..common.atomic import write_atomically
+from .elements import Task
+
+TYPES = {
+    ".fmu": "application/x-fmu-sharedlibrary",
+    ".ssd": "application/x-ssp-definition",
+    ".ssv": "application/x-ssp-parameter-set",
+    ".ssm": "application/x-ssp-parameter-mapping",
+    ".ssb": "application/x-ssp-signal-dictionary",
+    ".toml": "application/toml",
+    ".json": "application/json",
+    ".csv": "text/csv",
+    ".md": "text/markdown",
+    ".parquet": "application/vnd.apache.parquet",
+}
+KINDS = {".fmu": "model", ".ssd": "system", ".ssv": "parameter", ".ssm": "parameter", ".ssb": "parameter"}
+OTHER = "application/octet-stream"
+
+
+def write_task(made: BatchResult, path: Path) -> None:
+    """Write the task of a finished campaign, which has a folder, to ``path`` (.stmd). Raises OSError."""
+    assert made.folder is not None  # the option has no effect without one
+    folder, campaign = made.folder.absolute(), made.plan.campaign
+    manifest = read_manifest(folder)
+    title = f"{manifest.system['name']}: {Path(campaign.file.rpartition('/')[2]).stem}"
+    task = Task(title, f"Perilune {version('perilune')}", path)
+
+    requirements = task.step("RequirementsPhase", "DefineTestCaseRequirements")
+    for label, content in _sources(manifest.campaign):
+        requirements.add_file("Output", folder / CONTENTS / content, "requirement", TYPES[".toml"], label)
+    requirements.classify("org.perilune.success", {"success": campaign.success.text})
+    requirements.classify("org.perilune.requirements", {each.name: str(each) for each in campaign.requirements})
+
+    parameters = task.step("ImplementationPhase", "ImplementParameter")
+    parameters.add_file("Output", folder / DRAWS, "parameter", TYPES[".parquet"], "draws, a row for each trial")
+    parameters.classify("org.perilune.draws", {"seed": str(campaign.seed), "trials": str(campaign.trials)})
+
+    environment = task.step("ImplementationPhase", "IntegrateSimulation")
+    for label, content in _system_files(manifest):
+        suffix = Path(label).suffix.lower()
+        kind, mime = KINDS.get(suffix, "document"), TYPES.get(suffix, OTHER)
+        environment.add_file("Output", folder / CONTENTS / content, kind, mime, label)
+    environment.add_file("Output", folder / FILE, "configuration", TYPES[".json"], "all that the numbers depend on")
+
+    execution = task.step("ExecutionPhase", "ExecuteSimulation")
+    for name in (DRAWS, FILE):
+        execution.add_file("Input", folder / name, "configuration", TYPES[Path(name).suffix], name)
+    for variant in campaign.variants():
+        execution.add_text("Procedure", campaign_command(made.plan, variant), "method", f"variant {variant.name}")
+    for part, description in ((FOLDER, "trials"), ("traces", "recorded flights")):
+        for file in sorted((folder / part).rglob("*.parquet")):
+            label = f"{description}: {file.relative_to(folder).as_posix()}"
+            execution.add_file("Output", file, "result", TYPES[".parquet"], label)
+
+    evaluation = task.step("EvaluationPhase", "EvaluateSimulationResults")
+    evaluation.add_file("Output", folder / SUMMARY, "report", TYPES[".json"], "rates, statistics and verdicts")
+    rates = {variant: f"{entry.success_rate:.10g} of {entry.trials} trials" for variant, entry in made.summary.items()}
+    evaluation.classify("org.perilune.success_rate", rates)
+
+    verdicts = {
+        f"{variant}.{name}": f"{each.verdict}: {each.text}; {each.failures} failures in {each.flights} trials"
+        for variant, entry in made.summary.items()
+        for name, each in entry.requirements.items()
+    }
+    decision = task.step("FulfillmentPhase", "DecideSimulationObjectiveFulfillment")
+    decision.add_file("Input", folder / SUMMARY, "report", TYPES[".json"], SUMMARY)
+    decision.classify("org.perilune.verdicts", verdicts)
+    write_atomically(path, task.write())
+
+
+def _sources(campaign: CampaignDocument | SourceDocument) -> Iterator[tuple[str, str]]:
+    """Label and content of a campaign's file and of those that it extends."""
+    yield campaign["label"].rpartition("/")[2], campaign["content"]
+    for extended in campaign.get("extends", ()):
+        yield from _sources(extended)
+
+
+def _system_files(manifest: Manifest) -> Iterator[tuple[str, str]]:
+    """Name and content of the system's files, and of the FMUs and parameter sets from elsewhere."""
+    yield from manifest.system["files"].items()
+    for key, content in manifest.elsewhere.items():
+        kind, _, name = key.partition(":")
+        is_fmu = kind in ("source", "use") and not name.lower().endswith(".fmu")
+        yield f"{name}.fmu" if is_fmu else name, content
+    for table in (manifest.series, manifest.draws):
+        if table is not None:
+            yield table["label"].rpartition("/")[2], table["content"]
