@@ -14,7 +14,6 @@ from lxml import etree
 from ..common.errors import InputError
 from ..runtime.apart.opening import open_simulation
 from ..runtime.flight.interruptible import fly
-from ..runtime.flight.selection import find_variables
 from ..runtime.ssp.archive import SystemArchive, read_fmu
 from ..runtime.ssp.documents import NAMESPACES, read_document
 from ..runtime.system.alone import describe_alone, proposed_step
@@ -25,6 +24,7 @@ from .comparison import CLOSE, SignalCheck, compare
 from .experiments import PlannedExperiment
 from .trajectory import Trajectory, read_trajectory
 
+NAMED = 6  # columns without a variable
 RELATIVE = 1e-6  # of a signal's greatest magnitude, where no tolerance is declared
 SET = "resources/experiment.ssv"  # the parameters of an experiment among the files of its archive
 
@@ -92,24 +92,27 @@ def reproduce(
 
 def _variables(prepared: PreparedSystem, reference: Trajectory) -> tuple[dict[str, str], list[str]]:
     """What is compared: variables as the flight records them, by column; and a problem for each column without one."""
-    is_alone = prepared.archive.is_fmu
+    network, prefix = prepared.network, ""
+    if prepared.archive.is_fmu:
+        prefix = f"{next(iter(network.fmus))}."
+    types = {
+        f"{owner}.{name}": variable.type
+        for owner, fmu in network.fmus.items()
+        for name, variable in fmu.variables.items()
+    }
     variables: dict[str, str] = {}
     problems = []
     for name in reference.signals:
-        node = prepared.network.nodes.get(name)
+        node, full = network.nodes.get(name), f"{prefix}{name}"
         if node is not None and node.component is None:
             variables[name] = name
-            continue
-        try:
-            matches = find_variables(prepared.network, [name], is_alone=is_alone)
-        except InputError as error:
-            problems.append(f"column {name}: {error.problem}; {error.remedy}")
-            continue
-        if len(matches) > 1:
-            problems.append(f"column {name}: a vector without index; name its elements")
-        elif matches[0] not in prepared.network.driven:
-            variables[name] = matches[0]
-    return variables, problems
+        elif types.get(full, "String") == "String":
+            problem = "a String, which is not recorded" if full in types else "no such variable"
+            problems.append(f"column {name}: {problem}")
+        elif full not in network.driven:
+            variables[name] = full
+    more = [f"and {len(problems) - NAMED} more columns"] if len(problems) > NAMED else []
+    return variables, [*problems[:NAMED], *more]
 
 
 def _table(files: Mapping[str, bytes], name: str, label: str) -> Trajectory:

@@ -16,7 +16,10 @@ from ..campaigns.fly.results import BatchResult
 from ..campaigns.fly.runner import fly_campaign
 from ..campaigns.spec.plan import read_plan
 from ..common.errors import InputError
+from ..runtime.ssp.archive import SystemArchive
+from ..runtime.ssp.reading import read_description
 from ..runtime.system.options import SystemOptions
+from ..stability.request.reading import read_declaration
 from ..stability.request.request import read_request
 from ..stability.results.document import document
 from ..stability.study import study
@@ -26,6 +29,14 @@ MARGINS = ("gain_margin_db", "phase_margin_deg", "modulus_margin", "disk_margin"
 KEYS = ("name", "point", "verdict", "stable", *MARGINS)
 LAPACK = 1e-6  # margins depend on eigenvalues, whose last bits are the linear algebra library's
 NAMED = 6
+
+
+def known_studies(archive: SystemArchive) -> list[str]:
+    """What a system has to be studied: its campaigns by name, and `STABILITY` where it declares loops."""
+    if archive.is_fmu:
+        return []
+    has_loops = bool(read_declaration(read_description(archive)).loops)
+    return [*sorted(archive.campaign_names()), *([STABILITY] if has_loops else [])]
 
 
 def make_report(system: Path, name: str, options: SystemOptions) -> bytes:

@@ -27,12 +27,10 @@ from ..runtime.flight.interruptible import fly
 from ..runtime.flight.results import Flight
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.ssp.names import split_name
-from ..runtime.ssp.reading import read_description
 from ..runtime.system.fmu import Fmu
 from ..runtime.system.options import SystemOptions
 from ..runtime.system.prepared import PreparedSystem, prepare_system
-from ..stability.request.reading import read_declaration
-from .studies import ALL, make_report
+from .studies import ALL, known_studies, make_report
 
 ROWS = 200  # of a trajectory, at most: a flight that differs anywhere differs at its end
 TRAJECTORY, EXPERIMENT = f"{FOLDER}/outputs.csv", f"{FOLDER}/outputs.exp"
@@ -40,8 +38,7 @@ TRAJECTORY, EXPERIMENT = f"{FOLDER}/outputs.csv", f"{FOLDER}/outputs.exp"
 
 def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
     """The studies that are asked for, all that there are for `ALL`. Raises InputError for one that there is not."""
-    has_loops = bool(read_declaration(read_description(archive)).loops)
-    known = [*sorted(archive.campaign_names()), *([STABILITY] if has_loops else [])]
+    known = known_studies(archive)
     for name in studies:
         if name not in (*known, ALL):
             raise InputError("`studies`", name, f"no such study of {archive.label}", suggestion(name, [*known, ALL]))

@@ -14,7 +14,7 @@ from ..runtime.system.options import SystemOptions
 from .experiments import plan_experiments
 from .manifest import checksum_problem, read_manifest
 from .reproduction import Reproduction, reproduce
-from .studies import compare_report
+from .studies import compare_report, known_studies
 from .sums import check_sums
 
 
@@ -56,6 +56,9 @@ def verify_archive(
             problems.append(f"{experiment.name}: {error.text}")
     for related in manifest.files:
         if related.study is not None and related.name is not None and related.name in files:
+            if related.study not in known_studies(archive):
+                problems.append(f"{related.name}: reports {related.study}, which is no study of the archive")
+                continue
             where = f"{archive.label}!{related.name}"
             problems += compare_report(files[related.name], archive.path, related.study, options, where)
             studies.append(related.study)

@@ -56,7 +56,7 @@ class Verifications(Sequence[Verification]):
 
     def problems(self) -> list[str]:
         """What of all files is not as it was handed on, or not reproduced."""
-        return [problem for each in self.files for problem in _problems(each)]
+        return [on_one_line(problem) for each in self.files for problem in _problems(each)]
 
     def to_json(self) -> object:
         """All comparisons, for other programs."""

@@ -19,6 +19,7 @@ from tests.hostile import (
     archives,
     campaigns,
     documents,
+    evidence,
     expressions,
     fmus,
     folders,
@@ -35,7 +36,7 @@ from tests.support.refused import ONE_LINE
 
 pytestmark = pytest.mark.flies
 SUBJECTS = (
-    *(archives, campaigns, documents, expressions, fmus, folders, kinds, more_documents, systems),
+    *(archives, campaigns, documents, evidence, expressions, fmus, folders, kinds, more_documents, systems),
     *(tables, values),
 )
 CASES = {name: case for subject in SUBJECTS for name, case in subject.CASES.items()}
