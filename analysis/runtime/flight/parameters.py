@@ -13,7 +13,7 @@ import numpy as np
 from fmpy.model_description import ScalarVariable
 
 from ...common.errors import InputError
-from ..ssp.parameter_sets import ParameterValue
+from ..ssp.given_values import ParameterValue
 from ..system.assignments import Settings
 from ..system.fmu import Fmu
 from ..system.network import Network

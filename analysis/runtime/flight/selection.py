@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from ...common.errors import InputError, suggestion
+from ..ssp.given_values import parse_value
 from ..ssp.names import elements
-from ..ssp.parameter_sets import parse_value
 from ..system.assignments import Settings
 from ..system.checks import check_fault
 from ..system.fault import Fault

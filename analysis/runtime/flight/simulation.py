@@ -10,7 +10,7 @@ import numpy as np
 
 from ...common.collection import no_collection
 from ..instances.instance import Instance, instantiate
-from ..ssp.parameter_sets import ParameterValue
+from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
 from .base_simulation import NOTHING, BaseSimulation, Choices

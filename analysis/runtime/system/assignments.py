@@ -10,8 +10,9 @@ from ...common.errors import InputError, suggestion
 from ..ssp.archive import SystemArchive
 from ..ssp.conversions import VALUE_TYPES, Transformation
 from ..ssp.description import Binding, Component, System
+from ..ssp.given_values import ParameterValue, parse_value
 from ..ssp.names import split_name
-from ..ssp.parameter_sets import Assignment, Notes, ParameterValue, SetValue, parse_value, read_binding
+from ..ssp.parameter_sets import Assignment, Notes, SetValue, read_binding
 from .network import Link, Network, Node
 from .options import SystemOptions
 
@@ -106,7 +107,7 @@ def _bound(
     """Assignments of parameter bindings in order; ``place`` stands before their names in the flat network."""
     assignments: list[Assignment] = []
     for binding in bindings:
-        values, without = read_binding(archive, network.file, binding, network.description.units, notes)
+        values, without = read_binding(archive, network.file, binding, network.description.units, notes, network.notes)
         assignments += values
         settings.left_out |= {place + value.name: f"{value.name} of {value.origin}" for value in without}
         if without:

@@ -18,6 +18,8 @@ from ..ssp.description import Component, System
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
 from .alone import describe_alone
+from .arrays.elements import expand_arrays
+from .arrays.sizes import given_values
 from .assignments import Settings, collect_settings, single_value
 from .checks import check_samples, check_shared, unfit
 from .feedthrough import find_feedthrough
@@ -161,7 +163,9 @@ def _prepare(
         description, remarks = describe_alone(open_fmu(read_fmu(archive.path), archive.label), options)
     else:
         description = read_description(archive, options.variant)
+    given = cache(lambda: given_values(description, archive, _assignments([], archive, options, {})))
     try:
+        description = expand_arrays(description, given, load)
         network = build_network(description, load)
     except InputError as error:
         slot = next((slot for slot in used if error.element.startswith(f"{slot}.")), None)
@@ -176,7 +180,7 @@ def _prepare(
     if series is not None:
         network.driven = find_driven(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
     assignments = [each for name, (_, retired) in replaced.items() for each in retired.assignments(name)]
-    assignments += _assignments(network, archive, options, elsewhere)
+    assignments += _assignments(network.notes, archive, options, elsewhere)
     settings = collect_settings(network, archive, assignments, options)
     settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
     check_signals(network, settings)
@@ -237,12 +241,12 @@ def locate_fmu(
 
 
 def _assignments(
-    network: Network, archive: SystemArchive, options: SystemOptions, elsewhere: dict[str, Callable[[], bytes]]
+    notes: list[str], archive: SystemArchive, options: SystemOptions, elsewhere: dict[str, Callable[[], bytes]]
 ) -> list[Assignment]:
     assignments: list[Assignment] = []
     for name in options.parameters:
         data, label = archive.parameter_set(name)
         if not label.startswith(f"{archive.label}!"):
             elsewhere[parameters_asked(name)] = partial(bytes, data)
-        assignments += read_parameter_file(data, label, network.notes if options.allow_unmatched else None)
+        assignments += read_parameter_file(data, label, notes if options.allow_unmatched else None, notes)
     return assignments + [single_value(name, value, options.places.get(name)) for name, value in options.set.items()]

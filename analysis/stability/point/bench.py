@@ -13,7 +13,7 @@ from ...common.errors import InputError, suggestion
 from ...runtime.apart.opening import open_simulation
 from ...runtime.flight.base_memory import Cell
 from ...runtime.flight.results import COMPLETE
-from ...runtime.ssp.parameter_sets import ParameterValue
+from ...runtime.ssp.given_values import ParameterValue
 from ...runtime.system.prepared import PreparedSystem
 from ..request.channels import Channel
 from ..request.declaration import Point
