@@ -14,9 +14,9 @@ from fmpy.model_description import ScalarVariable
 
 from ...common.errors import InputError
 from ..ssp.given_values import ParameterValue
-from ..system.assignments import Settings
 from ..system.fmu import Fmu
 from ..system.network import Network
+from ..system.passing.settings import Settings
 from ..system.schedule import origin
 from .compiled import arrays
 

@@ -13,13 +13,15 @@ from fmpy.model_description import ScalarVariable
 from ..instances.instance import Instance
 from ..instances.library import FUNCTION_NAMES
 from ..ssp.conversions import IDENTITY
+from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
-from ..system.assignments import Settings, numbers
 from ..system.checks import connector_type
 from ..system.fault import Fault
 from ..system.fmu import Fmu
 from ..system.inputs import Drive
-from ..system.network import Link, Network, Node
+from ..system.network import Link, Network
+from ..system.passing.parameters import numbers
+from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
 from ..system.schedule import origin
 from .compiled import arrays, codes
@@ -123,21 +125,21 @@ class _Builder:
             else read | set(wanted) | set(more) | {injection.connector for injection in injections}
         )
         self.named = {*(wanted or ()), *more}
+        signals = [link.source for link in network.links() if not link.is_parameter]
+        self.other_sources = {node.name for node in signals if node.component is not None and node.kind != "output"}
+        self.passed_parameters = {node.name for node in signals if node.component is None and node.kind in PARAMETERS}
         self.ranges = np.zeros((len(self.names), len(EXCHANGES), 2), dtype=np.int64)
         self.recorded: list[list[tuple[int, int, int]]] = []  # by component: function, first and count of slots
         for index, name in enumerate(self.names):
             self._place_component(index, name)
         for node in network.nodes.values():
             known = node.name in network.driver or node.name in settings.nodes or node.name in network.driven
-            if node.component is None and not self._is_parameter(node) and known and node.type_name != "String":
+            is_signal = node.kind not in PARAMETERS or node.name in self.passed_parameters
+            if node.component is None and is_signal and known and node.type_name != "String":
                 unit = node.unit.name if node.unit else None
                 self._place(node.name, 0, float(settings.nodes.get(node.name, np.nan)), node.type_name or "Real", unit)
         self.parameters = Parameters(network, settings)
         self.texts = Texts(network, settings)
-
-    @staticmethod
-    def _is_parameter(node: Node) -> bool:
-        return node.kind in ("parameter", "calculatedParameter")
 
     def _place(self, name: str, reference: int, initial: float, type_name: str, unit: str | None) -> None:
         self.slots[name] = len(self.references)
@@ -151,8 +153,11 @@ class _Builder:
         exchanged: list[list[ScalarVariable]] = [[] for _ in EXCHANGES]
         for variable in fmu.variables.values():
             kind = TYPE_KIND.get(variable.type, len(EXCHANGES))
-            if variable.causality in CAUSALITIES and 2 * kind < len(EXCHANGES):
-                exchanged[2 * kind + CAUSALITIES.index(variable.causality)].append(variable)
+            causality = variable.causality
+            if self.other_sources and f"{component}.{variable.name}" in self.other_sources:
+                causality = "output"
+            if causality in CAUSALITIES and 2 * kind < len(EXCHANGES):
+                exchanged[2 * kind + CAUSALITIES.index(causality)].append(variable)
         for function, variables in enumerate(exchanged):
             first = len(self.references)
             causality = CAUSALITIES[function % 2]
@@ -202,7 +207,7 @@ class _Builder:
     def _chain(self, name: str, group: dict[str, Link]) -> None:
         """Add the links that bring a value to a node, by their targets, those before it first, none twice."""
         link = self.network.driver.get(name)
-        if link is None or name in group:
+        if link is None or name in group or name in self.passed_parameters:
             return
         if link.source.component is None:
             self._chain(link.source.name, group)

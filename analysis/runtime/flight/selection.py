@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from ...common.errors import InputError, suggestion
 from ..ssp.given_values import parse_value
 from ..ssp.names import elements
-from ..system.assignments import Settings
 from ..system.checks import check_fault
 from ..system.fault import Fault
 from ..system.network import Network
+from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
 from .parameters import Key
 from .program import Injection, Layout, of_excitation, of_fault

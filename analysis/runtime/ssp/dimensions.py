@@ -60,9 +60,9 @@ def element_names(array: str, shape: Shape) -> list[str]:
 
 def array_shapes(names: Iterable[str]) -> dict[str, Shape]:
     """The arrays among names of elements: those of which every element is there, in the order of their first ones."""
-    known = set(names)
+    known = dict.fromkeys(names)
     arrays: dict[str, list[Shape]] = {}
-    for name in names:
+    for name in known:
         match = ELEMENT.fullmatch(name)
         if match:
             arrays.setdefault(match["array"], []).append(tuple(map(int, match["index"].split(","))))

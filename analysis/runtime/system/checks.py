@@ -10,9 +10,9 @@ from ....fmus_src.export.available import fmu_flavours
 from ...common.errors import InputError, suggestion
 from ..ssp.description import Component
 from ..ssp.names import split_name
-from .assignments import Settings
 from .fault import Fault, number_text
 from .network import Network
+from .passing.settings import Settings
 
 MOST = 6  # FMUs that are named
 

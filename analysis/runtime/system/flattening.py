@@ -17,13 +17,12 @@ from ..ssp.description import (
     Point,
     System,
 )
+from ..ssp.kinds import PARAMETERS, leads
+from ..ssp.types import fits, is_same_type, runtime_type
 from .fmu import Fmu
 from .network import Link, Network, Node
 
-SOURCES = ("output", "calculatedParameter")
-SINKS = ("input", "parameter")
 SUMMED = ("Real", "Integer")
-WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"))  # types of source and target that fit though they differ
 
 
 def build_network(description: Description, load: Callable[[str, Component], Fmu]) -> Network:
@@ -80,7 +79,8 @@ def _unit(network: Network, name: str, fmu: Fmu | None, connector: Connector) ->
 def _plain_node(network: Network, name: str, connector: Connector) -> Node:
     unit = _unit(network, name, None, connector)
     items = network.description.enumerations.get(connector.enumeration or "", {})
-    return Node(name, connector.kind, None, connector.name, connector.type_name, unit, connector.line, items)
+    exact = connector.exact_type
+    return Node(name, connector.kind, None, connector.name, connector.type_name, unit, connector.line, items, exact)
 
 
 def _component_node(network: Network, component: str, connector: Connector) -> Node:
@@ -92,16 +92,17 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
         remedy = f"correct the connector or use another FMU; {suggestion(connector.name, fmu.variables)}"
         raise network.refuse(connector.at(name), f"{fmu.label} has no variable of this name", remedy)
     kind = connector.kind or variable.causality
-    if variable.causality != kind:
+    if variable.causality != kind and not (kind == "constant" and variable.variability == "constant"):
         raise network.refuse(
             connector.at(name),
             f"is {variable.causality} in {fmu.label}, {kind} here" + (f" ({fmu.flaws[0]})" if fmu.flaws else ""),
             "correct the connector's kind or use another FMU",
         )
-    if connector.type_name not in (None, variable.type):
+    exact = connector.exact_type or connector.type_name
+    if exact is not None and not is_same_type(exact, variable.type):
         raise network.refuse(
             connector.at(name),
-            f"is {variable.type} in {fmu.label}, {connector.type_name} here",
+            f"is {variable.type} in {fmu.label}, {exact} here",
             "correct the connector's type or use another FMU",
         )
     own = fmu.units.get(fmu.unit_of(variable) or "")
@@ -115,7 +116,8 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     items = {}
     if variable.type == "Enumeration" and variable.declaredType is not None:
         items = {item.name: int(item.value) for item in variable.declaredType.items or ()}
-    return Node(name, kind, component, connector.name, variable.type, declared or own, connector.line, items)
+    unit, type_name = declared or own, runtime_type(variable.type)
+    return Node(name, kind, component, connector.name, type_name, unit, connector.line, items, variable.type)
 
 
 def _end(network: Network, path: str, system: System, point: Point, connection: Connection) -> Node:
@@ -188,28 +190,26 @@ def orient(
     end = _end(network, path, system, connection.end, connection)
     start_is_own, end_is_own = (point[0] is None for point in (connection.start, connection.end))
     forwards = (connection.start, start), (connection.end, end)
-    if _leads(start, start_is_own, end, end_is_own):
+    if leads(start.kind, start_is_own, end.kind, end_is_own):
         return forwards
-    if not _leads(end, end_is_own, start, start_is_own):
+    if not leads(end.kind, end_is_own, start.kind, start_is_own):
         problem = f"{start.name} is {start.kind} and {end.name} is {end.kind}: neither gives what the other takes"
-        raise network.refuse(connection.where, problem, "connect an output with an input")
+        remedy = "connect an output with an input"
+        if (start.kind in PARAMETERS) != (end.kind in PARAMETERS):
+            problem = f"connects {start.kind} {start.name} with {end.kind} {end.name}"
+            remedy = "connect parameters with parameters, and signals with signals"
+        raise network.refuse(connection.where, problem, remedy)
     return forwards[1], forwards[0]
 
 
 def _link(network: Network, path: str, system: System, connection: Connection) -> Link:
     """The link from the start of a connection, or from its end, if that is where values come from."""
     (_, start), (_, end) = orient(network, path, system, connection)
-    if "calculatedParameter" in (start.kind, end.kind):
+    if start.kind == "calculatedParameter" and end.kind == "parameter":
         raise network.refuse(
             connection.where,
-            "calculated parameters are not passed on yet",
+            "calculated parameters are not passed on to parameters",
             "remove the connection and give the value in a parameter set",
-        )
-    if "parameter" in (start.kind, end.kind) and start.kind != end.kind:
-        raise network.refuse(
-            connection.where,
-            f"connects {start.kind} {start.name} with {end.kind} {end.name}",
-            "connect parameters with parameters, and signals with signals",
         )
     transformation = connection.transformation
     if not connection.suppress_unit_conversion and start.unit and end.unit:
@@ -223,16 +223,6 @@ def _link(network: Network, path: str, system: System, connection: Connection) -
     return Link(start, end, transformation, connection.line)
 
 
-def _leads(start: Node, start_is_own: bool, end: Node, end_is_own: bool) -> bool:
-    """Whether values can go from one node to another.
-
-    Seen from inside a system its own inputs are sources and its outputs are sinks.
-    """
-    starts = SINKS if start_is_own else SOURCES
-    ends = SOURCES if end_is_own else SINKS
-    return start.kind in (*starts, "inout") and end.kind in (*ends, "inout")
-
-
 def _settle_types(network: Network) -> None:
     """System connectors without a declared type take that of what drives or reads them."""
     changed = True
@@ -242,13 +232,15 @@ def _settle_types(network: Network) -> None:
             for here, there in ((link.source, link.target), (link.target, link.source)):
                 if here.type_name is None and there.type_name is not None:
                     here.type_name, here.enumeration, changed = there.type_name, there.enumeration, True
+                    here.exact_type = there.exact_type
 
 
 def _check_link(network: Network, link: Link) -> None:
     source, target = link.source, link.target
-    if source.type_name != target.type_name and (source.type_name, target.type_name) not in WIDENED:
+    types = [node.exact_type or node.type_name for node in (source, target)]
+    if types[0] != types[1] and not (types[0] and types[1] and fits(types[0], types[1])):
         raise network.refuse(
-            link.where, f"types do not fit: {source.type_name} and {target.type_name}", "connect variables of one type"
+            link.where, f"types do not fit: {types[0]} and {types[1]}", "connect variables of one type"
         )
     if link.added and target.type_name not in SUMMED:
         raise network.refuse(link.where, f"a sum of values of type {target.type_name}", "add Reals or Integers")

@@ -10,9 +10,10 @@ import numpy as np
 
 from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError, suggestion
-from .assignments import Settings
+from ..ssp.kinds import LED_OUT
 from .checks import INTEGERS
 from .network import Link, Network
+from .passing.settings import Settings
 from .series import InputSeries
 
 
@@ -68,11 +69,11 @@ def check_signals(network: Network, settings: Settings) -> None:
     """Refuse a signal that is read and never driven, and note what is declared in vain. Raises InputError."""
     for link in network.links():
         source = link.source
-        is_signal = source.component is None and source.kind in ("inout", "output")
+        is_signal = source.component is None and source.kind in ("inout", *LED_OUT)
         if is_signal and source.name not in network.driver:
             raise InputError(network.file, source.where, "signal is read but never driven", "connect a source to it")
     for node in network.nodes.values():
-        if node.component is None and node.kind == "output" and node.name not in network.driver:
+        if node.component is None and node.kind in LED_OUT and node.name not in network.driver:
             network.notes.append(f"{node.name}: output without a source, not recorded")
     if names_fmu(network.file):
         return  # of an FMU alone all inputs are declared

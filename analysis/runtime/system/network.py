@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from ...common.errors import InputError
 from ..ssp.conversions import Transformation, Unit
 from ..ssp.description import Component, Description, System
+from ..ssp.kinds import PARAMETERS
 from .fmu import Fmu
 
 
@@ -16,6 +17,7 @@ class Node:
     """A connector of the flat network: of a component, of a system, or a dictionary's signal.
 
     ``kind`` is the connector's (inout for dictionary signals); ``component`` is None where no FMU stands behind it.
+    ``exact_type`` is the type as FMU or description name it, such as Float32.
     """
 
     name: str
@@ -26,6 +28,7 @@ class Node:
     unit: Unit | None
     line: int
     enumeration: dict[str, int] = field(default_factory=dict)
+    exact_type: str | None = None
 
     @property
     def where(self) -> str:
@@ -51,7 +54,8 @@ class Link:
 
     @property
     def is_parameter(self) -> bool:
-        return self.target.kind in ("parameter", "calculatedParameter")
+        """Whether its value is passed on before the flight."""
+        return self.target.kind in PARAMETERS
 
 
 @dataclass

@@ -20,7 +20,7 @@ from ..ssp.reading import read_description
 from .alone import describe_alone
 from .arrays.elements import expand_arrays
 from .arrays.sizes import given_values
-from .assignments import Settings, collect_settings, single_value
+from .assignments import collect_settings, single_value
 from .checks import check_samples, check_shared, unfit
 from .feedthrough import find_feedthrough
 from .flattening import build_network
@@ -28,6 +28,7 @@ from .fmu import Fmu, load_fmu
 from .inputs import Drive, check_signals, drive_inputs, find_driven, settle_open_inputs
 from .network import Network
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
+from .passing.settings import Settings
 from .schedule import Schedule, make_schedule
 from .series import InputSeries
 from .stale import Retired, find_retired
