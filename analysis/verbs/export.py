@@ -28,6 +28,7 @@ from ..common.errors import InputError, SeveralProblemsError, suggestion
 from ..common.targets import check_file
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.documents import parse_xml
+from ..runtime.ssp.version_2.package import convert_package
 from .options.library import EXPORT, ExportOptions
 from .options.option import FilePath
 from .options.verb import verb
@@ -60,8 +61,8 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
     ``name`` is a block's, a system's (or its folder), or a file; a block of one's own is looked up by its name in the
     .py files of the working folder. ``platforms`` are of native FMUs (linux64, win64, darwin64), by default those that
     are prebuilt, or for which a compiler is installed; ``flavour`` is native by default, of a file both where one
-    is installed; ``output`` is NAME.fmu or NAME.ssp in the working folder, of a file its build/fmus. Raises InputError,
-    with a line for each thing that is wrong with a block.
+    is installed; ``ssp`` is the version of a system's documents; ``output`` is NAME.fmu or NAME.ssp in the working
+    folder, of a file its build/fmus. Raises InputError, with a line for each thing that is wrong with a block.
     """
     platforms, flavour = options["platforms"], options["flavour"]
     text = os.fspath(name)
@@ -70,7 +71,7 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
         raise InputError("`platforms`", platforms[0], "Python FMUs have no platform to choose", "leave it out")
     check_file("`output`", target)
     try:
-        exported = _export(text, platforms, flavour, target)
+        exported = _export(text, platforms, flavour, target, options["ssp"])
     except CompilerMissing as error:
         raise InputError("export", text, "cannot be compiled here", str(error)) from error
     except CompilationFailed as error:
@@ -86,14 +87,19 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
     return exported
 
 
-def _export(text: str, platforms: Sequence[str], flavour: Flavour | None, target: Path | None) -> Exported:
+def _export(
+    text: str, platforms: Sequence[str], flavour: Flavour | None, target: Path | None, ssp: str | None
+) -> Exported:
+    is_system = text in system_names() or Path(text).is_dir()
+    if ssp is not None and not is_system:
+        raise InputError("`ssp`", ssp, f"{text} is no system, which it is for", "leave it out")
     if text.endswith(".py"):
         _check_there(Path(text))
         return _export_file(Path(text), platforms, flavour, target)
     own = _own_file(text)
     if own is not None:
         return _export_file(own, platforms, flavour, target, text if text in defines(own) else None)
-    return _export_named(text, platforms, flavour or "native", target)
+    return _export_named(text, platforms, flavour or "native", target, ssp)
 
 
 def _check_there(file: Path) -> None:
@@ -122,7 +128,9 @@ def _own_file(name: str) -> Path | None:
     return files[0] if files else None
 
 
-def _export_named(name: str, requested: Sequence[str], flavour: Flavour, output: Path | None) -> Exported:
+def _export_named(
+    name: str, requested: Sequence[str], flavour: Flavour, output: Path | None, ssp: str | None
+) -> Exported:
     """An FMU or a system of this repository or of a folder."""
     platforms = [] if flavour == "python" else _platforms(requested, own=False)
     blocks = catalogue()
@@ -133,7 +141,7 @@ def _export_named(name: str, requested: Sequence[str], flavour: Flavour, output:
     elif name in system_names() or Path(name).is_dir():
         path = output or Path(f"{Path(name).resolve().name}.ssp")
         check_file("`output`", path, (".ssp",))
-        _export_system(open_system(name), path, flavour, platforms)
+        _export_system(open_system(name), path, flavour, platforms, ssp)
     else:
         problem = "neither an FMU, a system nor a .py file, and no block of a .py file here"
         own = [block for path in sorted(Path().glob("*.py")) for block in (path.stem, *defines(path))]
@@ -170,7 +178,7 @@ def _zig_is_here() -> bool:
     return "win64" in available_platforms()
 
 
-def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: list[str]) -> None:
+def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: list[str], ssp: str | None) -> None:
     """The system's folder as one archive, with the FMUs of this repository and of the working folder that it names."""
     blocks = catalogue()
     with tempfile.TemporaryDirectory() as name:
@@ -194,6 +202,8 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
                     remedy = f"build your own with perilune export FILE.py and `flavour` {flavour}, or add the FMU"
                     raise InputError(f"{archive.label}/{entry}", element, problem, remedy)
         packed = pack_system(archive.path, [folder], folder / "packed")
+        if ssp == "2":
+            write_zip(packed, convert_package(read_zip(packed), archive.label))
         write_atomically(path, packed.read_bytes())
 
 

@@ -61,6 +61,8 @@ def _connectors(shapes: Shapes, path: str, connectors: Mapping[str, Connector]) 
     expanded: dict[str, Connector] = {}
     for connector in connectors.values():
         for name in element_names(connector.name, shapes.known.get(path + connector.name, ())):
+            if name in expanded:
+                raise shapes.refuse_second(path, name, connector, expanded[name])
             expanded[name] = replace(connector, name=name, dimensions=()) if connector.dimensions else connector
     return expanded
 

@@ -21,6 +21,7 @@ class Shapes:
         self.description = description
         self.load = load
         self.of_fmus: dict[str, dict[str, Shape]] = {}
+        self.without_arrays: list[str] = []  # components of FMI 2.0, whose variables are scalars
         shapes: dict[str, Open] = {}
         declared: dict[str, Connector] = {}
         for path, element in _elements(description.system):
@@ -41,6 +42,10 @@ class Shapes:
                         name = f"{path}{dictionary}.{signal.name}"
                         declared[name] = signal
                         shapes[name] = tuple(each.size for each in signal.dimensions)
+        if self.without_arrays:
+            names = ", ".join(self.without_arrays)
+            note = f"array connectors of FMI 2.0 FMUs ({names}), where SSP 2.0 has one for each element"
+            description.notes.append(note)
         self._settle(shapes)
         for name, shape in shapes.items():
             if None in shape:
@@ -53,11 +58,18 @@ class Shapes:
         """The shape of the connector that an end of a connection names; empty for scalars and unknown ones."""
         return self.known.get(name_of(path, point), ())
 
+    def refuse_second(self, path: str, name: str, second: Connector, first: Connector) -> InputError:
+        """The error of an array's element that is a connector by itself, too."""
+        where = second.at(path + name)
+        return InputError(self.description.file, where, f"declared in line {first.line}, too", "remove one")
+
     def _as_in_fmu(self, name: str, component: Component, connector: Connector, shape: Open) -> Open:
         """The shape that a component's FMU gives an array; raises InputError for another than is declared."""
         fmu = self.load(name, component)
         if name not in self.of_fmus:
             self.of_fmus[name] = array_shapes(fmu.variables)
+            if fmu.description.fmiVersion == "2.0":
+                self.without_arrays.append(name)
         actual = self.of_fmus[name].get(connector.name)
         where = connector.at(f"{name}.{connector.name}")
         if actual is None:
