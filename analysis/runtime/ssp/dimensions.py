@@ -30,16 +30,16 @@ class Dimension:
 def read_dimensions(element: etree._Element, file: str, name: str, *, fixed: bool = False) -> tuple[Dimension, ...]:
     """The dimensions of a connector or parameter, none of a scalar; ``fixed``: each needs a size. Raises InputError."""
     dimensions = []
-    for item in children(element, "ssc:Dimension"):
-        size, connector = item.get("size"), item.get("sizeConnector")
-        where = f"{name}, Dimension (line {item.sourceline})"
+    for dimension in children(element, "ssc:Dimension"):
+        size, connector = dimension.get("size"), dimension.get("sizeConnector")
+        where = f"{name}, Dimension (line {dimension.sourceline})"
         if size is not None and connector is not None:
             raise InputError(file, where, "both size and sizeConnector", "remove one")
         if fixed and size is None:
             raise InputError(file, where, "no size, which only connectors may do without", 'write size="..."')
-        dimensions.append(Dimension(None if size is None else int(size), connector, item.sourceline))
-    if all(dimension.size is not None for dimension in dimensions):
-        ARRAY_ELEMENTS.check(math.prod(dimension.size or 0 for dimension in dimensions), file, name)
+        dimensions.append(Dimension(None if size is None else int(size), connector, dimension.sourceline))
+    if all(each.size is not None for each in dimensions):
+        ARRAY_ELEMENTS.check(math.prod(each.size or 0 for each in dimensions), file, name)
     return tuple(dimensions)
 
 

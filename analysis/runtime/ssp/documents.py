@@ -127,8 +127,8 @@ def read_document(data: bytes, kind: str, file: str) -> etree._Element:
 def signatures(root: etree._Element) -> list[str]:
     """A note on each signature in a document (SSP 2.0): nobody here verifies what it vouches for."""
     return [
-        f"Signature (line {item.sourceline}): {item.get('role')}, {item.get('type')}: not verified"
-        for item in root.iter(f"{{{NAMESPACES['ssc']}}}Signature")
+        f"Signature (line {element.sourceline}): {element.get('role')}, {element.get('type')}: not verified"
+        for element in root.iter(f"{{{NAMESPACES['ssc']}}}Signature")
     ]
 
 

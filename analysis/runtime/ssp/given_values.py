@@ -36,17 +36,17 @@ def parse_value(text: str, type_name: str, file: str, element: str) -> Parameter
     return text
 
 
-def read_values(parameter: etree._Element, item: etree._Element, file: str) -> tuple[Shape, list[ParameterValue]]:
-    """The shape of a Parameter, empty for a scalar, and its values; ``item`` is the element of its type.
+def read_values(parameter: etree._Element, typed: etree._Element, file: str) -> tuple[Shape, list[ParameterValue]]:
+    """The shape of a Parameter, empty for a scalar, and its values; ``typed`` is the element of its type.
 
     Lists stand in the attribute ``value`` with spaces between, those of Strings and Enumerations in elements Value.
     Raises InputError.
     """
     where = f"{parameter.get('name', '')} (line {parameter.sourceline})"
-    type_name = tag(item)
+    type_name = tag(typed)
     shape = tuple(each.size or 0 for each in read_dimensions(parameter, file, parameter.get("name", ""), fixed=True))
-    inner = children(item, "ssv:Value")
-    single = item.get("value")
+    inner = children(typed, "ssv:Value")
+    single = typed.get("value")
     if single is not None and inner:
         raise InputError(file, where, "both an attribute value and elements Value", "remove one")
     if runtime_type(type_name) in ("String", "Enumeration"):

@@ -120,10 +120,10 @@ class Reader:
             )
         return system
 
-    def indices(self, item: etree._Element, name: str) -> tuple[int, ...]:
-        indices = tuple(map(int, item.get(name, "").split()))
+    def indices(self, element: etree._Element, name: str) -> tuple[int, ...]:
+        indices = tuple(map(int, element.get(name, "").split()))
         if 0 in indices:
-            raise self.refuse(item, f"Connection, {name}", "0 is no index", "count from 1")
+            raise self.refuse(element, f"Connection, {name}", "0 is no index", "count from 1")
         return indices
 
     def component(self, element: etree._Element) -> Component:
@@ -169,27 +169,27 @@ class Reader:
             "line": element.sourceline,
         }
 
-    def connector(self, item: etree._Element, signal: bool) -> Connector:
-        name, kind = item.get("name", ""), item.get("kind", "")
+    def connector(self, element: etree._Element, signal: bool) -> Connector:
+        name, kind = element.get("name", ""), element.get("kind", "")
         if kind == "inout" and not signal:
-            raise self.refuse(item, name, "inout connectors are not supported", "declare it input or output")
+            raise self.refuse(element, name, "inout connectors are not supported", "declare it input or output")
         if kind == "unspecified":
             problem = 'kind="unspecified" leaves open where values come from'
-            raise self.refuse(item, name, problem, "declare it input or output")
-        return self.read_type(item, name, kind)
+            raise self.refuse(element, name, problem, "declare it input or output")
+        return self.read_type(element, name, kind)
 
-    def read_type(self, item: etree._Element, name: str, kind: str) -> Connector:
+    def read_type(self, element: etree._Element, name: str, kind: str) -> Connector:
         type_name = unit = enumeration = None
-        for inner in item:
+        for inner in element:
             if tag(inner) == "Clock":
-                raise self.refuse(item, name, "clocks are not supported", "remove the clock, or the connector")
+                raise self.refuse(element, name, "clocks are not supported", "remove the clock, or the connector")
             if tag(inner) in RUNTIME_TYPES:
                 type_name, unit, enumeration = tag(inner), inner.get("unit") or None, inner.get("name")
         runtime = None if type_name is None else runtime_type(type_name)
         if runtime == "Binary":
-            raise self.refuse(item, name, "Binary connectors are not supported", "remove the connector")
-        dimensions = read_dimensions(item, self.file, name, fixed=kind == "inout")
-        return Connector(name, kind, runtime, unit, enumeration, item.sourceline, type_name, dimensions)
+            raise self.refuse(element, name, "Binary connectors are not supported", "remove the connector")
+        dimensions = read_dimensions(element, self.file, name, fixed=kind == "inout")
+        return Connector(name, kind, runtime, unit, enumeration, element.sourceline, type_name, dimensions)
 
     def dictionary(self, element: etree._Element) -> dict[str, Connector]:
         name, source = element.get("name", ""), element.get("source")

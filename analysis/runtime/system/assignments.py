@@ -93,10 +93,10 @@ def _element_names(network: Network, path: str, name: str) -> list[str]:
     if isinstance(element, System):
         return _element_names(network, f"{path}{owner}.", remainder)
     if isinstance(element, Component):
-        place, known = f"{path}{owner}.", list(network.fmus[path + owner].variables)
+        prefix, known = f"{path}{owner}.", list(network.fmus[path + owner].variables)
     else:
-        place, known, remainder = path, list(system.connectors), name
-    return [] if remainder in known else [place + each for each in known if INDEX.sub("", each) == remainder]
+        prefix, known, remainder = path, list(system.connectors), name
+    return [] if remainder in known else [prefix + each for each in known if INDEX.sub("", each) == remainder]
 
 
 def _check_shape(network: Network, path: str, prefix: str, assignment: Assignment) -> None:

@@ -21,29 +21,29 @@ def merge_connections(system: etree._Element, arrays: Arrays) -> None:
     one connection. Others name the elements by their indices.
     """
     groups: dict[tuple[bytes, Shape, Shape], list[tuple[etree._Element, Shape, Shape]]] = {}
-    for item in children(child(system, "ssd:Connections"), "ssd:Connection"):
-        ends = [_end(item, side, arrays) for side in SIDES]
+    for connection in children(child(system, "ssd:Connections"), "ssd:Connection"):
+        ends = [_end(connection, side, arrays) for side in SIDES]
         for side, (_, array, index) in zip(SIDES, ends, strict=True):
             if index:
-                item.set(f"{side}Connector", array)
-                item.set(f"{side}Indices", " ".join(map(str, index)))
+                connection.set(f"{side}Connector", array)
+                connection.set(f"{side}Indices", " ".join(map(str, index)))
         if all(index for _, _, index in ends):
             shape, other = (arrays[element, array] for element, array, _ in ends)
-            alike = content(item, ("startIndices", "endIndices"))
-            groups.setdefault((alike, shape, other), []).append((item, ends[0][2], ends[1][2]))
+            alike = content(connection, ("startIndices", "endIndices"))
+            groups.setdefault((alike, shape, other), []).append((connection, ends[0][2], ends[1][2]))
     for (_, shape, other), members in groups.items():
         pairs = {(start, end) for _, start, end in members}
         if shape == other and pairs == {(index, index) for index in indices(shape)}:
-            first, *others = [item for item, _, _ in members]
+            first, *others = [connection for connection, _, _ in members]
             for side in SIDES:
                 first.attrib.pop(f"{side}Indices")
-            for item in others:
-                remove(item)
+            for connection in others:
+                remove(connection)
 
 
-def _end(item: etree._Element, side: str, arrays: Arrays) -> tuple[str, str, Shape]:
+def _end(connection: etree._Element, side: str, arrays: Arrays) -> tuple[str, str, Shape]:
     """Element, connector and index of an end of a connection; without an index where it is no element of an array."""
-    element, name = item.get(f"{side}Element", ""), item.get(f"{side}Connector", "")
+    element, name = connection.get(f"{side}Element", ""), connection.get(f"{side}Connector", "")
     match = ELEMENT.fullmatch(name)
     if match and (element, match["array"]) in arrays:
         return element, match["array"], tuple(map(int, match["index"].split(",")))

@@ -19,7 +19,7 @@ def merge_connectors(owner: etree._Element, arrays: Mapping[str, Shape] | None) 
     element's name. None: a system, whose arrays are those of which all elements are there and alike.
     """
     connectors = children(child(owner, "ssd:Connectors"), "ssd:Connector")
-    shapes = array_shapes(item.get("name", "") for item in connectors) if arrays is None else arrays
+    shapes = array_shapes(connector.get("name", "") for connector in connectors) if arrays is None else arrays
     merged: dict[str, Shape] = {}
     for array, elements in group_elements(connectors, shapes).items():
         if arrays is None and not is_whole(elements, shapes[array], ("name",)):

@@ -42,9 +42,9 @@ def convert_description(description: etree._Element, arrays_of: ArraysOf) -> tup
 
 def _convert_system(system: etree._Element, arrays_of: ArraysOf, bound: list[BoundSet]) -> dict[str, Shape]:
     """Convert a system and those inside it, in place; its arrays by hierarchical name."""
-    own = merge_connectors(system, None)
-    connected: dict[tuple[str, str], Shape] = {("", name): shape for name, shape in own.items()}
-    known = dict(own)
+    outer = merge_connectors(system, None)
+    connected: dict[tuple[str, str], Shape] = {("", name): shape for name, shape in outer.items()}
+    known = dict(outer)
     for element in _elements(system):
         name = element.get("name", "")
         if tag(element) == "System":
@@ -70,7 +70,9 @@ def _elements(system: etree._Element) -> Iterator[etree._Element]:
 
 
 def _declares(element: etree._Element, name: str) -> bool:
-    return any(item.get("name") == name for item in children(child(element, "ssd:Connectors"), "ssd:Connector"))
+    return any(
+        connector.get("name") == name for connector in children(child(element, "ssd:Connectors"), "ssd:Connector")
+    )
 
 
 def _convert_bindings(owner: etree._Element, known: Mapping[str, Shape]) -> Iterator[BoundSet]:

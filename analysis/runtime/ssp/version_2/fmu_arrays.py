@@ -16,8 +16,10 @@ def arrays_of_fmu(description: etree._Element) -> dict[str, Shape]:
     starts = {variable.get("valueReference"): variable.get("start", "0") for variable in variables}
     shapes: dict[str, Shape] = {}
     for variable in variables:
-        dimensions = [item for item in variable if tag(item) == "Dimension"]
+        dimensions = [inner for inner in variable if tag(inner) == "Dimension"]
         if dimensions:
-            sizes = [item.get("start") or starts.get(item.get("valueReference"), "0") for item in dimensions]
+            sizes = [
+                declared.get("start") or starts.get(declared.get("valueReference"), "0") for declared in dimensions
+            ]
             shapes[variable.get("name", "")] = tuple(map(int, sizes))
     return shapes

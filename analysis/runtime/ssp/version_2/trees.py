@@ -20,8 +20,8 @@ def content(element: etree._Element, without: Collection[str]) -> bytes:
     copy.tail = None
     for name in without:
         copy.attrib.pop(name, None)
-    for item in copy.iter():
-        item.text, item.tail = (item.text or "").strip(), (item.tail or "").strip()
+    for inner in copy.iter():
+        inner.text, inner.tail = (inner.text or "").strip(), (inner.tail or "").strip()
     return etree.tostring(copy, method="c14n")
 
 
@@ -36,15 +36,15 @@ def remove(element: etree._Element) -> None:
     parent.remove(element)
 
 
-def group_elements(items: Iterable[etree._Element], shapes: Mapping[str, Shape]) -> Groups:
+def group_elements(elements: Iterable[etree._Element], shapes: Mapping[str, Shape]) -> Groups:
     """Elements of arrays among connectors or parameters, by their names, of those arrays that ``shapes`` has."""
     groups: Groups = {}
-    for item in items:
-        match = ELEMENT.fullmatch(item.get("name", ""))
+    for element in elements:
+        match = ELEMENT.fullmatch(element.get("name", ""))
         if match and match["array"] in shapes:
             index = tuple(map(int, match["index"].split(",")))
             if index in set(indices(shapes[match["array"]])):
-                groups.setdefault(match["array"], {})[index] = item
+                groups.setdefault(match["array"], {})[index] = element
     return groups
 
 
@@ -56,7 +56,7 @@ def is_whole(elements: Mapping[Shape, etree._Element], shape: Shape, without: Co
 
 def add_dimensions(element: etree._Element, shape: Shape, types: Collection[str]) -> None:
     """Write an array's dimensions into a connector or a parameter, behind its type, one of ``types``."""
-    position = next((number + 1 for number, item in enumerate(element) if tag(item) in types), 0)
+    position = next((number + 1 for number, inner in enumerate(element) if tag(inner) in types), 0)
     for offset, size in enumerate(shape):
         dimension = etree.Element(f"{{{NAMESPACES['ssc']}}}Dimension", size=str(size))
         element.insert(position + offset, dimension)

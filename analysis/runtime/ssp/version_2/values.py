@@ -17,10 +17,10 @@ def merge_values(parameter_set: etree._Element, arrays: Mapping[str, Shape]) -> 
     parameters = children(child(parameter_set, "ssv:Parameters"), "ssv:Parameter")
     for array, elements in group_elements(parameters, arrays).items():
         shape = arrays[array]
-        if set(elements) != set(indices(shape)) or len({_without_value(item) for item in elements.values()}) > 1:
+        if set(elements) != set(indices(shape)) or len({_but_number(parameter) for parameter in elements.values()}) > 1:
             continue
         in_order = [elements[index] for index in indices(shape)]
-        types = [next(inner for inner in item if tag(inner) in RUNTIME_TYPES) for item in in_order]
+        types = [next(inner for inner in parameter if tag(inner) in RUNTIME_TYPES) for parameter in in_order]
         texts = [inner.get("value", "") for inner in types]
         first = next(iter(elements.values()))
         holder = types[in_order.index(first)]
@@ -32,12 +32,12 @@ def merge_values(parameter_set: etree._Element, arrays: Mapping[str, Shape]) -> 
             holder.set("value", " ".join(texts))
         first.set("name", array)
         add_dimensions(first, shape, RUNTIME_TYPES)
-        for item in elements.values():
-            if item is not first:
-                remove(item)
+        for parameter in elements.values():
+            if parameter is not first:
+                remove(parameter)
 
 
-def _without_value(parameter: etree._Element) -> bytes:
-    """What a Parameter says but for its name and value; of a type with more in it than a value, all."""
-    said = [content(item, ("value",)) for item in parameter]
+def _but_number(parameter: etree._Element) -> bytes:
+    """What a Parameter says, its name and number apart."""
+    said = [content(inner, ("value",)) for inner in parameter]
     return b"".join([repr(sorted(each for each in parameter.attrib.items() if each[0] != "name")).encode(), *said])

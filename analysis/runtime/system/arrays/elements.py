@@ -93,5 +93,5 @@ def _part(
         name = connector if element is None else f"{element}.{connector}"
         problem = f"no element {' '.join(map(str, chosen))} in {name}, {text_of(shape)}"
         raise InputError(description.file, connection.where, problem, "correct the indices")
-    rest = shape[len(chosen) :]
-    return [(element, element_name(connector, chosen + index)) for index in indices(rest)], rest
+    part = shape[len(chosen) :]
+    return [(element, element_name(connector, chosen + index)) for index in indices(part)], part

@@ -79,7 +79,9 @@ class Shapes:
             raise InputError(
                 self.description.file, where, f"{known} {fmu.label}", "correct its Dimensions or use another FMU"
             )
-        if len(actual) != len(shape) or any(size not in (None, own) for size, own in zip(shape, actual, strict=True)):
+        if len(actual) != len(shape) or any(
+            stated not in (None, size) for stated, size in zip(shape, actual, strict=True)
+        ):
             size = " x ".join("?" if each is None else str(each) for each in shape)
             problem = f"has {text_of(actual)} in {fmu.label}, {size} here"
             raise InputError(self.description.file, where, problem, "correct its Dimensions or use another FMU")
@@ -98,7 +100,9 @@ class Shapes:
             for pair in (*ends, *((end, start) for start, end in ends)):
                 here, there = (shapes.get(name, ()) for name in pair)
                 if None in here and len(here) == len(there):
-                    filled = tuple(other if own is None else own for own, other in zip(here, there, strict=True))
+                    filled = tuple(
+                        second if first is None else first for first, second in zip(here, there, strict=True)
+                    )
                     changed = changed or filled != here
                     shapes[pair[0]] = filled
 

@@ -33,14 +33,14 @@ def given_values(
     """
     values: dict[str, ParameterValue] = {}
     unmatched: list[str] = []  # flaws are for the reading that applies the values
-    for path, system in sorted(walk(description.system), key=lambda item: -item[0].count(".")):
-        for place, element in [(f"{path}{inner.name}.", inner) for inner in system.elements.values()] + [
+    for path, system in sorted(walk(description.system), key=lambda pair: -pair[0].count(".")):
+        for prefix, element in [(f"{path}{inner.name}.", inner) for inner in system.elements.values()] + [
             (path, system)
         ]:
             if isinstance(element, Component) or element is system:
                 for binding in element.bindings:
                     given, _ = read_binding(archive, description.file, binding, description.units, unmatched)
-                    values |= {place + each.name: each.value for each in given}
+                    values |= {prefix + each.name: each.value for each in given}
     return values | {each.name: each.value for each in assignments}
 
 
@@ -70,17 +70,17 @@ class Sizes:
         if connector is None or connector.kind not in SIZES or connector.dimensions:
             problem = f"sizeConnector {name} is no structural parameter and no constant of {owner.name}"
             raise InputError(self.description.file, where, problem, "correct it, or write size")
-        value = self._value(path, connector)
+        given = self._given(path, connector)
         try:
-            size = int(str(value))
+            size = int(str(given))
         except ValueError:
             size = -1
         if size < 0:
-            problem = f"{path}{name} has no value" if value is None else f"{path}{name} is {value}, which is no size"
+            problem = f"{path}{name} has no value" if given is None else f"{path}{name} is {given}, which is no size"
             raise InputError(self.description.file, where, problem, "give it one in a parameter set")
         return size
 
-    def _value(self, path: str, connector: Connector) -> object:
+    def _given(self, path: str, connector: Connector) -> object:
         """What a connector gives: the outermost value of those that lead to it, else what its FMU declares."""
         chain = [path + connector.name]
         while self.sources.get(chain[-1], chain[-1]) not in chain:

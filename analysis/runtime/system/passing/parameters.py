@@ -14,24 +14,24 @@ def pass_parameters(network: Network, settings: Settings) -> None:
     """Carry values of system parameter connectors, and of constants, along their connections."""
     for node in network.nodes.values():
         if node.kind in PARAMETERS and node.component is not None and node.name in network.driver:
-            passed = _passed_value(network, settings, node)
-            if passed is not None:
-                outermost, value = passed
+            brought = _passed_value(network, settings, node)
+            if brought is not None:
+                outermost, passed = brought
                 kind: type[ParameterValue] = {"Real": float, "Boolean": bool, "String": str}.get(
                     node.type_name or "", int
                 )
                 target = node.component or "", node.variable
                 before = settings.variables.get(target)
-                settings.variables[target] = kind(value)
+                settings.variables[target] = kind(passed)
                 if before is not None and before != settings.variables[target]:
                     settings.replaced[target] = outermost, before
                 settings.origins[target] = f"{outermost} of {settings.node_origins.get(outermost, 'its FMU')}"
     for link in network.links():  # into an input, or out of the system: there a parameter is a signal that stays
         source = link.source
         if source.kind in PARAMETERS and source.component is None and not link.is_parameter:
-            passed = _passed_value(network, settings, source)
-            if passed is not None:
-                settings.nodes[source.name] = passed[1]
+            brought = _passed_value(network, settings, source)
+            if brought is not None:
+                settings.nodes[source.name] = brought[1]
             elif source.name not in settings.nodes:
                 remedy = f"give it one in a parameter set, or `set` {source.name}=VALUE"
                 raise network.refuse(link.where, f"{source.name} has no value", remedy)
@@ -44,14 +44,14 @@ def _passed_value(network: Network, settings: Settings, node: Node) -> tuple[str
         chain.append(network.driver[chain[-1].source.name])
     for position in range(len(chain) - 1, -1, -1):
         source = chain[position].source
-        value = settings.nodes.get(source.name)
+        passed = settings.nodes.get(source.name)
         if source.kind == "constant" and source.component is not None:
             start = network.fmus[source.component].variables[source.variable].start
-            value = _number(str(start), source)
-        if value is not None:
+            passed = _number(str(start), source)
+        if passed is not None:
             for link in reversed(chain[: position + 1]):
-                value = _pass_on(network, link, value)
-            return source.name, value
+                passed = _pass_on(network, link, passed)
+            return source.name, passed
     return None
 
 

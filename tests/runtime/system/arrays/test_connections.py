@@ -23,26 +23,26 @@ def flown(tmp_path, fmus, *elements, **options):
     return fly(pack(tmp_path / "s.ssp", fmus, in_version_2(document(system(*elements, **options)))), **flight)
 
 
-def values(result, name, shape):
+def values(run, name, shape):
     """An array of the run, first sample and last."""
     elements = [f"{name}[{','.join(str(each + 1) for each in index)}]" for index in np.ndindex(*shape)]
-    return [np.array([result[each][sample] for each in elements]).reshape(shape) for sample in (0, -1)]
+    return [np.array([run[each][sample] for each in elements]).reshape(shape) for sample in (0, -1)]
 
 
 def test_vector_to_vector(array_fmus, tmp_path):
-    result = flown(tmp_path, array_fmus, THREE, GAIN, connections=connection("three.y", "gain.u"))
-    first, last = values(result, "gain.y", (3,))
+    run = flown(tmp_path, array_fmus, THREE, GAIN, connections=connection("three.y", "gain.u"))
+    first, last = values(run, "gain.y", (3,))
     np.testing.assert_array_equal(first, 2.0 * STARTS)
     np.testing.assert_array_equal(last, 2.0 * (STARTS + np.array([1.0, 2.0, 3.0])))
 
 
 def test_matrix_to_matrix_and_its_row_to_a_vector(array_fmus, tmp_path):
     wires = connection("grid.y", "other.u") + connection("grid.y", "gain.u", attributes='startIndices="2"')
-    result = flown(tmp_path, array_fmus, GRID, GRID_GAIN, GAIN, connections=wires)
+    run = flown(tmp_path, array_fmus, GRID, GRID_GAIN, GAIN, connections=wires)
     starts = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]])
-    np.testing.assert_array_equal(values(result, "other.y", (2, 3))[0], 2.0 * starts)
-    np.testing.assert_array_equal(values(result, "other.y", (2, 3))[1], 4.0 * starts)
-    np.testing.assert_array_equal(values(result, "gain.y", (3,))[0], 2.0 * starts[1])
+    np.testing.assert_array_equal(values(run, "other.y", (2, 3))[0], 2.0 * starts)
+    np.testing.assert_array_equal(values(run, "other.y", (2, 3))[1], 4.0 * starts)
+    np.testing.assert_array_equal(values(run, "gain.y", (3,))[0], 2.0 * starts[1])
 
 
 def test_elements_in_another_order_and_from_a_scalar(array_fmus, tmp_path):
@@ -52,16 +52,16 @@ def test_elements_in_another_order_and_from_a_scalar(array_fmus, tmp_path):
     )
     wires += connection("input", "gain.u", attributes='endIndices="2"')
     bindings = inline("input=Float64:9 m")
-    result = flown(
+    run = flown(
         tmp_path, array_fmus, THREE, GAIN, connections=wires, declared="input input Float64 m", bindings=bindings
     )
-    np.testing.assert_array_equal(values(result, "gain.u", (3,))[0], [3.0, 9.0, 1.0])
+    np.testing.assert_array_equal(values(run, "gain.u", (3,))[0], [3.0, 9.0, 1.0])
 
 
 def test_units_and_transformations_apply_to_each_element(array_fmus, tmp_path):
     wires = connection("three.y", "out", '<ssc:LinearTransformation factor="2" offset="1"/>')
-    result = flown(tmp_path, array_fmus, THREE, connections=wires, declared="output out(3) Float64 km")
-    np.testing.assert_allclose(values(result, "out", (3,))[0], 2.0 * STARTS / 1000.0 + 1.0, rtol=1e-15)
+    run = flown(tmp_path, array_fmus, THREE, connections=wires, declared="output out(3) Float64 km")
+    np.testing.assert_allclose(values(run, "out", (3,))[0], 2.0 * STARTS / 1000.0 + 1.0, rtol=1e-15)
 
 
 @pytest.mark.parametrize("size", ["3", "?"])
@@ -73,24 +73,25 @@ def test_through_systems_whose_size_may_be_open(array_fmus, tmp_path, size):
         connections=connection("in", "gain.u") + connection("out", "gain.y"),
     )
     wires = connection("inner.in", "three.y") + connection("inner.out", "total")
-    result = flown(tmp_path, array_fmus, THREE, inner, connections=wires, declared=f"output total({size}) Float64 m")
-    np.testing.assert_array_equal(values(result, "total", (3,))[0], 2.0 * STARTS)
+    run = flown(tmp_path, array_fmus, THREE, inner, connections=wires, declared=f"output total({size}) Float64 m")
+    np.testing.assert_array_equal(values(run, "total", (3,))[0], 2.0 * STARTS)
 
 
 def test_over_a_signal_dictionary(array_fmus, tmp_path):
     entries = '<ssb:DictionaryEntry name="y"><ssc:Float64 unit="m"/><ssc:Dimension size="3"/></ssb:DictionaryEntry>'
     units = '<ssb:Units><ssc:Unit name="m"><ssc:BaseUnit m="1"/></ssc:Unit></ssb:Units>'
     content = f'<ssb:SignalDictionary version="1.0">{entries}{units}</ssb:SignalDictionary>'
-    extra = f'<ssd:SignalDictionaries><ssd:SignalDictionary name="bus">{content}</ssd:SignalDictionary></ssd:SignalDictionaries>'
+    bus = f'<ssd:SignalDictionary name="bus">{content}</ssd:SignalDictionary>'
+    extra = f"<ssd:SignalDictionaries>{bus}</ssd:SignalDictionaries>"
     reference = (
         '<ssd:SignalDictionaryReference name="here" dictionary="bus"><ssd:Connectors>'
         '<ssd:Connector name="y" kind="inout"><ssc:Float64 unit="m"/><ssc:Dimension size="3"/></ssd:Connector>'
         "</ssd:Connectors></ssd:SignalDictionaryReference>"
     )
     wires = connection("three.y", "here.y") + connection("here.y", "gain.u")
-    result = flown(tmp_path, array_fmus, THREE, GAIN, reference, connections=wires, extra=extra)
-    np.testing.assert_array_equal(values(result, "bus.y", (3,))[0], STARTS)
-    np.testing.assert_array_equal(values(result, "gain.y", (3,))[0], 2.0 * STARTS)
+    run = flown(tmp_path, array_fmus, THREE, GAIN, reference, connections=wires, extra=extra)
+    np.testing.assert_array_equal(values(run, "bus.y", (3,))[0], STARTS)
+    np.testing.assert_array_equal(values(run, "gain.y", (3,))[0], 2.0 * STARTS)
 
 
 SCALAR = component("scalar", "ramp", "output y Float64 m")

@@ -4,6 +4,8 @@ Truth: numbers of elements by hand; which value wins is the rule of SSP 2.0, Par
 structural parameter, so these are systems'.
 """
 
+from types import SimpleNamespace
+
 import pytest
 
 from perilune.analysis.common.errors import InputError
@@ -39,7 +41,7 @@ def nested(inner="", outer="", declared=""):
 THREE = ["inner.in[1]", "inner.in[2]", "inner.in[3]"]
 
 
-def test_from_its_own_parameter_set(array_fmus, tmp_path):
+def test_from_the_parameter_set_of_the_system(array_fmus, tmp_path):
     assert inputs(tmp_path, array_fmus, nested(inner=inline("n=UInt64:3"))) == THREE
 
 
@@ -59,17 +61,15 @@ def test_through_a_connection(array_fmus, tmp_path):
     assert inputs(tmp_path, array_fmus, root) == THREE
 
 
-def test_a_component_s_own_is_what_its_fmu_declares_unless_it_is_given(tmp_path):
-    class Declared:
-        variables = {"n": type("Variable", (), {"start": "4"}), "m": type("Variable", (), {"start": None})}
-
+def test_of_a_component_it_is_what_the_fmu_declares_unless_it_is_given(tmp_path):
+    declared = {name: SimpleNamespace(start=start) for name, start in (("n", "4"), ("m", None))}
     text = document(
         system(component("c", "c", "structuralParameter n UInt64; constant m UInt64; input in(n) Float64 m"))
     )
     description = read_ssd(in_version_2(text).encode(), "s.ssd", lambda name, element: b"")
     component_ = description.system.elements["c"]
     for given, expected in (({}, 4), ({"c.n": 2}, 2), ({"c.m": 2}, 4)):
-        sizes = Sizes(description, lambda given=given: given, lambda name, element: Declared)
+        sizes = Sizes(description, lambda given=given: given, lambda name, element: SimpleNamespace(variables=declared))
         assert sizes.size(component_, "c.", Dimension(None, "n", 1), "in") == expected
 
 

@@ -18,8 +18,8 @@ def three(bindings=""):
 
 
 def starts(tmp_path, fmus, root, names=OUTPUTS, **options):
-    result = fly(pack(tmp_path / "s.ssp", fmus, in_version_2(document(root))), **options)
-    return [result[name][0] for name in names]
+    run = fly(pack(tmp_path / "s.ssp", fmus, in_version_2(document(root))), **options)
+    return [run[name][0] for name in names]
 
 
 @pytest.mark.parametrize("given", ["Float64:4,5,6 m", "Real:0.004,0.005,0.006 km", "Int16:4,5,6"])

@@ -118,11 +118,11 @@ TABLE = {
             system(declared="calculatedParameter c Real m", name="inner"),
             connections=connection("inner.c", "gain.u"),
         ),
-        ["calculated parameters are not passed"],
+        ["inner.c", "signal is read but never driven"],
     ),
-    "parameter into an input": (
+    "parameter without a value into an input": (
         system(GAIN, declared="parameter p Real m", connections=connection("p", "gain.u")),
-        ["connects parameter p with input gain.u", "connect parameters with parameters"],
+        ["connection p -> gain.u", "p has no value"],
     ),
     "output into a parameter": (
         system(
