@@ -228,7 +228,7 @@ class _Builder:
         driven, drives = self._drives()
         groups = self._links()
         links = [term for group in groups for link in group for term in (link, *link.added)]
-        tables = [numbers(self.network, link) for link in links]
+        tables = [numbers(self.network, link) + _remainder(link) for link in links]
         firsts = np.cumsum([0, *(len(table) for table in tables)])
         flat = [entry for table in tables for entry in table]
         finished = self.network.nodes.get("finished")
@@ -315,3 +315,8 @@ def _connection_code(link: Link) -> int:
     if link.transformation.table:
         return codes.MAP
     return codes.COPY if link.transformation == IDENTITY else codes.TRANSFORM
+
+
+def _remainder(link: Link) -> list[tuple[float, float]]:
+    """The end of a table that leaves other values as they are, by which the loop knows it."""
+    return [(math.nan, math.nan)] if link.transformation.is_partial else []

@@ -223,14 +223,7 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
             transformation = transformation.after_units(assignment.unit.conversion_to(node.unit))
         return float(value) * transformation.factor + transformation.offset
     if transformation.table:
-        table = [
-            [parse_value(text, type_name, assignment.file, assignment.where) for text in entry]
-            for entry in transformation.table
-        ]
-        targets = [target for source, target in table if source == value]
-        if not targets:
-            raise InputError(assignment.file, assignment.where, f"the mapping has no entry for {value}", "add one")
-        value = targets[-1]
+        value = _mapped(assignment, transformation, type_name, node)
     if type_name == "Enumeration":
         by_value = {str(number): number for number in node.enumeration.values()}  # as OMSimulator writes items
         items = by_value | node.enumeration
@@ -243,6 +236,18 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
             suggestion(str(value), node.enumeration),
         )
     return value
+
+
+def _mapped(assignment: Assignment, transformation: Transformation, type_name: str, node: Node) -> ParameterValue:
+    """The assignment's value behind a mapping; of an enumeration by its items' numbers where the mapping has these."""
+    value, where = assignment.value, (assignment.file, assignment.where)
+    if transformation.kind == "IntegerMappingTransformation" and type_name == "Enumeration":
+        type_name, value = "Integer", node.enumeration.get(str(value), value)
+    table = [[parse_value(text, type_name, *where) for text in entry] for entry in transformation.table]
+    targets = [target for source, target in table if source == value]
+    if not targets and not transformation.is_partial:
+        raise InputError(*where, f"the mapping has no entry for {value}", "add one")
+    return targets[-1] if targets else value
 
 
 def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:

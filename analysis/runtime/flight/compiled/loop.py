@@ -176,7 +176,10 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                     values[target[c]] += values[source[c]] * factor[c] + offset[c]
             elif code == MAP:
                 for c in range(first, first + count):
-                    mapped = False
+                    last = table[c, 0] + table[c, 1] - 1
+                    mapped = np.isnan(table_from[last])  # what no entry has stays
+                    if mapped:
+                        values[target[c]] = values[source[c]]
                     for entry in range(table[c, 0], table[c, 0] + table[c, 1]):
                         if table_from[entry] == values[source[c]]:
                             values[target[c]] = table_to[entry]

@@ -68,6 +68,8 @@ def _pass_on(network: Network, link: Link, value: float | str) -> float | str:
         return value * link.transformation.factor + link.transformation.offset
     table = dict(numbers(network, link))
     if value not in table:
+        if link.transformation.is_partial:
+            return value
         raise InputError(network.file, link.where, f"the mapping has no entry for {value:g}", "add one")
     return table[value]
 
