@@ -240,14 +240,14 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
 
 def _mapped(assignment: Assignment, transformation: Transformation, type_name: str, node: Node) -> ParameterValue:
     """The assignment's value behind a mapping; of an enumeration by its items' numbers where the mapping has these."""
-    value, where = assignment.value, (assignment.file, assignment.where)
+    given, where = assignment.value, (assignment.file, assignment.where)
     if transformation.kind == "IntegerMappingTransformation" and type_name == "Enumeration":
-        type_name, value = "Integer", node.enumeration.get(str(value), value)
+        type_name, given = "Integer", node.enumeration.get(str(given), given)
     table = [[parse_value(text, type_name, *where) for text in entry] for entry in transformation.table]
-    targets = [target for source, target in table if source == value]
+    targets = [target for source, target in table if source == given]
     if not targets and not transformation.is_partial:
-        raise InputError(*where, f"the mapping has no entry for {value}", "add one")
-    return targets[-1] if targets else value
+        raise InputError(*where, f"the mapping has no entry for {given}", "add one")
+    return targets[-1] if targets else given
 
 
 def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:

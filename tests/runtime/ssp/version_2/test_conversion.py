@@ -41,7 +41,7 @@ def arrays_of(shapes):
 
 def written(connections="", binding="", shapes=SHAPES):
     """A system of two components with an element each for all elements of their arrays."""
-    parts = []
+    components = []
     for part in ("one", "two"):
         declared = "; ".join(
             f"{'output' if part == 'one' else 'input'} {each} Real m"
@@ -49,8 +49,8 @@ def written(connections="", binding="", shapes=SHAPES):
             if name.startswith(part)
             for each in element_names(name.partition(".")[2], shape)
         )
-        parts.append(component(part, part, declared, binding if part == "one" else ""))
-    return document(system(*parts, connections=connections))
+        components.append(component(part, part, declared, binding if part == "one" else ""))
+    return document(system(*components, connections=connections))
 
 
 def flattened(text, shapes):
@@ -87,7 +87,7 @@ def converted(text, shapes=SHAPES):
     return etree.tostring(root), root, bound
 
 
-def drawn_connections(pairs):
+def wires_of(pairs):
     return "".join(
         connection(start, end, inner, 'suppressUnitConversion="true"' if suppressed else "")
         for start, end, inner, suppressed in pairs
@@ -122,19 +122,19 @@ def connected(draw):
 @given(connected(), st.booleans())
 def test_the_elements_are_those_of_before(pairs, has_arrays):
     shapes = SHAPES if has_arrays else {}
-    text = written(drawn_connections(pairs))
+    text = written(wires_of(pairs))
     after, root, _ = converted(text, shapes)
     before = flattened(text.encode(), SHAPES)
     assert flattened(after, SHAPES) == before
     names = [each.get("name") for each in root.iter(f"{{{NAMESPACES['ssd']}}}Connector")]
     assert any("[" in name for name in names) != has_arrays
-    again, _, _ = converted(after.decode(), shapes)
-    assert flattened(again, SHAPES) == before
+    twice, _, _ = converted(after.decode(), shapes)
+    assert flattened(twice, SHAPES) == before
 
 
 def test_a_whole_array_is_one_connector_and_one_connection():
     pairs = [(f"one.y{index}", f"two.u{index}", "", False) for index in ("[1]", "[2]", "[3]")]
-    _, root, _ = converted(written(drawn_connections(pairs)))
+    _, root, _ = converted(written(wires_of(pairs)))
     (only,) = root.iter(f"{{{NAMESPACES['ssd']}}}Connection")
     assert dict(only.attrib) == {
         "startElement": "one",
@@ -151,7 +151,7 @@ def test_a_whole_array_is_one_connector_and_one_connection():
 
 def test_part_of_an_array_is_connected_by_indices():
     pairs = [("one.m[2,1]", "two.u[3]", "", False)]
-    _, root, _ = converted(written(drawn_connections(pairs)))
+    _, root, _ = converted(written(wires_of(pairs)))
     (only,) = root.iter(f"{{{NAMESPACES['ssd']}}}Connection")
     assert (only.get("startConnector"), only.get("startIndices")) == ("m", "2 1")
     assert (only.get("endConnector"), only.get("endIndices")) == ("u", "3")
