@@ -41,8 +41,8 @@ def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Map
             "type": variable.type,
             "unit": fmu.unit_of(variable),
             "value": [value] if whole else value,
-            "minimum": _number(variable.min),
-            "maximum": _number(variable.max),
+            "minimum": _number(variable.minimum),
+            "maximum": _number(variable.maximum),
             "from": origins.get(name),
             "description": variable.description or "",
         }

@@ -34,7 +34,7 @@ def prepare(course: Course, threads: int = 0) -> Fly:
     for name in course.names:
         component = next(component for component in fmus if name.startswith(f"{component}."))
         variable = name.removeprefix(f"{component}.")
-        references[component][name] = fmus[component].variables[variable].valueReference
+        references[component][name] = fmus[component].variables[variable].reference
 
     def fly(steps: int) -> Values:
         execution = CosimExecution.CosimExecution.from_ssp_file(str(archive))

@@ -112,9 +112,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
             f"unit is {own.differs_from(declared)} in {fmu.label}, {declared.differs_from(own)} here",
             "correct the connector's unit or use another FMU",
         )
-    items = {}
-    if variable.type == "Enumeration" and variable.declaredType is not None:
-        items = {item.name: int(item.value) for item in variable.declaredType.items or ()}
+    items = dict(variable.items)
     return Node(name, kind, component, connector.name, variable.type, declared or own, connector.line, items)
 
 

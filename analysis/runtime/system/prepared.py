@@ -13,6 +13,7 @@ from ....fmus_src.paths import FLAVOURS, names_fmu
 from ...common.collection import no_collection
 from ...common.errors import InputError, suggestion
 from ...common.regular import names_file
+from ..fmi.structure import structural_sizes
 from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, open_system, parameters_asked, read_fmu, use_asked
 from ..ssp.description import Component, System
 from ..ssp.parameter_sets import Assignment, read_parameter_file
@@ -149,7 +150,18 @@ def _prepare(
             read, label = archive.fmu(source, f"{name} (line {component.line})", flavour)
             if not archive.is_own_file(source):
                 elsewhere[fmu_asked(source)] = read
-        return open_fmu(read, label)
+        return sized(open_fmu(read, label), name)
+
+    notes: list[str] = []
+
+    @cache
+    def chosen() -> list[Assignment]:
+        return _assignments(notes, archive, options, elsewhere)
+
+    def sized(fmu: Fmu, name: str) -> Fmu:
+        if not fmu.structural_parameters:
+            return fmu
+        return fmu.with_sizes(structural_sizes(description, archive, name, fmu.structural_parameters, chosen()))
 
     def open_fmu(read: Callable[[], bytes], label: str) -> Fmu:
         if label not in loaded:
@@ -158,7 +170,9 @@ def _prepare(
 
     remarks: list[str] = []
     if archive.is_fmu:
-        description, remarks = describe_alone(open_fmu(read_fmu(archive.path), archive.label), options)
+        alone = open_fmu(read_fmu(archive.path), archive.label)
+        description, remarks = describe_alone(alone, options)
+        description, remarks = describe_alone(sized(alone, next(iter(description.system.elements))), options)
     else:
         description = read_description(archive, options.variant)
     try:
@@ -176,12 +190,13 @@ def _prepare(
     if series is not None:
         network.driven = find_driven(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
     assignments = [each for name, (_, retired) in replaced.items() for each in retired.assignments(name)]
-    assignments += _assignments(network, archive, options, elsewhere)
+    assignments += chosen()
+    network.notes += notes
     settings = collect_settings(network, archive, assignments, options)
     settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
     check_signals(network, settings)
     check_shared(network, settings)
-    for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
+    for fmu in {fmu.label: fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
     network.notes += filter(None, [archive.note()])
     algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]
@@ -237,12 +252,12 @@ def locate_fmu(
 
 
 def _assignments(
-    network: Network, archive: SystemArchive, options: SystemOptions, elsewhere: dict[str, Callable[[], bytes]]
+    notes: list[str], archive: SystemArchive, options: SystemOptions, elsewhere: dict[str, Callable[[], bytes]]
 ) -> list[Assignment]:
     assignments: list[Assignment] = []
     for name in options.parameters:
         data, label = archive.parameter_set(name)
         if not label.startswith(f"{archive.label}!"):
             elsewhere[parameters_asked(name)] = partial(bytes, data)
-        assignments += read_parameter_file(data, label, network.notes if options.allow_unmatched else None)
+        assignments += read_parameter_file(data, label, notes if options.allow_unmatched else None)
     return assignments + [single_value(name, value, options.places.get(name)) for name, value in options.set.items()]

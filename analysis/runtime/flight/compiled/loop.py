@@ -34,6 +34,7 @@ from .codes import (
     FAILED,
     FINISHED,
     FIRST,
+    FIRST_OF_FMI3,
     FMI_WARNING,
     FUNCTION,
     GET_REAL,
@@ -45,6 +46,7 @@ from .codes import (
     MOVE_REAL,
     NONFINITE,
     OVERRIDE,
+    PIECE_PARAMETERS,
     PUT_REAL,
     SET_REAL,
     SET_WHOLE,
@@ -56,6 +58,7 @@ from .codes import (
     TRANSFORM,
     UNMAPPED,
 )
+from .fmi3 import begin_fmi3, exchange_in_steps
 from .fmi_calls import boolean_at, do_step, exchange, exchange_texts, put_real, real_at, whole_at
 
 ONE = np.uint64(1)
@@ -90,6 +93,9 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
         values[:] = program.initial
         frozen[:] = np.nan
         buffers.texts.rows[:] = buffers.texts.initial
+        buffers.binaries.rows[:] = buffers.binaries.initial
+        buffers.binaries.sizes[:] = buffers.binaries.initial_sizes
+        buffers.cells.exact[:] = program.pieces.exact
         first_instruction = np.uint64(0 if span.reset else program.reset_end)
         last_instruction = np.uint64(phases[0])
         after = start
@@ -211,15 +217,20 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
             else:
                 if code <= COPY_TEXT:
                     status = exchange_texts(instructions[k], buffers.texts, outcome)
-                else:
+                elif code < FIRST_OF_FMI3:
                     status = begin(instructions[k], program, settings, buffers.read_back, span, outcome)
+                elif code < PIECE_PARAMETERS:
+                    status = exchange_in_steps(instructions[k], program.pieces, buffers, time, step, start, n)
+                else:
+                    status = begin_fmi3(instructions[k], program, settings, buffers.read_back, span, outcome)
                 if outcome[0] != 0:
                     outcome[5] = k
                     return rows
             if status > FMI_WARNING or status < 0:
                 outcome[0] = FAILED
                 outcome[1] = instructions[k, COMPONENT]
-                outcome[2] = instructions[k, FUNCTION]
+                if not FIRST_OF_FMI3 <= code < PIECE_PARAMETERS:
+                    outcome[2] = instructions[k, FUNCTION]
                 outcome[3] = status
                 outcome[5] = k
                 return rows

@@ -1,0 +1,187 @@
+"""Pieces of slots, parameters and texts exchanged with FMUs of FMI 3.0, in the types that these have.
+
+A slot is a float64; what an FMU is given of another type is converted into cells of eight bytes each, of which a piece
+fills the first ones. Whole numbers of 64 bits are exchanged exactly: ``exact`` has them next to the slots, and counts
+wherever its number is that of the slot, rounded to a float64.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ....common.compiler import compile_cached
+from . import codes
+from .fmi3_calls import copy_bytes, exchange_binaries, exchange_piece
+from .fmi_calls import copy_text
+
+WIDE = 2.0**63
+
+
+def _to_cells(kind, first, count, values, cells, outcome):  # type: ignore[no-untyped-def]
+    """Convert slots to what an FMU is given; returns whether they have changed. One out of range is the outcome."""
+    changed = False
+    sent = cells.sent
+    if kind == codes.FLOAT64:
+        for slot in range(first, first + count):
+            bits = values.view(np.uint64)[slot]
+            changed |= sent[slot] != bits
+            sent[slot] = bits
+    elif kind == codes.FLOAT32:
+        single = sent.view(np.float32)
+        for i in range(count):
+            rounded = np.float32(values[first + i])
+            if not abs(rounded) < np.inf:
+                outcome[0] = codes.NONFINITE
+                outcome[1] = first + i
+            changed |= single[2 * first + i] != rounded
+            single[2 * first + i] = rounded
+    elif kind == codes.INT64 or kind == codes.UINT64:
+        low, high = (-WIDE, WIDE) if kind == codes.INT64 else (0.0, 2.0 * WIDE)
+        for slot in range(first, first + count):
+            number = values[slot]
+            if not low <= number < high:
+                outcome[0] = codes.NONFINITE
+                outcome[1] = slot
+                continue
+            exact = cells.exact[slot]
+            if (float(np.int64(exact)) if kind == codes.INT64 else float(exact)) != number:
+                exact = np.uint64(np.int64(number)) if number < WIDE else np.uint64(number)
+            changed |= sent[slot] != exact
+            sent[slot] = exact
+    elif kind == codes.BOOLEAN:
+        truths = sent.view(np.uint8)
+        for i in range(count):
+            truth = np.uint8(values[first + i] != 0.0)
+            changed |= truths[8 * first + i] != truth
+            truths[8 * first + i] = truth
+    elif kind == codes.INT8:
+        changed = _to_whole(sent.view(np.int8), 8 * first, -128.0, 127.0, first, count, values, outcome)
+    elif kind == codes.UINT8:
+        changed = _to_whole(sent.view(np.uint8), 8 * first, 0.0, 255.0, first, count, values, outcome)
+    elif kind == codes.INT16:
+        changed = _to_whole(sent.view(np.int16), 4 * first, -32768.0, 32767.0, first, count, values, outcome)
+    elif kind == codes.UINT16:
+        changed = _to_whole(sent.view(np.uint16), 4 * first, 0.0, 65535.0, first, count, values, outcome)
+    elif kind == codes.INT32:
+        changed = _to_whole(sent.view(np.int32), 2 * first, -(2.0**31), 2.0**31 - 1.0, first, count, values, outcome)
+    elif kind == codes.UINT32:
+        changed = _to_whole(sent.view(np.uint32), 2 * first, 0.0, 2.0**32 - 1.0, first, count, values, outcome)
+    return changed
+
+
+def _convert(numbers, start, low, high, first, count, values, outcome):  # type: ignore[no-untyped-def]
+    changed = False
+    for i in range(count):
+        number = values[first + i]
+        if not low <= number <= high:
+            outcome[0] = codes.NONFINITE
+            outcome[1] = first + i
+            continue
+        changed |= numbers[start + i] != number
+        numbers[start + i] = np.int64(number)
+    return changed
+
+
+_to_whole = compile_cached(_convert)
+
+
+def _from_cells(kind, first, count, values, cells):  # type: ignore[no-untyped-def]
+    """Convert what an FMU has given to slots."""
+    sent = cells.sent
+    for i in range(count):
+        slot = first + i
+        if kind == codes.FLOAT32:
+            values[slot] = sent.view(np.float32)[2 * first + i]
+        elif kind == codes.INT64:
+            cells.exact[slot] = sent[slot]
+            values[slot] = float(np.int64(sent[slot]))
+        elif kind == codes.UINT64:
+            cells.exact[slot] = sent[slot]
+            values[slot] = float(sent[slot])
+        elif kind == codes.BOOLEAN or kind == codes.UINT8:
+            values[slot] = sent.view(np.uint8)[8 * first + i]
+        elif kind == codes.INT8:
+            values[slot] = sent.view(np.int8)[8 * first + i]
+        elif kind == codes.INT16:
+            values[slot] = sent.view(np.int16)[4 * first + i]
+        elif kind == codes.UINT16:
+            values[slot] = sent.view(np.uint16)[4 * first + i]
+        elif kind == codes.INT32:
+            values[slot] = sent.view(np.int32)[2 * first + i]
+        elif kind == codes.UINT32:
+            values[slot] = sent.view(np.uint32)[2 * first + i]
+
+
+to_cells = compile_cached(_to_cells)
+from_cells = compile_cached(_from_cells)
+
+
+def _set_piece(address, instance, piece, reference, buffers):  # type: ignore[no-untyped-def]
+    """Give an FMU a piece whose cells are converted already; returns the fmi3Status."""
+    start, size = piece[codes.REFERENCE], piece[codes.REFERENCES]
+    first, count, kind = piece[codes.FIRST_CELL], piece[codes.CELLS], piece[codes.KIND]
+    if kind == codes.FLOAT64:
+        return exchange_piece(address, instance, reference, start, size, buffers.values, first, count)
+    if kind == codes.STRING:
+        return exchange_piece(address, instance, reference, start, size, buffers.texts.address, first, count)
+    if kind == codes.BINARY:
+        sizes, addresses = buffers.binaries.sizes, buffers.binaries.address
+        return exchange_binaries(address, instance, reference, start, size, sizes, addresses, first, count)
+    return exchange_piece(address, instance, reference, start, size, buffers.cells.sent, first, count)
+
+
+def _get_piece(address, instance, piece, reference, checks, buffers):  # type: ignore[no-untyped-def]
+    """Take a piece of an FMU; returns the fmi3Status. ``checks``: a Real that is not finite becomes the outcome."""
+    start, size = piece[codes.REFERENCE], piece[codes.REFERENCES]
+    first, count, kind = piece[codes.FIRST_CELL], piece[codes.CELLS], piece[codes.KIND]
+    values = buffers.values
+    if kind == codes.STRING or kind == codes.BINARY:
+        return _get_texts(address, instance, piece, reference, buffers)
+    if kind == codes.FLOAT64:
+        status = exchange_piece(address, instance, reference, start, size, values, first, count)
+    else:
+        status = exchange_piece(address, instance, reference, start, size, buffers.cells.sent, first, count)
+        from_cells(kind, first, count, values, buffers.cells)
+    if checks and kind <= codes.FLOAT32 and 0 <= status <= codes.FMI_WARNING:
+        for slot in range(first, first + count):
+            if not abs(values[slot]) < np.inf:
+                buffers.outcome[0] = codes.NONFINITE
+                buffers.outcome[1] = slot
+                return status
+    return status
+
+
+def _take_texts(address, instance, piece, reference, buffers):  # type: ignore[no-untyped-def]
+    """Likewise of Strings and Binaries, of which one without room becomes the outcome."""
+    start, size = piece[codes.REFERENCE], piece[codes.REFERENCES]
+    first, count = piece[codes.FIRST_CELL], piece[codes.CELLS]
+    is_binary = piece[codes.KIND] == codes.BINARY
+    texts = buffers.binaries if is_binary else buffers.texts
+    if is_binary:
+        status = exchange_binaries(address, instance, reference, start, size, texts.sizes, texts.given, first, count)
+    else:
+        status = exchange_piece(address, instance, reference, start, size, texts.given, first, count)
+    if status < 0 or status > codes.FMI_WARNING:
+        return status
+    room = texts.rows.shape[1]
+    for t in range(first, first + count):
+        if is_binary:
+            if texts.sizes[t] > room:
+                buffers.outcome[0] = codes.TOO_LONG
+                buffers.outcome[1] = -1 - t
+                return status
+            copy_bytes(texts.rows, t * room, texts.given[t], texts.sizes[t])
+        elif texts.given[t] == 0:
+            texts.rows[t, 0] = 0
+        else:
+            copy_text(texts.address[t], texts.given[t], room)
+            if texts.rows[t, room - 1] != 0:
+                buffers.outcome[0] = codes.TOO_LONG
+                buffers.outcome[1] = t
+                return status
+    return status
+
+
+set_piece = compile_cached(_set_piece)
+_get_texts = compile_cached(_take_texts)
+get_piece = compile_cached(_get_piece)
