@@ -14,7 +14,7 @@ from .fits import fitting
 
 ELEMENT = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 LINE = re.compile(r"(.+) lines? (\d+)(?: to (\d+))?")
-CAUSALITIES = ("input", "output", "parameter", "calculatedParameter", "local", "independent")
+CAUSALITIES = ("input", "output", "structuralParameter", "parameter", "calculatedParameter", "local", "independent")
 
 
 def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Mapping[str, str] | None = None) -> list:

@@ -35,7 +35,7 @@ def test_variables_are_those_declared(fmus, name):
     description = read_model_description(str(fmus / f"{name}.fmu"))
     variables = {variable.name: variable for variable in description.modelVariables}
     assert list(variables) == names(block)
-    references = [variable.reference for variable in variables.values()]
+    references = [variable.valueReference for variable in variables.values()]
     assert references == list(range(len(references)))
     for declared in block.variables.values():
         units = declared.units()

@@ -33,8 +33,8 @@ ENTER, EXIT = (
     [FUNCTION_NAMES.index(f"fmi{version}{mode}InitializationMode") for version in (2, 3)] for mode in ("Enter", "Exit")
 )
 DO_STEP = ("fmi2DoStep", "fmi3DoStep")
-SETTERS = (codes.PARAMETERS, codes.WHOLE_PARAMETERS, codes.TEXT_PARAMETERS, codes.PIECE_PARAMETERS)
-READ_BACKS = (codes.READ_BACK, codes.WHOLE_READ_BACK, codes.TEXT_READ_BACK, codes.PIECE_READ_BACK)
+SETTERS = (codes.PARAMETERS, codes.WHOLE_PARAMETERS, codes.TEXT_PARAMETERS, codes.GIVE_PARAMETERS)
+READ_BACKS = (codes.READ_BACK, codes.WHOLE_READ_BACK, codes.TEXT_READ_BACK, codes.TAKE_BACK)
 
 
 class Outcome(NamedTuple):
@@ -123,8 +123,8 @@ def in_words(
         return status, f"interrupted at t = {time:g} s"
     if code == codes.TOO_LONG:
         if subject < 0:
-            name, most = list(layout.binaries.slots)[-1 - subject], layout.binaries.longest
-            return status, f"{name} gave a binary value of more than {most} bytes at t = {time:g} s"
+            name, longest = list(layout.binaries.slots)[-1 - subject], layout.binaries.longest
+            return status, f"{name} gave a binary value of more than {longest} bytes at t = {time:g} s"
         longest = layout.texts.longest
         return status, f"{list(layout.texts.slots)[subject]} gave a string of {longest} bytes or more at t = {time:g} s"
     if code == codes.STUCK:

@@ -34,7 +34,7 @@ class Snapshot:
     values: np.ndarray
     whole: np.ndarray
     frozen: np.ndarray
-    cells: tuple[np.ndarray, np.ndarray]
+    stored: tuple[np.ndarray, np.ndarray]
 
 
 class Piece:
@@ -109,9 +109,9 @@ class Memory(BaseMemory[Snapshot]):
             states[component] = instance.state()
             serialized[component] = instance.serialize(states[component])
         buffers = self._buffers
-        cells = buffers.cells.sent.copy(), buffers.cells.exact.copy()
+        stored = buffers.stored.sent.copy(), buffers.stored.exact.copy()
         return Snapshot(
-            point, states, serialized, buffers.values.copy(), buffers.whole.copy(), buffers.frozen.copy(), cells
+            point, states, serialized, buffers.values.copy(), buffers.whole.copy(), buffers.frozen.copy(), stored
         )
 
     def put_back(self, snapshot: Snapshot, cell: Cell | None = None, number: float = 0.0) -> None:
@@ -122,7 +122,7 @@ class Memory(BaseMemory[Snapshot]):
         buffers.values[:] = snapshot.values
         buffers.whole[:] = snapshot.whole
         buffers.frozen[:] = snapshot.frozen
-        buffers.cells.sent[:], buffers.cells.exact[:] = snapshot.cells
+        buffers.stored.sent[:], buffers.stored.exact[:] = snapshot.stored
         if cell is None:
             return
         if cell.component is None:

@@ -15,7 +15,7 @@ from ..system.assignments import Settings
 from ..system.fmu import STRUCTURAL, Fmu
 from ..system.network import Network
 from .compiled import arrays
-from .orders.pieces import ComponentPieces, PieceTable, whole
+from .orders.transfers import ComponentTransfers, TransferTable, whole
 
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2, "String": 3}
 Key = tuple[str, str]  # (component, variable)
@@ -31,15 +31,15 @@ class Parameters:
     """Values by (component, variable); those of a component and type are contiguous.
 
     ``ranges`` [component, type of TYPE_KIND, 4] are the first one, how many there are, and how many of them, the first
-    ones, are set again in initialisation mode and read back after it. Those of a component of FMI 3.0 are ``pieces``,
-    rows of ``table``, one for each variable with all its elements.
+    ones, are set again in initialisation mode and read back after it. Those of a component of FMI 3.0 are
+    ``transfers``, rows of ``table``, one for each variable with all its elements.
     """
 
-    def __init__(self, network: Network, settings: Settings, table: PieceTable | None = None) -> None:
+    def __init__(self, network: Network, settings: Settings, table: TransferTable | None = None) -> None:
         self._network = network
-        self._table = PieceTable() if table is None else table
-        self.pieces: dict[int, ComponentPieces] = {}
-        self._cells: dict[int, tuple[str, int]] = {}  # of FMI 3.0: type and first byte
+        self._table = TransferTable() if table is None else table
+        self.transfers: dict[int, ComponentTransfers] = {}
+        self._layout: dict[int, tuple[str, int]] = {}  # of FMI 3.0: type and first byte
         self.keys: list[Key] = []
         self.types: dict[Key, str] = {}
         self.references: list[int] = []
@@ -49,7 +49,7 @@ class Parameters:
             given[component].append(name)
         for index, (component, fmu) in enumerate(network.fmus.items()):
             if fmu.version == 3:
-                self.pieces[index] = self._place_pieces(component, fmu, given[component])
+                self.transfers[index] = self._place_transfers(component, fmu, given[component])
                 continue
             grades = {
                 name: _grade(fmu, fmu.variables[name], driven=f"{component}.{name}" in network.driver)
@@ -77,9 +77,9 @@ class Parameters:
             if key not in settings.variables:
                 self[key] = self._start(*key)
 
-    def _place_pieces(self, component: str, fmu: Fmu, given: list[str]) -> ComponentPieces:
+    def _place_transfers(self, component: str, fmu: Fmu, given: list[str]) -> ComponentTransfers:
         """Places of what a component of FMI 3.0 is given, which takes whole arrays."""
-        pieces = ComponentPieces()
+        transfers = ComponentTransfers()
         arrays_of: dict[str, list[Variable]] = {}
         for variable in whole(fmu.variables.values(), set(given)):
             arrays_of.setdefault(variable.array or variable.name, []).append(variable)
@@ -91,19 +91,19 @@ class Parameters:
                 self.types[component, each.name] = each.type
                 self.references.append(each.reference)
                 if dtype:
-                    self._cells[position] = dtype, 8 * first + np.dtype(dtype).itemsize * each.index
-            piece = self._table.add(elements, first)
+                    self._layout[position] = dtype, 8 * first + np.dtype(dtype).itemsize * each.index
+            transfer = self._table.add(elements, first)
             if elements[0].causality == STRUCTURAL:
-                pieces.structural.append(piece)
-                pieces.back.append(piece)
+                transfers.structural.append(transfer)
+                transfers.back.append(transfer)
                 continue
             grade = _grade(fmu, elements[0], driven=driven)
-            pieces.before.append(piece)
+            transfers.before.append(transfer)
             if grade <= 1 and fmu.digest not in _set_once:
-                pieces.again.append(piece)
+                transfers.repeated.append(transfer)
             if grade == 0:
-                pieces.back.append(piece)
-        return pieces
+                transfers.back.append(transfer)
+        return transfers
 
     def _start(self, component: str, name: str) -> ParameterValue:
         """The start of an element whose array is given, though it is not."""
@@ -126,8 +126,8 @@ class Parameters:
         if kind == "String":
             self._texts[position] = ctypes.create_string_buffer(str(value).encode())
             self.values.text[position] = ctypes.addressof(self._texts[position])
-        elif position in self._cells:
-            self._cell(self.values, position)[0] = value
+        elif position in self._layout:
+            self._view(self.values, position)[0] = value
         elif kind == "Real":
             self.values.real[position] = value
         else:
@@ -143,16 +143,16 @@ class Parameters:
         if kind == "String":
             address = int(values.text[position])
             return ctypes.string_at(address).decode(errors="replace") if address else ""
-        if position in self._cells:
-            return self._cell(values, position)[0].item()  # type: ignore[no-any-return]
+        if position in self._layout:
+            return self._view(values, position)[0].item()  # type: ignore[no-any-return]
         if kind == "Real":
             return float(values.real[position])
         return bool(values.whole[position]) if kind == "Boolean" else int(values.whole[position])
 
-    def _cell(self, values: arrays.Settings, position: int) -> np.ndarray:
+    def _view(self, values: arrays.Settings, position: int) -> np.ndarray:
         """The one value of FMI 3.0 that is stored for a position, as a view."""
-        dtype, first = self._cells[position]
-        return values.cells.view(np.uint8)[first : first + np.dtype(dtype).itemsize].view(dtype)
+        dtype, first = self._layout[position]
+        return values.stored.view(np.uint8)[first : first + np.dtype(dtype).itemsize].view(dtype)
 
     def is_one_by_one(self, component: str) -> bool:
         """Whether a component's parameters are read back one by one, since it does not give all of them."""

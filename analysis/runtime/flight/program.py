@@ -28,7 +28,7 @@ from .compiled import arrays, codes
 from .instructions import InstructionList, Orders, Term, write_instructions
 from .orders.fmi2 import Fmi2Orders
 from .orders.fmi3 import Fmi3Orders
-from .orders.pieces import ComponentPieces, PieceTable, groups, needs_events, whole
+from .orders.transfers import ComponentTransfers, TransferTable, groups, needs_events, whole
 from .parameters import TYPE_KIND, Parameters
 from .texts import Texts
 
@@ -135,8 +135,8 @@ class _Builder:
         )
         self.named = {*(wanted or ()), *more}
         self.ranges = np.zeros((len(self.names), len(EXCHANGES), 2), dtype=np.int64)
-        self.table = PieceTable()
-        self.pieces: dict[int, ComponentPieces] = {}  # of components of FMI 3.0
+        self.table = TransferTable()
+        self.transfers: dict[int, ComponentTransfers] = {}  # of components of FMI 3.0
         self.exact: dict[int, int] = {}  # starts of whole numbers of 64 bits, by slot
         self.unfed: set[str] = set()
         self.parameters = Parameters(network, settings, self.table)
@@ -144,7 +144,7 @@ class _Builder:
         self.recorded: dict[int, list[tuple[int, int, int]]] = {}  # by component: function, first and count of slots
         for index, name in enumerate(self.names):
             if network.fmus[name].version == 3:
-                self.pieces[index] = self._place_pieces(index, name)
+                self.transfers[index] = self._place_transfers(index, name)
             else:
                 self._place_component(index, name)
         for node in network.nodes.values():
@@ -199,34 +199,34 @@ class _Builder:
                 reads.append((function, first, len(self.references) - first))
         return reads
 
-    def _place_pieces(self, index: int, component: str) -> ComponentPieces:
-        """Slots and pieces of what is exchanged with a component of FMI 3.0, and of what is recorded."""
-        pieces = self.parameters.pieces[index]
-        pieces.uses_events = needs_events(self.network, component)
+    def _place_transfers(self, index: int, component: str) -> ComponentTransfers:
+        """Slots and transfers of what is exchanged with a component of FMI 3.0, and of what is recorded."""
+        transfers = self.parameters.transfers[index]
+        transfers.uses_events = needs_events(self.network, component)
         variables = self.network.fmus[component].variables.values()
         numbers = [variable for variable in variables if variable.type not in TEXTS]
         names = {variable.name: f"{component}.{variable.name}" for variable in numbers}
-        driven = {own for own, name in names.items() if name in self.network.driver or name in self.network.driven}
-        fetched = {own for own, name in names.items() if self.fetched is None or name in self.fetched}
+        driven = {short for short, name in names.items() if name in self.network.driver or name in self.network.driven}
+        fetched = {short for short, name in names.items() if self.fetched is None or name in self.fetched}
         inputs = whole((each for each in numbers if each.causality == "input"), driven)
         outputs = whole((each for each in numbers if each.causality == "output"), fetched)
-        # discrete inputs are pieces in a row
-        for is_discrete, target in ((False, pieces.inputs), (True, pieces.discrete)):
+        # discrete inputs are transfers in a row
+        for is_discrete, target in ((False, transfers.inputs), (True, transfers.discrete)):
             mine = (each for each in inputs if (each.variability == "discrete") == is_discrete)
             target += [self._place_group(component, group) for group in groups(mine)]
-        pieces.discrete += self._text_pieces(index, 0)
-        pieces.outputs += [self._place_group(component, group) for group in groups(outputs)]
-        pieces.outputs += self._text_pieces(index, 1)
-        named = {own for own, name in names.items() if name in self.named and name not in self.slots}
+        transfers.discrete += self._text_transfers(index, 0)
+        transfers.outputs += [self._place_group(component, group) for group in groups(outputs)]
+        transfers.outputs += self._text_transfers(index, 1)
+        named = {short for short, name in names.items() if name in self.named and name not in self.slots}
         recorded = whole((each for each in numbers if each.name in named), named)
-        pieces.recorded += [self._place_group(component, group) for group in groups(recorded)]
+        transfers.recorded += [self._place_group(component, group) for group in groups(recorded)]
         self.unfed |= {names[each.name] for each in numbers if each.causality == "input"} - {
-            names[own] for own in driven
+            names[short] for short in driven
         }
-        return pieces
+        return transfers
 
-    def _text_pieces(self, index: int, column: int) -> list[int]:
-        """Pieces of the Strings and Binaries of a component: 0 inputs, 1 outputs."""
+    def _text_transfers(self, index: int, column: int) -> list[int]:
+        """Transfers of the Strings and Binaries of a component: 0 inputs, 1 outputs."""
         firsts = (
             (texts.variables[index][column], texts.ranges[index, column, 0]) for texts in (self.texts, self.binaries)
         )
@@ -333,13 +333,13 @@ class _Builder:
             fault_value=np.array([injection.value for injection in self.injections], dtype=np.float64),
             drive_slot=np.array([self.slots[name] for name in driven], dtype=np.int64),
             drive_table=_columns(prepared.drive, driven),
-            pieces=self._pieces(instances),
+            transfers=self._transfers(instances),
         )
         return program, collected
 
     def _orders(self, collected: InstructionList, index: int, instance: Instance) -> Orders:
-        if index in self.pieces:
-            return Fmi3Orders(collected, index, self.pieces[index], self.table)
+        if index in self.transfers:
+            return Fmi3Orders(collected, index, self.transfers[index], self.table)
         return Fmi2Orders(
             collected,
             index,
@@ -352,14 +352,14 @@ class _Builder:
             one_by_one=self.parameters.is_one_by_one(self.names[index]),
         )
 
-    def _pieces(self, instances: Mapping[str, Instance]) -> arrays.Pieces:
+    def _transfers(self, instances: Mapping[str, Instance]) -> arrays.Transfers:
         """The loop's table of FMI 3.0; empty without an FMU of it."""
-        if not self.pieces:
-            return arrays.blank()[0].pieces
+        if not self.transfers:
+            return arrays.blank()[0].transfers
         exact = np.zeros(len(self.slots), dtype=np.uint64)
         for slot, number in self.exact.items():
             exact[slot] = number % 2**64
-        return arrays.Pieces(
+        return arrays.Transfers(
             rows=self.table.array(),
             reference=np.array(self.table.references, dtype=np.uint32),
             functions=np.array([instances[name].function_addresses() for name in self.names], dtype=np.uint64),

@@ -19,7 +19,7 @@ from .endings import TERMINATED, Outcome, end_request, in_words
 from .instructions import write_ending
 from .life_cycle import LifeCycle
 from .memory import Memory
-from .orders.pieces import needs_events
+from .orders.transfers import needs_events
 from .program import NEVER, build_program, of_fault
 from .recorder import FlightRecorder, Phase, rows_between
 from .results import Flight
@@ -64,7 +64,7 @@ class Simulation(BaseSimulation):
             read_back=self.layout.parameters.blank(),
             texts=self.layout.texts.memory(),
             binaries=self.layout.binaries.memory(),
-            cells=arrays.cells(self.program.pieces.exact.size),
+            stored=arrays.stored(self.program.transfers.exact.size),
             outcome=self.recorder.outcome,
             halt=self.recorder.halt,
         )
@@ -137,7 +137,7 @@ class Simulation(BaseSimulation):
         )
         if outcome.is_discarded_step or outcome.is_ended:
             component, instance = list(self.instances.items())[outcome.subject]
-            end = float(self.buffers.cells.time[1]) if outcome.is_ended else end_request(instance)
+            end = float(self.buffers.stored.time[1]) if outcome.is_ended else end_request(instance)
             if end is not None:
                 self._fly_last_row(outcome.subject, end, count)
                 count += 1
@@ -177,8 +177,8 @@ class Simulation(BaseSimulation):
             code, first, count = self.program.instructions[
                 outcome.instruction, [codes.CODE, codes.FIRST, codes.COUNT]
             ].tolist()
-            if code == codes.PIECE_READ_BACK:  # of one variable
-                first = int(self.program.pieces.rows[first, codes.FIRST_CELL])
+            if code == codes.TAKE_BACK:  # of one variable
+                first = int(self.program.transfers.rows[first, codes.FIRST_VALUE])
             parameters.learn_unreadable(first, count)
         elif outcome.is_refused_again(self.program):
             parameters.learn_set_once(list(self.instances)[outcome.subject])

@@ -13,7 +13,7 @@ from ..system.assignments import Settings
 from ..system.network import Network
 from ..system.schedule import origin
 from .compiled import arrays
-from .orders.pieces import whole
+from .orders.transfers import whole
 
 LONGEST = {"String": 4096, "Binary": 65536}  # bytes of one, of a String with its end
 
@@ -45,15 +45,17 @@ class Texts:
             self.variables.append([])
             for column, (causality, wanted) in enumerate((("input", links), ("output", read))):
                 first = len(self._references)
-                own = [each for each in fmu.variables.values() if (each.type, each.causality) == (type_name, causality)]
-                selected = whole(own, {each.name for each in own if f"{component}.{each.name}" in wanted})
+                every = [
+                    each for each in fmu.variables.values() if (each.type, each.causality) == (type_name, causality)
+                ]
+                selected = whole(every, {each.name for each in every if f"{component}.{each.name}" in wanted})
                 for variable in selected:
                     given = settings.variables.get((component, variable.name), variable.start or "")
-                    self._place(f"{component}.{variable.name}", variable.reference, str(given))
+                    self._add(f"{component}.{variable.name}", variable.reference, str(given))
                 self.ranges[index, column] = first, len(self._references) - first
                 self.variables[-1].append(selected)
         for name in sorted(read - set(self.slots)):
-            self._place(name, 0, str(settings.nodes.get(name, "")))
+            self._add(name, 0, str(settings.nodes.get(name, "")))
         numbers = {name: number for number, name in enumerate(network.fmus)}
         self.connections: list[list[tuple[int, int, int]]] = [[] for _ in network.fmus]
         for name, start in links.items():
@@ -61,7 +63,7 @@ class Texts:
             number = -1 if start.component is None else numbers[start.component]
             self.connections[numbers[owner]].append((number, self.slots[start.name], self.slots[name]))
 
-    def _place(self, name: str, reference: int, initial: str) -> None:
+    def _add(self, name: str, reference: int, initial: str) -> None:
         try:
             content = bytes.fromhex(initial) if self._is_binary else initial.encode()
         except ValueError:

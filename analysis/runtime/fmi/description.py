@@ -120,7 +120,12 @@ def _check_references(root: etree._Element, variables: list[etree._Element], lab
             raise InputError(label, _line_of(element), "neither a start nor a structural parameter", FIX)
         else:
             _check_texts(
-                known[int(reference)], "start", [known[int(reference)].get("start", "")], _size, "a size", label
+                known[int(reference)],
+                "start",
+                [known[int(reference)].get("start", "")],
+                _size,
+                "a number of elements",
+                label,
             )
 
 

@@ -11,7 +11,11 @@ from ..ssp.parameter_sets import Assignment, read_binding
 
 
 def structural_sizes(
-    description: Description, archive: SystemArchive, component: str, names: Collection[str], chosen: Sequence[Assignment]
+    description: Description,
+    archive: SystemArchive,
+    component: str,
+    names: Collection[str],
+    chosen: Sequence[Assignment],
 ) -> dict[str, int]:
     """The values that a component, by its flat name, is given for these parameters.
 
@@ -40,9 +44,9 @@ def _bindings(system: System, component: str) -> Iterator[tuple[str, list[Bindin
 
 def _element(system: System, name: str) -> tuple[Element | None, str]:
     """The element of a system that a flat name leads through, and what is left of the name."""
-    for own, element in system.elements.items():
-        if name == own or (isinstance(element, System) and name.startswith(f"{own}.")):
-            return element, name[len(own) + 1 :]
+    for short, element in system.elements.items():
+        if name == short or (isinstance(element, System) and name.startswith(f"{short}.")):
+            return element, name[len(short) + 1 :]
     return None, name
 
 

@@ -9,7 +9,7 @@ import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from fmpy.model_description import ModelVariable
+from fmpy.model_description import ModelDescription, ModelVariable
 
 from .representations import OF_FMI2, REPRESENTATIONS, Representation
 
@@ -41,6 +41,12 @@ class Variable:
     def start_text(self) -> str:
         """The start as a text that can be read as a number, of one without NaN."""
         return "nan" if self.start is None else self.start
+
+
+def variables_of(description: ModelDescription) -> dict[str, Variable]:
+    """The variables of an FMU by name, with the sizes that it declares."""
+    declared = description.modelVariables
+    return elements_of(declared, {}) if description.fmiMajorVersion == 3 else scalars(declared)
 
 
 def scalars(declared: Sequence[ModelVariable]) -> dict[str, Variable]:

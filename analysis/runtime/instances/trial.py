@@ -79,8 +79,8 @@ def _set(instance: Instance, changes: Mapping[str, Number]) -> None:
     """Give variables values, whole arrays where one of their elements is changed."""
     variables = instance.fmu.variables
     if not isinstance(instance.slave, Fmi3Slave):
-        for name, value in changes.items():
-            getattr(instance.slave, f"set{_call(instance, variables[name])}")([variables[name].reference], [value])
+        for name, number in changes.items():
+            getattr(instance.slave, f"set{_call(instance, variables[name])}")([variables[name].reference], [number])
         return
     wholes = {variables[name].array or name: variables[name] for name in changes}
     for whole, first in wholes.items():

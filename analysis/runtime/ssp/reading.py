@@ -163,9 +163,7 @@ class Reader:
         type_name = unit = enumeration = None
         for inner in item:
             kind_of_value = tag(inner)
-            if kind_of_value == "Binary":
-                raise self.refuse(item, name, "Binary connectors are not supported", "remove the connector")
-            if kind_of_value in ("Real", "Integer", "Boolean", "String", "Enumeration"):
+            if kind_of_value in ("Real", "Integer", "Boolean", "String", "Enumeration", "Binary"):
                 type_name, unit, enumeration = kind_of_value, inner.get("unit") or None, inner.get("name")
         return Connector(name, kind, type_name, unit, enumeration, item.sourceline)
 

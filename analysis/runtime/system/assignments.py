@@ -190,6 +190,8 @@ def _check_driven(network: Network, assignment: Assignment) -> None:
 def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
     """The assignment's value as its target needs it: type, unit, transformation."""
     value, given = assignment.value, assignment.type_name
+    if type_name == "Binary":
+        raise InputError(assignment.file, assignment.where, "a Binary is not set", "connect it with a Binary output")
     if given == TEXT:
         given = type_name
         value = _parse(assignment, type_name, node)

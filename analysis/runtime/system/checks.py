@@ -9,7 +9,7 @@ from fmpy import read_model_description
 from ....fmus_src.export.available import fmu_flavours
 from ...common.errors import InputError, suggestion
 from ..fmi.representations import TEXTS
-from ..fmi.variable import Variable
+from ..fmi.variable import Variable, variables_of
 from ..ssp.description import Component
 from ..ssp.names import split_name
 from .assignments import Settings
@@ -34,8 +34,8 @@ def _fitting(component: Component) -> Iterator[str]:
     for name, flavours in fmu_flavours().items():
         path = next((path for path in flavours.values() if path is not None), None)
         if path is not None:
-            variables = read_model_description(str(path), validate=False).modelVariables
-            if wanted <= {(variable.name, variable.causality) for variable in variables}:
+            variables = variables_of(read_model_description(str(path), validate=False))
+            if wanted <= {(variable.name, variable.causality) for variable in variables.values()}:
                 yield name
 
 

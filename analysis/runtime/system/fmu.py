@@ -22,7 +22,7 @@ from ...common.errors import InputError
 from ...common.scratch import make_folder
 from ...common.zips import REMEDY, UNREADABLE, open_zip, read_entry
 from ..fmi import description as fmi3
-from ..fmi.variable import Variable, elements_of, scalars
+from ..fmi.variable import Variable, elements_of, variables_of
 from ..ssp.conversions import Unit, units_of_fmu
 from ..ssp.documents import parse_xml
 from ..ssp.fmu_description import DESCRIPTION, check_description, check_rules, external_state_of
@@ -194,8 +194,7 @@ def _read_variables(xml: bytes) -> Mapping[str, Variable]:
     """The variables of a readable description by name, with the sizes that it declares."""
     description, _ = _read_description(xml)
     assert description is not None
-    declared = description.modelVariables
-    return elements_of(declared, {}) if description.fmiMajorVersion == 3 else scalars(declared)
+    return variables_of(description)
 
 
 def _binary(description: ModelDescription) -> str:

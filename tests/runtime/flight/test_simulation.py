@@ -181,9 +181,9 @@ def test_full_state_restores_a_flight_midway(fmus, name, flavour):
     file = fmus.parent / flavour / f"{name}.fmu"
     description = fmpy.read_model_description(str(file))
     variables = {variable.name: variable for variable in description.modelVariables}
-    reals = [v.reference for v in variables.values() if v.type == "Real"]
-    inputs = [v.reference for v in variables.values() if v.causality == "input" and v.type == "Real"]
-    sigmas = [v.reference for key, v in variables.items() if key.endswith("_sigma") and v.causality == "parameter"]
+    reals = [v.valueReference for v in variables.values() if v.type == "Real"]
+    inputs = [v.valueReference for v in variables.values() if v.causality == "input" and v.type == "Real"]
+    sigmas = [v.valueReference for key, v in variables.items() if key.endswith("_sigma") and v.causality == "parameter"]
     folder = fmpy.extract(str(file))
 
     def instance(number):

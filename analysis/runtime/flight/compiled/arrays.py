@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 
-class Pieces(NamedTuple):
-    """What is exchanged with FMUs of FMI 3.0: pieces of slots, parameters or texts, one call each."""
+class Transfers(NamedTuple):
+    """What is exchanged with FMUs of FMI 3.0: transfers of slots, parameters or texts, one call each."""
 
-    rows: np.ndarray  # int64 [q, codes.PIECE_COLUMNS]
+    rows: np.ndarray  # int64 [q, codes.TRANSFER_COLUMNS]
     reference: np.ndarray  # uint32, value references, one of a whole array
     functions: np.ndarray  # uint64 [components, library.FUNCTION_NAMES], addresses
     exact: np.ndarray  # uint64 [s], whole numbers of 64 bits before anything is exchanged
@@ -40,7 +40,7 @@ class Program(NamedTuple):
     fault_value: np.ndarray  # float64 [f]; of EXCITE the column of the excitation
     drive_slot: np.ndarray  # int64 [d], inputs driven over time
     drive_table: np.ndarray  # float64 [n, d]: values for the initialisation, then for every communication point
-    pieces: Pieces
+    transfers: Transfers
 
 
 class Settings(NamedTuple):
@@ -49,7 +49,7 @@ class Settings(NamedTuple):
     real: np.ndarray  # float64 [p]
     whole: np.ndarray  # int32 [p]
     text: np.ndarray  # uint64 [p], addresses of C strings
-    cells: np.ndarray  # uint64 [p], those of FMI 3.0: each piece's values side by side from its first cell on
+    stored: np.ndarray  # uint64 [p], those of FMI 3.0: each transfer's values side by side from its first cell on
 
 
 class Span(NamedTuple):
@@ -84,10 +84,10 @@ class Texts(NamedTuple):
     initial_sizes: np.ndarray  # uint64 [t]
 
 
-class Cells(NamedTuple):
+class StoredValues(NamedTuple):
     """What FMUs of FMI 3.0 exchange, in their own types."""
 
-    sent: np.ndarray  # uint64 [s], each piece's values side by side from its first slot on, as given or taken last
+    sent: np.ndarray  # uint64 [s], each transfer's values side by side from its first slot on, as given or taken last
     exact: np.ndarray  # uint64 [s], whole numbers of 64 bits, of which the float64 of a slot may be rounded
     flags: np.ndarray  # uint8 [8], what calls return
     time: np.ndarray  # float64 [2], likewise: the last is the time (s) at which an FMU has ended the simulation
@@ -104,14 +104,14 @@ class Buffers(NamedTuple):
     # flight the component that steps and the point it steps to
     texts: Texts
     binaries: Texts
-    cells: Cells
+    stored: StoredValues
     halt: np.ndarray  # int64 [1]; another thread makes it other than 0 to end the flight at its next point
 
 
-def cells(slots: int) -> Cells:
+def stored(slots: int) -> StoredValues:
     """Room for so many slots."""
     whole = np.zeros((2, slots), dtype=np.uint64)
-    return Cells(whole[0], whole[1], np.zeros(8, dtype=np.uint8), np.zeros(2))
+    return StoredValues(whole[0], whole[1], np.zeros(8, dtype=np.uint8), np.zeros(2))
 
 
 def blank() -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray]:
@@ -141,7 +141,7 @@ def blank() -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray]:
         fault_value=np.zeros(row, real),
         drive_slot=np.zeros(row, index),
         drive_table=np.zeros(rows, real),
-        pieces=Pieces(np.zeros(rows, index), np.zeros(row, np.uint32), np.zeros(rows, text), np.zeros(row, text)),
+        transfers=Transfers(np.zeros(rows, index), np.zeros(row, np.uint32), np.zeros(rows, text), np.zeros(row, text)),
     )
     texts = Texts(np.zeros(row, np.uint32), np.zeros(rows, byte), np.zeros(rows, byte), *np.zeros((4, 0), text))
     buffers = Buffers(
@@ -152,7 +152,7 @@ def blank() -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray]:
         outcome=np.zeros(row, index),
         texts=texts,
         binaries=texts,
-        cells=cells(0),
+        stored=stored(0),
         halt=np.zeros(row, index),
     )
     span = Span(reset=False, start=0.0, step=0.0, stop=0.0, first=0, last=0)

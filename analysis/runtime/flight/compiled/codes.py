@@ -11,10 +11,10 @@ PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN = range(11, 16)
 SET_TEXT, GET_TEXT, COPY_TEXT = range(16, 19)
 # Once, before a flight; behind all others, as those of Strings are behind those of numbers.
 PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(19, 27)
-# Of FMI 3.0, whose instructions name pieces of arrays; behind all others of FMI 2.0.
+# Of FMI 3.0, behind all others.
 FIRST_OF_FMI3 = 27
-SET_PIECE, GET_PIECE, READ_PIECE, COPY_EXACT, COPY_BINARY, SET_EVENTS, STEP_PIECES, SETTLE = range(27, 35)
-PIECE_PARAMETERS, PIECE_READ_BACK, PIECE_SETUP = range(35, 38)
+SET_TRANSFER, GET_TRANSFER, READ_TRANSFER, COPY_EXACT, COPY_BINARY, SET_EVENTS, STEP_TO_EVENTS, SETTLE = range(27, 35)
+GIVE_PARAMETERS, TAKE_BACK, ENTER_INITIALIZATION = range(35, 38)
 IN_MEMORY = (PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN)  # whose ADDRESS is a place in the instance
 
 # Instruction columns. FIRST and COUNT are connections, faults, slots, parameters, Strings or driven inputs; a COPY
@@ -26,13 +26,12 @@ IN_MEMORY = (PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN)  # whose 
 # end of the step, the initialisation's to the start.
 CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
 COLUMNS = 7
-# Of FMI 3.0 FIRST and COUNT are pieces, rows of `arrays.Pieces.rows`, but of a COPY_EXACT and a COPY_BINARY, which have
-# the columns of a COPY. A STEP_PIECES has in FIRST whether its component uses event mode.
-REFERENCE, REFERENCES, FIRST_CELL, CELLS, KIND = range(
-    5
-)  # columns of a piece: variables, then slots, parameters, texts
-PIECE_COLUMNS = 5
-# Kinds of a piece, in the order of representations.REPRESENTATIONS.
+# Of FMI 3.0 FIRST and COUNT are transfers, rows of `arrays.Transfers.rows`; a COPY_EXACT and a COPY_BINARY have the
+# columns of a COPY, and a STEP_TO_EVENTS has in FIRST whether its component uses event mode.
+# The columns of a transfer: its variables, then its slots, parameters or texts.
+REFERENCE, REFERENCES, FIRST_VALUE, VALUES, KIND = range(5)
+TRANSFER_COLUMNS = 5
+# Kinds of a transfer, in the order of representations.REPRESENTATIONS.
 FLOAT64, FLOAT32, INT8, UINT8, INT16, UINT16, INT32, UINT32, INT64, UINT64, BOOLEAN, STRING, BINARY = range(13)
 
 # How a run ends: Buffers.outcome[0].

@@ -16,12 +16,12 @@ from .fmi_calls import ARRAY, INT32, INT64, call, element, in_compiled_code
 @in_compiled_code(
     types.int32, types.int64, types.int64, ARRAY, types.int64, types.int64, ARRAY, types.int64, types.int64
 )
-def exchange_piece(
+def exchange_transfer(
     context: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]
 ) -> ir.Value:
     """fmi3SetFloat64 and its kin: (address, instance, references, first, count, values, first, count).
 
-    Values are taken from an index on in their array, whose cells may be larger than they are.
+    Values are taken from an index on in their array, whose stored may be larger than they are.
     """
     address, instance, references, first, count, values, first_value, value_count = arguments
     reference_address = element(context, builder, signature.args[2], references, first)

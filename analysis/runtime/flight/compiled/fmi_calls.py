@@ -133,7 +133,7 @@ def compare_texts(
     """The C library's strcmp of the strings at two addresses: 0 where they are equal."""
     function_type = ir.FunctionType(INT32, [cgutils.voidptr_t, cgutils.voidptr_t])
     function = cgutils.get_or_insert_function(builder.module, function_type, "strcmp")
-    return builder.call(function, [builder.inttoptr(value, cgutils.voidptr_t) for value in arguments])
+    return builder.call(function, [builder.inttoptr(address, cgutils.voidptr_t) for address in arguments])
 
 
 @in_compiled_code(types.int64, types.int64, types.int64, types.int64)
@@ -142,7 +142,7 @@ def copy_text(_: BaseContext, builder: ir.IRBuilder, signature: Signature, argum
     function_type = ir.FunctionType(cgutils.voidptr_t, [cgutils.voidptr_t, cgutils.voidptr_t, INT64])
     function = cgutils.get_or_insert_function(builder.module, function_type, "strncpy")
     target, source, size = arguments
-    pointers = [builder.inttoptr(value, cgutils.voidptr_t) for value in (target, source)]
+    pointers = [builder.inttoptr(address, cgutils.voidptr_t) for address in (target, source)]
     return builder.ptrtoint(builder.call(function, [*pointers, size]), INT64)
 
 

@@ -39,6 +39,7 @@ from .codes import (
     FUNCTION,
     GET_REAL,
     GET_WHOLE,
+    GIVE_PARAMETERS,
     INJECT,
     INSTANCE,
     INTERRUPTED,
@@ -46,7 +47,6 @@ from .codes import (
     MOVE_REAL,
     NONFINITE,
     OVERRIDE,
-    PIECE_PARAMETERS,
     PUT_REAL,
     SET_REAL,
     SET_WHOLE,
@@ -95,7 +95,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
         buffers.texts.rows[:] = buffers.texts.initial
         buffers.binaries.rows[:] = buffers.binaries.initial
         buffers.binaries.sizes[:] = buffers.binaries.initial_sizes
-        buffers.cells.exact[:] = program.pieces.exact
+        buffers.stored.exact[:] = program.transfers.exact
         first_instruction = np.uint64(0 if span.reset else program.reset_end)
         last_instruction = np.uint64(phases[0])
         after = start
@@ -219,8 +219,8 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                     status = exchange_texts(instructions[k], buffers.texts, outcome)
                 elif code < FIRST_OF_FMI3:
                     status = begin(instructions[k], program, settings, buffers.read_back, span, outcome)
-                elif code < PIECE_PARAMETERS:
-                    status = exchange_in_steps(instructions[k], program.pieces, buffers, time, step, start, n)
+                elif code < GIVE_PARAMETERS:
+                    status = exchange_in_steps(instructions[k], program.transfers, buffers, time, step, start, n)
                 else:
                     status = begin_fmi3(instructions[k], program, settings, buffers.read_back, span, outcome)
                 if outcome[0] != 0:
@@ -229,7 +229,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
             if status > FMI_WARNING or status < 0:
                 outcome[0] = FAILED
                 outcome[1] = instructions[k, COMPONENT]
-                if not FIRST_OF_FMI3 <= code < PIECE_PARAMETERS:
+                if not FIRST_OF_FMI3 <= code < GIVE_PARAMETERS:
                     outcome[2] = instructions[k, FUNCTION]
                 outcome[3] = status
                 outcome[5] = k

@@ -1,4 +1,4 @@
-"""The instructions for a component of FMI 2.0: pieces of slots by type, or the memory of our own FMUs."""
+"""The instructions for a component of FMI 2.0: stretches of slots by type, or the memory of our own FMUs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ...instances.instance import Instance
 from ...instances.library import FUNCTION_NAMES
 from ..compiled import codes
 from ..in_memory import Run, runs_in_memory, with_moves
-from .rows import Piece, Rows
+from .rows import Rows, Stretch
 
 TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}
 FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES) if name.startswith("fmi2")}
@@ -29,7 +29,7 @@ class Fmi2Orders:
     ``ranges`` [get or set function 0..5] are (first, count) of slots, ``parameter_ranges`` [type] the first parameter,
     how many there are, and how many of them, the first ones, are set again in initialisation mode and read back,
     ``text_ranges`` those of Strings, inputs and outputs. Parameters are read back ``one_by_one`` where one call does
-    not give all; ``recorded`` are the pieces (function, first slot, count) that are read for the record only.
+    not give all; ``recorded`` are the stretches (function, first slot, count) that are read for the record only.
     """
 
     def __init__(
@@ -38,9 +38,9 @@ class Fmi2Orders:
         component: int,
         instance: Instance,
         references: np.ndarray,
-        ranges: Sequence[Piece],
+        ranges: Sequence[Stretch],
         parameter_ranges: Sequence[Sequence[int]],
-        text_ranges: Sequence[Piece],
+        text_ranges: Sequence[Stretch],
         recorded: Sequence[tuple[int, int, int]],
         *,
         one_by_one: bool,
@@ -58,13 +58,13 @@ class Fmi2Orders:
     def set(self, begun: int, *, started: bool) -> None:
         """All inputs; rows from ``begun`` on are what carries their values there."""
         for name in ("SetReal", "SetInteger", "SetBoolean"):
-            piece = self._ranges[FUNCTION[name]]
-            if piece[1]:
-                self._rows.inject(piece)
+            stretch = self._ranges[FUNCTION[name]]
+            if stretch[1]:
+                self._rows.inject(stretch)
                 if name == "SetReal":
-                    self._give(piece, begun)
+                    self._give(stretch, begun)
                 else:
-                    self._call(codes.SET_WHOLE, name, piece)
+                    self._call(codes.SET_WHOLE, name, stretch)
         if self._text_ranges[0][1]:
             self._call(codes.SET_TEXT, "SetString", self._text_ranges[0])
 
@@ -76,10 +76,10 @@ class Fmi2Orders:
     def get(self) -> None:
         """All outputs."""
         for name in ("GetReal", "GetInteger", "GetBoolean"):
-            piece = self._ranges[FUNCTION[name]]
-            if piece[1]:
-                self._take(name, piece)
-                self._rows.inject(piece)
+            stretch = self._ranges[FUNCTION[name]]
+            if stretch[1]:
+                self._take(name, stretch)
+                self._rows.inject(stretch)
         if self._text_ranges[1][1]:
             self._call(codes.GET_TEXT, "GetString", self._text_ranges[1])
 
@@ -121,25 +121,25 @@ class Fmi2Orders:
             for start in range(first, first + count, size):
                 self._call(code, name, (start, size))
 
-    def _give(self, piece: Piece, begun: int) -> None:
-        """Reals set on a piece of slots; in the FMU's own memory where it says where they lie."""
-        runs = self._runs(piece, "Real", to_set=True)
+    def _give(self, stretch: Stretch, begun: int) -> None:
+        """Reals set on a stretch of slots; in the FMU's own memory where it says where they lie."""
+        runs = self._runs(stretch, "Real", to_set=True)
         rows = self._rows.rows
         moved = with_moves(rows[begun:], runs, self._component, self._instance.address)
         if not runs:
-            self._call(codes.SET_REAL, "SetReal", piece)
+            self._call(codes.SET_REAL, "SetReal", stretch)
         elif moved:
             rows[begun:] = moved
         else:
             self._exchange(codes.PUT_REAL, runs)
 
-    def _take(self, name: str, piece: Piece) -> None:
-        """Reals, Integers or Booleans got on a piece of slots; of the FMU's own memory where it says where they lie."""
+    def _take(self, name: str, stretch: Stretch) -> None:
+        """Reals, Integers or Booleans got on slots in a row; of the FMU's own memory where it says where they lie."""
         kind = name.removeprefix("Get")
         call = codes.GET_REAL if kind == "Real" else codes.GET_WHOLE
-        runs = self._runs(piece, kind)
+        runs = self._runs(stretch, kind)
         if not runs:
-            self._call(call, name, piece)
+            self._call(call, name, stretch)
         for run in runs:
             self._exchange(TAKES[kind], [run])
             if kind == "Integer":
@@ -149,12 +149,12 @@ class Fmi2Orders:
         instance = self._instance.address
         self._rows.rows += [[code, run.address, instance, run.first, run.size, self._component, 0] for run in runs]
 
-    def _runs(self, piece: Piece, kind: str, *, to_set: bool = False) -> list[Run]:
-        """A piece of slots in an FMU's memory; nothing before all are initialised."""
+    def _runs(self, stretch: Stretch, kind: str, *, to_set: bool = False) -> list[Run]:
+        """A stretch of slots in an FMU's memory; nothing before all are initialised."""
         if not self._rows.between_steps:
             return []
-        first, count = piece
+        first, count = stretch
         return runs_in_memory(self._instance, self._references[first : first + count], first, kind, to_set=to_set)
 
-    def _call(self, code: int, name: str, piece: Piece = (0, 0)) -> None:
-        self._rows.call(code, self._component, FUNCTION[name], piece)
+    def _call(self, code: int, name: str, stretch: Stretch = (0, 0)) -> None:
+        self._rows.call(code, self._component, FUNCTION[name], stretch)

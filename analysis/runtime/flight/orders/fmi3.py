@@ -1,4 +1,4 @@
-"""The instructions for a component of FMI 3.0: pieces of whole variables by type."""
+"""The instructions for a component of FMI 3.0: transfers of whole variables by type."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from ...instances.library import FUNCTION_NAMES
 from ..compiled import codes
 from ..compiled.fmi3 import DO_STEP, GETTERS, SETTERS, UPDATE_DISCRETE_STATES
-from .pieces import ComponentPieces, PieceTable
 from .rows import Rows
+from .transfers import ComponentTransfers, TransferTable
 
 
 def _mode(name: str) -> int:
@@ -18,39 +18,39 @@ def _mode(name: str) -> int:
 class Fmi3Orders:
     """Writes the calls of one component to a list of instructions."""
 
-    def __init__(self, rows: Rows, component: int, pieces: ComponentPieces, table: PieceTable) -> None:
+    def __init__(self, rows: Rows, component: int, transfers: ComponentTransfers, table: TransferTable) -> None:
         self._rows = rows
         self._component = component
-        self._pieces = pieces
+        self._transfers = transfers
         self._table = table
 
     def set(self, begun: int, *, started: bool) -> None:
         """All inputs; discrete ones in event mode, if that is used and the flight has ``started``."""
-        events = self._pieces.discrete if started and self._pieces.uses_events else []
-        for piece in (*self._pieces.inputs, *self._pieces.discrete):
-            self._rows.inject(self._table.slots(piece))
-            if piece not in events:
-                self._exchange(codes.SET_PIECE, SETTERS, [piece])
+        events = self._transfers.discrete if started and self._transfers.uses_events else []
+        for transfer in (*self._transfers.inputs, *self._transfers.discrete):
+            self._rows.inject(self._table.slots(transfer))
+            if transfer not in events:
+                self._exchange(codes.SET_TRANSFER, SETTERS, [transfer])
         if events:
             both = (events[0], len(events))
             self._rows.call(codes.SET_EVENTS, self._component, _mode("EnterEventMode"), both)
 
     def carry(self) -> None:
         """The faults on inputs that are not given."""
-        for piece in (*self._pieces.inputs, *self._pieces.discrete):
-            self._rows.inject(self._table.slots(piece))
+        for transfer in (*self._transfers.inputs, *self._transfers.discrete):
+            self._rows.inject(self._table.slots(transfer))
 
     def get(self) -> None:
-        for piece in self._pieces.outputs:
-            self._exchange(codes.GET_PIECE, GETTERS, [piece])
-            self._rows.inject(self._table.slots(piece))
+        for transfer in self._transfers.outputs:
+            self._exchange(codes.GET_TRANSFER, GETTERS, [transfer])
+            self._rows.inject(self._table.slots(transfer))
 
     def read(self) -> None:
         """What is recorded only."""
-        self._exchange(codes.READ_PIECE, GETTERS, self._pieces.recorded)
+        self._exchange(codes.READ_TRANSFER, GETTERS, self._transfers.recorded)
 
     def step(self, count: int) -> None:
-        self._rows.call(codes.STEP_PIECES, self._component, DO_STEP, (int(self._pieces.uses_events), count))
+        self._rows.call(codes.STEP_TO_EVENTS, self._component, DO_STEP, (int(self._transfers.uses_events), count))
 
     def reset(self) -> None:
         for name in ("Terminate", "Reset"):
@@ -58,23 +58,23 @@ class Fmi3Orders:
 
     def enter_initialization(self) -> None:
         """Structure, parameters, initialisation mode, parameters."""
-        if self._pieces.structural:
+        if self._transfers.structural:
             self._rows.call(codes.MODE, self._component, _mode("EnterConfigurationMode"))
-            self._exchange(codes.PIECE_PARAMETERS, SETTERS, self._pieces.structural)
+            self._exchange(codes.GIVE_PARAMETERS, SETTERS, self._transfers.structural)
             self._rows.call(codes.MODE, self._component, _mode("ExitConfigurationMode"))
-        self._exchange(codes.PIECE_PARAMETERS, SETTERS, self._pieces.before)
-        self._rows.call(codes.PIECE_SETUP, self._component, _mode("EnterInitializationMode"))
-        self._exchange(codes.PIECE_PARAMETERS, SETTERS, self._pieces.again)
+        self._exchange(codes.GIVE_PARAMETERS, SETTERS, self._transfers.before)
+        self._rows.call(codes.ENTER_INITIALIZATION, self._component, _mode("EnterInitializationMode"))
+        self._exchange(codes.GIVE_PARAMETERS, SETTERS, self._transfers.repeated)
 
     def exit_initialization(self) -> None:
         """To step mode, by way of event mode where that is used."""
         self._rows.call(codes.MODE, self._component, _mode("ExitInitializationMode"))
-        if self._pieces.uses_events:
+        if self._transfers.uses_events:
             self._rows.call(codes.SETTLE, self._component, UPDATE_DISCRETE_STATES)
 
     def read_back(self) -> None:
-        self._exchange(codes.PIECE_READ_BACK, GETTERS, self._pieces.back)
+        self._exchange(codes.TAKE_BACK, GETTERS, self._transfers.back)
 
-    def _exchange(self, code: int, functions: int, pieces: Iterable[int]) -> None:
-        for piece in pieces:
-            self._rows.call(code, self._component, functions + self._table.kind(piece), (piece, 1))
+    def _exchange(self, code: int, functions: int, transfers: Iterable[int]) -> None:
+        for transfer in transfers:
+            self._rows.call(code, self._component, functions + self._table.kind(transfer), (transfer, 1))

@@ -9,7 +9,7 @@ import numpy as np
 from ...instances.instance import Instance
 from ..compiled import codes
 
-Piece = tuple[int, int]  # first, and how many
+Stretch = tuple[int, int]  # first, and how many
 
 
 class Rows:
@@ -25,13 +25,13 @@ class Rows:
         """What has been collected."""
         return np.array(self.rows, dtype=np.uint64).reshape(-1, codes.COLUMNS)
 
-    def call(self, code: int, component: int, function: int, piece: Piece = (0, 0)) -> None:
-        """A call of an FMI function on a piece of slots or parameters, or on a piece of the table."""
+    def call(self, code: int, component: int, function: int, stretch: Stretch = (0, 0)) -> None:
+        """A call of an FMI function on a stretch of slots or parameters, or on a stretch of the table."""
         instance, addresses = self.addresses[component]
-        self.rows.append([code, addresses[function], instance, int(piece[0]), int(piece[1]), component, function])
+        self.rows.append([code, addresses[function], instance, int(stretch[0]), int(stretch[1]), component, function])
 
-    def inject(self, piece: Piece) -> None:
-        """The faults on a piece of slots."""
+    def inject(self, stretch: Stretch) -> None:
+        """The faults on a stretch of slots."""
         for number, slot in enumerate(self.fault_slots):
-            if piece[0] <= slot < piece[0] + piece[1]:
+            if stretch[0] <= slot < stretch[0] + stretch[1]:
                 self.rows.append([codes.INJECT, 0, 0, number, 1, 0, 0])

@@ -1,4 +1,4 @@
-"""Pieces of FMI 3.0 variables, each given or taken in one call, as rows of the loop's table."""
+"""Transfers of FMI 3.0 variables, each given or taken in one call, as rows of the loop's table."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ assert (FUNCTION_NAMES[SETTERS], FUNCTION_NAMES[GETTERS]) == ("fmi3SetFloat64", 
 
 
 @dataclass
-class ComponentPieces:
-    """The pieces of a component of FMI 3.0 by what is done with them, as numbers of rows of the table.
+class ComponentTransfers:
+    """The transfers of a component of FMI 3.0 by what is done with them, as numbers of rows of the table.
 
     ``discrete`` inputs are given in event mode, those of a component that ``uses_events``; parameters are set before
-    initialisation mode, ``again`` in it, and read ``back`` after it, ``structural`` ones in configuration mode.
+    initialisation mode, ``repeated`` in it, and read ``back`` after it, ``structural`` ones in configuration mode.
     """
 
     uses_events: bool = False
@@ -33,19 +33,19 @@ class ComponentPieces:
     recorded: list[int] = field(default_factory=list)
     structural: list[int] = field(default_factory=list)
     before: list[int] = field(default_factory=list)
-    again: list[int] = field(default_factory=list)
+    repeated: list[int] = field(default_factory=list)
     back: list[int] = field(default_factory=list)
 
 
-class PieceTable:
-    """Collects pieces: ``rows`` with the columns of codes, ``references`` of their variables."""
+class TransferTable:
+    """Collects transfers: ``rows`` with the columns of codes, ``references`` of their variables."""
 
     def __init__(self) -> None:
         self.rows: list[tuple[int, int, int, int, int]] = []
         self.references: list[int] = []
 
     def add(self, variables: Sequence[Variable], first: int) -> int:
-        """A piece of variables of one representation, their elements in order from a cell on; returns its number."""
+        """A transfer of variables of one representation, their elements in order from a cell on; returns its number."""
         references = [
             reference for _, reference in dict.fromkeys((each.array or each.name, each.reference) for each in variables)
         ]
@@ -54,16 +54,16 @@ class PieceTable:
         self.references += references
         return len(self.rows) - 1
 
-    def kind(self, piece: int) -> int:
-        return self.rows[piece][codes.KIND]
+    def kind(self, transfer: int) -> int:
+        return self.rows[transfer][codes.KIND]
 
-    def slots(self, piece: int) -> tuple[int, int]:
-        """First and count of a piece's slots; none of texts."""
-        row = self.rows[piece]
-        return (row[codes.FIRST_CELL], row[codes.CELLS]) if row[codes.KIND] < codes.STRING else (0, 0)
+    def slots(self, transfer: int) -> tuple[int, int]:
+        """First and count of a transfer's slots; none of texts."""
+        row = self.rows[transfer]
+        return (row[codes.FIRST_VALUE], row[codes.VALUES]) if row[codes.KIND] < codes.STRING else (0, 0)
 
     def array(self) -> np.ndarray:
-        return np.array(self.rows, dtype=np.int64).reshape(-1, codes.PIECE_COLUMNS)
+        return np.array(self.rows, dtype=np.int64).reshape(-1, codes.TRANSFER_COLUMNS)
 
 
 def needs_events(network: Network, component: str) -> bool:

@@ -1,8 +1,8 @@
-"""Pieces of slots, parameters and texts exchanged with FMUs of FMI 3.0, in the types that these have.
+"""Values exchanged with FMUs of FMI 3.0, in the types that these have: whole variables of one type in one call.
 
-A slot is a float64; what an FMU is given of another type is converted into cells of eight bytes each, of which a piece
-fills the first ones. Whole numbers of 64 bits are exchanged exactly: ``exact`` has them next to the slots, and counts
-wherever its number is that of the slot, rounded to a float64.
+A slot is a float64; what an FMU is given of another type is converted into words of eight bytes, one a slot, of which a
+transfer fills the first ones. Whole numbers of 64 bits are exchanged exactly: ``exact`` has them next to the slots, and
+counts wherever its number is that of the slot, rounded to a float64.
 """
 
 from __future__ import annotations
@@ -11,16 +11,16 @@ import numpy as np
 
 from ....common.compiler import compile_cached
 from . import codes
-from .fmi3_calls import copy_bytes, exchange_binaries, exchange_piece
+from .fmi3_calls import copy_bytes, exchange_binaries, exchange_transfer
 from .fmi_calls import copy_text
 
 WIDE = 2.0**63
 
 
-def _to_cells(kind, first, count, values, cells, outcome):  # type: ignore[no-untyped-def]
+def _to_stored(kind, first, count, values, stored, outcome):  # type: ignore[no-untyped-def]
     """Convert slots to what an FMU is given; returns whether they have changed. One out of range is the outcome."""
     changed = False
-    sent = cells.sent
+    sent = stored.sent
     if kind == codes.FLOAT64:
         for slot in range(first, first + count):
             bits = values.view(np.uint64)[slot]
@@ -38,13 +38,12 @@ def _to_cells(kind, first, count, values, cells, outcome):  # type: ignore[no-un
     elif kind == codes.INT64 or kind == codes.UINT64:
         low, high = (-WIDE, WIDE) if kind == codes.INT64 else (0.0, 2.0 * WIDE)
         for slot in range(first, first + count):
-            number = values[slot]
-            if not low <= number < high:
-                outcome[0] = codes.NONFINITE
-                outcome[1] = slot
-                continue
-            exact = cells.exact[slot]
+            number, exact = values[slot], stored.exact[slot]
             if (float(np.int64(exact)) if kind == codes.INT64 else float(exact)) != number:
+                if not low <= number < high:
+                    outcome[0] = codes.NONFINITE
+                    outcome[1] = slot
+                    continue
                 exact = np.uint64(np.int64(number)) if number < WIDE else np.uint64(number)
             changed |= sent[slot] != exact
             sent[slot] = exact
@@ -85,18 +84,18 @@ def _convert(numbers, start, low, high, first, count, values, outcome):  # type:
 _to_whole = compile_cached(_convert)
 
 
-def _from_cells(kind, first, count, values, cells):  # type: ignore[no-untyped-def]
+def _from_stored(kind, first, count, values, stored):  # type: ignore[no-untyped-def]
     """Convert what an FMU has given to slots."""
-    sent = cells.sent
+    sent = stored.sent
     for i in range(count):
         slot = first + i
         if kind == codes.FLOAT32:
             values[slot] = sent.view(np.float32)[2 * first + i]
         elif kind == codes.INT64:
-            cells.exact[slot] = sent[slot]
+            stored.exact[slot] = sent[slot]
             values[slot] = float(np.int64(sent[slot]))
         elif kind == codes.UINT64:
-            cells.exact[slot] = sent[slot]
+            stored.exact[slot] = sent[slot]
             values[slot] = float(sent[slot])
         elif kind == codes.BOOLEAN or kind == codes.UINT8:
             values[slot] = sent.view(np.uint8)[8 * first + i]
@@ -112,36 +111,36 @@ def _from_cells(kind, first, count, values, cells):  # type: ignore[no-untyped-d
             values[slot] = sent.view(np.uint32)[2 * first + i]
 
 
-to_cells = compile_cached(_to_cells)
-from_cells = compile_cached(_from_cells)
+to_stored = compile_cached(_to_stored)
+from_stored = compile_cached(_from_stored)
 
 
-def _set_piece(address, instance, piece, reference, buffers):  # type: ignore[no-untyped-def]
-    """Give an FMU a piece whose cells are converted already; returns the fmi3Status."""
-    start, size = piece[codes.REFERENCE], piece[codes.REFERENCES]
-    first, count, kind = piece[codes.FIRST_CELL], piece[codes.CELLS], piece[codes.KIND]
+def _set_transfer(address, instance, transfer, reference, buffers):  # type: ignore[no-untyped-def]
+    """Give an FMU a transfer whose stored are converted already; returns the fmi3Status."""
+    start, size = transfer[codes.REFERENCE], transfer[codes.REFERENCES]
+    first, count, kind = transfer[codes.FIRST_VALUE], transfer[codes.VALUES], transfer[codes.KIND]
     if kind == codes.FLOAT64:
-        return exchange_piece(address, instance, reference, start, size, buffers.values, first, count)
+        return exchange_transfer(address, instance, reference, start, size, buffers.values, first, count)
     if kind == codes.STRING:
-        return exchange_piece(address, instance, reference, start, size, buffers.texts.address, first, count)
+        return exchange_transfer(address, instance, reference, start, size, buffers.texts.address, first, count)
     if kind == codes.BINARY:
         sizes, addresses = buffers.binaries.sizes, buffers.binaries.address
         return exchange_binaries(address, instance, reference, start, size, sizes, addresses, first, count)
-    return exchange_piece(address, instance, reference, start, size, buffers.cells.sent, first, count)
+    return exchange_transfer(address, instance, reference, start, size, buffers.stored.sent, first, count)
 
 
-def _get_piece(address, instance, piece, reference, checks, buffers):  # type: ignore[no-untyped-def]
-    """Take a piece of an FMU; returns the fmi3Status. ``checks``: a Real that is not finite becomes the outcome."""
-    start, size = piece[codes.REFERENCE], piece[codes.REFERENCES]
-    first, count, kind = piece[codes.FIRST_CELL], piece[codes.CELLS], piece[codes.KIND]
+def _get_transfer(address, instance, transfer, reference, checks, buffers):  # type: ignore[no-untyped-def]
+    """Take a transfer of an FMU; returns the fmi3Status. ``checks``: a Real that is not finite becomes the outcome."""
+    start, size = transfer[codes.REFERENCE], transfer[codes.REFERENCES]
+    first, count, kind = transfer[codes.FIRST_VALUE], transfer[codes.VALUES], transfer[codes.KIND]
     values = buffers.values
     if kind == codes.STRING or kind == codes.BINARY:
-        return _get_texts(address, instance, piece, reference, buffers)
+        return _get_texts(address, instance, transfer, reference, buffers)
     if kind == codes.FLOAT64:
-        status = exchange_piece(address, instance, reference, start, size, values, first, count)
+        status = exchange_transfer(address, instance, reference, start, size, values, first, count)
     else:
-        status = exchange_piece(address, instance, reference, start, size, buffers.cells.sent, first, count)
-        from_cells(kind, first, count, values, buffers.cells)
+        status = exchange_transfer(address, instance, reference, start, size, buffers.stored.sent, first, count)
+        from_stored(kind, first, count, values, buffers.stored)
     if checks and kind <= codes.FLOAT32 and 0 <= status <= codes.FMI_WARNING:
         for slot in range(first, first + count):
             if not abs(values[slot]) < np.inf:
@@ -151,16 +150,16 @@ def _get_piece(address, instance, piece, reference, checks, buffers):  # type: i
     return status
 
 
-def _take_texts(address, instance, piece, reference, buffers):  # type: ignore[no-untyped-def]
+def _take_texts(address, instance, transfer, reference, buffers):  # type: ignore[no-untyped-def]
     """Likewise of Strings and Binaries, of which one without room becomes the outcome."""
-    start, size = piece[codes.REFERENCE], piece[codes.REFERENCES]
-    first, count = piece[codes.FIRST_CELL], piece[codes.CELLS]
-    is_binary = piece[codes.KIND] == codes.BINARY
+    start, size = transfer[codes.REFERENCE], transfer[codes.REFERENCES]
+    first, count = transfer[codes.FIRST_VALUE], transfer[codes.VALUES]
+    is_binary = transfer[codes.KIND] == codes.BINARY
     texts = buffers.binaries if is_binary else buffers.texts
     if is_binary:
         status = exchange_binaries(address, instance, reference, start, size, texts.sizes, texts.given, first, count)
     else:
-        status = exchange_piece(address, instance, reference, start, size, texts.given, first, count)
+        status = exchange_transfer(address, instance, reference, start, size, texts.given, first, count)
     if status < 0 or status > codes.FMI_WARNING:
         return status
     room = texts.rows.shape[1]
@@ -182,6 +181,6 @@ def _take_texts(address, instance, piece, reference, buffers):  # type: ignore[n
     return status
 
 
-set_piece = compile_cached(_set_piece)
+set_transfer = compile_cached(_set_transfer)
 _get_texts = compile_cached(_take_texts)
-get_piece = compile_cached(_get_piece)
+get_transfer = compile_cached(_get_transfer)
