@@ -12,7 +12,7 @@ from ..instances.instance import Instance, status_word
 from ..instances.library import FUNCTION_NAMES
 from ..ssp.names import split_name
 from .compiled import arrays, codes
-from .compiled.fmi3 import UPDATE_DISCRETE_STATES
+from .compiled.events import UPDATE_DISCRETE_STATES
 from .program import Layout
 
 TERMINATED = "terminated"  # an FMU asked for the end

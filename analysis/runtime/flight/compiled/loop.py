@@ -27,6 +27,7 @@ from .codes import (
     CODE,
     COMPONENT,
     COPY,
+    COPY_BINARY,
     COPY_TEXT,
     COUNT,
     DRIVE,
@@ -60,6 +61,7 @@ from .codes import (
 )
 from .fmi3 import begin_fmi3, exchange_in_steps
 from .fmi_calls import boolean_at, do_step, exchange, exchange_texts, put_real, real_at, whole_at
+from .text_transfers import exchange_with_texts
 
 ONE = np.uint64(1)
 WHOLE_MIN, WHOLE_MAX = -(2**31), 2**31 - 1  # of FMI's Integers
@@ -219,8 +221,13 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                     status = exchange_texts(instructions[k], buffers.texts, outcome)
                 elif code < FIRST_OF_FMI3:
                     status = begin(instructions[k], program, settings, buffers.read_back, span, outcome)
+                elif code < COPY_BINARY:
+                    transfers, stored = program.transfers, buffers.stored
+                    status = exchange_in_steps(
+                        instructions[k], transfers, values, stored, outcome, time, step, start, n
+                    )
                 elif code < GIVE_PARAMETERS:
-                    status = exchange_in_steps(instructions[k], program.transfers, buffers, time, step, start, n)
+                    status = exchange_with_texts(instructions[k], program.transfers, buffers, after)
                 else:
                     status = begin_fmi3(instructions[k], program, settings, buffers.read_back, span, outcome)
                 if outcome[0] != 0:

@@ -11,8 +11,7 @@ import numpy as np
 
 from ....common.compiler import compile_cached
 from . import codes
-from .fmi3_calls import copy_bytes, exchange_binaries, exchange_transfer
-from .fmi_calls import copy_text
+from .fmi3_calls import exchange_transfer
 
 WIDE = 2.0**63
 
@@ -115,72 +114,32 @@ to_stored = compile_cached(_to_stored)
 from_stored = compile_cached(_from_stored)
 
 
-def _set_transfer(address, instance, transfer, reference, buffers):  # type: ignore[no-untyped-def]
-    """Give an FMU a transfer whose stored are converted already; returns the fmi3Status."""
+def _set_transfer(address, instance, transfer, reference, values, sent):  # type: ignore[no-untyped-def]
+    """Give an FMU numbers that are converted already; returns the fmi3Status."""
     start, size = transfer[codes.REFERENCE], transfer[codes.REFERENCES]
-    first, count, kind = transfer[codes.FIRST_VALUE], transfer[codes.VALUES], transfer[codes.KIND]
-    if kind == codes.FLOAT64:
-        return exchange_transfer(address, instance, reference, start, size, buffers.values, first, count)
-    if kind == codes.STRING:
-        return exchange_transfer(address, instance, reference, start, size, buffers.texts.address, first, count)
-    if kind == codes.BINARY:
-        sizes, addresses = buffers.binaries.sizes, buffers.binaries.address
-        return exchange_binaries(address, instance, reference, start, size, sizes, addresses, first, count)
-    return exchange_transfer(address, instance, reference, start, size, buffers.stored.sent, first, count)
+    first, count = transfer[codes.FIRST_VALUE], transfer[codes.VALUES]
+    if transfer[codes.KIND] == codes.FLOAT64:
+        return exchange_transfer(address, instance, reference, start, size, values, first, count)
+    return exchange_transfer(address, instance, reference, start, size, sent, first, count)
 
 
-def _get_transfer(address, instance, transfer, reference, checks, buffers):  # type: ignore[no-untyped-def]
-    """Take a transfer of an FMU; returns the fmi3Status. ``checks``: a Real that is not finite becomes the outcome."""
+def _get_transfer(address, instance, transfer, reference, checks, values, stored, outcome):  # type: ignore[no-untyped-def]
+    """Take numbers of an FMU; returns the fmi3Status. ``checks``: a Real that is not finite becomes the outcome."""
     start, size = transfer[codes.REFERENCE], transfer[codes.REFERENCES]
     first, count, kind = transfer[codes.FIRST_VALUE], transfer[codes.VALUES], transfer[codes.KIND]
-    values = buffers.values
-    if kind == codes.STRING or kind == codes.BINARY:
-        return _get_texts(address, instance, transfer, reference, buffers)
     if kind == codes.FLOAT64:
         status = exchange_transfer(address, instance, reference, start, size, values, first, count)
     else:
-        status = exchange_transfer(address, instance, reference, start, size, buffers.stored.sent, first, count)
-        from_stored(kind, first, count, values, buffers.stored)
+        status = exchange_transfer(address, instance, reference, start, size, stored.sent, first, count)
+        from_stored(kind, first, count, values, stored)
     if checks and kind <= codes.FLOAT32 and 0 <= status <= codes.FMI_WARNING:
         for slot in range(first, first + count):
             if not abs(values[slot]) < np.inf:
-                buffers.outcome[0] = codes.NONFINITE
-                buffers.outcome[1] = slot
-                return status
-    return status
-
-
-def _take_texts(address, instance, transfer, reference, buffers):  # type: ignore[no-untyped-def]
-    """Likewise of Strings and Binaries, of which one without room becomes the outcome."""
-    start, size = transfer[codes.REFERENCE], transfer[codes.REFERENCES]
-    first, count = transfer[codes.FIRST_VALUE], transfer[codes.VALUES]
-    is_binary = transfer[codes.KIND] == codes.BINARY
-    texts = buffers.binaries if is_binary else buffers.texts
-    if is_binary:
-        status = exchange_binaries(address, instance, reference, start, size, texts.sizes, texts.given, first, count)
-    else:
-        status = exchange_transfer(address, instance, reference, start, size, texts.given, first, count)
-    if status < 0 or status > codes.FMI_WARNING:
-        return status
-    room = texts.rows.shape[1]
-    for t in range(first, first + count):
-        if is_binary:
-            if texts.sizes[t] > room:
-                buffers.outcome[0] = codes.TOO_LONG
-                buffers.outcome[1] = -1 - t
-                return status
-            copy_bytes(texts.rows, t * room, texts.given[t], texts.sizes[t])
-        elif texts.given[t] == 0:
-            texts.rows[t, 0] = 0
-        else:
-            copy_text(texts.address[t], texts.given[t], room)
-            if texts.rows[t, room - 1] != 0:
-                buffers.outcome[0] = codes.TOO_LONG
-                buffers.outcome[1] = t
+                outcome[0] = codes.NONFINITE
+                outcome[1] = slot
                 return status
     return status
 
 
 set_transfer = compile_cached(_set_transfer)
-_get_texts = compile_cached(_take_texts)
 get_transfer = compile_cached(_get_transfer)

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from ...instances.library import FUNCTION_NAMES
 from ..compiled import codes
-from ..compiled.fmi3 import DO_STEP, GETTERS, SETTERS, UPDATE_DISCRETE_STATES
+from ..compiled.events import DO_STEP, GETTERS, SETTERS, UPDATE_DISCRETE_STATES
 from .rows import Rows
 from .transfers import ComponentTransfers, TransferTable
 
@@ -30,7 +30,7 @@ class Fmi3Orders:
         for transfer in (*self._transfers.inputs, *self._transfers.discrete):
             self._rows.inject(self._table.slots(transfer))
             if transfer not in events:
-                self._exchange(codes.SET_TRANSFER, SETTERS, [transfer])
+                self._exchange(self._code(codes.SET_TRANSFER, codes.GIVE_TEXTS, transfer), SETTERS, [transfer])
         if events:
             both = (events[0], len(events))
             self._rows.call(codes.SET_EVENTS, self._component, _mode("EnterEventMode"), both)
@@ -42,7 +42,7 @@ class Fmi3Orders:
 
     def get(self) -> None:
         for transfer in self._transfers.outputs:
-            self._exchange(codes.GET_TRANSFER, GETTERS, [transfer])
+            self._exchange(self._code(codes.GET_TRANSFER, codes.TAKE_TEXTS, transfer), GETTERS, [transfer])
             self._rows.inject(self._table.slots(transfer))
 
     def read(self) -> None:
@@ -74,6 +74,9 @@ class Fmi3Orders:
 
     def read_back(self) -> None:
         self._exchange(codes.TAKE_BACK, GETTERS, self._transfers.back)
+
+    def _code(self, of_numbers: int, of_texts: int, transfer: int) -> int:
+        return of_texts if self._table.kind(transfer) >= codes.STRING else of_numbers
 
     def _exchange(self, code: int, functions: int, transfers: Iterable[int]) -> None:
         for transfer in transfers:

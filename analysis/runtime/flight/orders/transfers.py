@@ -12,7 +12,7 @@ from ...fmi.variable import Variable
 from ...instances.library import FUNCTION_NAMES
 from ...system.network import Network
 from ..compiled import codes
-from ..compiled.fmi3 import GETTERS, SETTERS
+from ..compiled.events import GETTERS, SETTERS
 
 KINDS = {name: number for number, name in enumerate(REPRESENTATIONS)}
 assert (FUNCTION_NAMES[SETTERS], FUNCTION_NAMES[GETTERS]) == ("fmi3SetFloat64", "fmi3GetFloat64")
