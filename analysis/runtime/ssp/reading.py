@@ -186,8 +186,6 @@ class Reader:
             if tag(inner) in RUNTIME_TYPES:
                 type_name, unit, enumeration = tag(inner), inner.get("unit") or None, inner.get("name")
         runtime = None if type_name is None else runtime_type(type_name)
-        if runtime == "Binary":
-            raise self.refuse(element, name, "Binary connectors are not supported", "remove the connector")
         dimensions = read_dimensions(element, self.file, name, fixed=kind == "inout")
         return Connector(name, kind, runtime, unit, enumeration, element.sourceline, type_name, dimensions)
 

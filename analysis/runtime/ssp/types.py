@@ -1,4 +1,4 @@
-"""Types of connectors and parameters in SSP 1.0 and 2.0, the runtime's type of each, and which may be connected."""
+"""Types of connectors and parameters in SSP 1.0 and 2.0, and the runtime's type of each."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ RUNTIME_TYPES = {
     "Enumeration": "Enumeration",
     "Binary": "Binary",
 }
-SAME = {"Real": "Float64", "Integer": "Int32"}  # names that FMI 2.0 and SSP 1.0 have for types of FMI 3.0
-WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"))  # runtime types of source and target that fit
+GENERAL = ("Real", "Integer")  # the only ones of SSP 1.0, whatever an FMU of FMI 3.0 has
 
 
 def runtime_type(name: str) -> str:
@@ -22,24 +21,13 @@ def runtime_type(name: str) -> str:
     return RUNTIME_TYPES.get(name, name)
 
 
-def is_same_type(first: str, second: str) -> bool:
-    """Whether two names mean one type: Real is Float64, Integer is Int32."""
-    return SAME.get(first, first) == SAME.get(second, second)
-
-
-def fits(source: str, target: str) -> bool:
-    """Whether values of one type can be given to another: integers only without loss, Float64 rounded to Float32."""
-    kinds = runtime_type(source), runtime_type(target)
-    if kinds[0] != kinds[1]:
-        return kinds in WIDENED
-    if kinds[0] != "Integer":
-        return True
-    (low, high), (lowest, highest) = integer_range(source), integer_range(target)
-    return lowest <= low and high <= highest
+def is_of_type(stored: str, declared: str) -> bool:
+    """Whether a variable's type is the one that is declared: Real and Integer are said of all of their kind."""
+    return stored == declared or (declared in GENERAL and runtime_type(stored) == declared)
 
 
 def integer_range(name: str) -> tuple[int, int]:
     """The smallest and the largest value of an integer type."""
-    exact = SAME.get(name, name)
+    exact = "Int32" if name == "Integer" else name
     bits = int(exact.removeprefix("U").removeprefix("Int"))
     return (0, 2**bits - 1) if exact.startswith("U") else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)

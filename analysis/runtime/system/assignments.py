@@ -7,6 +7,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from ...common.errors import InputError, suggestion
+from ..fmi.representations import REPRESENTATIONS
+from ..fmi.variable import Variable
 from ..ssp.archive import SystemArchive
 from ..ssp.conversions import Transformation
 from ..ssp.description import Binding, Component, System
@@ -159,10 +161,8 @@ def _apply(
         is_constant = variable is not None and variable.variability == "constant"
         has_start = variable is not None and (variable.causality in SETTABLE or variable.initial in ("exact", "approx"))
         if variable is not None and has_start and not is_constant:
-            items = {}
-            if variable.type == "Enumeration" and variable.declaredType is not None:
-                items = {item.name: int(item.value) for item in variable.declaredType.items or ()}
             unit = fmu.units.get(fmu.unit_of(variable) or "")
+            items = dict(variable.items)
             node = Node(f"{component}.{name}", variable.causality, component, name, variable.type, unit, 0, items)
             value = _fit(assignment, variable.type, node)
             _check_bounds(assignment, variable, value)
@@ -200,6 +200,8 @@ def _check_driven(network: Network, assignment: Assignment) -> None:
 def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
     """The assignment's value as its target needs it: type, unit, transformation."""
     value, given = assignment.value, assignment.type_name
+    if type_name == "Binary":
+        raise InputError(assignment.file, assignment.where, "a Binary is not set", "connect it with a Binary output")
     if given == TEXT:
         given = type_name
         value = _parse(assignment, type_name, node)
@@ -264,15 +266,18 @@ def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue
         raise InputError(error.file, error.element, error.problem, f"write a number, in {node.unit.name}") from None
 
 
-def _check_bounds(assignment: Assignment, variable: object, value: ParameterValue) -> None:
-    """Refuse a number outside the FMU's declared minimum and maximum, or not finite."""
+def _check_bounds(assignment: Assignment, variable: Variable | None, value: ParameterValue) -> None:
+    """Refuse a number outside the FMU's declared minimum and maximum, or its type's, or not finite."""
     if isinstance(value, str | bool):
         return
-    low, high = getattr(variable, "min", None), getattr(variable, "max", None)
+    low, high = (None, None) if variable is None else (variable.minimum, variable.maximum)
     if not abs(value) < float("inf"):
         raise InputError(assignment.file, assignment.where, f"{value} is not finite", "give a finite number")
-    if isinstance(value, int) and not -(2**31) <= value < 2**31:
-        raise InputError(assignment.file, assignment.where, f"{value} has more than 32 bits", "give a smaller number")
+    stored = REPRESENTATIONS["Float64" if isinstance(value, float) else "Int32"]
+    stored = stored if variable is None else variable.representation
+    if not stored.limits[0] <= value <= stored.limits[1]:
+        problem = f"{value} {stored.complaint()}"
+        raise InputError(assignment.file, assignment.where, problem, "give a smaller number")
     if low is not None and value < float(low):
         raise InputError(
             assignment.file, assignment.where, f"{value} is below the minimum {low}", "give a larger value"

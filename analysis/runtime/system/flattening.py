@@ -18,11 +18,12 @@ from ..ssp.description import (
     System,
 )
 from ..ssp.kinds import PARAMETERS, leads
-from ..ssp.types import fits, is_same_type, runtime_type
+from ..ssp.types import is_of_type, runtime_type
 from .fmu import Fmu
 from .network import Link, Network, Node
 
 SUMMED = ("Real", "Integer")
+WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"))  # types of source and target that fit though they differ
 
 
 def build_network(description: Description, load: Callable[[str, Component], Fmu]) -> Network:
@@ -79,8 +80,7 @@ def _unit(network: Network, name: str, fmu: Fmu | None, connector: Connector) ->
 def _plain_node(network: Network, name: str, connector: Connector) -> Node:
     unit = _unit(network, name, None, connector)
     items = network.description.enumerations.get(connector.enumeration or "", {})
-    exact = connector.exact_type
-    return Node(name, connector.kind, None, connector.name, connector.type_name, unit, connector.line, items, exact)
+    return Node(name, connector.kind, None, connector.name, connector.type_name, unit, connector.line, items)
 
 
 def _component_node(network: Network, component: str, connector: Connector) -> Node:
@@ -98,11 +98,13 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
             f"is {variable.causality} in {fmu.label}, {kind} here" + (f" ({fmu.flaws[0]})" if fmu.flaws else ""),
             "correct the connector's kind or use another FMU",
         )
+    stored = variable.type if variable.type == "Enumeration" else variable.representation.name
     exact = connector.exact_type or connector.type_name
-    if exact is not None and not is_same_type(exact, variable.type):
+    if exact is not None and not is_of_type(stored, exact):
+        actual = stored if runtime_type(exact) == variable.type else variable.type
         raise network.refuse(
             connector.at(name),
-            f"is {variable.type} in {fmu.label}, {exact} here",
+            f"is {actual} in {fmu.label}, {exact} here",
             "correct the connector's type or use another FMU",
         )
     own = fmu.units.get(fmu.unit_of(variable) or "")
@@ -113,11 +115,8 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
             f"unit is {own.differs_from(declared)} in {fmu.label}, {declared.differs_from(own)} here",
             "correct the connector's unit or use another FMU",
         )
-    items = {}
-    if variable.type == "Enumeration" and variable.declaredType is not None:
-        items = {item.name: int(item.value) for item in variable.declaredType.items or ()}
-    unit, type_name = declared or own, runtime_type(variable.type)
-    return Node(name, kind, component, connector.name, type_name, unit, connector.line, items, variable.type)
+    unit, items = declared or own, dict(variable.items)
+    return Node(name, kind, component, connector.name, variable.type, unit, connector.line, items)
 
 
 def _end(network: Network, path: str, system: System, point: Point, connection: Connection) -> Node:
@@ -232,15 +231,13 @@ def _settle_types(network: Network) -> None:
             for here, there in ((link.source, link.target), (link.target, link.source)):
                 if here.type_name is None and there.type_name is not None:
                     here.type_name, here.enumeration, changed = there.type_name, there.enumeration, True
-                    here.exact_type = there.exact_type
 
 
 def _check_link(network: Network, link: Link) -> None:
     source, target = link.source, link.target
-    types = [node.exact_type or node.type_name for node in (source, target)]
-    if types[0] != types[1] and not (types[0] and types[1] and fits(types[0], types[1])):
+    if source.type_name != target.type_name and (source.type_name, target.type_name) not in WIDENED:
         raise network.refuse(
-            link.where, f"types do not fit: {types[0]} and {types[1]}", "connect variables of one type"
+            link.where, f"types do not fit: {source.type_name} and {target.type_name}", "connect variables of one type"
         )
     if link.added and target.type_name not in SUMMED:
         raise network.refuse(link.where, f"a sum of values of type {target.type_name}", "add Reals or Integers")

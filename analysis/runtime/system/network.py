@@ -17,7 +17,6 @@ class Node:
     """A connector of the flat network: of a component, of a system, or a dictionary's signal.
 
     ``kind`` is the connector's (inout for dictionary signals); ``component`` is None where no FMU stands behind it.
-    ``exact_type`` is the type as FMU or description name it, such as Float32.
     """
 
     name: str
@@ -28,7 +27,6 @@ class Node:
     unit: Unit | None
     line: int
     enumeration: dict[str, int] = field(default_factory=dict)
-    exact_type: str | None = None
 
     @property
     def where(self) -> str:

@@ -13,13 +13,14 @@ from ....fmus_src.paths import FLAVOURS, names_fmu
 from ...common.collection import no_collection
 from ...common.errors import InputError, suggestion
 from ...common.regular import names_file
+from ..fmi.structure import structural_sizes
 from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, open_system, parameters_asked, read_fmu, use_asked
 from ..ssp.description import Component, System
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
 from .alone import describe_alone
 from .arrays.elements import expand_arrays
-from .arrays.sizes import given_values
+from .arrays.sizes import Sizes, given_values
 from .assignments import collect_settings, single_value
 from .checks import check_samples, check_shared, unfit
 from .feedthrough import find_feedthrough
@@ -152,7 +153,24 @@ def _prepare(
             read, label = archive.fmu(source, f"{name} (line {component.line})", flavour)
             if not archive.is_own_file(source):
                 elsewhere[fmu_asked(source)] = read
-        return open_fmu(read, label)
+        return sized(open_fmu(read, label), name)
+
+    notes: list[str] = []
+
+    @cache
+    def chosen() -> list[Assignment]:
+        return _assignments(notes, archive, options, elsewhere)
+
+    def sized(fmu: Fmu, name: str) -> Fmu:
+        if not fmu.structural_parameters:
+            return fmu
+        names = fmu.structural_parameters
+        given = structural_sizes(description, archive, name, names, chosen())
+        return fmu.with_sizes(given | sizes().connected(name, names))
+
+    @cache
+    def sizes() -> Sizes:
+        return Sizes(description, lambda: given_values(description, archive, chosen()), load)
 
     def open_fmu(read: Callable[[], bytes], label: str) -> Fmu:
         if label not in loaded:
@@ -161,12 +179,13 @@ def _prepare(
 
     remarks: list[str] = []
     if archive.is_fmu:
-        description, remarks = describe_alone(open_fmu(read_fmu(archive.path), archive.label), options)
+        alone = open_fmu(read_fmu(archive.path), archive.label)
+        description, remarks = describe_alone(alone, options)
+        description, remarks = describe_alone(sized(alone, next(iter(description.system.elements))), options)
     else:
         description = read_description(archive, options.variant)
-    given = cache(lambda: given_values(description, archive, _assignments([], archive, options, {})))
     try:
-        description = expand_arrays(description, given, load)
+        description = expand_arrays(description, sizes())
         network = build_network(description, load)
     except InputError as error:
         slot = next((slot for slot in used if error.element.startswith(f"{slot}.")), None)
@@ -181,12 +200,13 @@ def _prepare(
     if series is not None:
         network.driven = find_driven(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
     assignments = [each for name, (_, retired) in replaced.items() for each in retired.assignments(name)]
-    assignments += _assignments(network.notes, archive, options, elsewhere)
+    assignments += chosen()
+    network.notes += notes
     settings = collect_settings(network, archive, assignments, options)
     settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
     check_signals(network, settings)
     check_shared(network, settings)
-    for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
+    for fmu in {fmu.label: fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
     network.notes += filter(None, [archive.note()])
     algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]

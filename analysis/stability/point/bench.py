@@ -95,7 +95,7 @@ class Bench:
             variable = fmu.variables.get("sample_period")
             if variable is None:
                 continue
-            value = float(self.prepared.settings.variables.get((component, "sample_period"), variable.start))
+            value = float(self.prepared.settings.variables.get((component, "sample_period"), variable.start_text))
             if value > 0.0:
                 ratio = Fraction(value / step).limit_denominator(1000)
                 period = math.lcm(period, max(1, ratio.numerator))

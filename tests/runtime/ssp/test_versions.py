@@ -67,8 +67,8 @@ def test_metadata_has_no_effect_and_signatures_are_noted(tiny, tmp_path):
     [
         ('<ssc:Real unit="m"/>', "<ssc:Clock/>", r"y \(line \d+\): clocks are not supported"),
         ('<ssc:Real unit="m"/>', '<ssc:Real/><ssd:Clock name="c"/>', r"y \(line \d+\): clocks are not supported"),
-        ('<ssc:Real unit="m"/>', "<ssc:Binary/>", r"y \(line \d+\): Binary connectors are not supported"),
-        ('<ssc:Real unit="m"/>', "<ssc:Float32/>", r"ramp\.y \(line \d+\): is Real in .*, Float32 here"),
+        ('<ssc:Real unit="m"/>', "<ssc:Binary/>", r"ramp\.y \(line \d+\): is Real in .*, Binary here"),
+        ('<ssc:Real unit="m"/>', "<ssc:Float32/>", r"ramp\.y \(line \d+\): is Float64 in .*, Float32 here"),
         ('kind="output"', 'kind="unspecified"', r'y \(line \d+\): kind="unspecified" leaves open'),
         ('kind="output"', 'kind="local"', r"ramp\.y \(line \d+\): is output in .*, local here"),
         ('kind="output"', 'kind="constant"', r"ramp\.y \(line \d+\): is output in .*, constant here"),

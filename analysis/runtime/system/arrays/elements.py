@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 from ....common.errors import InputError
 from ...ssp.description import Connection, Connector, Description, Element, Point, System
 from ...ssp.dimensions import Shape, element_name, element_names, indices, text_of
-from ...ssp.given_values import ParameterValue
 from .shapes import Shapes
-from .sizes import Load, Sizes, walk
+from .sizes import Sizes, walk
 
 
-def expand_arrays(
-    description: Description, given: Callable[[], Mapping[str, ParameterValue]], load: Load
-) -> Description:
+def expand_arrays(description: Description, sizes: Sizes) -> Description:
     """The description with scalar connectors ``x[1]``, ``x[2]`` or ``x[2,1]`` for an array x, and connections of these.
 
-    ``given`` reads the values that are given, by hierarchical name; ``load(name, component)`` gives a component's FMU.
-    One without arrays is returned as it is. Raises InputError.
+    ``sizes`` are those that structural parameters give. A description without arrays is returned as it is. Raises
+    InputError.
     """
     if not any(_has_arrays(system) for _, system in walk(description.system)):
         return description
-    shapes = Shapes(description, Sizes(description, given, load), load)
+    shapes = Shapes(description, sizes)
     return replace(description, system=_expanded(description, shapes, "", description.system))
 
 

@@ -9,7 +9,7 @@ from ....common.bounds import ARRAY_ELEMENTS
 from ....common.errors import InputError
 from ...ssp.description import Component, Connection, Connector, Description, Element, Point, System
 from ...ssp.dimensions import Shape, array_shapes, text_of
-from .sizes import Load, Sizes, walk
+from .sizes import Sizes, walk
 
 Open = tuple[int | None, ...]  # a shape of which sizes may not be known
 
@@ -17,9 +17,9 @@ Open = tuple[int | None, ...]  # a shape of which sizes may not be known
 class Shapes:
     """The shapes of all array connectors by hierarchical name. Raises InputError for one that nothing gives."""
 
-    def __init__(self, description: Description, sizes: Sizes, load: Load) -> None:
+    def __init__(self, description: Description, sizes: Sizes) -> None:
         self.description = description
-        self.load = load
+        self.load = sizes.load
         self.of_fmus: dict[str, dict[str, Shape]] = {}
         self.without_arrays: list[str] = []  # components of FMI 2.0, whose variables are scalars
         shapes: dict[str, Open] = {}

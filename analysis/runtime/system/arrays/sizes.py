@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 from ....common.errors import InputError
 from ...ssp.archive import SystemArchive
-from ...ssp.description import Component, Connector, Description, Element, System
+from ...ssp.description import Component, Description, Element, System
 from ...ssp.dimensions import Dimension
 from ...ssp.given_values import ParameterValue
 from ...ssp.parameter_sets import Assignment, read_binding
@@ -70,32 +70,59 @@ class Sizes:
         if connector is None or connector.kind not in SIZES or connector.dimensions:
             problem = f"sizeConnector {name} is no structural parameter and no constant of {owner.name}"
             raise InputError(self.description.file, where, problem, "correct it, or write size")
-        given = self._given(path, connector)
+        full = path + name
+        chain = self._chain(full)
+        given = self._brought(chain) if connector.kind == "structuralParameter" else None
+        return self._check(self._declared(full) if given is None else given, full, where)
+
+    def connected(self, component: str, names: Collection[str]) -> dict[str, int]:
+        """The values that connections bring the structural parameters ``names`` of a component. Raises InputError."""
+        sizes = {}
+        for name in names:
+            full = f"{component}.{name}"
+            chain = self._chain(full)[1:]
+            given = self._brought(chain)
+            if given is not None:
+                sizes[name] = self._check(given, chain[-1], full)
+        return sizes
+
+    def _chain(self, name: str) -> list[str]:
+        """A structural parameter, and those that lead to it, the outermost at the end."""
+        chain = [name]
+        while self.sources.get(chain[-1], chain[-1]) not in chain:
+            chain.append(self.sources[chain[-1]])
+        return chain
+
+    def _brought(self, chain: Sequence[str]) -> object:
+        """The outermost value that is given along a chain, or that of the constant at its end."""
+        if not chain:
+            return None
+        given = self.given()
+        return next((given[name] for name in reversed(chain) if name in given), self._constant(chain[-1]))
+
+    def _constant(self, name: str) -> object:
+        component, _, short = name.rpartition(".")
+        owner = self.components.get(component)
+        declared = owner.connectors.get(short) if owner is not None else None
+        return self._declared(name) if declared is not None and declared.kind == "constant" else None
+
+    def _declared(self, name: str) -> object:
+        """What the FMU of a component declares as a variable's start."""
+        component, _, short = name.rpartition(".")
+        if component not in self.components:
+            return None
+        variable = self.load(component, self.components[component]).variables.get(short)
+        return None if variable is None else variable.start
+
+    def _check(self, given: object, name: str, where: str) -> int:
         try:
             size = int(str(given))
         except ValueError:
             size = -1
         if size < 0:
-            problem = f"{path}{name} has no value" if given is None else f"{path}{name} is {given}, which is no size"
+            problem = f"{name} has no value" if given is None else f"{name} is {given}, which is no size"
             raise InputError(self.description.file, where, problem, "give it one in a parameter set")
         return size
-
-    def _given(self, path: str, connector: Connector) -> object:
-        """What a connector gives: the outermost value of those that lead to it, else what its FMU declares."""
-        chain = [path + connector.name]
-        while self.sources.get(chain[-1], chain[-1]) not in chain:
-            chain.append(self.sources[chain[-1]])
-        given = self.given() if connector.kind == "structuralParameter" else {}
-        for name in reversed(chain):
-            if name in given:
-                return given[name]
-        for name in reversed(chain):  # a constant at the end of the chain, or the parameter itself
-            component, _, variable = name.rpartition(".")
-            if component in self.components:
-                declared = self.load(component, self.components[component]).variables.get(variable)
-                if declared is not None and declared.start is not None:
-                    return declared.start
-        return None
 
 
 def _structural_sources(description: Description) -> dict[str, str]:

@@ -23,7 +23,7 @@ from perilune.analysis.runtime.ssp.version_2.fmu_arrays import arrays_of_fmu
 from perilune.analysis.runtime.ssp.version_2.trees import to_version_2
 from perilune.analysis.runtime.ssp.version_2.values import merge_values
 from perilune.analysis.runtime.system.arrays.elements import expand_arrays
-from perilune.analysis.runtime.system.arrays.sizes import walk
+from perilune.analysis.runtime.system.arrays.sizes import Sizes, walk
 from tests.support.builders import component, connection, document, inline, parameter_set, system
 
 SHAPES = {"one.y": (3,), "one.m": (2, 2), "two.u": (3,), "two.v": (2, 2), "two.w": (3,)}
@@ -66,7 +66,7 @@ def flattened(text, shapes):
         return SimpleNamespace(label=name, variables=names, description=SimpleNamespace(fmiVersion="3.0"))
 
     description = read_ssd(text, "s.ssd", lambda name, element: b"")
-    root = expand_arrays(description, dict, load).system
+    root = expand_arrays(description, Sizes(description, dict, load)).system
     connectors = {
         f"{path}{owner.name}.{name}": replace(each, line=0, exact_type=None)
         for path, inner in walk(root)

@@ -89,7 +89,10 @@ TABLE = {
         system(component("ramp", "ramp", "inout y Real m")),
         ["y (line", "inout connectors are not supported", "declare it input or output"],
     ),
-    "Binary connector": (system(declared="input blob Binary"), ["blob", "Binary"]),
+    "Binary connector": (
+        system(component("ramp", "ramp", "output y Binary")),
+        ["ramp.y", "is Real in", "Binary here"],
+    ),
     "model exchange": (
         system(component("ramp", "ramp", attributes='implementation="ModelExchange"')),
         ["ramp", 'implementation="ModelExchange" is not supported', "co-simulation"],
