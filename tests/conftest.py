@@ -123,6 +123,14 @@ def tiny(request: pytest.FixtureRequest, tiny_folder: Path) -> Path:
 
 
 @pytest.fixture(scope="session")
+def array_fmus(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The FMUs of arrays/fmus.py, native ones."""
+    from tests.support.arrays.fmus import build_array_fmus
+
+    return made_once(tmp_path_factory, "array_fmus", build_array_fmus) / "native"
+
+
+@pytest.fixture(scope="session")
 def exact_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The FMUs of stability/exact_blocks.py in folders `python` and `native`, built once per test run."""
     from tests.support.loops.exact_blocks import build_exact_fmus

@@ -14,7 +14,7 @@ from .fits import fitting
 
 ELEMENT = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 LINE = re.compile(r"(.+) lines? (\d+)(?: to (\d+))?")
-CAUSALITIES = ("input", "output", "parameter", "calculatedParameter", "local", "independent")
+CAUSALITIES = ("input", "output", "structuralParameter", "parameter", "calculatedParameter", "local", "independent")
 
 
 def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Mapping[str, str] | None = None) -> list:
@@ -41,8 +41,8 @@ def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Map
             "type": variable.type,
             "unit": fmu.unit_of(variable),
             "value": [value] if whole else value,
-            "minimum": _number(variable.min),
-            "maximum": _number(variable.max),
+            "minimum": _number(variable.minimum),
+            "maximum": _number(variable.maximum),
             "from": origins.get(name),
             "description": variable.description or "",
         }

@@ -10,6 +10,7 @@ from fmpy import read_model_description
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
+from ..runtime.fmi.variable import variables_of
 
 Demand = tuple[str, str, str]  # variable, causality, type
 
@@ -29,8 +30,8 @@ def _all_connectors() -> Mapping[str, set[Demand]]:
     for name, flavours in fmu_flavours().items():
         path = next((path for path in flavours.values() if path is not None), None)
         if name not in demands and path is not None:
-            variables = read_model_description(str(path), validate=False).modelVariables
-            demands[name] = {(variable.name, variable.causality, variable.type) for variable in variables}
+            variables = variables_of(read_model_description(str(path), validate=False))
+            demands[name] = {(variable.name, variable.causality, variable.type) for variable in variables.values()}
     return demands
 
 

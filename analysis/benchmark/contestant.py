@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..common.errors import InputError
 from ..runtime.ssp.conversions import IDENTITY
-from ..runtime.ssp.parameter_sets import ParameterValue
+from ..runtime.ssp.given_values import ParameterValue
 from ..runtime.system.network import Link
 from ..runtime.system.prepared import PreparedSystem, prepare_system
 

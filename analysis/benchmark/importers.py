@@ -109,12 +109,12 @@ def _unit(course: Course, component: str, fmu: Fmu, places: dict[str, int]) -> _
         if owner == component:
             variable = fmu.variables[name]
             kind = "Integer" if variable.type == "Enumeration" else variable.type
-            parameters[kind][variable.valueReference] = value
+            parameters[kind][variable.reference] = value
     return _Unit(
         slave=slave,
-        inputs=[fmu.variables[link.target.variable].valueReference for link in links],
+        inputs=[fmu.variables[link.target.variable].reference for link in links],
         sources=[places[link.source.name] for link in links],
-        outputs=[fmu.variables[name.removeprefix(f"{component}.")].valueReference for name in mine],
+        outputs=[fmu.variables[name.removeprefix(f"{component}.")].reference for name in mine],
         first=min(mine.values(), default=0),
         parameters=parameters,
     )

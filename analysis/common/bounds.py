@@ -52,6 +52,7 @@ ARCHIVE_BYTES = Bound("archive_bytes", 2e9, "bytes", "content of an archive (.ss
 ARCHIVE_ENTRIES = Bound("archive_entries", 10_000, "files", "files of an archive")
 XML_BYTES = Bound("xml_bytes", 256e6, "bytes", "an XML document")
 XML_TAGS = Bound("xml_tags", 1.5e6, "tags", "elements of an XML document, opened and closed")
+ARRAY_ELEMENTS = Bound("array_elements", 1e6, "elements", "arrays of a description")
 CAMPAIGN_BYTES = Bound("campaign_bytes", 256e3, "bytes", "the file of a campaign or of a law")
 CAMPAIGN_FILES = Bound("campaign_files", 100, "files", "files that a campaign extends")
 EXPRESSION_CHARACTERS = Bound("expression_characters", 10_000, "characters", "an expression")
@@ -66,6 +67,7 @@ BOUNDS = (
     ARCHIVE_ENTRIES,
     XML_BYTES,
     XML_TAGS,
+    ARRAY_ELEMENTS,
     CAMPAIGN_BYTES,
     CAMPAIGN_FILES,
     EXPRESSION_CHARACTERS,

@@ -16,6 +16,7 @@ from ..authoring.description import describe_system, variables_of
 from ..authoring.fits import blocks_of_slot, slots
 from ..common.errors import InputError, suggestion
 from ..common.visible import on_one_line
+from ..runtime.fmi.terminals import read_terminals
 from ..runtime.ssp.archive import system_names
 from ..runtime.system.alone import describe_alone
 from ..runtime.system.fmu import load_fmu
@@ -63,9 +64,9 @@ def describe(what: FilePath, component: str | None = None, **options: Unpack[Des
     variables. Of a system the keys are components, connections, connectors, parameter_sets, campaigns, loops; of an FMU
     or a component ``variables``, and how an FMU is simulated ``alone`` (s); of a slot ``fmus`` too. A component says
     whether its outputs are treated as direct functions of inputs (``feedthrough``) and where that comes from; an FMU
-    lists the outputs that it does not declare it of. With ``campaign`` it is a campaign of the system: ``values`` with
-    those of all files that it extends, each with the file and line that it comes from. The other options are those of
-    `simulate`. Raises InputError.
+    lists the outputs that it does not declare it of, and the variables of its ``terminals`` (FMI 3.0). With
+    ``campaign`` it is a campaign of the system: ``values`` with those of all files that it extends, each with the file
+    and line that it comes from. The other options are those of `simulate`. Raises InputError.
     """
     name, system = os.fspath(what), system_options(options)
     if options["campaign"] is not None:
@@ -87,7 +88,10 @@ def describe(what: FilePath, component: str | None = None, **options: Unpack[Des
 
 def _describe_fmu(name: str, options: System) -> Description:
     read, label = locate_fmu(name, options.flavour, "describe")
-    fmu = load_fmu(read(), label)
+    content = read()
+    fmu = load_fmu(content, label)
+    if fmu.structural_parameters:
+        fmu = next(iter(prepare_system(label, options).network.fmus.values()))
     alone, _ = describe_alone(fmu, options)
     described = Description(
         fmu=fmu.name,
@@ -101,7 +105,8 @@ def _describe_fmu(name: str, options: System) -> Description:
             "stop_time": alone.stop_time if options.stop_time is None else options.stop_time,
             "step": alone.step if options.step is None else options.step,
         },
-        variables=variables_of(fmu),
+        variables=variables_of(fmu, dict(fmu.sizes)),
+        terminals=read_terminals(content, label) if fmu.version == 3 else {},
     )
     described.prepare = partial(prepare_system, label, options)
     return described

@@ -30,6 +30,7 @@ from ..common.targets import check_file
 from ..evidence.system import add_system_evidence, check_studies
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.documents import parse_xml
+from ..runtime.ssp.version_2.package import convert_package
 from .options.library import EXPORT, ExportOptions
 from .options.option import FilePath
 from .options.verb import verb
@@ -61,10 +62,10 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
 
     ``name`` is a block's, a system's (or its folder), or a file; a block of one's own is looked up by its name in the
     .py files of the working folder. ``platforms`` are of native FMUs (linux64, win64, darwin64), by default those that
-    are prebuilt, or for which a compiler is installed; ``studies`` are campaigns of a system, stability or all, whose
-    reports its .ssp has as evidence; ``flavour`` is native by default, of a file both where one
-    is installed; ``output`` is NAME.fmu or NAME.ssp in the working folder, of a file its build/fmus. Raises InputError,
-    with a line for each thing that is wrong with a block.
+    are prebuilt, or for which a compiler is installed; ``flavour`` is native by default, of a file both where one
+    is installed; of a system ``ssp`` is the version of its documents, ``studies`` are campaigns, stability or all,
+    whose reports the .ssp has as evidence; ``output`` is NAME.fmu or NAME.ssp in the working folder, of a file its
+    build/fmus. Raises InputError, with a line for each thing that is wrong with a block.
     """
     platforms, flavour = options["platforms"], options["flavour"]
     text = os.fspath(name)
@@ -73,7 +74,7 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
         raise InputError("`platforms`", platforms[0], "Python FMUs have no platform to choose", "leave it out")
     check_file("`output`", target)
     try:
-        exported = _export(text, platforms, flavour, target, options["studies"])
+        exported = _export(text, platforms, flavour, target, options)
     except CompilerMissing as error:
         raise InputError("export", text, "cannot be compiled here", str(error)) from error
     except CompilationFailed as error:
@@ -90,18 +91,20 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
 
 
 def _export(
-    text: str, platforms: Sequence[str], flavour: Flavour | None, target: Path | None, studies: Sequence[str]
+    text: str, platforms: Sequence[str], flavour: Flavour | None, target: Path | None, options: ExportOptions
 ) -> Exported:
     is_system = text in system_names() or (Path(text).is_dir() and text not in catalogue())
-    if studies and not is_system:
-        raise InputError("`studies`", studies[0], f"{text} is no system, which alone has studies", "leave it out")
+    if not is_system:
+        for name, given in (("studies", ", ".join(options["studies"])), ("ssp", options["ssp"])):
+            if given:
+                raise InputError(f"`{name}`", given, f"{text} is no system, which it is for", "leave it out")
     if text.endswith(".py"):
         _check_there(Path(text))
         return _export_file(Path(text), platforms, flavour, target)
     own = _own_file(text)
     if own is not None:
         return _export_file(own, platforms, flavour, target, text if text in defines(own) else None)
-    return _export_named(text, platforms, flavour or "native", target, studies)
+    return _export_named(text, platforms, flavour or "native", target, options)
 
 
 def _check_there(file: Path) -> None:
@@ -131,7 +134,7 @@ def _own_file(name: str) -> Path | None:
 
 
 def _export_named(
-    name: str, requested: Sequence[str], flavour: Flavour, output: Path | None, studies: Sequence[str]
+    name: str, requested: Sequence[str], flavour: Flavour, output: Path | None, options: ExportOptions
 ) -> Exported:
     """An FMU or a system of this repository or of a folder."""
     platforms = [] if flavour == "python" else _platforms(requested, own=False)
@@ -143,7 +146,7 @@ def _export_named(
     elif name in system_names() or Path(name).is_dir():
         path = output or Path(f"{Path(name).resolve().name}.ssp")
         check_file("`output`", path, (".ssp",))
-        _export_system(open_system(name), path, flavour, platforms, studies)
+        _export_system(open_system(name), path, flavour, platforms, options)
     else:
         problem = "neither an FMU, a system nor a .py file, and no block of a .py file here"
         own = [block for path in sorted(Path().glob("*.py")) for block in (path.stem, *defines(path))]
@@ -182,11 +185,11 @@ def _zig_is_here() -> bool:
 
 
 def _export_system(
-    archive: SystemArchive, path: Path, flavour: str, platforms: list[str], studies: Sequence[str]
+    archive: SystemArchive, path: Path, flavour: str, platforms: list[str], options: ExportOptions
 ) -> None:
     """The system's folder as one archive, with the FMUs of this repository and of the working folder that it names."""
     blocks = catalogue()
-    requested = check_studies(archive, studies)
+    requested = check_studies(archive, options["studies"])
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for entry in [entry for entry in archive.files if entry.endswith(".ssd")]:
@@ -208,6 +211,8 @@ def _export_system(
                     remedy = f"build your own with perilune export FILE.py and `flavour` {flavour}, or add the FMU"
                     raise InputError(f"{archive.label}/{entry}", element, problem, remedy)
         packed = pack_system(archive.path, [folder], folder / "packed")
+        if options["ssp"] == "2":
+            write_zip(packed, convert_package(read_zip(packed), archive.label))
         write_zip(path, add_system_evidence(packed, requested))
 
 

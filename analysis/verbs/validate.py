@@ -121,7 +121,7 @@ def _check(path: str, options: System, all_variants: bool) -> FileCheck:
             notes += [*prepared.remarks, *missing_outputs(prepared.network)]
             notes += _reset_notes(fmu, path, options)
         elif path.endswith(".ssv"):
-            read_parameter_file(_read(path), path)
+            read_parameter_file(_read(path), path, remarks=notes)
         elif path.endswith(".json"):
             read_law(Path(path))
         elif path.endswith(".toml"):

@@ -34,7 +34,7 @@ def prepare(course: Course, threads: int = 0) -> Fly:
     for name in course.names:
         component = next(component for component in fmus if name.startswith(f"{component}."))
         variable = name.removeprefix(f"{component}.")
-        references[component][name] = fmus[component].variables[variable].valueReference
+        references[component][name] = fmus[component].variables[variable].reference
 
     def fly(steps: int) -> Values:
         execution = CosimExecution.CosimExecution.from_ssp_file(str(archive))
@@ -47,7 +47,7 @@ def prepare(course: Course, threads: int = 0) -> Fly:
         index = {component: execution.slave_index_from_instance_name(component) for component in fmus}
         for (component, name), value in course.settings().items():
             variable = fmus[component].variables[name]
-            if not setters[variable.type](index[component], variable.valueReference, value):
+            if not setters[variable.type](index[component], variable.reference, value):
                 raise RuntimeError(f"libcosim does not take {component}.{name} = {value}")
         # an observer costs time at every step: it joins for the last one only
         observer = CosimObserver.CosimObserver.create_last_value()

@@ -115,7 +115,7 @@ def test_no_such_study(fmus, tmp_path, monkeypatch, capsys):
     message = "--study: papre: no such study of ssp_systems/lunar_terminal_guidance; use one of paper"
     assert message in capsys.readouterr().err
     assert main(["export", "flat_moon_lander", "--study", "paper"]) == 2
-    assert "flat_moon_lander is no system, which alone has studies" in capsys.readouterr().err
+    assert "flat_moon_lander is no system, which it is for" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 

@@ -92,7 +92,7 @@ from perilune.analysis.runtime.instances.instance import instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
 fmus = [load_fmu(Path(path).read_bytes(), path) for path in sys.argv[1:]]
 instances = [instantiate(fmu, name) for fmu, name in zip(fmus, ("old", "new"))]
-reference = lambda name: [fmus[0].variables[name].valueReference]
+reference = lambda name: [fmus[0].variables[name].reference]
 speeds = {"old": [], "new": []}
 for instance in instances:
     for name, value in {"thrust": 940.0, "burn_duration": 1e9, "thrust_direction[3]": 1.0}.items():
@@ -281,8 +281,8 @@ def test_the_fmu_steps_as_the_plain_object(fmus):
     block = Component(FlatMoonLander)
     instance = instantiate(fmu, "plant")
     slave = instance.slave
-    reals = [v.valueReference for v in fmu.variables.values() if v.type == "Real" and v.causality == "output"]
-    inputs = [v.valueReference for v in fmu.variables.values() if v.causality == "input"]
+    reals = [v.reference for v in fmu.variables.values() if v.type == "Real" and v.causality == "output"]
+    inputs = [v.reference for v in fmu.variables.values() if v.causality == "input"]
     slave.setupExperiment(startTime=0.0)
     slave.enterInitializationMode()
     slave.exitInitializationMode()

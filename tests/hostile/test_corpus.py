@@ -17,6 +17,7 @@ from perilune.analysis.common.visible import CONTROLS
 from perilune.fmus_src.paths import ROOT
 from tests.hostile import (
     archives,
+    arrays,
     campaigns,
     documents,
     evidence,
@@ -36,7 +37,7 @@ from tests.support.refused import ONE_LINE
 
 pytestmark = pytest.mark.flies
 SUBJECTS = (
-    *(archives, campaigns, documents, evidence, expressions, fmus, folders, kinds, more_documents, systems),
+    *(archives, arrays, campaigns, documents, evidence, expressions, fmus, folders, kinds, more_documents, systems),
     *(tables, values),
 )
 CASES = {name: case for subject in SUBJECTS for name, case in subject.CASES.items()}

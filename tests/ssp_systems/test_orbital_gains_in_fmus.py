@@ -34,7 +34,7 @@ class Fmu:
         path = shipped_fmu(name, "native")
         fmu = load_fmu(path.read_bytes(), str(path))
         self.instance = instantiate(fmu, name)
-        self.references = {key: variable.valueReference for key, variable in fmu.variables.items()}
+        self.references = {key: variable.reference for key, variable in fmu.variables.items()}
         slave = self.instance.slave
         for key, value in parameters.items():
             values = np.ravel(value)

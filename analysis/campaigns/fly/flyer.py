@@ -12,7 +12,7 @@ from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
 from ...runtime.flight.results import CRASHED, LOST, Flight, Result
 from ...runtime.instances.instance import Log
 from ...runtime.instances.library import LOADING
-from ...runtime.ssp.parameter_sets import ParameterValue
+from ...runtime.ssp.given_values import ParameterValue
 from ..spec.checks import VariantNames, variant_names
 from ..spec.plan import BatchPlan, DrawnTrials
 from ..trials import Trials

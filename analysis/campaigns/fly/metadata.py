@@ -210,6 +210,6 @@ def _targets(prepared: PreparedSystem) -> dict[str, float]:
         for variable in fmu.variables.values():
             name = f"{component}.{variable.name}"
             if variable.causality == "parameter" and TARGET.fullmatch(name):
-                value = prepared.settings.variables.get((component, variable.name), variable.start)
+                value = prepared.settings.variables.get((component, variable.name), variable.start_text)
                 targets[name] = float(value)
     return targets

@@ -9,8 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ...common.errors import InputError, suggestion
+from ...runtime.fmi.representations import TEXTS
 from ...runtime.ssp.names import split_name
 from ...runtime.system.checks import check_fault
+from ...runtime.system.fmu import NOT_VARIED, STRUCTURAL
 from ...runtime.system.prepared import PreparedSystem
 from ..draws.given import ALL, stream_column
 from .faults import check_drawn
@@ -103,6 +105,8 @@ def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> _Variable:
         known += [
             f"{component}.{key}" for key, value in fmu.variables.items() if value.causality in ("parameter", "input")
         ]
+    if _causality(prepared, name) == STRUCTURAL:
+        raise InputError(place, name, *NOT_VARIED)
     if name not in known:
         raise InputError(place, name, "no such parameter in the system", suggestion(name, known))
     if name in prepared.network.driven:
@@ -110,10 +114,10 @@ def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> _Variable:
         raise InputError(place, name, problem, "leave out the column or the draw")
     component = max((part for part in prepared.network.fmus if name.startswith(f"{part}.")), key=len)
     variable = prepared.network.fmus[component].variables[name.removeprefix(f"{component}.")]
-    if variable.type == "String" and name in plan.campaign.input_names():
-        raise InputError(place, name, "a String cannot be drawn", "draw numbers only")
-    minimum = -np.inf if variable.min is None else float(variable.min)
-    return _Variable(variable.type, minimum, np.inf if variable.max is None else float(variable.max))
+    if variable.type in TEXTS and name in plan.campaign.input_names():
+        raise InputError(place, name, f"a {variable.type} cannot be drawn", "draw numbers only")
+    minimum = -np.inf if variable.minimum is None else float(variable.minimum)
+    return _Variable(variable.type, minimum, np.inf if variable.maximum is None else float(variable.maximum))
 
 
 def _check_values(plan: BatchPlan, name: str, variable: _Variable, values: np.ndarray, first: int) -> None:
@@ -174,7 +178,7 @@ def _causality(prepared: PreparedSystem, name: str) -> str:
     """That of an FMU's number or Boolean; nothing where there is none of this name."""
     component, variable_name = split_name(name, prepared.network.fmus)
     variable = prepared.network.fmus[component].variables.get(variable_name) if component else None
-    return "" if variable is None or variable.type == "String" else variable.causality
+    return "" if variable is None or variable.type in TEXTS else variable.causality
 
 
 def _constant(plan: BatchPlan, prepared: PreparedSystem, name: str) -> float:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...common.errors import InputError
-from ...runtime.system.checks import check_value, connector_type
+from ...runtime.system.checks import changeable, check_value
 from ...runtime.system.fault import KINDS, Fault
 from ...runtime.system.network import Network
 from .expressions import Expression
@@ -150,6 +150,6 @@ def fault_of_trials(declared: CampaignFault, draws: Mapping[str, np.ndarray], nu
 def check_drawn(fault: DrawnFault, network: Network) -> None:
     """Refuse a fault that the system cannot have. Raises InputError."""
     declared = fault.declared
-    type_name = connector_type(network, declared.connector, declared.where("connector"))
+    variable = changeable(network, declared.connector, declared.where("connector"))
     for value in () if fault.value is None else np.unique(fault.value[fault.flies]).tolist():
-        check_value(type_name, declared.kind, value, declared.where("value"))
+        check_value(variable, declared.kind, value, declared.where("value"))

@@ -12,7 +12,7 @@ from ...campaigns.fly.workers import FlyerPool
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError
-from ...runtime.ssp.parameter_sets import ParameterValue
+from ...runtime.ssp.given_values import ParameterValue
 from ..laws.law import Law, law_parameters
 from .candidate import Bar, Evaluation, Task
 

@@ -86,7 +86,7 @@ class _Reader(AnnotationReader):
         component, variable = split_name(name, prepared.network.fmus)
         if not component or variable not in prepared.network.fmus[component].variables:
             raise self.refuse(element, f"{name}: no such parameter", "name one as COMPONENT.VARIABLE")
-        start = prepared.network.fmus[component].variables[variable].start
+        start = prepared.network.fmus[component].variables[variable].start_text
         value = prepared.settings.variables.get((component, variable), start)
         try:
             return float(value)

@@ -10,6 +10,7 @@ from pathlib import PurePosixPath
 from ....fmus_src.catalogue import block_kinds
 from ...runtime.ssp.conversions import IDENTITY, Transformation
 from ...runtime.ssp.description import Component, Connection, Connector, DictionaryReference, Element, Point, System
+from ...runtime.ssp.kinds import PARAMETERS
 from ...runtime.system.fault import Fault
 from ...runtime.system.flattening import orient
 from ...runtime.system.network import Node
@@ -48,7 +49,7 @@ class _Reader:
             for start in (connection.start, *connection.added):
                 single = replace(connection, start=start, added=())
                 (source, source_node), (target, target_node) = orient(self.network, path, system, single)
-                is_parameter = target_node.kind in ("parameter", "calculatedParameter")
+                is_parameter = target_node.kind in PARAMETERS
                 ends = (
                     self.key(block, inner, source, source_node, Side.OUT),
                     self.key(block, inner, target, target_node, Side.IN),

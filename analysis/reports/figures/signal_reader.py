@@ -56,7 +56,7 @@ class SignalReader(AnnotationReader):
         if fmu is None or variable not in fmu.variables or fmu.variables[variable].causality != "parameter":
             remedy = "name one as COMPONENT.VARIABLE"
             raise self.unfit(element, name, f"{attribute} {name}: no such parameter", remedy)
-        value = self.prepared.settings.variables.get((component, variable), fmu.variables[variable].start)
+        value = self.prepared.settings.variables.get((component, variable), fmu.variables[variable].start_text)
         if fmu.variables[variable].type not in NUMBERS:
             raise self.unfit(element, name, f"{attribute} {name} is no number", "name another parameter")
         return float(value)

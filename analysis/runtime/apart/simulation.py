@@ -18,7 +18,7 @@ from ..flight.program import layout_of
 from ..flight.recorder import Phase, check_room, rows_between
 from ..flight.results import COMPLETE, CRASHED, Flight
 from ..flight.selection import check_replaced
-from ..ssp.parameter_sets import ParameterValue
+from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
 from . import progress

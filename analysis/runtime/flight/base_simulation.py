@@ -9,7 +9,7 @@ from typing import Any, Self, TypedDict, Unpack
 import numpy as np
 
 from ..instances.instance import Log
-from ..ssp.parameter_sets import ParameterValue
+from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
 from .base_memory import BaseMemory

@@ -10,10 +10,12 @@ from fmpy import fmi2
 
 from ..instances.instance import Instance, status_word
 from ..instances.library import FUNCTION_NAMES
+from ..ssp.names import split_name
 from .compiled import arrays, codes
-from .parameters import LONGEST
+from .compiled.events import UPDATE_DISCRETE_STATES
 from .program import Layout
 
+TERMINATED = "terminated"  # an FMU asked for the end
 STATUS = {
     codes.STOP_TIME: "stop_time",
     codes.FINISHED: "finished",
@@ -23,12 +25,16 @@ STATUS = {
     codes.INTERRUPTED: "interrupted",
     codes.NOT_TAKEN: "failed",
     codes.TOO_LONG: "failed",
+    codes.ENDED: TERMINATED,
+    codes.STUCK: "failed",
 }
-TERMINATED = "terminated"  # an FMU asked for the end
-FLIGHT_STATUSES = {*STATUS.values(), TERMINATED}
-ENTER = FUNCTION_NAMES.index("fmi2EnterInitializationMode")
-SETTERS = (codes.PARAMETERS, codes.WHOLE_PARAMETERS, codes.TEXT_PARAMETERS)
-READ_BACKS = (codes.READ_BACK, codes.WHOLE_READ_BACK, codes.TEXT_READ_BACK)
+FLIGHT_STATUSES = set(STATUS.values())
+ENTER, EXIT = (
+    [FUNCTION_NAMES.index(f"fmi{version}{mode}InitializationMode") for version in (2, 3)] for mode in ("Enter", "Exit")
+)
+DO_STEP = ("fmi2DoStep", "fmi3DoStep")
+SETTERS = (codes.PARAMETERS, codes.WHOLE_PARAMETERS, codes.TEXT_PARAMETERS, codes.GIVE_PARAMETERS)
+READ_BACKS = (codes.READ_BACK, codes.WHOLE_READ_BACK, codes.TEXT_READ_BACK, codes.TAKE_BACK)
 
 
 class Outcome(NamedTuple):
@@ -48,7 +54,12 @@ class Outcome(NamedTuple):
 
     @property
     def is_discarded_step(self) -> bool:
-        return self._failure(fmi2.fmi2Discard) and FUNCTION_NAMES[self.function] == "fmi2DoStep"
+        return self._failure(fmi2.fmi2Discard) and FUNCTION_NAMES[self.function] in DO_STEP
+
+    @property
+    def is_ended(self) -> bool:
+        """Whether an FMU has ended the simulation (FMI 3.0, terminateSimulation)."""
+        return self.code == codes.ENDED
 
     @property
     def is_fatal(self) -> bool:
@@ -72,7 +83,7 @@ class Outcome(NamedTuple):
             return False
         row = program.instructions[self.instruction]
         before = program.instructions[: self.instruction]
-        enters = before[before[:, codes.COMPONENT] == row[codes.COMPONENT], codes.FUNCTION] == np.uint64(ENTER)
+        enters = np.isin(before[before[:, codes.COMPONENT] == row[codes.COMPONENT], codes.FUNCTION], ENTER)
         return int(row[codes.CODE]) in SETTERS and bool(enters.any())
 
     def _failure(self, status: int) -> bool:
@@ -84,7 +95,7 @@ def end_request(instance: Instance) -> float | None:
 
     Our own never does: a step that a block refuses is a failure, of which pythonfmu makes such a wish.
     """
-    if instance.fmu.is_own:
+    if instance.fmu.is_own or instance.fmu.version == 3:  # which says so with the step
         return None
     try:
         if instance.slave.getBooleanStatus(fmi2.fmi2Terminated):
@@ -102,15 +113,25 @@ def in_words(
     status = STATUS[code]
     if code == codes.NONFINITE:
         value = buffers.values[subject]
-        beyond = ", beyond the 32 bits of an Integer," if np.isfinite(value) else ""
-        return status, f"{list(layout.slots)[subject]} is {value}{beyond} at t = {time:g} s"
+        name = list(layout.slots)[subject]
+        beyond = f", beyond {_limits(name, instances)}," if np.isfinite(value) else ""
+        return status, f"{name} is {value}{beyond} at t = {time:g} s"
     if code == codes.UNMAPPED:
         name, value = list(layout.slots)[subject], buffers.values[subject]
         return status, f"{name}: its connection's mapping has no entry for {value:g}, at t = {time:g} s"
     if code == codes.INTERRUPTED:
         return status, f"interrupted at t = {time:g} s"
     if code == codes.TOO_LONG:
-        return status, f"{list(layout.texts.slots)[subject]} gave a string of {LONGEST} bytes or more at t = {time:g} s"
+        if subject < 0:
+            name, longest = list(layout.binaries.slots)[-1 - subject], layout.binaries.longest
+            return status, f"{name} gave a binary value of more than {longest} bytes at t = {time:g} s"
+        longest = layout.texts.longest
+        return status, f"{list(layout.texts.slots)[subject]} gave a string of {longest} bytes or more at t = {time:g} s"
+    if code == codes.STUCK:
+        component = list(instances)[subject]
+        token = "does not settle in event mode" if outcome.function == UPDATE_DISCRETE_STATES else "does not advance"
+        log = " | ".join(instances[component].messages) or "no message in its log"
+        return status, f"{component}: {FUNCTION_NAMES[outcome.function]} {token} at t = {time:g} s: {log}"
     if code == codes.NOT_TAKEN:
         parameters = layout.parameters
         component, variable = parameters.keys[subject]
@@ -121,10 +142,17 @@ def in_words(
         component = list(instances)[subject]
         log = " | ".join(instances[component].messages) or "no message in its log"
         token = status_word(outcome.fmi_status)
-        if outcome.is_discarded_step:
+        if outcome.is_discarded_step and instances[component].fmu.version == 2:
             token += ", which is no wish to end,"
         return status, f"{component}: {FUNCTION_NAMES[outcome.function]} returned {token} at t = {time:g} s: {log}"
     return status, ""
+
+
+def _limits(name: str, instances: Mapping[str, Instance]) -> str:
+    """What the number of a component's connector does not fit into."""
+    component, variable = split_name(name, instances)
+    stored = instances[component].fmu.variables[variable].representation
+    return "the 32 bits of an Integer" if stored.name == "Int32" else f"the limits of {stored.name}"
 
 
 def check_initialisation(outcome: Outcome, program: arrays.Program, count: int) -> list[bool]:
@@ -132,9 +160,7 @@ def check_initialisation(outcome: Outcome, program: arrays.Program, count: int) 
     reached = [True] * count
     if outcome.is_well or outcome.instruction >= program.phases[0]:
         return reached
-    exits = program.instructions[: program.phases[0], codes.FUNCTION] == np.uint64(
-        FUNCTION_NAMES.index("fmi2ExitInitializationMode")
-    )
+    exits = np.isin(program.instructions[: program.phases[0], codes.FUNCTION], EXIT)
     for row in np.flatnonzero(exits):
         reached[int(program.instructions[row, codes.COMPONENT])] = bool(row < outcome.instruction)
     return reached

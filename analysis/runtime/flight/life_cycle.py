@@ -113,6 +113,8 @@ class LifeCycle:
         rows[in_memory, codes.ADDRESS] += np.uint64(instance.address) - rows[in_memory, codes.INSTANCE]
         rows[calls | in_memory, codes.INSTANCE] = instance.address
         rows[calls, codes.ADDRESS] = [addresses[function] for function in rows[calls, codes.FUNCTION]]
+        if self._program.transfers.functions.size:
+            self._program.transfers.functions[index] = addresses
         self._instructions.addresses[index] = (instance.address, addresses)
 
     def close(self, fatal: str | None = None) -> None:

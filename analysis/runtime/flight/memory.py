@@ -11,6 +11,7 @@ import numpy as np
 from lxml import etree
 
 from ...common.errors import InputError
+from ..instances.fmi3_slave import Fmi3Slave
 from ..instances.instance import Instance
 from ..ssp.fmu_description import STATE_ANNOTATION
 from ..system.fmu import Fmu
@@ -33,6 +34,7 @@ class Snapshot:
     values: np.ndarray
     whole: np.ndarray
     frozen: np.ndarray
+    stored: tuple[np.ndarray, np.ndarray]
 
 
 class Piece:
@@ -52,7 +54,10 @@ class Piece:
         if self._references.size:
             references, values = self._pointers
             slave = self._instance.slave
-            slave.fmi2GetReal(slave.component, references, self._references.size, values)
+            if isinstance(slave, Fmi3Slave):
+                slave.fmi3GetFloat64(slave.component, references, self._references.size, values, self._values.size)
+            else:
+                slave.fmi2GetReal(slave.component, references, self._references.size, values)
         return self._values
 
 
@@ -76,15 +81,12 @@ class Memory(BaseMemory[Snapshot]):
             mine = [
                 variable
                 for variable in instance.fmu.variables.values()
-                if variable.type == "Real"
-                and variable.causality in REMEMBERED
-                and variable.valueReference not in frozen
+                if variable.type == "Real" and variable.causality in REMEMBERED and variable.reference not in frozen
             ]
             self.cells += [
-                Cell(f"{component}.{item.name}", instance.fmu.unit_of(item), component, item.valueReference)
-                for item in mine
+                Cell(f"{component}.{item.name}", instance.fmu.unit_of(item), component, item.reference) for item in mine
             ]
-            self._pieces.append(Piece(instance, np.array([item.valueReference for item in mine], dtype=np.uint32)))
+            self._pieces.append(Piece(instance, np.array([item.reference for item in mine], dtype=np.uint32)))
         # Followers' outputs that others read a step late are remembered by the exchange only.
         followers = set(prepared.schedule.followers)
         self._slots: list[int] = []
@@ -104,34 +106,38 @@ class Memory(BaseMemory[Snapshot]):
         """Save everything at communication point ``point``; `release` it in the end."""
         states, serialized = {}, {}
         for component, instance in self._instances.items():
-            states[component] = instance.slave.getFMUstate()
-            serialized[component] = instance.slave.serializeFMUstate(states[component])
+            states[component] = instance.state()
+            serialized[component] = instance.serialize(states[component])
         buffers = self._buffers
-        return Snapshot(point, states, serialized, buffers.values.copy(), buffers.whole.copy(), buffers.frozen.copy())
+        stored = buffers.stored.sent.copy(), buffers.stored.exact.copy()
+        return Snapshot(
+            point, states, serialized, buffers.values.copy(), buffers.whole.copy(), buffers.frozen.copy(), stored
+        )
 
     def put_back(self, snapshot: Snapshot, cell: Cell | None = None, number: float = 0.0) -> None:
         """Everything as it was, but for one cell's value."""
         for component, instance in self._instances.items():
-            instance.slave.setFMUstate(snapshot.states[component])
+            instance.set_state(snapshot.states[component])
         buffers = self._buffers
         buffers.values[:] = snapshot.values
         buffers.whole[:] = snapshot.whole
         buffers.frozen[:] = snapshot.frozen
+        buffers.stored.sent[:], buffers.stored.exact[:] = snapshot.stored
         if cell is None:
             return
         if cell.component is None:
             buffers.values[cell.place] = number
             return
-        slave = self._instances[cell.component].slave
+        instance = self._instances[cell.component]
         changed = self._write[cell.component](snapshot.serialized[cell.component], cell.place, number)
-        state = slave.deSerializeFMUstate(changed)
-        slave.setFMUstate(state)
-        slave.freeFMUstate(state)
+        state = instance.deserialize(changed)
+        instance.set_state(state)
+        instance.free_state(state)
 
     def release(self, snapshot: Snapshot) -> None:
         """Free what `take` saved."""
         for component, state in snapshot.states.items():
-            self._instances[component].slave.freeFMUstate(state)
+            self._instances[component].free_state(state)
 
 
 def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:

@@ -1,7 +1,4 @@
-"""The parameters that a flight is given, and the Strings that FMUs exchange: where they lie in the loop's arrays.
-
-Strings are no signals of a result, which is made of numbers.
-"""
+"""The parameters that a flight is given: where they lie in the loop's arrays."""
 
 from __future__ import annotations
 
@@ -10,15 +7,15 @@ import warnings
 from collections.abc import Mapping
 
 import numpy as np
-from fmpy.model_description import ScalarVariable
 
 from ...common.errors import InputError
-from ..ssp.parameter_sets import ParameterValue
-from ..system.assignments import Settings
-from ..system.fmu import Fmu
+from ..fmi.variable import Variable
+from ..ssp.given_values import ParameterValue, parse_value
+from ..system.fmu import STRUCTURAL, Fmu
 from ..system.network import Network
-from ..system.schedule import origin
+from ..system.passing.settings import Settings
 from .compiled import arrays
+from .orders.transfers import ComponentTransfers, TransferTable, whole
 
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2, "String": 3}
 Key = tuple[str, str]  # (component, variable)
@@ -34,11 +31,15 @@ class Parameters:
     """Values by (component, variable); those of a component and type are contiguous.
 
     ``ranges`` [component, type of TYPE_KIND, 4] are the first one, how many there are, and how many of them, the first
-    ones, are set again in initialisation mode and read back after it.
+    ones, are set again in initialisation mode and read back after it. Those of a component of FMI 3.0 are
+    ``transfers``, rows of ``table``, one for each variable with all its elements.
     """
 
-    def __init__(self, network: Network, settings: Settings) -> None:
+    def __init__(self, network: Network, settings: Settings, table: TransferTable | None = None) -> None:
         self._network = network
+        self._table = TransferTable() if table is None else table
+        self.transfers: dict[int, ComponentTransfers] = {}
+        self._layout: dict[int, tuple[str, int]] = {}  # of FMI 3.0: type and first byte
         self.keys: list[Key] = []
         self.types: dict[Key, str] = {}
         self.references: list[int] = []
@@ -47,6 +48,9 @@ class Parameters:
         for component, name in settings.variables:
             given[component].append(name)
         for index, (component, fmu) in enumerate(network.fmus.items()):
+            if fmu.version == 3:
+                self.transfers[index] = self._place_transfers(component, fmu, given[component])
+                continue
             grades = {
                 name: _grade(fmu, fmu.variables[name], driven=f"{component}.{name}" in network.driver)
                 for name in given[component]
@@ -61,14 +65,54 @@ class Parameters:
                 for name in mine:
                     self.keys.append((component, name))
                     self.types[component, name] = fmu.variables[name].type
-                    self.references.append(fmu.variables[name].valueReference)
+                    self.references.append(fmu.variables[name].reference)
         self.positions = {key: position for position, key in enumerate(self.keys)}
         count = len(self.keys)
         self._texts: dict[int, ctypes.Array[ctypes.c_char]] = {}  # kept alive while the loop has their addresses
         self.values = arrays.Settings(
-            np.zeros(count), np.zeros(count, dtype=np.int32), np.zeros(count, dtype=np.uint64)
+            np.zeros(count), np.zeros(count, dtype=np.int32), *np.zeros((2, count), dtype=np.uint64)
         )
-        self.update({key: settings.variables[key] for key in self.keys})
+        self.update({key: settings.variables[key] for key in self.keys if key in settings.variables})
+        for key in self.keys:
+            if key not in settings.variables:
+                self[key] = self._start(*key)
+
+    def _place_transfers(self, component: str, fmu: Fmu, given: list[str]) -> ComponentTransfers:
+        """Places of what a component of FMI 3.0 is given, which takes whole arrays."""
+        transfers = ComponentTransfers()
+        arrays_of: dict[str, list[Variable]] = {}
+        for variable in whole(fmu.variables.values(), set(given)):
+            arrays_of.setdefault(variable.array or variable.name, []).append(variable)
+        for elements in arrays_of.values():
+            first, dtype = len(self.keys), elements[0].representation.dtype
+            driven = any(f"{component}.{each.name}" in self._network.driver for each in elements)
+            for position, each in enumerate(elements, first):
+                self.keys.append((component, each.name))
+                self.types[component, each.name] = each.type
+                self.references.append(each.reference)
+                if dtype:
+                    self._layout[position] = dtype, 8 * first + np.dtype(dtype).itemsize * each.index
+            transfer = self._table.add(elements, first)
+            if elements[0].causality == STRUCTURAL:
+                transfers.structural.append(transfer)
+                transfers.back.append(transfer)
+                continue
+            grade = _grade(fmu, elements[0], driven=driven)
+            transfers.before.append(transfer)
+            if grade <= 1 and fmu.digest not in _set_once:
+                transfers.repeated.append(transfer)
+            if grade == 0:
+                transfers.back.append(transfer)
+        return transfers
+
+    def _start(self, component: str, name: str) -> ParameterValue:
+        """The start of an element whose array is given, though it is not."""
+        variable = self._network.fmus[component].variables[name]
+        if variable.start is None:
+            problem = f"{name} has neither a value nor a start, and its array is set as a whole"
+            remedy = f"give all of {component}.{variable.array}"
+            raise InputError(self._network.file, f"{component}.{name}", problem, remedy)
+        return parse_value(variable.start, variable.type, self._network.fmus[component].label, name)
 
     def __contains__(self, key: Key) -> bool:
         return key in self.positions
@@ -82,6 +126,8 @@ class Parameters:
         if kind == "String":
             self._texts[position] = ctypes.create_string_buffer(str(value).encode())
             self.values.text[position] = ctypes.addressof(self._texts[position])
+        elif position in self._layout:
+            self._view(self.values, position)[0] = value
         elif kind == "Real":
             self.values.real[position] = value
         else:
@@ -97,9 +143,16 @@ class Parameters:
         if kind == "String":
             address = int(values.text[position])
             return ctypes.string_at(address).decode(errors="replace") if address else ""
+        if position in self._layout:
+            return self._view(values, position)[0].item()  # type: ignore[no-any-return]
         if kind == "Real":
             return float(values.real[position])
         return bool(values.whole[position]) if kind == "Boolean" else int(values.whole[position])
+
+    def _view(self, values: arrays.Settings, position: int) -> np.ndarray:
+        """The one value of FMI 3.0 that is stored for a position, as a view."""
+        dtype, first = self._layout[position]
+        return values.stored.view(np.uint8)[first : first + np.dtype(dtype).itemsize].view(dtype)
 
     def is_one_by_one(self, component: str) -> bool:
         """Whether a component's parameters are read back one by one, since it does not give all of them."""
@@ -109,6 +162,7 @@ class Parameters:
         """Not to read back what an FMU does not give: a parameter, or one of ``count`` that is to be found yet."""
         component, name = self.keys[first]
         fmu = self._network.fmus[component]
+        name = fmu.variables[name].array or name
         if count > 1:
             _one_by_one.add(fmu.digest)
         elif name not in _unreadable.setdefault(fmu.digest, set()):
@@ -125,7 +179,7 @@ class Parameters:
         return arrays.Settings(*(np.zeros_like(array) for array in self.values))
 
 
-def _grade(fmu: Fmu, variable: ScalarVariable, *, driven: bool) -> int:
+def _grade(fmu: Fmu, variable: Variable, *, driven: bool) -> int:
     """0: set in initialisation mode too, and read back; 1: not read back; 2: set before initialisation mode only.
 
     FMI 2.0 lets inputs and what has initial="exact" be set in that mode; other values the FMU calculates itself from
@@ -134,68 +188,4 @@ def _grade(fmu: Fmu, variable: ScalarVariable, *, driven: bool) -> int:
     settable = variable.causality in ("input", "parameter") or variable.initial == "exact"
     if not settable or (driven and variable.causality == "input"):
         return 2
-    return 1 if variable.name in _unreadable.get(fmu.digest, ()) else 0
-
-
-LONGEST = 4096  # bytes of a string, with its end
-
-
-class Texts:
-    """Places of the Strings that are connected, by name; those of a component and direction are contiguous.
-
-    ``ranges`` [component, 0 inputs, 1 outputs] are the first and how many there are. ``connections`` [component] lists
-    the component that each of its inputs comes from (-1: a value that the system is given), and both places.
-    """
-
-    def __init__(self, network: Network, settings: Settings) -> None:
-        self.slots: dict[str, int] = {}
-        self._references: list[int] = []
-        self._initial: list[bytes] = []
-        self._file = network.file
-        links = {
-            name: origin(network, link)
-            for name, link in network.driver.items()
-            if link.target.type_name == "String" and link.target.component is not None and not link.is_parameter
-        }
-        read = {start.name for start in links.values()}
-        self.ranges = np.zeros((len(network.fmus), 2, 2), dtype=np.int64)
-        for index, (component, fmu) in enumerate(network.fmus.items()):
-            for column, (causality, wanted) in enumerate((("input", links), ("output", read))):
-                first = len(self._references)
-                for variable in fmu.variables.values():
-                    name = f"{component}.{variable.name}"
-                    if variable.type == "String" and variable.causality == causality and name in wanted:
-                        given = settings.variables.get((component, variable.name), variable.start or "")
-                        self._place(name, variable.valueReference, str(given))
-                self.ranges[index, column] = first, len(self._references) - first
-        for name in sorted(read - set(self.slots)):
-            self._place(name, 0, str(settings.nodes.get(name, "")))
-        numbers = {name: number for number, name in enumerate(network.fmus)}
-        self.connections: list[list[tuple[int, int, int]]] = [[] for _ in network.fmus]
-        for name, start in links.items():
-            owner = network.driver[name].target.component or ""
-            number = -1 if start.component is None else numbers[start.component]
-            self.connections[numbers[owner]].append((number, self.slots[start.name], self.slots[name]))
-
-    def _place(self, name: str, reference: int, initial: str) -> None:
-        content = initial.encode()
-        if len(content) >= LONGEST:
-            raise InputError(self._file, name, f"a string of {LONGEST} bytes or more", "shorten it")
-        self.slots[name] = len(self._references)
-        self._references.append(reference)
-        self._initial.append(content)
-
-    def memory(self) -> arrays.Texts:
-        """Arrays for the loop."""
-        count = len(self._references)
-        initial = np.zeros((count, LONGEST), dtype=np.uint8)
-        for row, content in zip(initial, self._initial, strict=True):
-            row[: len(content)] = np.frombuffer(content, dtype=np.uint8)
-        rows = initial.copy()
-        return arrays.Texts(
-            reference=np.array(self._references, dtype=np.uint32),
-            initial=initial,
-            rows=rows,
-            address=rows.ctypes.data + LONGEST * np.arange(count, dtype=np.uint64),
-            given=np.zeros(count, dtype=np.uint64),
-        )
+    return 1 if (variable.array or variable.name) in _unreadable.get(fmu.digest, ()) else 0

@@ -8,23 +8,31 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from fmpy.model_description import ScalarVariable
 
+from ...common.errors import InputError
+from ..fmi.representations import TEXTS
+from ..fmi.variable import Variable
 from ..instances.instance import Instance
 from ..instances.library import FUNCTION_NAMES
 from ..ssp.conversions import IDENTITY
+from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
-from ..system.assignments import Settings, numbers
-from ..system.checks import connector_type
+from ..system.checks import changeable
 from ..system.fault import Fault
 from ..system.fmu import Fmu
 from ..system.inputs import Drive
-from ..system.network import Link, Network, Node
+from ..system.network import Link, Network
+from ..system.passing.parameters import numbers
+from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
 from ..system.schedule import origin
 from .compiled import arrays, codes
-from .instructions import InstructionList, Term, write_instructions
-from .parameters import TYPE_KIND, Parameters, Texts
+from .instructions import InstructionList, Orders, Term, write_instructions
+from .orders.fmi2 import Fmi2Orders
+from .orders.fmi3 import Fmi3Orders
+from .orders.transfers import ComponentTransfers, TransferTable, groups, needs_events, whole
+from .parameters import TYPE_KIND, Parameters
+from .texts import Texts
 
 KIND_NUMBERS = {"override": codes.OVERRIDE, "bias": codes.BIAS, "freeze": codes.FREEZE}
 NEVER = (math.inf, math.inf)  # the window of a fault that does not fly
@@ -60,13 +68,18 @@ EXCHANGES = FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration)
 
 @dataclass
 class Layout:
-    """Where everything lies: slots by name, the parameters, the Strings that are exchanged."""
+    """Where everything lies: slots by name, the parameters, the Strings and Binaries that are exchanged.
+
+    ``unfed`` are slots of array elements that nothing is connected to, whose array is given as a whole.
+    """
 
     slots: dict[str, int]
     types: dict[str, str]
     units: dict[str, str | None]
     parameters: Parameters
     texts: Texts
+    binaries: Texts
+    unfed: Collection[str] = ()
 
 
 def build_program(
@@ -123,21 +136,28 @@ class _Builder:
             else read | set(wanted) | set(more) | {injection.connector for injection in injections}
         )
         self.named = {*(wanted or ()), *more}
+        signals = [link.source for link in network.links() if not link.is_parameter]
+        self.other_sources = {node.name for node in signals if node.component is not None and node.kind != "output"}
+        self.passed_parameters = {node.name for node in signals if node.component is None and node.kind in PARAMETERS}
         self.ranges = np.zeros((len(self.names), len(EXCHANGES), 2), dtype=np.int64)
-        self.recorded: list[list[tuple[int, int, int]]] = []  # by component: function, first and count of slots
+        self.table = TransferTable()
+        self.transfers: dict[int, ComponentTransfers] = {}  # of components of FMI 3.0
+        self.exact: dict[int, int] = {}  # starts of whole numbers of 64 bits, by slot
+        self.unfed: set[str] = set()
+        self.parameters = Parameters(network, settings, self.table)
+        self.texts, self.binaries = (Texts(network, settings, kind) for kind in TEXTS)
+        self.recorded: dict[int, list[tuple[int, int, int]]] = {}  # by component: function, first and count of slots
         for index, name in enumerate(self.names):
-            self._place_component(index, name)
+            if network.fmus[name].version == 3:
+                self.transfers[index] = self._place_transfers(index, name)
+            else:
+                self._place_component(index, name)
         for node in network.nodes.values():
             known = node.name in network.driver or node.name in settings.nodes or node.name in network.driven
-            if node.component is None and not self._is_parameter(node) and known and node.type_name != "String":
+            is_signal = node.kind not in PARAMETERS or node.name in self.passed_parameters
+            if node.component is None and is_signal and known and node.type_name not in TEXTS:
                 unit = node.unit.name if node.unit else None
                 self._place(node.name, 0, float(settings.nodes.get(node.name, np.nan)), node.type_name or "Real", unit)
-        self.parameters = Parameters(network, settings)
-        self.texts = Texts(network, settings)
-
-    @staticmethod
-    def _is_parameter(node: Node) -> bool:
-        return node.kind in ("parameter", "calculatedParameter")
 
     def _place(self, name: str, reference: int, initial: float, type_name: str, unit: str | None) -> None:
         self.slots[name] = len(self.references)
@@ -148,11 +168,14 @@ class _Builder:
 
     def _place_component(self, index: int, component: str) -> None:
         fmu = self.network.fmus[component]
-        exchanged: list[list[ScalarVariable]] = [[] for _ in EXCHANGES]
+        exchanged: list[list[Variable]] = [[] for _ in EXCHANGES]
         for variable in fmu.variables.values():
             kind = TYPE_KIND.get(variable.type, len(EXCHANGES))
-            if variable.causality in CAUSALITIES and 2 * kind < len(EXCHANGES):
-                exchanged[2 * kind + CAUSALITIES.index(variable.causality)].append(variable)
+            causality = variable.causality
+            if self.other_sources and f"{component}.{variable.name}" in self.other_sources:
+                causality = "output"
+            if causality in CAUSALITIES and 2 * kind < len(EXCHANGES):
+                exchanged[2 * kind + CAUSALITIES.index(causality)].append(variable)
         for function, variables in enumerate(exchanged):
             first = len(self.references)
             causality = CAUSALITIES[function % 2]
@@ -163,9 +186,9 @@ class _Builder:
                 if causality == "output" and self.fetched is not None and name not in self.fetched:
                     continue
                 initial = self._start(component, variable) if causality == "input" else np.nan
-                self._place(name, variable.valueReference, initial, variable.type, fmu.unit_of(variable))
+                self._place(name, variable.reference, initial, variable.type, fmu.unit_of(variable))
             self.ranges[index, function] = first, len(self.references) - first
-        self.recorded.append(self._place_recorded(component) if self.named else [])
+        self.recorded[index] = self._place_recorded(component) if self.named else []
 
     def _place_recorded(self, component: str) -> list[tuple[int, int, int]]:
         """Slots of variables that are recorded and not exchanged."""
@@ -176,15 +199,67 @@ class _Builder:
             for variable in fmu.variables.values():
                 name = f"{component}.{variable.name}"
                 if name in self.named and name not in self.slots and TYPE_KIND.get(variable.type) == kind:
-                    self._place(name, variable.valueReference, np.nan, variable.type, fmu.unit_of(variable))
+                    self._place(name, variable.reference, np.nan, variable.type, fmu.unit_of(variable))
             if len(self.references) > first:
                 reads.append((function, first, len(self.references) - first))
         return reads
 
-    def _start(self, component: str, variable: ScalarVariable) -> float:
+    def _place_transfers(self, index: int, component: str) -> ComponentTransfers:
+        """Slots and transfers of what is exchanged with a component of FMI 3.0, and of what is recorded."""
+        transfers = self.parameters.transfers[index]
+        transfers.uses_events = needs_events(self.network, component)
+        variables = self.network.fmus[component].variables.values()
+        numbers = [variable for variable in variables if variable.type not in TEXTS]
+        names = {variable.name: f"{component}.{variable.name}" for variable in numbers}
+        driven = {short for short, name in names.items() if name in self.network.driver or name in self.network.driven}
+        fetched = {short for short, name in names.items() if self.fetched is None or name in self.fetched}
+        inputs = whole((each for each in numbers if each.causality == "input"), driven)
+        others = {each.array or each.name for each in numbers if names[each.name] in self.other_sources}
+        given = (each for each in numbers if each.causality == "output" or (each.array or each.name) in others)
+        outputs = whole(given, fetched)
+        # discrete inputs are transfers in a row
+        for is_discrete, target in ((False, transfers.inputs), (True, transfers.discrete)):
+            mine = (each for each in inputs if (each.variability == "discrete") == is_discrete)
+            target += [self._place_group(component, group) for group in groups(mine)]
+        transfers.discrete += self._text_transfers(index, 0)
+        transfers.outputs += [self._place_group(component, group) for group in groups(outputs)]
+        transfers.outputs += self._text_transfers(index, 1)
+        named = {short for short, name in names.items() if name in self.named and name not in self.slots}
+        recorded = whole((each for each in numbers if each.name in named), named)
+        transfers.recorded += [self._place_group(component, group) for group in groups(recorded)]
+        self.unfed |= {names[each.name] for each in numbers if each.causality == "input"} - {
+            names[short] for short in driven
+        }
+        return transfers
+
+    def _text_transfers(self, index: int, column: int) -> list[int]:
+        """Transfers of the Strings and Binaries of a component: 0 inputs, 1 outputs."""
+        firsts = (
+            (texts.variables[index][column], texts.ranges[index, column, 0]) for texts in (self.texts, self.binaries)
+        )
+        return [self.table.add(group, int(first)) for group, first in firsts if group]
+
+    def _place_group(self, component: str, group: Sequence[Variable]) -> int:
+        first = len(self.references)
+        fmu = self.network.fmus[component]
+        for slot, variable in enumerate(group, first):
+            name = f"{component}.{variable.name}"
+            initial = np.nan
+            if variable.causality == "input":
+                given = self.settings.variables.get((component, variable.name), variable.start)
+                if given is None and name not in self.network.driver and name not in self.network.driven:
+                    problem = "has neither a connection, a value nor a start, and its array is given as a whole"
+                    raise InputError(self.network.file, name, problem, f"connect it, or give `set` {name}=VALUE")
+                initial = self._start(component, variable)
+                if variable.representation.is_wide and given is not None:
+                    self.exact[slot] = int(given)
+            self._place(name, variable.reference, initial, variable.type, fmu.unit_of(variable))
+        return self.table.add(group, first)
+
+    def _start(self, component: str, variable: Variable) -> float:
         """What an input is given while its source is not known yet: the value set for it, else its FMU's start."""
-        value = self.settings.variables.get((component, variable.name), variable.start)
-        return float({"true": 1, "false": 0, "none": 0}.get(str(value).lower(), value))
+        value = self.settings.variables.get((component, variable.name), variable.start or 0.0)
+        return float({"true": 1, "false": 0}.get(str(value).lower(), value))
 
     def _links(self) -> list[list[Link]]:
         """Links grouped by the component they feed, upstream first; the last group feeds system connectors."""
@@ -202,7 +277,7 @@ class _Builder:
     def _chain(self, name: str, group: dict[str, Link]) -> None:
         """Add the links that bring a value to a node, by their targets, those before it first, none twice."""
         link = self.network.driver.get(name)
-        if link is None or name in group:
+        if link is None or name in group or name in self.passed_parameters:
             return
         if link.source.component is None:
             self._chain(link.source.name, group)
@@ -221,9 +296,9 @@ class _Builder:
         self, prepared: PreparedSystem, instances: Mapping[str, Instance]
     ) -> tuple[arrays.Program, InstructionList]:
         driven, drives = self._drives()
-        groups = self._links()
-        links = [term for group in groups for link in group for term in (link, *link.added)]
-        tables = [numbers(self.network, link) for link in links]
+        groups_of_links = self._links()
+        links = [term for linked in groups_of_links for link in linked for term in (link, *link.added)]
+        tables = [numbers(self.network, link) + _remainder(link) for link in links]
         firsts = np.cumsum([0, *(len(table) for table in tables)])
         flat = [entry for table in tables for entry in table]
         finished = self.network.nodes.get("finished")
@@ -231,16 +306,13 @@ class _Builder:
         fault_slots = [self._fault_slot(injection) for injection in self.injections]
         collected = InstructionList(
             [instances[name] for name in self.names],
-            self.ranges,
-            self.parameters.ranges,
-            [[term for link in group for term in self._terms(link)] for group in groups],
+            [[term for link in linked for term in self._terms(link)] for linked in groups_of_links],
             fault_slots,
             drives,
             self.texts,
-            {index for index, name in enumerate(self.names) if self.parameters.is_one_by_one(name)},
-            self.references,
-            self.recorded,
+            self.binaries,
         )
+        collected.orders = [self._orders(collected, index, instances[name]) for index, name in enumerate(self.names)]
         instructions, reset_end, phases = write_instructions(
             collected, self.names, prepared.schedule, prepared.algorithm, prepared.periods
         )
@@ -268,14 +340,44 @@ class _Builder:
             fault_value=np.array([injection.value for injection in self.injections], dtype=np.float64),
             drive_slot=np.array([self.slots[name] for name in driven], dtype=np.int64),
             drive_table=_columns(prepared.drive, driven),
+            transfers=self._transfers(instances),
         )
         return program, collected
+
+    def _orders(self, collected: InstructionList, index: int, instance: Instance) -> Orders:
+        if index in self.transfers:
+            return Fmi3Orders(collected, index, self.transfers[index], self.table)
+        return Fmi2Orders(
+            collected,
+            index,
+            instance,
+            np.array(self.references, dtype=np.uint32),
+            self.ranges[index].tolist(),
+            self.parameters.ranges[index].tolist(),
+            self.texts.ranges[index].tolist(),
+            self.recorded[index],
+            one_by_one=self.parameters.is_one_by_one(self.names[index]),
+        )
+
+    def _transfers(self, instances: Mapping[str, Instance]) -> arrays.Transfers:
+        """The loop's table of FMI 3.0; empty without an FMU of it."""
+        if not self.transfers:
+            return arrays.blank()[0].transfers
+        exact = np.zeros(len(self.slots), dtype=np.uint64)
+        for slot, number in self.exact.items():
+            exact[slot] = number % 2**64
+        return arrays.Transfers(
+            rows=self.table.array(),
+            reference=np.array(self.table.references, dtype=np.uint32),
+            functions=np.array([instances[name].function_addresses() for name in self.names], dtype=np.uint64),
+            exact=exact,
+        )
 
     def _terms(self, link: Link) -> list[Term]:
         """What `InstructionList` needs to know of a connection, and of those that are added to it."""
         origins = tuple([self._number(term) for term in (link, *link.added)])
         slots, target = self.slots, self.slots[link.target.name]
-        terms = [(_connection_code(link), origins, slots[link.source.name], target)]
+        terms = [(self._connection_code(link), origins, slots[link.source.name], target)]
         return terms + [(codes.ADD, origins, slots[term.source.name], target) for term in link.added]
 
     def _number(self, link: Link) -> int:
@@ -284,11 +386,23 @@ class _Builder:
         return -1 if component is None else self.numbers[component]
 
     def _fault_slot(self, injection: Injection) -> int:
-        connector_type(self.network, injection.connector, ("connector", injection.connector))  # refuses all others
+        changeable(self.network, injection.connector, ("connector", injection.connector))  # refuses all others
         return self.slots[injection.connector]
 
     def layout(self) -> Layout:
-        return Layout(self.slots, self.types, self.units, self.parameters, self.texts)
+        texts = self.texts, self.binaries
+        return Layout(self.slots, self.types, self.units, self.parameters, *texts, self.unfed & self.slots.keys())
+
+    def _connection_code(self, link: Link) -> int:
+        """The instruction that carries a connection's value."""
+        if link.transformation.table:
+            return codes.MAP
+        if link.transformation != IDENTITY:
+            return codes.TRANSFORM
+        start = origin(self.network, link)
+        fmu = self.network.fmus.get(start.component or "")
+        is_wide = fmu is not None and fmu.variables[start.variable].representation.is_wide
+        return codes.COPY_EXACT if is_wide else codes.COPY
 
 
 def _tolerance(fmu: Fmu) -> float:
@@ -305,8 +419,6 @@ def _columns(drive: Drive | None, names: Sequence[str]) -> np.ndarray:
     return np.ascontiguousarray(drive.table[:, [places[name] for name in names]])
 
 
-def _connection_code(link: Link) -> int:
-    """The instruction that carries a connection's value."""
-    if link.transformation.table:
-        return codes.MAP
-    return codes.COPY if link.transformation == IDENTITY else codes.TRANSFORM
+def _remainder(link: Link) -> list[tuple[float, float]]:
+    """The end of a table that leaves other values as they are, by which the loop knows it."""
+    return [(math.nan, math.nan)] if link.transformation.is_partial else []

@@ -20,12 +20,12 @@ from ...common.atomic import whole_file, write_atomically
 from ...common.errors import suggestion
 from ...common.percent import short_percent
 from ...common.visible import quote_formula
+from ..ssp.given_values import ParameterValue
 from ..ssp.names import elements, split_name, vectors
-from ..ssp.parameter_sets import ParameterValue
-from ..system.assignments import Settings
 from ..system.fault import Fault
 from ..system.inputs import DrivenInput, InputFacts
 from ..system.network import Network
+from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
 from .parameters import Parameters
 

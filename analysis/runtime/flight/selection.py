@@ -6,12 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from ...common.errors import InputError, suggestion
+from ..fmi.representations import TEXTS
+from ..ssp.given_values import parse_value
 from ..ssp.names import elements
-from ..ssp.parameter_sets import parse_value
-from ..system.assignments import Settings
 from ..system.checks import check_fault
 from ..system.fault import Fault
+from ..system.fmu import NOT_VARIED, STRUCTURAL
 from ..system.network import Network
+from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
 from .parameters import Key
 from .program import Injection, Layout, of_excitation, of_fault
@@ -63,7 +65,7 @@ class Selection:
         for name in named:
             if name not in layout.slots:
                 raise InputError(file, name, "no such signal", "name a variable as component.variable")
-        return [name for name in layout.slots if self.wanted is None or name in named]
+        return [name for name in layout.slots if (self.wanted is None and name not in layout.unfed) or name in named]
 
 
 def find_variables(network: Network, names: Sequence[str], *, is_alone: bool) -> list[str]:
@@ -83,8 +85,10 @@ def find_variables(network: Network, names: Sequence[str], *, is_alone: bool) ->
         if not variables:
             known = types if not is_alone else [each.partition(".")[2] for each in types]
             raise InputError("`record`", name, "no such variable", suggestion(name, known))
-        if any(types[variable] == "String" for variable in variables):
-            raise InputError("`record`", name, "a String, which is not recorded", "name numbers and Booleans")
+        if any(types[variable] in TEXTS for variable in variables):
+            raise InputError(
+                "`record`", name, f"a {types[variables[0]]}, which is not recorded", "name numbers and Booleans"
+            )
         actual |= dict.fromkeys(variables)
     return list(actual)
 
@@ -100,4 +104,6 @@ def _key(network: Network, name: str) -> Key:
         variable = fmu.variables.get(name.removeprefix(f"{component}."))
         if name.startswith(f"{component}.") and variable is not None and variable.causality in ("parameter", "input"):
             return component, variable.name
+        if name.startswith(f"{component}.") and variable is not None and variable.causality == STRUCTURAL:
+            raise InputError(network.file, name, *NOT_VARIED)
     raise InputError(network.file, name, "no such parameter", "see perilune list for components")

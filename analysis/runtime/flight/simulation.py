@@ -10,7 +10,7 @@ import numpy as np
 
 from ...common.collection import no_collection
 from ..instances.instance import Instance, instantiate
-from ..ssp.parameter_sets import ParameterValue
+from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
 from .base_simulation import NOTHING, BaseSimulation, Choices
@@ -19,6 +19,7 @@ from .endings import TERMINATED, Outcome, end_request, in_words
 from .instructions import write_ending
 from .life_cycle import LifeCycle
 from .memory import Memory
+from .orders.transfers import needs_events
 from .program import NEVER, build_program, of_fault
 from .recorder import FlightRecorder, Phase, rows_between
 from .results import Flight
@@ -46,7 +47,8 @@ class Simulation(BaseSimulation):
         prepared = self.prepared
         for number, (name, fmu) in enumerate(prepared.network.fmus.items()):
             self.recorder.enter(Phase.INSTANTIATION, number)
-            self.instances[name] = instantiate(fmu, name, self._log)
+            uses_events = needs_events(prepared.network, name)
+            self.instances[name] = instantiate(fmu, name, self._log, uses_events=uses_events)
         injections = self._selection.injections(prepared.step)
         self.program, self._instructions, self.layout = build_program(
             prepared, self.settings, self.instances, self._selection.wanted, injections, self._selection.more
@@ -61,6 +63,8 @@ class Simulation(BaseSimulation):
             frozen=np.zeros(len(injections)),
             read_back=self.layout.parameters.blank(),
             texts=self.layout.texts.memory(),
+            binaries=self.layout.binaries.memory(),
+            stored=arrays.stored(self.program.transfers.exact.size),
             outcome=self.recorder.outcome,
             halt=self.recorder.halt,
         )
@@ -131,9 +135,9 @@ class Simulation(BaseSimulation):
         status, message = in_words(
             outcome, prepared.start + outcome.point * prepared.step, self.layout, self.buffers, self.instances
         )
-        if outcome.is_discarded_step:
+        if outcome.is_discarded_step or outcome.is_ended:
             component, instance = list(self.instances.items())[outcome.subject]
-            end = end_request(instance)
+            end = float(self.buffers.stored.time[1]) if outcome.is_ended else end_request(instance)
             if end is not None:
                 self._fly_last_row(outcome.subject, end, count)
                 count += 1
@@ -170,8 +174,12 @@ class Simulation(BaseSimulation):
         """Whether an FMU has shown what not to ask of it, so that the flight is to begin anew."""
         parameters = self.layout.parameters
         if outcome.is_unreadable(self.program):
-            first, count = self.program.instructions[outcome.instruction, [codes.FIRST, codes.COUNT]]
-            parameters.learn_unreadable(int(first), int(count))
+            code, first, count = self.program.instructions[
+                outcome.instruction, [codes.CODE, codes.FIRST, codes.COUNT]
+            ].tolist()
+            if code == codes.TAKE_BACK:  # of one variable
+                first = int(self.program.transfers.rows[first, codes.FIRST_VALUE])
+            parameters.learn_unreadable(first, count)
         elif outcome.is_refused_again(self.program):
             parameters.learn_set_once(list(self.instances)[outcome.subject])
         else:

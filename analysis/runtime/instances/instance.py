@@ -10,13 +10,14 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from fmpy import fmi2
+from fmpy import fmi2, fmi3
 from fmpy.logging import addLoggerProxy
 
 from ...common.errors import InputError
 from ...common.visible import visible, visible_line
 from ..system.fmu import Fmu
 from ..system.options import LOG_LEVELS, SAID_FROM
+from .fmi3_slave import Fmi3Slave, Slave
 from .library import LOADING, Library, acquire, release
 
 MOST_MESSAGES = 1000  # of a component, in a flight
@@ -86,9 +87,10 @@ class Instance:
     fmu: Fmu
     name: str
     library: Library
-    slave: fmi2.FMU2Slave
+    slave: Slave
     said: list[bytes]
     log: Log | None = None
+    uses_events: bool = False
     is_there: bool = True
 
     @property
@@ -115,11 +117,38 @@ class Instance:
             return 0
         return self.library.place(self.address, references.ctypes.data, references.size, PLACED[kind], to_set) or 0
 
+    def state(self) -> object:
+        """The FMU's state, to be freed with `free_state`."""
+        slave = self.slave
+        return slave.getFMUState() if isinstance(slave, Fmi3Slave) else slave.getFMUstate()
+
+    def set_state(self, state: object) -> None:
+        slave = self.slave
+        (slave.setFMUState if isinstance(slave, Fmi3Slave) else slave.setFMUstate)(state)
+
+    def free_state(self, state: object) -> None:
+        slave = self.slave
+        (slave.freeFMUState if isinstance(slave, Fmi3Slave) else slave.freeFMUstate)(state)
+
+    def serialize(self, state: object) -> bytes:
+        slave = self.slave
+        call = slave.serializeFMUState if isinstance(slave, Fmi3Slave) else slave.serializeFMUstate
+        return bytes(call(state))
+
+    def deserialize(self, serialized: bytes) -> object:
+        """A state of its own, to be freed too."""
+        slave = self.slave
+        return (slave.deserializeFMUState if isinstance(slave, Fmi3Slave) else slave.deSerializeFMUstate)(serialized)
+
     def free(self) -> None:
         if self.is_there:
             self.is_there = False
             _logs.pop(self.slave.instanceName, None)
-            self.slave.fmi2FreeInstance(self.slave.component)
+            if isinstance(self.slave, Fmi3Slave):
+                _environments.pop(self.slave.environment, None)
+                self.slave.fmi3FreeInstance(self.slave.component)
+            else:
+                self.slave.fmi2FreeInstance(self.slave.component)
             _alone.discard(self.fmu.digest)
             release(self.fmu)
 
@@ -131,7 +160,7 @@ class Instance:
     def renew(self) -> None:
         """Another fmi2Component in the place of this one, which is freed; raises InputError."""
         self.free()
-        fresh = instantiate(self.fmu, self.name, self.log)
+        fresh = instantiate(self.fmu, self.name, self.log, uses_events=self.uses_events)
         self.library, self.slave, self.said, self.is_there = fresh.library, fresh.slave, fresh.said, True
 
 
@@ -146,12 +175,20 @@ class _Heard(list[bytes]):
 
 # fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
 _logs: dict[str, _Heard] = {}
+_environments: dict[int, _Heard] = {}  # likewise of FMI 3.0, by what instances are given for it
 _instances = itertools.count(1)
 _alone: set[str] = set()  # digests of FMUs that are instantiated, and may be only once in a process
 
 
 def _log(_environment: object, instance: bytes, status: int, category: bytes, message: bytes) -> None:
-    log = _logs.get((instance or b"").decode(errors="replace"))
+    _hear(_logs.get((instance or b"").decode(errors="replace")), status, category, message)
+
+
+def _log_of_fmi3(environment: int | None, status: int, category: bytes, message: bytes) -> None:
+    _hear(_environments.get(environment or 0), status, category, message)
+
+
+def _hear(log: _Heard | None, status: int, category: bytes, message: bytes) -> None:
     if log is not None and message:
         if len(log) < MOST_MESSAGES:
             log.append(message[:LONGEST_MESSAGE])
@@ -174,6 +211,7 @@ def _make_callbacks() -> fmi2.fmi2CallbackFunctions:
 _callbacks = _make_callbacks()
 addLoggerProxy(ctypes.byref(_callbacks))  # messages are formats of printf (FMI 2.0), whose arguments may be missing
 _plain_callbacks = _make_callbacks()
+_fmi3_callback = fmi3.fmi3LogMessageCallback(_log_of_fmi3)  # whose messages are plain
 _formats = True
 
 
@@ -183,8 +221,11 @@ def leave_messages_unformatted() -> None:
     _formats = False
 
 
-def instantiate(fmu: Fmu, name: str, log: Log | None = None) -> Instance:
-    """Instantiate an FMU; ``name`` is the component's, made unique in the process. ``log`` has all that it says."""
+def instantiate(fmu: Fmu, name: str, log: Log | None = None, *, uses_events: bool = False) -> Instance:
+    """Instantiate an FMU; ``name`` is the component's, made unique in the process. ``log`` has all that it says.
+
+    ``uses_events``: it is flown with FMI 3.0's event mode, which it has.
+    """
     if fmu.is_alone:
         with LOADING:
             if fmu.digest in _alone:
@@ -193,7 +234,8 @@ def instantiate(fmu: Fmu, name: str, log: Log | None = None) -> Instance:
                 )
                 raise InputError(fmu.label, name, problem, "fly it once at a time, or export it for more instances")
             _alone.add(fmu.digest)
-    unique = f"{name}#{next(_instances)}"
+    number = next(_instances)
+    unique = f"{name}#{number}"
     _logs[unique] = _Heard()
     if log is not None:
         _logs[unique].listener = partial(log.write, name)
@@ -201,7 +243,11 @@ def instantiate(fmu: Fmu, name: str, log: Log | None = None) -> Instance:
     try:
         library = acquire(fmu)
         slave = library.slave(unique)
-        slave.instantiate(callbacks=_callbacks if _formats else _plain_callbacks, loggingOn=True)
+        if isinstance(slave, Fmi3Slave):
+            _environments[number] = _logs[unique]
+            slave.begin(number, _fmi3_callback, uses_events=uses_events)
+        else:
+            slave.instantiate(callbacks=_callbacks if _formats else _plain_callbacks, loggingOn=True)
         if log is not None and log.everything:
             slave.setDebugLogging(True, [])  # no categories named: all of them
     except Exception as error:  # fmpy raises bare Exception when the library does not load or instantiate
@@ -210,4 +256,4 @@ def instantiate(fmu: Fmu, name: str, log: Log | None = None) -> Instance:
             release(fmu)
         said = " | ".join([str(error), *map(_text, _logs.pop(unique))])
         raise InputError(fmu.label, name, f"cannot be instantiated: {said}", "see the FMU's log") from error
-    return Instance(fmu, name, library, slave, _logs[unique], log)
+    return Instance(fmu, name, library, slave, _logs[unique], log, uses_events)

@@ -11,7 +11,9 @@ from pathlib import Path
 
 from fmpy import fmi2
 
+from ..fmi.representations import REPRESENTATIONS
 from ..system.fmu import Fmu
+from .fmi3_slave import Fmi3Slave, Slave
 
 FUNCTION_NAMES = (
     "fmi2SetReal",
@@ -28,6 +30,18 @@ FUNCTION_NAMES = (
     "fmi2Terminate",
     "fmi2SetString",
     "fmi2GetString",
+    *(f"fmi3Set{name}" for name in REPRESENTATIONS),
+    *(f"fmi3Get{name}" for name in REPRESENTATIONS),
+    "fmi3DoStep",
+    "fmi3Reset",
+    "fmi3EnterConfigurationMode",
+    "fmi3ExitConfigurationMode",
+    "fmi3EnterInitializationMode",
+    "fmi3ExitInitializationMode",
+    "fmi3EnterEventMode",
+    "fmi3UpdateDiscreteStates",
+    "fmi3EnterStepMode",
+    "fmi3Terminate",
 )
 
 # fmpy changes the process's working directory while it loads a library: whoever does so, or reads
@@ -40,17 +54,20 @@ class Library:
 
     def __init__(self, fmu: Fmu) -> None:
         with contextlib.chdir(Path.cwd()):  # back also when loading fails
-            self._slave = fmi2.FMU2Slave(
+            self._slave: Slave = (fmi2.FMU2Slave if fmu.version == 2 else Fmi3Slave)(
                 guid=fmu.description.guid,
                 unzipDirectory=str(fmu.folder),
                 modelIdentifier=fmu.description.coSimulation.modelIdentifier,
             )
-        functions = [getattr(self._slave.dll, name) for name in FUNCTION_NAMES]
-        self.addresses = [ctypes.cast(function, ctypes.c_void_p).value or 0 for function in functions]
+        dll, prefix = self._slave.dll, f"fmi{fmu.version}"
+        functions = [getattr(dll, name) if name.startswith(prefix) else None for name in FUNCTION_NAMES]
+        self.addresses = [
+            0 if function is None else ctypes.cast(function, ctypes.c_void_p).value or 0 for function in functions
+        ]
         self.place = _place(self._slave.dll) if fmu.is_own else None
         self.users = 0
 
-    def slave(self, instance_name: str) -> fmi2.FMU2Slave:
+    def slave(self, instance_name: str) -> Slave:
         """fmpy's face of one more instance, not instantiated yet."""
         slave = copy.copy(self._slave)
         slave.instanceName = instance_name

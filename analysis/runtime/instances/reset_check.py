@@ -11,20 +11,14 @@ from pathlib import Path
 import numpy as np
 from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
-from fmpy.model_description import ScalarVariable
 
+from ..fmi.variable import Variable
 from ..system.fmu import Fmu
 from .instance import Instance, instantiate
 from .library import LOADING
+from .trial import KINDS, Number, begin, declared, read, step
 
 STEPS = 10
-Number = float | int | bool
-CALLS = {
-    "Real": ("setReal", "getReal", float),
-    "Integer": ("setInteger", "getInteger", int),
-    "Enumeration": ("setInteger", "getInteger", int),
-    "Boolean": ("setBoolean", "getBoolean", bool),
-}
 
 
 @dataclass(frozen=True)
@@ -67,7 +61,7 @@ def reset_verdict(fmu: Fmu, flown: Callable[[], None] = lambda: None) -> ResetVe
 def _try_reset(fmu: Fmu, flown: Callable[[], None]) -> ResetVerdict:
     fresh = instantiate(fmu, fmu.name)
     try:
-        expected = [*_simulate(fresh, {}), _read(fresh.slave, fmu, "parameter")]
+        expected = [*_simulate(fresh, {}), read(fresh, "parameter")]
     except FMICallException as error:
         _free(fresh, error)
         return ResetVerdict(False, f"it cannot be tried on its declared starts: {_words(error)}")
@@ -83,7 +77,7 @@ def _try_reset(fmu: Fmu, flown: Callable[[], None]) -> ResetVerdict:
         try:
             used.slave.terminate()
             used.slave.reset()
-            state = [*_simulate(used, {}), _read(used.slave, fmu, "parameter")]
+            state = [*_simulate(used, {}), read(used, "parameter")]
         except FMICallException as error:
             _free(used, error)
             return ResetVerdict(False, f"after a flight {_words(error)}")
@@ -121,7 +115,7 @@ def _changes(fmu: Fmu) -> list[dict[str, Number]]:
     has_reals = any(variable.type == "Real" and variable.causality == "parameter" for variable in given)
     changed = {}
     for variable in given:
-        if variable.type == "Real" or (variable.type in CALLS and not has_reals):
+        if variable.type == "Real" or (variable.type in KINDS and not has_reals):
             value = _other(variable)
             if value is not None:
                 changed[variable.name] = value
@@ -129,22 +123,20 @@ def _changes(fmu: Fmu) -> list[dict[str, Number]]:
     return [changed, inputs, {}]
 
 
-def _other(variable: ScalarVariable) -> Number | None:
+def _other(variable: Variable) -> Number | None:
     """A value near the start, within the declared bounds; None where there is no other."""
-    if variable.start is None:
+    start = declared(variable)
+    if start is None:
         return None
     if variable.type == "Boolean":
-        return str(variable.start).lower() not in ("true", "1")
+        return not start
     if variable.type == "Enumeration":
-        items = variable.declaredType.items if variable.declaredType is not None else None
-        return next((int(item.value) for item in items or () if int(item.value) != int(variable.start)), None)
-    start = float(variable.start)
-    low, high = (float(bound) if bound is not None else np.inf for bound in (variable.min, variable.max))
-    low = low if variable.min is not None else -np.inf
+        return next((item for item in variable.items.values() if item != start), None)
+    low = -np.inf if variable.minimum is None else float(variable.minimum)
+    high = np.inf if variable.maximum is None else float(variable.maximum)
+    low, high = max(low, variable.representation.limits[0]), min(high, variable.representation.limits[1])
     span = 1.0 if variable.type == "Integer" else 0.1 * abs(start) or 0.1
-    return next(
-        (CALLS[variable.type][2](value) for value in (start + span, start - span) if low <= value <= high), None
-    )
+    return next((KINDS[variable.type](value) for value in (start + span, start - span) if low <= value <= high), None)
 
 
 def _simulate(instance: Instance, changes: dict[str, Number]) -> list[bytes]:
@@ -152,9 +144,8 @@ def _simulate(instance: Instance, changes: dict[str, Number]) -> list[bytes]:
 
     Raises FMICallException where a call fails. A discarded step ends the flight, which is a row, too.
     """
-    fmu, slave = instance.fmu, instance.slave
-    experiment = fmu.description.defaultExperiment
-    start, step, tolerance = (
+    experiment = instance.fmu.description.defaultExperiment
+    start, size, tolerance = (
         None if value is None else float(value)
         for value in (
             getattr(experiment, "startTime", None),
@@ -162,45 +153,12 @@ def _simulate(instance: Instance, changes: dict[str, Number]) -> list[bytes]:
             getattr(experiment, "tolerance", None),
         )
     )
-    start, step = start or 0.0, step or 0.01
-    _set(slave, fmu, changes)
-    slave.setupExperiment(tolerance=tolerance, startTime=start)
-    slave.enterInitializationMode()
-    _set(slave, fmu, changes)
-    slave.exitInitializationMode()
-    rows = [_read(slave, fmu, "output")]
+    start, size = start or 0.0, size or 0.01
+    begin(instance, changes, start, tolerance)
+    rows = [read(instance, "output")]
     for n in range(STEPS):
-        try:
-            slave.doStep(start + n * step, step)
-        except FMICallException as error:
-            if error.status != fmi2.fmi2Discard:
-                raise
-            rows.append(b"discarded")
+        if not step(instance, start + n * size, size):
+            rows.append(b"ended")
             break
-        rows.append(_read(slave, fmu, "output"))
+        rows.append(read(instance, "output"))
     return rows
-
-
-def _set(slave: fmi2.FMU2Slave, fmu: Fmu, changes: dict[str, Number]) -> None:
-    for name, value in changes.items():
-        variable = fmu.variables[name]
-        getattr(slave, CALLS[variable.type][0])([variable.valueReference], [value])
-
-
-def _read(slave: fmi2.FMU2Slave, fmu: Fmu, causality: str) -> bytes:
-    """The values of variables, type by type; of those that cannot be read, that they cannot."""
-    references: dict[str, list[int]] = {}
-    for variable in fmu.variables.values():
-        if variable.causality == causality and variable.type in CALLS:
-            references.setdefault(CALLS[variable.type][1], []).append(variable.valueReference)
-    return b"".join(_get(getattr(slave, getter), each) for getter, each in references.items())
-
-
-def _get(getter: Callable[[list[int]], list[Number]], references: list[int]) -> bytes:
-    """Values of variables in one call, or each by itself where one of them cannot be read."""
-    try:
-        return np.array(getter(references), dtype=np.float64).tobytes()
-    except FMICallException:
-        if len(references) == 1:
-            return b"?"
-    return b"".join(_get(getter, [reference]) for reference in references)

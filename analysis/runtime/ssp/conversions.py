@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fmpy.model_description import ModelDescription
 from lxml import etree
@@ -79,24 +79,28 @@ def units_of_document(root: etree._Element, prefix: str) -> dict[str, Unit]:
 
 @dataclass(frozen=True)
 class Transformation:
-    """factor * value + offset, or a table from source to target values."""
+    """factor * value + offset, or a table from source to target values.
+
+    ``is_partial``: values that the table does not have stay as they are, as in SSP 2.0.
+    """
 
     factor: float = 1.0
     offset: float = 0.0
     table: tuple[tuple[str, str], ...] = ()
     kind: str = "LinearTransformation"
+    is_partial: bool = False
 
     def after_units(self, conversion: tuple[float, float]) -> Transformation:
         """The same with a unit conversion before it, as SSP orders them."""
         factor, offset = conversion
-        return Transformation(self.factor * factor, self.factor * offset + self.offset, self.table, self.kind)
+        return replace(self, factor=self.factor * factor, offset=self.factor * offset + self.offset)
 
 
 IDENTITY = Transformation()
 VALUE_TYPES = {
     "LinearTransformation": ("Real",),
     "BooleanMappingTransformation": ("Boolean",),
-    "IntegerMappingTransformation": ("Integer",),
+    "IntegerMappingTransformation": ("Integer", "Enumeration"),
     "EnumerationMappingTransformation": ("Enumeration",),
 }
 
@@ -109,7 +113,8 @@ def read_transformation(element: etree._Element) -> Transformation:
             return Transformation(float(item.get("factor", "1")), float(item.get("offset", "0")))
         if name in VALUE_TYPES:
             entries = [(entry.get("source", ""), entry.get("target", "")) for entry in children(item, "ssc:MapEntry")]
-            return Transformation(table=tuple(entries), kind=name)
+            version = next((outer.get("version") for outer in item.iterancestors() if outer.get("version")), "")
+            return Transformation(table=tuple(entries), kind=name, is_partial=version == "2.0")
     return IDENTITY
 
 

@@ -8,11 +8,15 @@ from urllib.parse import urlsplit
 from lxml import etree
 
 from .conversions import Transformation, Unit
+from .dimensions import Dimension, Shape
 
 
 @dataclass(slots=True)
 class Connector:
-    """A declared connector; type and unit are None where the document does not state them, the kind is empty."""
+    """A declared connector; type and unit are None where the document does not state them, the kind is empty.
+
+    ``exact_type`` is the type's name as the document has it, such as Float32; ``dimensions`` are those of an array.
+    """
 
     name: str
     kind: str
@@ -20,6 +24,8 @@ class Connector:
     unit: str | None
     enumeration: str | None
     line: int
+    exact_type: str | None = None
+    dimensions: tuple[Dimension, ...] = ()
 
     def at(self, name: str) -> str:
         """Where it is declared, by the name that it has in the flat network."""
@@ -31,7 +37,11 @@ Point = tuple[str | None, str]  # element, None for the system itself, and conne
 
 @dataclass(slots=True)
 class Connection:
-    """``added`` are further sources, whose values are added to that of ``start``: outputs of components, as that is."""
+    """``added`` are further sources, whose values are added to that of ``start``: outputs of components, as that is.
+
+    ``start_indices`` and ``end_indices`` name one element of an array, or the part of it that they begin; without any
+    the whole is meant.
+    """
 
     start: Point
     end: Point
@@ -39,6 +49,8 @@ class Connection:
     transformation: Transformation
     line: int
     added: tuple[Point, ...] = ()
+    start_indices: Shape = ()
+    end_indices: Shape = ()
 
     def __str__(self) -> str:
         start, end = (".".join(part for part in point if part) for point in (self.start, self.end))

@@ -1,12 +1,12 @@
-"""XML documents from outside, read with care: no DOCTYPE, valid against their schema, lines kept; SSP 2.0 as 1.0.
+"""XML documents from outside, read with care: no DOCTYPE, valid against the schema of their version, lines kept.
 
-What is new in 2.0 is refused by name, but for what nothing flies by. Namespaces are those of 1.0, and every document of
-1.0 is one of 2.0 (SSP 2.0, release notes). fmpy has no schema of 2.0: a document without anything new is checked
-against that of 1.0.
+Namespaces are the same in SSP 1.0 and 2.0: a document's attribute ``version`` says which schema it is checked against.
+The files of version 2.0 are those that pyssp_standard ships, of which nothing is imported.
 """
 
 from __future__ import annotations
 
+import importlib.util
 from functools import cache
 from pathlib import Path
 
@@ -16,56 +16,30 @@ from lxml import etree
 from ...common.bounds import XML_BYTES, XML_TAGS
 from ...common.errors import InputError
 
-SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
+VERSIONS = ("1.0", "2.0")
 STANDARD = "http://ssp-standard.org/"
-COMMON = f"{STANDARD}SSP1/SystemStructureCommon"
-WITHOUT_EFFECT = ("MetaData", "Signature")  # where a document comes from and who vouches for it
-ATTRIBUTES = {  # of 1.0's elements, with values that are new
-    "kind": ("local", "constant", "structuralParameter", "localClock", "inputClock", "outputClock"),
-    "implementation": ("ScheduledExecution",),
-}
-
-
-def in_version_1(root: etree._Element, file: str) -> None:
-    """Make a document of a version that is read one of 1.0, in place; raises InputError naming what 1.0 has not."""
-    version = root.get("version", "")
-    if version.startswith("1.") or not root.tag.startswith(f"{{{STANDARD}"):
-        return  # what is no SSP at all is the schema's to say
-    if not version.startswith("2."):
-        problem = f"SSP version {version or '(none)'} is not read"
-        raise InputError(file, f"version (line {root.sourceline})", problem, 'write version="1.0"')
-    for name in WITHOUT_EFFECT:
-        for element in list(root.iter(f"{{{COMMON}}}{name}")):
-            element.getparent().remove(element)
-    for element in root.iter(etree.Element):
-        name = etree.QName(element)
-        if not (name.namespace or "").startswith(STANDARD):
-            continue
-        if name.localname not in _names():
-            raise _new(file, element, name.localname)
-        for attribute, values in ATTRIBUTES.items():
-            if element.get(attribute) in values:
-                raise _new(file, element, f'{attribute}="{element.get(attribute)}"')
-        if name.localname == etree.QName(root).localname or element.get("version", "").startswith("2."):
-            element.set("version", "1.0")
-
-
-def _new(file: str, element: etree._Element, what: str) -> InputError:
-    remedy = "write it as SSP 1.0 has it (numbers are Real or Integer)"
-    return InputError(file, f"{what} (line {element.sourceline})", "is new in SSP 2.0 and not supported", remedy)
 
 
 @cache
-def _names() -> frozenset[str]:
-    """Names of all elements of SSP 1.0."""
-    names: set[str] = set()
-    for path in sorted(SCHEMAS.glob("*.xsd")):
-        if path.stem.endswith("11"):
-            continue  # a draft of 1.1, which no document names
-        for element in etree.parse(path).iter("{http://www.w3.org/2001/XMLSchema}element"):
-            if element.get("name"):
-                names.add(element.get("name", ""))
-    return frozenset(names)
+def schema_folder(version: str) -> Path:
+    """The folder of the schemas of an SSP version."""
+    if version == "1.0":
+        return Path(fmpy.__file__).parent / "ssp" / "schema"
+    package = importlib.util.find_spec("pyssp_standard")
+    assert package is not None  # a dependency
+    assert package.origin is not None
+    return Path(package.origin).parent / "resources" / "ssp2"
+
+
+def version_of(root: etree._Element, file: str) -> str:
+    """The SSP version of a document, or of one inside another; raises InputError for one that is not read."""
+    version = root.get("version", "")
+    if not root.tag.startswith(f"{{{STANDARD}"):
+        return VERSIONS[0]  # what is no SSP at all is the schema's to say
+    if version not in VERSIONS:
+        problem = f"SSP version {version or '(none)'} is not read"
+        raise InputError(file, f"version (line {root.sourceline})", problem, 'write version="1.0" or version="2.0"')
+    return version
 
 
 NAMESPACES = {
@@ -84,8 +58,8 @@ SCHEMA_FILES = {
 
 
 @cache
-def _schema(kind: str) -> etree.XMLSchema:
-    return etree.XMLSchema(etree.parse(SCHEMAS / SCHEMA_FILES[kind]))
+def _schema(kind: str, version: str) -> etree.XMLSchema:
+    return etree.XMLSchema(etree.parse(schema_folder(version) / SCHEMA_FILES[kind]))
 
 
 def parse_xml(data: bytes, file: str) -> etree._Element:
@@ -127,8 +101,9 @@ def check_violations(schema: etree.XMLSchema, document: bytes, file: str) -> boo
 
 
 def check_schema(element: etree._Element, kind: str, file: str) -> None:
-    """Validate an element against the SSP 1.0 schema ``kind`` (ssd, ssv, ssm or ssb)."""
-    schema = _schema(kind)
+    """Validate an element against the schema ``kind`` (ssd, ssv, ssm or ssb) of its version."""
+    version = version_of(element, file)
+    schema = _schema(kind, version)
     # A copy: an inline parameter set is validated as a document of its own.
     if check_violations(schema, etree.tostring(element, with_tail=False), file) and not schema.validate(
         etree.ElementTree(element)
@@ -137,15 +112,24 @@ def check_schema(element: etree._Element, kind: str, file: str) -> None:
         message = first.message
         for prefix, namespace in NAMESPACES.items():
             message = message.replace(f"{{{namespace}}}", f"{prefix}:")
-        raise InputError(file, f"line {first.line}", f"not valid SSP 1.0: {message}", "see the SSP 1.0 schema")
+        raise InputError(
+            file, f"line {first.line}", f"not valid SSP {version}: {message}", f"see the SSP {version} schema"
+        )
 
 
 def read_document(data: bytes, kind: str, file: str) -> etree._Element:
     """Root element of a valid SSP document of the given kind."""
     root = parse_xml(data, file)
-    in_version_1(root, file)
     check_schema(root, kind, file)
     return root
+
+
+def signatures(root: etree._Element) -> list[str]:
+    """A note on each signature in a document (SSP 2.0): nobody here verifies what it vouches for."""
+    return [
+        f"Signature (line {element.sourceline}): {element.get('role')}, {element.get('type')}: not verified"
+        for element in root.iter(f"{{{NAMESPACES['ssc']}}}Signature")
+    ]
 
 
 def child(element: etree._Element, name: str) -> etree._Element | None:

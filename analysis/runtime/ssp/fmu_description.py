@@ -13,7 +13,7 @@ from ...common.errors import InputError
 from .documents import check_violations, parse_xml
 
 DESCRIPTION = "modelDescription.xml"
-SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi2" / "fmi2ModelDescription.xsd"
+SCHEMAS = Path(fmpy.__file__).parent / "schema"
 STATE_ANNOTATION = "org.perilune.state"  # of FMUs that declare how they serialise their memory, or that they do not
 MANY_BYTES = 1_000_000  # of a description that may have many violations
 FIX = f"fix the FMU's {DESCRIPTION}"
@@ -37,15 +37,14 @@ NUMBERS: dict[str, tuple[Callable[[str], object], str, tuple[str, ...]]] = {
 INDICES = {"ModelStructure/*/Unknown": ("index", "dependencies"), f"{VARIABLE}/Real": ("derivative",)}
 
 
-def check_description(xml: bytes, label: str) -> None:
-    """Refuse another version than 2.0, names that are missing or given twice, numbers that are none, many violations.
+def check_description(root: etree._Element, label: str) -> None:
+    """Refuse another version than 2.0, names that are missing or given twice, numbers that are none.
 
-    Each violation takes FMPy long. Raises InputError, with the FMU's ``label``.
+    Raises InputError, with the FMU's ``label``.
     """
-    root = parse_xml(xml, f"{label}!{DESCRIPTION}")
     version = root.get("fmiVersion")
     if version != "2.0":
-        raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0")
+        raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0 or 3.0")
     for path, attributes in REQUIRED.items():
         for element in root.iterfind(path):
             for name in attributes:
@@ -60,8 +59,13 @@ def check_description(xml: bytes, label: str) -> None:
     twice = next((name for name, count in names.items() if count > 1), None)
     if twice is not None:
         raise InputError(label, str(twice), "two variables of this name", FIX)
+
+
+def check_rules(xml: bytes, version: int, label: str) -> None:
+    """Refuse a long description with many violations of the schema of an FMI version, 2 or 3: each takes FMPy long."""
     if len(xml) > MANY_BYTES:
-        check_violations(etree.XMLSchema(etree.parse(SCHEMA)), xml, f"{label}!{DESCRIPTION}")
+        schema = SCHEMAS / f"fmi{version}" / f"fmi{version}ModelDescription.xsd"
+        check_violations(etree.XMLSchema(etree.parse(schema)), xml, f"{label}!{DESCRIPTION}")
 
 
 def external_state_of(xml: bytes) -> tuple[str, ...]:

@@ -11,9 +11,11 @@ from ...common.errors import InputError
 from .archive import SystemArchive
 from .conversions import Transformation, Unit, check_type, read_transformation, units_of_document
 from .description import Binding
-from .documents import check_schema, child, children, read_document, tag
+from .dimensions import Shape, element_name, indices
+from .documents import check_schema, child, children, read_document, signatures, tag
+from .given_values import ParameterValue, read_values
+from .types import RUNTIME_TYPES, runtime_type
 
-ParameterValue = float | int | bool | str
 SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
 
 
@@ -22,7 +24,7 @@ class Assignment:
     """A value on its way to a parameter, with where it came from.
 
     ``type_name`` is Real, Integer, Boolean, Enumeration or String; a value from the command line
-    is ``Text`` and takes the type of its target.
+    is ``Text`` and takes the type of its target. One of an array has its ``index`` there, and the ``shape`` of all.
     """
 
     name: str
@@ -33,6 +35,13 @@ class Assignment:
     line: int
     transformation: Transformation | None = None
     suppress_unit_conversion: bool = False
+    index: Shape = ()
+    shape: Shape = ()
+
+    @property
+    def array(self) -> str:
+        """The name of the array that it is an element of, or its own."""
+        return self.name.removesuffix(element_name("", self.index)) if self.index else self.name
 
     @property
     def where(self) -> str:
@@ -64,7 +73,7 @@ def read_parameter_set(
     """
     check_schema(root, "ssv", file)
     units = {**(units or {}), **units_of_document(root, "ssv")}
-    assignments: dict[str, Assignment] = {}
+    assignments: dict[str, list[Assignment]] = {}
     for parameter in children(child(root, "ssv:Parameters"), "ssv:Parameter"):
         name, line = parameter.get("name", ""), parameter.sourceline
         where = f"{name} (line {line})"
@@ -73,30 +82,18 @@ def read_parameter_set(
         for item in parameter:
             if tag(item) == "Binary":
                 raise InputError(file, where, "Binary values are not supported", "remove it")
-            if tag(item) in ("Real", "Integer", "Boolean", "String", "Enumeration"):
+            if tag(item) in RUNTIME_TYPES:
                 unit_name = item.get("unit") or None
                 if unit_name is not None and unit_name not in units:
                     problem, effect = f"unit {unit_name} is not defined here", "the value is taken without conversion"
                     _flaw(notes, file, where, problem, effect, "add it under Units")
-                value = parse_value(item.get("value", ""), tag(item), file, where)
-                assignments[name] = Assignment(name, value, tag(item), units.get(unit_name or ""), file, line)
-    return list(assignments.values())
-
-
-def parse_value(text: str, type_name: str, file: str, element: str) -> ParameterValue:
-    """A value's text as the type says; raises InputError."""
-    try:
-        if type_name == "Real":
-            return float(text)
-        if type_name == "Integer":
-            return int(text)
-    except ValueError:
-        raise InputError(file, element, f"{text!r} is not of type {type_name}", "write a number") from None
-    if type_name == "Boolean":
-        if text not in ("true", "false", "1", "0"):
-            raise InputError(file, element, f"{text!r} is not a Boolean", "write true or false")
-        return text in ("true", "1")
-    return text
+                shape, values = read_values(parameter, item, file)
+                kind, unit = runtime_type(tag(item)), units.get(unit_name or "")
+                assignments[name] = [
+                    Assignment(element_name(name, index), value, kind, unit, file, line, index=index, shape=shape)
+                    for index, value in zip(indices(shape), values, strict=True)
+                ]
+    return [assignment for elements in assignments.values() for assignment in elements]
 
 
 def apply_mapping(
@@ -104,48 +101,64 @@ def apply_mapping(
 ) -> list[Assignment]:
     """The assignments that a ParameterMapping passes on, under their target names. Raises InputError."""
     check_schema(root, "ssm", file)
-    by_name = {assignment.name: assignment for assignment in assignments}
-    mapped = []
+    by_name: dict[str, list[Assignment]] = {}
+    for assignment in assignments:
+        by_name.setdefault(assignment.array, []).append(assignment)
+    mapped: list[Assignment] = []
     for entry in children(root, "ssm:MappingEntry"):
         source, line = entry.get("source", ""), entry.sourceline
         if source not in by_name:
             problem = "the parameter set has no such parameter"
             _flaw(notes, file, f"{source} (line {line})", problem, "not applied", "correct or remove the entry")
             continue
-        origin = by_name[source]
         transformation = read_transformation(entry)
-        check_type(transformation, origin.type_name, file, f"{source} (line {line})")
-        mapped.append(
-            Assignment(
-                entry.get("target", ""),
-                origin.value,
-                origin.type_name,
-                origin.unit,
-                file,
-                line,
-                transformation,
-                entry.get("suppressUnitConversion") in ("true", "1"),
+        check_type(transformation, by_name[source][0].type_name, file, f"{source} (line {line})")
+        suppress = entry.get("suppressUnitConversion") in ("true", "1")
+        mapped += [
+            replace(
+                origin,
+                name=element_name(entry.get("target", ""), origin.index),
+                file=file,
+                line=line,
+                transformation=transformation,
+                suppress_unit_conversion=suppress,
             )
-        )
+            for origin in by_name[source]
+        ]
     return mapped
 
 
-def read_parameter_file(data: bytes, file: str, notes: Notes = None) -> list[Assignment]:
-    """The values of an .ssv document. Raises InputError."""
-    return read_parameter_set(read_document(data, "ssv", file), file, notes)
+def read_parameter_file(
+    data: bytes, file: str, notes: Notes = None, remarks: list[str] | None = None
+) -> list[Assignment]:
+    """The values of an .ssv document; ``remarks`` gets a line for each signature in it. Raises InputError."""
+    root = read_document(data, "ssv", file)
+    _remark(remarks, root, file)
+    return read_parameter_set(root, file, notes)
+
+
+def _remark(remarks: list[str] | None, root: etree._Element, file: str) -> None:
+    if remarks is not None:
+        remarks += [f"{file}: {note}" for note in signatures(root)]
 
 
 def read_binding(
-    archive: SystemArchive, file: str, binding: Binding, units: Mapping[str, Unit], notes: Notes = None
+    archive: SystemArchive,
+    file: str,
+    binding: Binding,
+    units: Mapping[str, Unit],
+    notes: Notes = None,
+    remarks: list[str] | None = None,
 ) -> tuple[list[Assignment], Sequence[Assignment]]:
     """The values of a binding of the document ``file`` with ``units``, the prefix put before their names, then mapped.
 
-    With those that its mapping has no entry for, which are not applied (SSP 1.0, ParameterBindings). Raises InputError.
+    With those that its mapping has no entry for, which are not applied (SSP 1.0, ParameterBindings). ``remarks`` gets
+    a line for each signature in its files. Raises InputError.
     """
     element = f"ParameterBinding (line {binding.line})"
     if binding.source is not None:
         source = f"{archive.label}!{binding.source}"
-        values = read_parameter_file(archive.read(binding.source, element), source, notes)
+        values = read_parameter_file(archive.read(binding.source, element), source, notes, remarks)
     else:
         assert binding.inline is not None  # the reader refuses a binding with neither
         values = read_parameter_set(binding.inline, file, notes, units)
@@ -154,7 +167,8 @@ def read_binding(
     if binding.mapping_source is not None:
         file = f"{archive.label}!{binding.mapping_source}"
         entries = read_document(archive.read(binding.mapping_source, element), "ssm", file)
+        _remark(remarks, entries, file)
     if entries is None:
         return values, ()
     mapped = {entry.get("source") for entry in children(entries, "ssm:MappingEntry")}
-    return apply_mapping(values, entries, file, notes), [value for value in values if value.name not in mapped]
+    return apply_mapping(values, entries, file, notes), [value for value in values if value.array not in mapped]

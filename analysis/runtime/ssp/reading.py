@@ -22,9 +22,11 @@ from .description import (
     is_elsewhere,
     source_file,
 )
-from .documents import child, children, read_document, tag
+from .dimensions import read_dimensions
+from .documents import check_schema, child, children, read_document, signatures, tag
 from .experiment import Pace, pace_of_experiment, pace_of_system, step_of_component
 from .osp.structure import read_osp
+from .types import RUNTIME_TYPES, runtime_type
 
 Load = Callable[[str, str], bytes]  # content of a file by name, and the element that names it
 FMU_TYPE = "application/x-fmu-sharedlibrary"
@@ -49,6 +51,7 @@ class Reader:
         self.file = file
         self.load = load
         self.units: dict[str, Unit] = {}
+        self.notes: list[str] = []
 
     def refuse(self, element: etree._Element, what: str, problem: str, remedy: str) -> InputError:
         return InputError(self.file, f"{what} (line {element.sourceline})", problem, remedy)
@@ -57,6 +60,7 @@ class Reader:
         """The whole document; raises InputError."""
         root = read_document(data, "ssd", self.file)
         check_annotations(root, self.file)
+        self.notes += signatures(root)
         self.units = units_of_document(root, "ssd")
         system = child(root, "ssd:System")
         assert system is not None  # the schema requires it
@@ -87,6 +91,7 @@ class Reader:
                 annotation.get("type", ""): annotation
                 for annotation in children(child(root, "ssd:Annotations"), "ssc:Annotation")
             },
+            notes=self.notes,
         )
 
     def system(self, element: etree._Element) -> System:
@@ -109,18 +114,29 @@ class Reader:
                     item.get("suppressUnitConversion") in ("true", "1"),
                     read_transformation(item),
                     item.sourceline,
+                    start_indices=self.indices(item, "startIndices"),
+                    end_indices=self.indices(item, "endIndices"),
                 )
             )
         return system
+
+    def indices(self, element: etree._Element, name: str) -> tuple[int, ...]:
+        indices = tuple(map(int, element.get(name, "").split()))
+        if 0 in indices:
+            raise self.refuse(element, f"Connection, {name}", "0 is no index", "count from 1")
+        return indices
 
     def component(self, element: etree._Element) -> Component:
         name = element.get("name", "")
         kind = element.get("type", FMU_TYPE)
         if kind != FMU_TYPE:
             raise self.refuse(element, name, f"components of type {kind} are not supported", "use an FMU")
-        if element.get("implementation", "any") == "ModelExchange":
-            problem = 'implementation="ModelExchange" is not supported'
+        implementation = element.get("implementation", "any")
+        if implementation not in ("any", "CoSimulation"):
+            problem = f'implementation="{implementation}" is not supported'
             raise self.refuse(element, name, problem, 'use a co-simulation FMU and write implementation="CoSimulation"')
+        if element.get("source") is None:
+            raise self.refuse(element, name, "no source, so there is nothing to run", 'write source="resources/x.fmu"')
         source = source_file(element.get("source", ""))
         if is_elsewhere(source):
             problem = f"source {source} is of another process or machine"
@@ -153,30 +169,36 @@ class Reader:
             "line": element.sourceline,
         }
 
-    def connector(self, item: etree._Element, signal: bool) -> Connector:
-        name, kind = item.get("name", ""), item.get("kind", "")
+    def connector(self, element: etree._Element, signal: bool) -> Connector:
+        name, kind = element.get("name", ""), element.get("kind", "")
         if kind == "inout" and not signal:
-            raise self.refuse(item, name, "inout connectors are not supported", "declare it input or output")
-        return self.read_type(item, name, kind)
+            raise self.refuse(element, name, "inout connectors are not supported", "declare it input or output")
+        if kind == "unspecified":
+            problem = 'kind="unspecified" leaves open where values come from'
+            raise self.refuse(element, name, problem, "declare it input or output")
+        return self.read_type(element, name, kind)
 
-    def read_type(self, item: etree._Element, name: str, kind: str) -> Connector:
+    def read_type(self, element: etree._Element, name: str, kind: str) -> Connector:
         type_name = unit = enumeration = None
-        for inner in item:
-            kind_of_value = tag(inner)
-            if kind_of_value == "Binary":
-                raise self.refuse(item, name, "Binary connectors are not supported", "remove the connector")
-            if kind_of_value in ("Real", "Integer", "Boolean", "String", "Enumeration"):
-                type_name, unit, enumeration = kind_of_value, inner.get("unit") or None, inner.get("name")
-        return Connector(name, kind, type_name, unit, enumeration, item.sourceline)
+        for inner in element:
+            if tag(inner) == "Clock":
+                raise self.refuse(element, name, "clocks are not supported", "remove the clock, or the connector")
+            if tag(inner) in RUNTIME_TYPES:
+                type_name, unit, enumeration = tag(inner), inner.get("unit") or None, inner.get("name")
+        runtime = None if type_name is None else runtime_type(type_name)
+        dimensions = read_dimensions(element, self.file, name, fixed=kind == "inout")
+        return Connector(name, kind, runtime, unit, enumeration, element.sourceline, type_name, dimensions)
 
     def dictionary(self, element: etree._Element) -> dict[str, Connector]:
         name, source = element.get("name", ""), element.get("source")
         if source is not None:
             root = read_document(self.load(source, f"signal dictionary {name}"), "ssb", source)
+            self.notes += [f"{source}: {note}" for note in signatures(root)]
         else:
             inline = element.find("{*}SignalDictionary")
             if inline is None:
                 raise self.refuse(element, name, "signal dictionary without source or content", "give one of them")
+            check_schema(inline, "ssb", self.file)
             root = inline
         self.units |= units_of_document(root, "ssb")
         return {

@@ -8,6 +8,7 @@ import re
 from fmpy.util import auto_interval
 
 from ...common.errors import InputError
+from ..fmi.representations import TEXTS
 from ..ssp.description import Component, Connector, Description, System
 from .fmu import Fmu
 from .options import SystemOptions
@@ -30,16 +31,16 @@ def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[
     connectors = {
         variable.name: Connector(variable.name, variable.causality, variable.type, None, None, 0)
         for variable in fmu.variables.values()
-        if variable.causality in CONNECTED and not (variable.type == "String" and variable.causality != "parameter")
+        if variable.causality in CONNECTED and not (variable.type in TEXTS and variable.causality != "parameter")
     }
     # a component is called what its model is, or the C identifier that the FMU has in addition
     name = fmu.name if fmu.name.isidentifier() else re.sub(r"\W", "_", fmu.description.coSimulation.modelIdentifier)
     component = Component(name, connectors, [], 0, fmu.label)
     start, stop, step, remarks = _times(fmu, options)
     remarks += [
-        f"{name}.{variable.name}: a String {variable.causality}, not exchanged"
+        f"{name}.{variable.name}: a {variable.type} {variable.causality}, not exchanged"
         for variable in fmu.variables.values()
-        if variable.type == "String" and variable.causality in ("input", "output")
+        if variable.type in TEXTS and variable.causality in ("input", "output")
     ]
     root = System(name, {}, [], 0, elements={name: component})
     return Description(fmu.label, fmu.name, root, {}, {}, start, stop, step), remarks

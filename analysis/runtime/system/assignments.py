@@ -4,41 +4,30 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from ...common.errors import InputError, suggestion
+from ..fmi.representations import REPRESENTATIONS
+from ..fmi.variable import Variable
 from ..ssp.archive import SystemArchive
-from ..ssp.conversions import VALUE_TYPES, Transformation
+from ..ssp.conversions import Transformation
 from ..ssp.description import Binding, Component, System
+from ..ssp.dimensions import element_names, text_of
+from ..ssp.given_values import ParameterValue, parse_value
+from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
-from ..ssp.parameter_sets import Assignment, Notes, ParameterValue, SetValue, parse_value, read_binding
-from .network import Link, Network, Node
+from ..ssp.parameter_sets import Assignment, Notes, SetValue, read_binding
+from .network import Network, Node
 from .options import SystemOptions
+from .passing.parameters import pass_parameters
+from .passing.settings import Settings
 
-SETTABLE = ("parameter", "input")
+SETTABLE = (*PARAMETERS, "input")
 SINGLE = "`set`"  # where single values come from, unless a file says them
 TEXT = "Text"  # type of a single value, which takes that of its target
 ELEMENTS = ","  # between the values of a vector
 RANGE = ":"  # between the numbers of a sweep, which is no single value
 INDEX = re.compile(r"\[[\d,]+\]$")
-
-
-@dataclass
-class Settings:
-    """Values by (component, variable), and of system connectors by node name; ``origins``: where each comes from.
-
-    ``left_out`` is where values come from that no mapping passes on, by what they would be applied to without one.
-    ``chosen`` are the values that options give, ``replaced`` what parameters of the system take the place of: the
-    parameter's name and the value before, by component and variable.
-    """
-
-    variables: dict[tuple[str, str], ParameterValue] = field(default_factory=dict)
-    origins: dict[tuple[str, str], str] = field(default_factory=dict)
-    node_origins: dict[str, str] = field(default_factory=dict)
-    nodes: dict[str, float | str] = field(default_factory=dict)
-    left_out: dict[str, str] = field(default_factory=dict)
-    chosen: list[Assignment] = field(default_factory=list)
-    replaced: dict[tuple[str, str], tuple[str, ParameterValue]] = field(default_factory=dict)
 
 
 def collect_settings(
@@ -64,7 +53,7 @@ def collect_settings(
     for assignment in settings.chosen:
         _check_driven(network, assignment)
         _apply(network, settings, "", "", assignment, allow_unmatched)
-    _pass_parameters(network, settings)
+    pass_parameters(network, settings)
     return settings
 
 
@@ -85,11 +74,9 @@ def _texts(value: object) -> list[str]:
 
 def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
     """A value for a whole vector as one for each of its elements; others as they are. Raises InputError."""
-    target = _resolve(network, "", assignment.name)
-    if assignment.type_name != TEXT or not isinstance(target, tuple) or target[1] in network.fmus[target[0]].variables:
+    if assignment.type_name != TEXT:
         return [assignment]
-    variables = network.fmus[target[0]].variables
-    names = [f"{target[0]}.{name}" for name in variables if INDEX.sub("", name) == target[1] and name != target[1]]
+    names = _element_names(network, "", assignment.name)
     if not names:
         return [assignment]
     values = str(assignment.value).split(ELEMENTS)
@@ -100,13 +87,37 @@ def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
     return [replace(assignment, name=name, value=value) for name, value in zip(names, values, strict=True)]
 
 
+def _element_names(network: Network, path: str, name: str) -> list[str]:
+    """The elements of an array of a component or of a system, by their names in the flat network; none of a scalar."""
+    system = network.systems[path]
+    owner, remainder = split_name(name, system.elements)
+    element = system.elements.get(owner)
+    if isinstance(element, System):
+        return _element_names(network, f"{path}{owner}.", remainder)
+    if isinstance(element, Component):
+        prefix, known = f"{path}{owner}.", list(network.fmus[path + owner].variables)
+    else:
+        prefix, known, remainder = path, list(system.connectors), name
+    return [] if remainder in known else [prefix + each for each in known if INDEX.sub("", each) == remainder]
+
+
+def _check_shape(network: Network, path: str, prefix: str, assignment: Assignment) -> None:
+    """Refuse values for another number of elements than the array has that they are for."""
+    if set(assignment.index) == {1}:  # the first element, for all of them
+        name = prefix + assignment.array
+        known = _element_names(network, path, name)
+        if known and set(known) != {path + each for each in element_names(name, assignment.shape)}:
+            problem = f"{text_of(assignment.shape)} for the {len(known)} of {path}{name}"
+            raise InputError(assignment.file, assignment.where, problem, f"give {known[0]} to {known[-1]}")
+
+
 def _bound(
     network: Network, settings: Settings, archive: SystemArchive, bindings: list[Binding], place: str, notes: Notes
 ) -> list[Assignment]:
     """Assignments of parameter bindings in order; ``place`` stands before their names in the flat network."""
     assignments: list[Assignment] = []
     for binding in bindings:
-        values, without = read_binding(archive, network.file, binding, network.description.units, notes)
+        values, without = read_binding(archive, network.file, binding, network.description.units, notes, network.notes)
         assignments += values
         settings.left_out |= {place + value.name: f"{value.name} of {value.origin}" for value in without}
         if without:
@@ -133,6 +144,7 @@ def _resolve(network: Network, path: str, name: str) -> Node | tuple[str, str] |
 def _apply(
     network: Network, settings: Settings, path: str, prefix: str, assignment: Assignment, allow_unmatched: bool
 ) -> None:
+    _check_shape(network, path, prefix, assignment)
     target = _resolve(network, path, prefix + assignment.name)
     problem = "matches no parameter"
     if isinstance(target, Node):
@@ -149,10 +161,8 @@ def _apply(
         is_constant = variable is not None and variable.variability == "constant"
         has_start = variable is not None and (variable.causality in SETTABLE or variable.initial in ("exact", "approx"))
         if variable is not None and has_start and not is_constant:
-            items = {}
-            if variable.type == "Enumeration" and variable.declaredType is not None:
-                items = {item.name: int(item.value) for item in variable.declaredType.items or ()}
             unit = fmu.units.get(fmu.unit_of(variable) or "")
+            items = dict(variable.items)
             node = Node(f"{component}.{name}", variable.causality, component, name, variable.type, unit, 0, items)
             value = _fit(assignment, variable.type, node)
             _check_bounds(assignment, variable, value)
@@ -190,6 +200,8 @@ def _check_driven(network: Network, assignment: Assignment) -> None:
 def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
     """The assignment's value as its target needs it: type, unit, transformation."""
     value, given = assignment.value, assignment.type_name
+    if type_name == "Binary":
+        raise InputError(assignment.file, assignment.where, "a Binary is not set", "connect it with a Binary output")
     if given == TEXT:
         given = type_name
         value = _parse(assignment, type_name, node)
@@ -213,14 +225,7 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
             transformation = transformation.after_units(assignment.unit.conversion_to(node.unit))
         return float(value) * transformation.factor + transformation.offset
     if transformation.table:
-        table = [
-            [parse_value(text, type_name, assignment.file, assignment.where) for text in entry]
-            for entry in transformation.table
-        ]
-        targets = [target for source, target in table if source == value]
-        if not targets:
-            raise InputError(assignment.file, assignment.where, f"the mapping has no entry for {value}", "add one")
-        value = targets[-1]
+        value = _mapped(assignment, transformation, type_name, node)
     if type_name == "Enumeration":
         by_value = {str(number): number for number in node.enumeration.values()}  # as OMSimulator writes items
         items = by_value | node.enumeration
@@ -233,6 +238,18 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
             suggestion(str(value), node.enumeration),
         )
     return value
+
+
+def _mapped(assignment: Assignment, transformation: Transformation, type_name: str, node: Node) -> ParameterValue:
+    """The assignment's value behind a mapping; of an enumeration by its items' numbers where the mapping has these."""
+    given, where = assignment.value, (assignment.file, assignment.where)
+    if transformation.kind == "IntegerMappingTransformation" and type_name == "Enumeration":
+        type_name, given = "Integer", node.enumeration.get(str(given), given)
+    table = [[parse_value(text, type_name, *where) for text in entry] for entry in transformation.table]
+    targets = [target for source, target in table if source == given]
+    if not targets and not transformation.is_partial:
+        raise InputError(*where, f"the mapping has no entry for {given}", "add one")
+    return targets[-1] if targets else given
 
 
 def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
@@ -249,15 +266,18 @@ def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue
         raise InputError(error.file, error.element, error.problem, f"write a number, in {node.unit.name}") from None
 
 
-def _check_bounds(assignment: Assignment, variable: object, value: ParameterValue) -> None:
-    """Refuse a number outside the FMU's declared minimum and maximum, or not finite."""
+def _check_bounds(assignment: Assignment, variable: Variable | None, value: ParameterValue) -> None:
+    """Refuse a number outside the FMU's declared minimum and maximum, or its type's, or not finite."""
     if isinstance(value, str | bool):
         return
-    low, high = getattr(variable, "min", None), getattr(variable, "max", None)
+    low, high = (None, None) if variable is None else (variable.minimum, variable.maximum)
     if not abs(value) < float("inf"):
         raise InputError(assignment.file, assignment.where, f"{value} is not finite", "give a finite number")
-    if isinstance(value, int) and not -(2**31) <= value < 2**31:
-        raise InputError(assignment.file, assignment.where, f"{value} has more than 32 bits", "give a smaller number")
+    stored = REPRESENTATIONS["Float64" if isinstance(value, float) else "Int32"]
+    stored = stored if variable is None else variable.representation
+    if not stored.limits[0] <= value <= stored.limits[1]:
+        problem = f"{value} {stored.complaint()}"
+        raise InputError(assignment.file, assignment.where, problem, "give a smaller number")
     if low is not None and value < float(low):
         raise InputError(
             assignment.file, assignment.where, f"{value} is below the minimum {low}", "give a larger value"
@@ -266,56 +286,3 @@ def _check_bounds(assignment: Assignment, variable: object, value: ParameterValu
         raise InputError(
             assignment.file, assignment.where, f"{value} is above the maximum {high}", "give a smaller value"
         )
-
-
-def _pass_parameters(network: Network, settings: Settings) -> None:
-    """Carry values of system parameter connectors along their connections to components."""
-    for node in network.nodes.values():
-        if node.kind != "parameter" or node.component is None or node.name not in network.driver:
-            continue
-        chain = [network.driver[node.name]]
-        while chain[-1].source.name in network.driver:
-            chain.append(network.driver[chain[-1].source.name])
-        given = [position for position, link in enumerate(chain) if link.source.name in settings.nodes]
-        if given:  # the outermost value wins
-            outermost = chain[given[-1]].source.name
-            value = settings.nodes[outermost]
-            for link in reversed(chain[: given[-1] + 1]):
-                value = _pass_on(network, link, value)
-            kind: type[ParameterValue] = {"Real": float, "Boolean": bool, "String": str}.get(node.type_name or "", int)
-            target = node.component or "", node.variable
-            before = settings.variables.get(target)
-            settings.variables[target] = kind(value)
-            if before is not None and before != settings.variables[target]:
-                settings.replaced[target] = outermost, before
-            settings.origins[target] = f"{outermost} of {settings.node_origins[outermost]}"
-
-
-def _pass_on(network: Network, link: Link, value: float | str) -> float | str:
-    """A parameter's value behind a connection."""
-    if isinstance(value, str):
-        return value
-    if not link.transformation.table:
-        return value * link.transformation.factor + link.transformation.offset
-    table = dict(numbers(network, link))
-    if value not in table:
-        raise InputError(network.file, link.where, f"the mapping has no entry for {value:g}", "add one")
-    return table[value]
-
-
-def numbers(network: Network, link: Link) -> list[tuple[float, float]]:
-    """A connection's mapping as numbers: Booleans 0 and 1, enumeration items by their values; else nothing."""
-    transformation = link.transformation
-    kind = VALUE_TYPES[transformation.kind][0]
-
-    def number(text: str, node: Node) -> float:
-        if kind == "Boolean":
-            return float(text in ("true", "1"))
-        if kind == "Integer":
-            return float(text)
-        if text not in node.enumeration:
-            problem = f"{node.name} has no enumeration item {text}"
-            raise InputError(network.file, link.where, problem, suggestion(text, node.enumeration))
-        return float(node.enumeration[text])
-
-    return [(number(source, link.source), number(target, link.target)) for source, target in transformation.table]

@@ -8,11 +8,13 @@ from fmpy import read_model_description
 
 from ....fmus_src.export.available import fmu_flavours
 from ...common.errors import InputError, suggestion
+from ..fmi.representations import TEXTS
+from ..fmi.variable import Variable, variables_of
 from ..ssp.description import Component
 from ..ssp.names import split_name
-from .assignments import Settings
 from .fault import Fault, number_text
 from .network import Network
+from .passing.settings import Settings
 
 MOST = 6  # FMUs that are named
 
@@ -32,8 +34,8 @@ def _fitting(component: Component) -> Iterator[str]:
     for name, flavours in fmu_flavours().items():
         path = next((path for path in flavours.values() if path is not None), None)
         if path is not None:
-            variables = read_model_description(str(path), validate=False).modelVariables
-            if wanted <= {(variable.name, variable.causality) for variable in variables}:
+            variables = variables_of(read_model_description(str(path), validate=False))
+            if wanted <= {(variable.name, variable.causality) for variable in variables.values()}:
                 yield name
 
 
@@ -62,7 +64,7 @@ def check_samples(network: Network, settings: Settings, step: float, periods: di
         variable = fmu.variables.get("sample_period")
         if variable is None or not fmu.is_own:
             continue
-        period = float(settings.variables.get((component, "sample_period"), variable.start))
+        period = float(settings.variables.get((component, "sample_period"), variable.start_text))
         own = step * periods.get(component, 1)
         if 0.0 < period < own * (1.0 - 1e-9):
             file = settings.origins.get((component, "sample_period"), network.file)
@@ -71,35 +73,33 @@ def check_samples(network: Network, settings: Settings, step: float, periods: di
             raise InputError(file, f"{component}.sample_period", problem, remedy)
 
 
-INTEGERS = (-(2**31), 2**31 - 1)  # FMI Integers have 32 bits
-
-
-def connector_type(network: Network, name: str, where: tuple[str, str]) -> str:
-    """The FMI type of a component's connector, ``component.connector``, whose value can be changed on its way.
+def changeable(network: Network, name: str, where: tuple[str, str]) -> Variable:
+    """The variable of a component's connector, ``component.connector``, whose value can be changed on its way.
 
     These are outputs, and inputs that something is connected to or a series drives. ``where`` (file, element) is what
     errors point to. Raises InputError.
     """
-    known: dict[str, str] = {}
+    known: dict[str, Variable] = {}
     for component, fmu in network.fmus.items():
         for variable in fmu.variables.values():
             full = f"{component}.{variable.name}"
             fed = variable.causality == "input" and (full in network.driver or full in network.driven)
-            if (fed or variable.causality == "output") and variable.type != "String":
-                known[full] = variable.type
+            if (fed or variable.causality == "output") and variable.type not in TEXTS:
+                known[full] = variable
     if name in known:
         return known[name]
     component, own = split_name(name, network.fmus)
-    variable = network.fmus[component].variables.get(own) if component else None
-    if variable is not None and variable.causality == "input":
+    unfed = network.fmus[component].variables.get(own) if component else None
+    if unfed is not None and unfed.causality == "input":
         raise InputError(*where, "an input that nothing is connected to", f"give it a value with `set` {name}=VALUE")
     raise InputError(*where, "no such connector of a component", suggestion(name, known))
 
 
-def check_value(type_name: str, kind: str, value: float | bool, where: tuple[str, str]) -> None:
-    """Refuse a value that a connector of a type cannot have. ``where`` as in `connector_type`. Raises InputError."""
+def check_value(variable: Variable, kind: str, value: float | bool, where: tuple[str, str]) -> None:
+    """Refuse a value that a connector cannot have. ``where`` as in `changeable`. Raises InputError."""
     if kind == "freeze":
         return
+    type_name, stored = variable.type, variable.representation
     if type_name == "Boolean":
         if kind == "bias":
             raise InputError(*where, "a Boolean has no bias", "use override:true or override:false")
@@ -107,11 +107,11 @@ def check_value(type_name: str, kind: str, value: float | bool, where: tuple[str
             raise InputError(*where, f"{number_text(value)} is not a Boolean", "give true or false")
     elif isinstance(value, bool):
         raise InputError(*where, f"{number_text(value)} is not of type {type_name}", "give a number")
-    elif type_name != "Real" and not (value == round(value) and INTEGERS[0] <= value <= INTEGERS[1]):
-        raise InputError(*where, f"{number_text(value)} is not of type {type_name}", "give a whole number of 32 bits")
+    elif type_name != "Real" and not (value == round(value) and stored.limits[0] <= value <= stored.limits[1]):
+        raise InputError(*where, f"{number_text(value)} is not of type {type_name}", f"give {stored.demand()}")
 
 
 def check_fault(network: Network, fault: Fault) -> None:
     """Refuse a fault that the system cannot have. Raises InputError."""
     where = ("fault", fault.name)
-    check_value(connector_type(network, fault.name, where), fault.kind, fault.value, where)
+    check_value(changeable(network, fault.name, where), fault.kind, fault.value, where)

@@ -78,7 +78,7 @@ def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *
     initial: Dependencies = {}
     origins: dict[str, Origin] = {}
     for name, fmu in network.fmus.items():
-        declared = fmu.read_dependencies()
+        declared = fmu.read_dependencies() | {variable: None for variable in _read_locals(network, name)}
         every = {variable.name for variable in fmu.variables.values() if variable.causality == "input"}
         is_open = None in declared.values()
         if name in stated:
@@ -90,6 +90,15 @@ def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *
         stepping[name] = {} if is_open else initial[name]
     undeclared = tuple(name for name, origin in origins.items() if origin is Origin.ASSUMED)
     return Feedthrough(stepping, initial, origins, undeclared)
+
+
+def _read_locals(network: Network, component: str) -> set[str]:
+    """Local variables of a component that are connected like outputs, whose dependencies no FMU declares."""
+    return {
+        link.source.variable
+        for link in network.links()
+        if link.source.component == component and link.source.kind == "local"
+    }
 
 
 def _is_driven(network: Network, component: str) -> bool:

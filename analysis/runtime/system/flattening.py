@@ -17,11 +17,11 @@ from ..ssp.description import (
     Point,
     System,
 )
+from ..ssp.kinds import PARAMETERS, leads
+from ..ssp.types import is_of_type, runtime_type
 from .fmu import Fmu
 from .network import Link, Network, Node
 
-SOURCES = ("output", "calculatedParameter")
-SINKS = ("input", "parameter")
 SUMMED = ("Real", "Integer")
 WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"))  # types of source and target that fit though they differ
 
@@ -92,16 +92,19 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
         remedy = f"correct the connector or use another FMU; {suggestion(connector.name, fmu.variables)}"
         raise network.refuse(connector.at(name), f"{fmu.label} has no variable of this name", remedy)
     kind = connector.kind or variable.causality
-    if variable.causality != kind:
+    if variable.causality != kind and not (kind == "constant" and variable.variability == "constant"):
         raise network.refuse(
             connector.at(name),
             f"is {variable.causality} in {fmu.label}, {kind} here" + (f" ({fmu.flaws[0]})" if fmu.flaws else ""),
             "correct the connector's kind or use another FMU",
         )
-    if connector.type_name not in (None, variable.type):
+    stored = variable.type if variable.type == "Enumeration" else variable.representation.name
+    exact = connector.exact_type or connector.type_name
+    if exact is not None and not is_of_type(stored, exact):
+        actual = stored if runtime_type(exact) == variable.type else variable.type
         raise network.refuse(
             connector.at(name),
-            f"is {variable.type} in {fmu.label}, {connector.type_name} here",
+            f"is {actual} in {fmu.label}, {exact} here",
             "correct the connector's type or use another FMU",
         )
     own = fmu.units.get(fmu.unit_of(variable) or "")
@@ -112,10 +115,8 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
             f"unit is {own.differs_from(declared)} in {fmu.label}, {declared.differs_from(own)} here",
             "correct the connector's unit or use another FMU",
         )
-    items = {}
-    if variable.type == "Enumeration" and variable.declaredType is not None:
-        items = {item.name: int(item.value) for item in variable.declaredType.items or ()}
-    return Node(name, kind, component, connector.name, variable.type, declared or own, connector.line, items)
+    unit, items = declared or own, dict(variable.items)
+    return Node(name, kind, component, connector.name, variable.type, unit, connector.line, items)
 
 
 def _end(network: Network, path: str, system: System, point: Point, connection: Connection) -> Node:
@@ -188,28 +189,26 @@ def orient(
     end = _end(network, path, system, connection.end, connection)
     start_is_own, end_is_own = (point[0] is None for point in (connection.start, connection.end))
     forwards = (connection.start, start), (connection.end, end)
-    if _leads(start, start_is_own, end, end_is_own):
+    if leads(start.kind, start_is_own, end.kind, end_is_own):
         return forwards
-    if not _leads(end, end_is_own, start, start_is_own):
+    if not leads(end.kind, end_is_own, start.kind, start_is_own):
         problem = f"{start.name} is {start.kind} and {end.name} is {end.kind}: neither gives what the other takes"
-        raise network.refuse(connection.where, problem, "connect an output with an input")
+        remedy = "connect an output with an input"
+        if (start.kind in PARAMETERS) != (end.kind in PARAMETERS):
+            problem = f"connects {start.kind} {start.name} with {end.kind} {end.name}"
+            remedy = "connect parameters with parameters, and signals with signals"
+        raise network.refuse(connection.where, problem, remedy)
     return forwards[1], forwards[0]
 
 
 def _link(network: Network, path: str, system: System, connection: Connection) -> Link:
     """The link from the start of a connection, or from its end, if that is where values come from."""
     (_, start), (_, end) = orient(network, path, system, connection)
-    if "calculatedParameter" in (start.kind, end.kind):
+    if start.kind == "calculatedParameter" and end.kind == "parameter":
         raise network.refuse(
             connection.where,
-            "calculated parameters are not passed on yet",
+            "calculated parameters are not passed on to parameters",
             "remove the connection and give the value in a parameter set",
-        )
-    if "parameter" in (start.kind, end.kind) and start.kind != end.kind:
-        raise network.refuse(
-            connection.where,
-            f"connects {start.kind} {start.name} with {end.kind} {end.name}",
-            "connect parameters with parameters, and signals with signals",
         )
     transformation = connection.transformation
     if not connection.suppress_unit_conversion and start.unit and end.unit:
@@ -221,16 +220,6 @@ def _link(network: Network, path: str, system: System, connection: Connection) -
             )
         transformation = transformation.after_units(start.unit.conversion_to(end.unit))
     return Link(start, end, transformation, connection.line)
-
-
-def _leads(start: Node, start_is_own: bool, end: Node, end_is_own: bool) -> bool:
-    """Whether values can go from one node to another.
-
-    Seen from inside a system its own inputs are sources and its outputs are sinks.
-    """
-    starts = SINKS if start_is_own else SOURCES
-    ends = SOURCES if end_is_own else SINKS
-    return start.kind in (*starts, "inout") and end.kind in (*ends, "inout")
 
 
 def _settle_types(network: Network) -> None:

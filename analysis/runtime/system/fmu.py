@@ -7,45 +7,56 @@ import io
 import shutil
 import weakref
 import zipfile
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 
 import fmpy
 from fmpy import read_model_description
-from fmpy.model_description import ModelDescription, ScalarVariable, ValidationError
+from fmpy.model_description import ModelDescription, ValidationError
 from lxml import etree
 
 from ....fmus_src.own_digests import is_own
 from ...common.errors import InputError
 from ...common.scratch import make_folder
 from ...common.zips import REMEDY, UNREADABLE, open_zip, read_entry
+from ..fmi import description as fmi3
+from ..fmi.variable import Variable, elements_of, variables_of
 from ..ssp.conversions import Unit, units_of_fmu
 from ..ssp.documents import parse_xml
-from ..ssp.fmu_description import DESCRIPTION, check_description, external_state_of
+from ..ssp.fmu_description import DESCRIPTION, check_description, check_rules, external_state_of
 
 MOST_FLAWS = 3  # named in one line
 MOST_DESCRIPTIONS = 32  # kept at once
+STRUCTURAL = "structuralParameter"
+NOT_VARIED = ("a structural parameter, which sizes arrays, does not vary from trial to trial", "give it to `set`")
 
 
 @dataclass
 class Fmu:
-    """An FMI 2.0 co-simulation FMU that can run here."""
+    """A co-simulation FMU of FMI 2.0 or 3.0 that can run here."""
 
     label: str
     digest: str
     description: ModelDescription
     folder: Path  # unpacked; removed with the object
-    variables: dict[str, ScalarVariable] = field(default_factory=dict)
+    variables: dict[str, Variable] = field(default_factory=dict)
     units: dict[str, Unit] = field(default_factory=dict)
     is_own: bool = False  # built by Perilune
     external_state: tuple[str, ...] = ()  # names of a block's objects that its FMU state does not contain
     flaws: list[str] = field(default_factory=list)  # rules of FMI that its description breaks, though it is readable
+    sizes: Mapping[str, int] = field(default_factory=dict)  # structural parameters that are not as declared
+    origin: Fmu | None = None  # as it was loaded, of one with other sizes
 
     @property
     def name(self) -> str:
         return self.description.modelName
+
+    @property
+    def version(self) -> int:
+        """Of FMI, 2 or 3."""
+        return int(self.description.fmiMajorVersion)
 
     @property
     def is_alone(self) -> bool:
@@ -62,10 +73,29 @@ class Fmu:
         """Whether it runs without an execution tool such as a Python interpreter."""
         return not self.description.coSimulation.needsExecutionTool
 
-    def unit_of(self, variable: ScalarVariable) -> str | None:
+    @property
+    def structural_parameters(self) -> list[str]:
+        """The parameters of FMI 3.0 that size arrays, or others that are set before an instance has its structure."""
+        return [name for name, variable in self.variables.items() if variable.causality == STRUCTURAL]
+
+    @property
+    def binary(self) -> Path:
+        """Its library for this platform."""
+        return self.folder / _binary(self.description)
+
+    def unit_of(self, variable: Variable) -> str | None:
         """Name of a variable's unit, its own or its type's."""
-        declared = variable.declaredType
-        return variable.unit or (declared.unit if declared is not None else None)
+        return variable.unit
+
+    def with_sizes(self, sizes: Mapping[str, int]) -> Fmu:
+        """The same with other structural parameters, by name: arrays have the elements that follow from them."""
+        loaded = self.origin or self
+        if sizes == self.sizes:
+            return self
+        by_reference = {self.variables[name].reference: size for name, size in sizes.items()}
+        fmi3.check_sizes(self.description, by_reference, self.label)
+        variables = elements_of(self.description.modelVariables, by_reference)
+        return replace(loaded, variables=variables, sizes=dict(sizes), origin=loaded)
 
     def read_dependencies(self) -> dict[str, set[str] | None]:
         """Output -> inputs that it depends on directly, as ModelStructure declares it; None where it does not."""
@@ -73,9 +103,18 @@ class Fmu:
         outputs: dict[str, set[str] | None] = {
             name: None for name, variable in self.variables.items() if variable.causality == "output"
         }
+        if self.version == 2:
+            for unknown in self.description.outputs:
+                if unknown.dependencies is not None:
+                    outputs[unknown.variable.name] = inputs & {variable.name for variable in unknown.dependencies}
+            return outputs
+        named: dict[int, list[str]] = {}  # elements and aliases: what depends on one element may depend on all
+        for name, variable in self.variables.items():
+            named.setdefault(variable.reference, []).append(name)
         for unknown in self.description.outputs:
             if unknown.dependencies is not None:
-                outputs[unknown.variable.name] = inputs & {variable.name for variable in unknown.dependencies}
+                known = {name for each in unknown.dependencies for name in named.get(each.valueReference, ())}
+                outputs |= dict.fromkeys(named.get(unknown.variable.valueReference, ()), inputs & known)
         return outputs
 
 
@@ -85,7 +124,10 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     if DESCRIPTION not in archive.namelist():
         raise InputError(label, DESCRIPTION, "not found", "give an FMU")
     xml = read_entry(archive, DESCRIPTION, label)
-    check_description(xml, label)
+    root = parse_xml(xml, f"{label}!{DESCRIPTION}")
+    is_fmi3 = fmi3.is_fmi3(root.get("fmiVersion"))
+    (fmi3.check_description if is_fmi3 else check_description)(root, label)
+    check_rules(xml, 3 if is_fmi3 else 2, label)
     description, flaws = _read_description(xml)
     if description is None:
         raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "fix the FMU")
@@ -93,11 +135,10 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
         raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "fix the FMU, or simulate without `strict`")
     if description.coSimulation is None:
         raise InputError(label, "CoSimulation", "not a co-simulation FMU", "export it for co-simulation")
-    if fmpy.architecture == "aarch64" and fmpy.system != "darwin":
+    if not is_fmi3 and fmpy.architecture == "aarch64" and fmpy.system != "darwin":
         problem = f"FMI 2.0 has no name for the platform {fmpy.platform_tuple}, so no FMU has a library for it"
         raise InputError(label, "binaries", problem, "fly on x86_64 or macOS")
-    identifier = description.coSimulation.modelIdentifier
-    binary = f"binaries/{fmpy.platform}/{identifier}{fmpy.sharedLibraryExtension}"
+    binary = _binary(description)
     if binary not in archive.namelist():
         has_sources = any(name.startswith("sources/") and name.endswith(".c") for name in archive.namelist())
         remedy = "compile the FMU's sources for it" if has_sources else "export it for this platform"
@@ -109,13 +150,15 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     external = external_state_of(xml)
     fmu = Fmu(label, digest, description, folder, is_own=is_own(digest), external_state=external, flaws=list(flaws))
     # Others' may reach for any of their files: FMPy's remoting starts a server of binaries/win32 from binaries/win64.
-    read_here = (DESCRIPTION, f"binaries/{fmpy.platform}/", "resources/")
+    read_here = (DESCRIPTION, f"{Path(binary).parent.as_posix()}/", "resources/")
     names = [name for name in archive.namelist() if name.startswith(read_here) or not fmu.is_own]
     try:
         archive.extractall(folder, names)
     except UNREADABLE as error:
         raise InputError(label, "archive", f"damaged in the zip, or not unpacked: {error}", REMEDY) from error
-    fmu.variables = {variable.name: variable for variable in description.modelVariables}
+    if is_fmi3:
+        fmi3.check_sizes(description, {}, label)
+    fmu.variables = dict(_read_variables(xml))
     fmu.units = units_of_fmu(description)
     weakref.finalize(fmu, shutil.rmtree, folder, ignore_errors=True)
     return fmu
@@ -128,16 +171,36 @@ def _read_description(xml: bytes) -> tuple[ModelDescription | None, tuple[str, .
     It is the most of loading an FMU, and nobody changes what it gives: a system that is prepared again shares it.
     """
     try:
-        return read_model_description(_open_zip(xml), validate=True), ()
+        return _completed(read_model_description(_open_zip(xml), validate=True), xml), ()
     except ValidationError as error:
         flaws = tuple(" ".join(problem.split()) for problem in error.problems)
     except Exception as error:  # fmpy raises bare Exception and lxml's errors; others are not made to be read
         kind = "" if type(error) is Exception or isinstance(error, etree.LxmlError) else f"{type(error).__name__}: "
         flaws = (f"FMPy cannot read it: {kind}{' '.join(str(error).split())}",)
     try:
-        return read_model_description(_open_zip(_with_fixed_parameters(xml)), validate=False), flaws
+        return _completed(read_model_description(_open_zip(_with_fixed_parameters(xml)), validate=False), xml), flaws
     except Exception:
         return None, flaws
+
+
+def _completed(description: ModelDescription, xml: bytes) -> ModelDescription:
+    if description.fmiMajorVersion == 3:
+        fmi3.complete(description, parse_xml(xml, DESCRIPTION))
+    return description
+
+
+@lru_cache(maxsize=MOST_DESCRIPTIONS)
+def _read_variables(xml: bytes) -> Mapping[str, Variable]:
+    """The variables of a readable description by name, with the sizes that it declares."""
+    description, _ = _read_description(xml)
+    assert description is not None
+    return variables_of(description)
+
+
+def _binary(description: ModelDescription) -> str:
+    """The path of its library for this platform, in the FMU."""
+    platform = fmpy.platform_tuple if description.fmiMajorVersion == 3 else fmpy.platform
+    return f"binaries/{platform}/{description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
 
 
 def _with_fixed_parameters(xml: bytes) -> bytes:

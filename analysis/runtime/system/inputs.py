@@ -10,9 +10,10 @@ import numpy as np
 
 from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError, suggestion
-from .assignments import Settings
-from .checks import INTEGERS
+from ..fmi.representations import OF_FMI2, REPRESENTATIONS, TEXTS, Representation
+from ..ssp.kinds import LED_OUT
 from .network import Link, Network
+from .passing.settings import Settings
 from .series import InputSeries
 
 
@@ -68,11 +69,11 @@ def check_signals(network: Network, settings: Settings) -> None:
     """Refuse a signal that is read and never driven, and note what is declared in vain. Raises InputError."""
     for link in network.links():
         source = link.source
-        is_signal = source.component is None and source.kind in ("inout", "output")
+        is_signal = source.component is None and source.kind in ("inout", *LED_OUT)
         if is_signal and source.name not in network.driver:
             raise InputError(network.file, source.where, "signal is read but never driven", "connect a source to it")
     for node in network.nodes.values():
-        if node.component is None and node.kind == "output" and node.name not in network.driver:
+        if node.component is None and node.kind in LED_OUT and node.name not in network.driver:
             network.notes.append(f"{node.name}: output without a source, not recorded")
     if names_fmu(network.file):
         return  # of an FMU alone all inputs are declared
@@ -126,15 +127,16 @@ def find_driven(network: Network, series: InputSeries, alone: str | None) -> dic
     too. Raises InputError for any other column, and for numbers that an input's type cannot have.
     """
     types = {
-        node.name: node.type_name or "Real"
+        node.name: (node.type_name or "Real", REPRESENTATIONS[OF_FMI2[node.type_name or "Real"]])
         for node in network.nodes.values()
         if node.component is None and node.kind == "input" and node.name not in network.driver
+        if node.type_name not in TEXTS
     }
     types |= {
-        f"{component}.{variable.name}": variable.type
+        f"{component}.{variable.name}": (variable.type, variable.representation)
         for component, fmu in network.fmus.items()
         for variable in fmu.variables.values()
-        if variable.causality == "input" and variable.type != "String"
+        if variable.causality == "input" and variable.type not in TEXTS
         if f"{component}.{variable.name}" not in network.driver
     }
     columns: dict[str, str] = {}
@@ -149,20 +151,20 @@ def find_driven(network: Network, series: InputSeries, alone: str | None) -> dic
             raise InputError(*where, "no such input", suggestion(column, known))
         if name in columns:
             raise InputError(*where, f"drives {name}, as column {columns[name]} does", "leave one of them out")
-        _check_type(series, column, types[name])
+        _check_type(series, column, *types[name])
         columns[name] = column
     return columns
 
 
-def _check_type(series: InputSeries, column: str, type_name: str) -> None:
+def _check_type(series: InputSeries, column: str, type_name: str, stored: Representation) -> None:
     values = series.columns[column]
     if type_name == "Real":
         return
     if type_name == "Boolean":
         wrong, problem, remedy = (values != 0.0) & (values != 1.0), "is not a Boolean", "give true or false, 1 or 0"
     else:
-        wrong = (values != np.round(values)) | (values < INTEGERS[0]) | (values > INTEGERS[1])
-        problem, remedy = f"is not of type {type_name}", "give a whole number of 32 bits"
+        wrong = (values != np.round(values)) | (values < stored.limits[0]) | (values > stored.limits[1])
+        problem, remedy = f"is not of type {type_name}", f"give {stored.demand()}"
     if wrong.any():
         row = int(np.flatnonzero(wrong)[0])
         raise InputError(series.file, series.place(row, column), f"{values[row]:.12g} {problem}", remedy)

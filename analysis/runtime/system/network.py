@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from ...common.errors import InputError
 from ..ssp.conversions import Transformation, Unit
 from ..ssp.description import Component, Description, System
+from ..ssp.kinds import PARAMETERS
 from .fmu import Fmu
 
 
@@ -51,7 +52,8 @@ class Link:
 
     @property
     def is_parameter(self) -> bool:
-        return self.target.kind in ("parameter", "calculatedParameter")
+        """Whether its value is passed on before the flight."""
+        return self.target.kind in PARAMETERS
 
 
 @dataclass

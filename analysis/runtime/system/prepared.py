@@ -13,12 +13,15 @@ from ....fmus_src.paths import FLAVOURS, names_fmu
 from ...common.collection import no_collection
 from ...common.errors import InputError, suggestion
 from ...common.regular import names_file
+from ..fmi.structure import structural_sizes
 from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, open_system, parameters_asked, read_fmu, use_asked
 from ..ssp.description import Component, System
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
 from .alone import describe_alone
-from .assignments import Settings, collect_settings, single_value
+from .arrays.elements import expand_arrays
+from .arrays.sizes import Sizes, given_values
+from .assignments import collect_settings, single_value
 from .checks import check_samples, check_shared, unfit
 from .feedthrough import find_feedthrough
 from .flattening import build_network
@@ -26,6 +29,7 @@ from .fmu import Fmu, load_fmu
 from .inputs import Drive, check_signals, drive_inputs, find_driven, settle_open_inputs
 from .network import Network
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
+from .passing.settings import Settings
 from .schedule import Schedule, make_schedule
 from .series import InputSeries
 from .stale import Retired, find_retired
@@ -149,7 +153,24 @@ def _prepare(
             read, label = archive.fmu(source, f"{name} (line {component.line})", flavour)
             if not archive.is_own_file(source):
                 elsewhere[fmu_asked(source)] = read
-        return open_fmu(read, label)
+        return sized(open_fmu(read, label), name)
+
+    notes: list[str] = []
+
+    @cache
+    def chosen() -> list[Assignment]:
+        return _assignments(notes, archive, options, elsewhere)
+
+    def sized(fmu: Fmu, name: str) -> Fmu:
+        if not fmu.structural_parameters:
+            return fmu
+        names = fmu.structural_parameters
+        given = structural_sizes(description, archive, name, names, chosen())
+        return fmu.with_sizes(given | sizes().connected(name, names))
+
+    @cache
+    def sizes() -> Sizes:
+        return Sizes(description, lambda: given_values(description, archive, chosen()), load)
 
     def open_fmu(read: Callable[[], bytes], label: str) -> Fmu:
         if label not in loaded:
@@ -158,10 +179,13 @@ def _prepare(
 
     remarks: list[str] = []
     if archive.is_fmu:
-        description, remarks = describe_alone(open_fmu(read_fmu(archive.path), archive.label), options)
+        alone = open_fmu(read_fmu(archive.path), archive.label)
+        description, remarks = describe_alone(alone, options)
+        description, remarks = describe_alone(sized(alone, next(iter(description.system.elements))), options)
     else:
         description = read_description(archive, options.variant)
     try:
+        description = expand_arrays(description, sizes())
         network = build_network(description, load)
     except InputError as error:
         slot = next((slot for slot in used if error.element.startswith(f"{slot}.")), None)
@@ -176,12 +200,13 @@ def _prepare(
     if series is not None:
         network.driven = find_driven(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
     assignments = [each for name, (_, retired) in replaced.items() for each in retired.assignments(name)]
-    assignments += _assignments(network, archive, options, elsewhere)
+    assignments += chosen()
+    network.notes += notes
     settings = collect_settings(network, archive, assignments, options)
     settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
     check_signals(network, settings)
     check_shared(network, settings)
-    for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
+    for fmu in {fmu.label: fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
     network.notes += filter(None, [archive.note()])
     algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]
@@ -237,12 +262,12 @@ def locate_fmu(
 
 
 def _assignments(
-    network: Network, archive: SystemArchive, options: SystemOptions, elsewhere: dict[str, Callable[[], bytes]]
+    notes: list[str], archive: SystemArchive, options: SystemOptions, elsewhere: dict[str, Callable[[], bytes]]
 ) -> list[Assignment]:
     assignments: list[Assignment] = []
     for name in options.parameters:
         data, label = archive.parameter_set(name)
         if not label.startswith(f"{archive.label}!"):
             elsewhere[parameters_asked(name)] = partial(bytes, data)
-        assignments += read_parameter_file(data, label, network.notes if options.allow_unmatched else None)
+        assignments += read_parameter_file(data, label, notes if options.allow_unmatched else None, notes)
     return assignments + [single_value(name, value, options.places.get(name)) for name, value in options.set.items()]

@@ -127,7 +127,7 @@ def _check_loops(network: Network, direct: Dependencies) -> None:
         if not link.is_parameter and (target.component is None or target.variable in passed_on[target.component]):
             graph.setdefault(link.target.name, set()).add(link.source.name)
     for node in network.nodes.values():
-        if node.kind == "output" and node.component is not None:
+        if node.kind in ("output", "local") and node.component is not None:
             inputs = direct[node.component].get(node.variable)
             if inputs:
                 graph.setdefault(node.name, set()).update(f"{node.component}.{name}" for name in inputs)

@@ -13,7 +13,7 @@ from ...common.errors import InputError, suggestion
 from ...runtime.apart.opening import open_simulation
 from ...runtime.flight.base_memory import Cell
 from ...runtime.flight.results import COMPLETE
-from ...runtime.ssp.parameter_sets import ParameterValue
+from ...runtime.ssp.given_values import ParameterValue
 from ...runtime.system.prepared import PreparedSystem
 from ..request.channels import Channel
 from ..request.declaration import Point
@@ -95,7 +95,7 @@ class Bench:
             variable = fmu.variables.get("sample_period")
             if variable is None:
                 continue
-            value = float(self.prepared.settings.variables.get((component, "sample_period"), variable.start))
+            value = float(self.prepared.settings.variables.get((component, "sample_period"), variable.start_text))
             if value > 0.0:
                 ratio = Fraction(value / step).limit_denominator(1000)
                 period = math.lcm(period, max(1, ratio.numerator))

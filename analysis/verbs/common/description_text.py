@@ -91,6 +91,7 @@ def _campaign_lines(document: Mapping[str, Any]) -> list[str]:
 def _fmu_lines(document: Mapping[str, Any]) -> list[str]:
     alone = document["alone"]
     times = f"{alone['start_time']:g} s to {alone['stop_time']:g} s in steps of {alone['step']:g} s"
+    terminals = "; ".join(f"{name} ({', '.join(members)})" for name, members in document["terminals"].items())
     undeclared = []
     if document["undeclared_outputs"]:
         outputs = ", ".join(document["undeclared_outputs"])
@@ -100,6 +101,7 @@ def _fmu_lines(document: Mapping[str, Any]) -> list[str]:
         *wrap(f"{document['fmu']}: {document['description']}", 4),
         *undeclared,
         *wrap(f"stand-alone     as {alone['component']}, {times}: perilune run {document['file']}", INDENT),
+        *(wrap(f"{'terminals':{INDENT}}{terminals}", INDENT) if terminals else []),
     ]
 
 
@@ -149,7 +151,13 @@ def _connection_lines(document: Mapping[str, Any]) -> list[str]:
 
 def _variable_lines(rows: list[dict[str, Any]]) -> list[str]:
     lines = []
-    for title, causality in (("inputs", "input"), ("outputs", "output"), ("parameters", "parameter")):
+    titles = {
+        "input": "inputs",
+        "output": "outputs",
+        "structuralParameter": "structural parameters",
+        "parameter": "parameters",
+    }
+    for causality, title in titles.items():
         chosen = [
             [f"  {row['name']}{_size(row)}", _value(row), row["unit"] or "", row["from"] or "", row["description"]]
             for row in rows

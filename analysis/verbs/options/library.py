@@ -203,6 +203,10 @@ class ExportOptions(TypedDict, total=False):
         Literal["native", "python"] | None,
         Option("default: native; of FILE.py both, as far as a compiler is here"),
     ]
+    ssp: Annotated[
+        Literal["1", "2"] | None,
+        Option("of a system: version of SSP; 2 writes an array of an FMU as one connector; default: 1"),
+    ]
     studies: Annotated[
         Sequence[str],
         Option(
@@ -228,5 +232,6 @@ EXPORT = Verb(
         "perilune export forming_filter --platform linux64": "forming_filter.fmu",
         "perilune export lunar_terminal_guidance --flavour python "
         "--output landing.ssp": "a system with its FMUs inside",
+        "perilune export lunar_terminal_guidance --ssp 2": "the same as SSP 2.0",
     },
 )

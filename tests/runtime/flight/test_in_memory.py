@@ -83,7 +83,7 @@ def test_what_is_not_side_by_side_is_not_in_one_place():
         variables = plant.fmu.variables
 
         def place(*names, **options):
-            references = np.array([variables[name].valueReference for name in names], dtype=np.uint32)
+            references = np.array([variables[name].reference for name in names], dtype=np.uint32)
             return plant.place(references, **{"kind": "Real", **options})
 
         first = place("position[1]")

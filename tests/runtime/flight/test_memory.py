@@ -60,9 +60,9 @@ def whole_numbers(simulation):
     for instance in simulation.instances.values():
         for variable in instance.fmu.variables.values():
             if variable.type == "Integer":
-                actual += instance.slave.getInteger([variable.valueReference])
+                actual += instance.slave.getInteger([variable.reference])
             if variable.type == "Boolean":
-                actual += instance.slave.getBoolean([variable.valueReference])
+                actual += instance.slave.getBoolean([variable.reference])
     return actual
 
 

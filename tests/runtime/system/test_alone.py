@@ -46,7 +46,7 @@ def test_connectors_are_inputs_outputs_and_parameters(tiny):
 @pytest.mark.parametrize(
     ("change", "expected"),
     [
-        (lambda text: text.replace('fmiVersion="2.0"', 'fmiVersion="3.0"'), ": fmiVersion: '3.0' is not supported; "),
+        (lambda text: text.replace('fmiVersion="2.0"', 'fmiVersion="1.0"'), ": fmiVersion: '1.0' is not supported; "),
         (
             lambda text: re.sub(
                 r"<CoSimulation[^>]*modelIdentifier=\"(\w+)\"[^>]*?(/>|>.*?</CoSimulation>)",

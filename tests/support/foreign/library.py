@@ -1,4 +1,4 @@
-"""The C files of this folder as shared libraries, each compiled once for each choice of macros."""
+"""The C files of test FMUs as shared libraries, each compiled once for each choice of macros."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from perilune.fmus_src.export.compilers import FLAGS, compilers_for
 
 
 @cache
-def library(name: str, macros: tuple[str, ...] = ()) -> bytes:
-    """The shared library of name.c; ``macros`` are options of the compiler."""
+def library(name: str, macros: tuple[str, ...] = (), sources: Path = Path(__file__).parent) -> bytes:
+    """The shared library of name.c in a folder; ``macros`` are options of the compiler."""
     headers = Path(fmpy.__file__).parent / "c-code"
     with tempfile.TemporaryDirectory() as folder:
-        target, source = Path(folder) / name, Path(__file__).with_name(f"{name}.c")
+        target, source = Path(folder) / name, sources / f"{name}.c"
         command = [*compilers_for(fmpy.platform)[0], *FLAGS, *macros, f"-I{headers}", "-o", target, source, "-lm"]
         subprocess.run(command, check=True)
         return target.read_bytes()

@@ -14,7 +14,7 @@ import msgspec
 import numpy as np
 
 from ...flight.selection import Selection
-from ...ssp.parameter_sets import ParameterValue
+from ...ssp.given_values import ParameterValue
 from ...system.fault import Fault
 from .requests import receive_bytes
 

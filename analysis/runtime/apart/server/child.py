@@ -15,7 +15,9 @@ from ...flight.base_simulation import NOTHING
 from ...flight.memory import Memory, Snapshot
 from ...flight.simulation import Simulation
 from ...instances.instance import Log, leave_messages_unformatted
+from ...instances.intermediate import ignore_address
 from ...instances.reset_check import ResetVerdict, reset_verdict, store_verdict
+from ...system.fmu import Fmu
 from ...system.prepared import PreparedSystem
 from ..protocol import messages
 from ..protocol.messages import ResetTrial, SystemFlights, send_answer, send_line, send_numbers
@@ -40,6 +42,13 @@ def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket,
         return
     send_answer(channel, messages.Done())
     pilot.serve()
+
+
+def compile_callback(subject: Any) -> None:
+    """Compile what an FMU of FMI 3.0, or a system with one, calls: a child cannot write the cache."""
+    fmus = subject.network.fmus.values() if isinstance(subject, PreparedSystem) else [subject]
+    if any(isinstance(fmu, Fmu) and fmu.version == 3 for fmu in fmus):
+        ignore_address()
 
 
 class _Pilot:

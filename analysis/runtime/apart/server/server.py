@@ -81,6 +81,7 @@ class FlightServer:
         if isinstance(request, Learn):
             self._subjects[request.key] = unpack(request.content)
             loop.load(locked=request.locked)
+            child.compile_callback(self._subjects[request.key])
             gc.collect()
             gc.freeze()
         elif isinstance(request, Begin):

@@ -8,7 +8,7 @@ from ....common.compiler import compile_cached
 from . import codes
 from .fmi_calls import change_mode, compare_texts, exchange, setup_experiment
 
-KEPT = 1e-6  # of a Real: what an FMU may lose of it, single precision or a unit of its own
+LOSS = 1e-6  # of a Real: what an FMU may lose of it, single precision or a unit of its own
 
 
 def _begin(instruction, program, given, read_back, span, outcome):  # type: ignore[no-untyped-def]
@@ -47,7 +47,7 @@ def _begin(instruction, program, given, read_back, span, outcome):  # type: igno
             requested, stored = given.real[p], read_back.real[p]
             selected = (
                 stored == requested
-                or abs(stored - requested) <= KEPT * abs(requested)
+                or abs(stored - requested) <= LOSS * abs(requested)
                 or (np.isnan(stored) and np.isnan(requested))
             )
         elif code == codes.WHOLE_READ_BACK:

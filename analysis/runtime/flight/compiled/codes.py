@@ -11,6 +11,11 @@ PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN = range(11, 16)
 SET_TEXT, GET_TEXT, COPY_TEXT = range(16, 19)
 # Once, before a flight; behind all others, as those of Strings are behind those of numbers.
 PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(19, 27)
+# Of FMI 3.0, behind all others.
+FIRST_OF_FMI3 = 27
+SET_TRANSFER, GET_TRANSFER, READ_TRANSFER, COPY_EXACT, STEP_TO_EVENTS, SETTLE = range(27, 33)
+COPY_BINARY, GIVE_TEXTS, TAKE_TEXTS, SET_EVENTS = range(33, 37)
+GIVE_PARAMETERS, TAKE_BACK, ENTER_INITIALIZATION = range(37, 40)
 IN_MEMORY = (PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN)  # whose ADDRESS is a place in the instance
 
 # Instruction columns. FIRST and COUNT are connections, faults, slots, parameters, Strings or driven inputs; a COPY
@@ -22,8 +27,15 @@ IN_MEMORY = (PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN)  # whose 
 # end of the step, the initialisation's to the start.
 CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
 COLUMNS = 7
+# Of FMI 3.0 FIRST and COUNT are transfers, rows of `arrays.Transfers.rows`; a COPY_EXACT and a COPY_BINARY have the
+# columns of a COPY, and a STEP_TO_EVENTS has in FIRST whether its component uses event mode.
+# The columns of a transfer: its variables, then its slots, parameters or texts.
+REFERENCE, REFERENCES, FIRST_VALUE, VALUES, KIND = range(5)
+TRANSFER_COLUMNS = 5
+# Kinds of a transfer, in the order of representations.REPRESENTATIONS.
+FLOAT64, FLOAT32, INT8, UINT8, INT16, UINT16, INT32, UINT32, INT64, UINT64, BOOLEAN, STRING, BINARY = range(13)
 
 # How a run ends: Buffers.outcome[0].
-STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED, INTERRUPTED, NOT_TAKEN, TOO_LONG = range(8)
+STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED, INTERRUPTED, NOT_TAKEN, TOO_LONG, ENDED, STUCK = range(10)
 OVERRIDE, BIAS, FREEZE, EXCITE = range(4)
 FMI_WARNING = 1

@@ -47,14 +47,14 @@ def in_compiled_code(result: types.Type, *parameters: types.Type | None) -> Call
     return decorate
 
 
-def _call(builder: ir.IRBuilder, address: ir.Value, values: Sequence[ir.Value]) -> ir.Value:
+def call(builder: ir.IRBuilder, address: ir.Value, values: Sequence[ir.Value]) -> ir.Value:
     """Emit the call of the C function at an address; every argument has its C type already."""
     function_type = ir.FunctionType(INT32, [value.type for value in values])
     pointer = builder.inttoptr(address, cgutils.voidptr_t)
     return builder.call(builder.bitcast(pointer, function_type.as_pointer()), values)
 
 
-def _element(
+def element(
     context: BaseContext, builder: ir.IRBuilder, array_type: types.Array, array: ir.Value, index: ir.Value
 ) -> ir.Value:
     """Address of an array's element, as an integer."""
@@ -73,15 +73,15 @@ def exchange(
     their arrays.
     """
     address, instance, references, values, first, count = arguments
-    reference_address = _element(context, builder, signature.args[2], references, first)
-    value_address = _element(context, builder, signature.args[3], values, first)
-    return _call(builder, address, [instance, reference_address, count, value_address])
+    reference_address = element(context, builder, signature.args[2], references, first)
+    value_address = element(context, builder, signature.args[3], values, first)
+    return call(builder, address, [instance, reference_address, count, value_address])
 
 
 @in_compiled_code(types.int32, types.int64, types.int64, types.float64, types.float64)
 def do_step(_: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]) -> ir.Value:
     """fmi2DoStep (address, instance, time, step), with the promise not to go back before the current point."""
-    return _call(builder, arguments[0], [*arguments[1:], INT32(1)])
+    return call(builder, arguments[0], [*arguments[1:], INT32(1)])
 
 
 @in_compiled_code(types.float64, types.int64)
@@ -114,7 +114,7 @@ def put_real(
 @in_compiled_code(types.int32, types.int64, types.int64)
 def change_mode(_: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]) -> ir.Value:
     """fmi2Reset, fmi2EnterInitializationMode, fmi2ExitInitializationMode or fmi2Terminate: (address, instance)."""
-    return _call(builder, arguments[0], [arguments[1]])
+    return call(builder, arguments[0], [arguments[1]])
 
 
 @in_compiled_code(types.int32, types.int64, types.int64, types.int32, types.float64, types.float64, types.float64)
@@ -123,7 +123,7 @@ def setup_experiment(
 ) -> ir.Value:
     """fmi2SetupExperiment (address, instance, known, tolerance, start, stop); ``known`` 1 with a tolerance, else 0."""
     address, instance, known, tolerance, start, stop = arguments
-    return _call(builder, address, [instance, known, tolerance, start, INT32(1), stop])
+    return call(builder, address, [instance, known, tolerance, start, INT32(1), stop])
 
 
 @in_compiled_code(types.int32, types.int64, types.int64)
@@ -133,7 +133,7 @@ def compare_texts(
     """The C library's strcmp of the strings at two addresses: 0 where they are equal."""
     function_type = ir.FunctionType(INT32, [cgutils.voidptr_t, cgutils.voidptr_t])
     function = cgutils.get_or_insert_function(builder.module, function_type, "strcmp")
-    return builder.call(function, [builder.inttoptr(value, cgutils.voidptr_t) for value in arguments])
+    return builder.call(function, [builder.inttoptr(address, cgutils.voidptr_t) for address in arguments])
 
 
 @in_compiled_code(types.int64, types.int64, types.int64, types.int64)
@@ -142,7 +142,7 @@ def copy_text(_: BaseContext, builder: ir.IRBuilder, signature: Signature, argum
     function_type = ir.FunctionType(cgutils.voidptr_t, [cgutils.voidptr_t, cgutils.voidptr_t, INT64])
     function = cgutils.get_or_insert_function(builder.module, function_type, "strncpy")
     target, source, size = arguments
-    pointers = [builder.inttoptr(value, cgutils.voidptr_t) for value in (target, source)]
+    pointers = [builder.inttoptr(address, cgutils.voidptr_t) for address in (target, source)]
     return builder.ptrtoint(builder.call(function, [*pointers, size]), INT64)
 
 

@@ -27,6 +27,7 @@ from .codes import (
     CODE,
     COMPONENT,
     COPY,
+    COPY_BINARY,
     COPY_TEXT,
     COUNT,
     DRIVE,
@@ -34,10 +35,12 @@ from .codes import (
     FAILED,
     FINISHED,
     FIRST,
+    FIRST_OF_FMI3,
     FMI_WARNING,
     FUNCTION,
     GET_REAL,
     GET_WHOLE,
+    GIVE_PARAMETERS,
     INJECT,
     INSTANCE,
     INTERRUPTED,
@@ -56,7 +59,9 @@ from .codes import (
     TRANSFORM,
     UNMAPPED,
 )
+from .fmi3 import begin_fmi3, exchange_in_steps
 from .fmi_calls import boolean_at, do_step, exchange, exchange_texts, put_real, real_at, whole_at
+from .text_transfers import exchange_with_texts
 
 ONE = np.uint64(1)
 WHOLE_MIN, WHOLE_MAX = -(2**31), 2**31 - 1  # of FMI's Integers
@@ -90,6 +95,9 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
         values[:] = program.initial
         frozen[:] = np.nan
         buffers.texts.rows[:] = buffers.texts.initial
+        buffers.binaries.rows[:] = buffers.binaries.initial
+        buffers.binaries.sizes[:] = buffers.binaries.initial_sizes
+        buffers.stored.exact[:] = program.transfers.exact
         first_instruction = np.uint64(0 if span.reset else program.reset_end)
         last_instruction = np.uint64(phases[0])
         after = start
@@ -176,7 +184,10 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                     values[target[c]] += values[source[c]] * factor[c] + offset[c]
             elif code == MAP:
                 for c in range(first, first + count):
-                    mapped = False
+                    last = table[c, 0] + table[c, 1] - 1
+                    mapped = np.isnan(table_from[last])  # what no entry has stays
+                    if mapped:
+                        values[target[c]] = values[source[c]]
                     for entry in range(table[c, 0], table[c, 0] + table[c, 1]):
                         if table_from[entry] == values[source[c]]:
                             values[target[c]] = table_to[entry]
@@ -211,15 +222,25 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
             else:
                 if code <= COPY_TEXT:
                     status = exchange_texts(instructions[k], buffers.texts, outcome)
-                else:
+                elif code < FIRST_OF_FMI3:
                     status = begin(instructions[k], program, settings, buffers.read_back, span, outcome)
+                elif code < COPY_BINARY:
+                    transfers, stored = program.transfers, buffers.stored
+                    status = exchange_in_steps(
+                        instructions[k], transfers, values, stored, outcome, time, step, start, n
+                    )
+                elif code < GIVE_PARAMETERS:
+                    status = exchange_with_texts(instructions[k], program.transfers, buffers, after)
+                else:
+                    status = begin_fmi3(instructions[k], program, settings, buffers.read_back, span, outcome)
                 if outcome[0] != 0:
                     outcome[5] = k
                     return rows
             if status > FMI_WARNING or status < 0:
                 outcome[0] = FAILED
                 outcome[1] = instructions[k, COMPONENT]
-                outcome[2] = instructions[k, FUNCTION]
+                if not FIRST_OF_FMI3 <= code < GIVE_PARAMETERS:
+                    outcome[2] = instructions[k, FUNCTION]
                 outcome[3] = status
                 outcome[5] = k
                 return rows

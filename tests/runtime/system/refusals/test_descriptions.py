@@ -89,7 +89,10 @@ TABLE = {
         system(component("ramp", "ramp", "inout y Real m")),
         ["y (line", "inout connectors are not supported", "declare it input or output"],
     ),
-    "Binary connector": (system(declared="input blob Binary"), ["blob", "Binary"]),
+    "Binary connector": (
+        system(component("ramp", "ramp", "output y Binary")),
+        ["ramp.y", "is Real in", "Binary here"],
+    ),
     "model exchange": (
         system(component("ramp", "ramp", attributes='implementation="ModelExchange"')),
         ["ramp", 'implementation="ModelExchange" is not supported', "co-simulation"],
@@ -118,11 +121,11 @@ TABLE = {
             system(declared="calculatedParameter c Real m", name="inner"),
             connections=connection("inner.c", "gain.u"),
         ),
-        ["calculated parameters are not passed"],
+        ["inner.c", "signal is read but never driven"],
     ),
-    "parameter into an input": (
+    "parameter without a value into an input": (
         system(GAIN, declared="parameter p Real m", connections=connection("p", "gain.u")),
-        ["connects parameter p with input gain.u", "connect parameters with parameters"],
+        ["connection p -> gain.u", "p has no value"],
     ),
     "output into a parameter": (
         system(

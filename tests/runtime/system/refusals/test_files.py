@@ -108,9 +108,13 @@ BROKEN_FMUS = {
         ["modelDescription.xml: DOCTYPE"],
     ),
     "no XML": (lambda tiny: described(tiny, lambda text: text[:400]), ["not well-formed"]),
-    "FMI 3": (
+    "draft of FMI 3": (
+        lambda tiny: described(tiny, lambda text: text.replace('fmiVersion="2.0"', 'fmiVersion="3.0-beta.2"')),
+        ["fmiVersion", "'3.0-beta.2' is not supported", "FMI 2.0 or 3.0"],
+    ),
+    "FMI 2 named 3": (
         lambda tiny: described(tiny, lambda text: text.replace('fmiVersion="2.0"', 'fmiVersion="3.0"')),
-        ["fmiVersion", "'3.0' is not supported", "FMI 2.0"],
+        ["no attribute instantiationToken", "fix the FMU"],
     ),
     "FMI 1": (lambda tiny: described(tiny, lambda text: text.replace('n="2.0"', 'n="1.0"')), ["'1.0' is not"]),
     "no value references": (

@@ -1,0 +1,160 @@
+"""The instructions for a component of FMI 2.0: stretches of slots by type, or the memory of our own FMUs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...instances.instance import Instance
+from ...instances.library import FUNCTION_NAMES
+from ..compiled import codes
+from ..in_memory import Run, runs_in_memory, with_moves
+from .rows import Rows, Stretch
+
+TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}
+FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES) if name.startswith("fmi2")}
+# Real, Integer (and Enumeration), Boolean, String: what sets parameters, what reads them back.
+PARAMETER_CALLS = (
+    ((codes.PARAMETERS, "SetReal"), (codes.READ_BACK, "GetReal")),
+    ((codes.WHOLE_PARAMETERS, "SetInteger"), (codes.WHOLE_READ_BACK, "GetInteger")),
+    ((codes.WHOLE_PARAMETERS, "SetBoolean"), (codes.WHOLE_READ_BACK, "GetBoolean")),
+    ((codes.TEXT_PARAMETERS, "SetString"), (codes.TEXT_READ_BACK, "GetString")),
+)
+
+
+class Fmi2Orders:
+    """Writes the calls of one component.
+
+    ``ranges`` [get or set function 0..5] are (first, count) of slots, ``parameter_ranges`` [type] the first parameter,
+    how many there are, and how many of them, the first ones, are set again in initialisation mode and read back,
+    ``text_ranges`` those of Strings, inputs and outputs. Parameters are read back ``one_by_one`` where one call does
+    not give all; ``recorded`` are the stretches (function, first slot, count) that are read for the record only.
+    """
+
+    def __init__(
+        self,
+        rows: Rows,
+        component: int,
+        instance: Instance,
+        references: np.ndarray,
+        ranges: Sequence[Stretch],
+        parameter_ranges: Sequence[Sequence[int]],
+        text_ranges: Sequence[Stretch],
+        recorded: Sequence[tuple[int, int, int]],
+        *,
+        one_by_one: bool,
+    ) -> None:
+        self._rows = rows
+        self._component = component
+        self._instance = instance
+        self._references = references
+        self._ranges = ranges
+        self._parameter_ranges = parameter_ranges
+        self._text_ranges = text_ranges
+        self._recorded = recorded
+        self._one_by_one = one_by_one
+
+    def set(self, begun: int, *, started: bool) -> None:
+        """All inputs; rows from ``begun`` on are what carries their values there."""
+        for name in ("SetReal", "SetInteger", "SetBoolean"):
+            stretch = self._ranges[FUNCTION[name]]
+            if stretch[1]:
+                self._rows.inject(stretch)
+                if name == "SetReal":
+                    self._give(stretch, begun)
+                else:
+                    self._call(codes.SET_WHOLE, name, stretch)
+        if self._text_ranges[0][1]:
+            self._call(codes.SET_TEXT, "SetString", self._text_ranges[0])
+
+    def carry(self) -> None:
+        """The faults on inputs that are not given."""
+        for name in ("SetReal", "SetInteger", "SetBoolean"):
+            self._rows.inject(self._ranges[FUNCTION[name]])
+
+    def get(self) -> None:
+        """All outputs."""
+        for name in ("GetReal", "GetInteger", "GetBoolean"):
+            stretch = self._ranges[FUNCTION[name]]
+            if stretch[1]:
+                self._take(name, stretch)
+                self._rows.inject(stretch)
+        if self._text_ranges[1][1]:
+            self._call(codes.GET_TEXT, "GetString", self._text_ranges[1])
+
+    def read(self) -> None:
+        """What is recorded only."""
+        for function, first, count in self._recorded:
+            code = codes.READ_REAL if function == FUNCTION["GetReal"] else codes.GET_WHOLE
+            self._rows.call(code, self._component, function, (first, count))
+
+    def step(self, count: int) -> None:
+        """A step over so many communication steps, 0 for one."""
+        self._call(codes.STEP, "DoStep", (0, count))
+
+    def reset(self) -> None:
+        """Back to the state after instantiation, its flight ended."""
+        self._call(codes.MODE, "Terminate")
+        self._call(codes.MODE, "Reset")
+
+    def enter_initialization(self) -> None:
+        """Parameters, initialisation mode, parameters again: there are FMUs that lose what they were given before."""
+        self._parameters(1)
+        self._call(codes.SETUP, "SetupExperiment")
+        self._call(codes.MODE, "EnterInitializationMode")
+        self._parameters(2)
+
+    def exit_initialization(self) -> None:
+        self._call(codes.MODE, "ExitInitializationMode")
+
+    def read_back(self) -> None:
+        """The parameters that the FMU has."""
+        self._parameters(3)
+
+    def _parameters(self, column: int) -> None:
+        """Parameters: column 1 of their ranges sets them, 2 sets them again, 3 reads them back."""
+        for ranges, (setter, getter) in zip(self._parameter_ranges, PARAMETER_CALLS, strict=True):
+            first, count = ranges[0], ranges[column]
+            code, name = getter if column == 3 else setter
+            size = 1 if column == 3 and self._one_by_one else max(1, count)
+            for start in range(first, first + count, size):
+                self._call(code, name, (start, size))
+
+    def _give(self, stretch: Stretch, begun: int) -> None:
+        """Reals set on a stretch of slots; in the FMU's own memory where it says where they lie."""
+        runs = self._runs(stretch, "Real", to_set=True)
+        rows = self._rows.rows
+        moved = with_moves(rows[begun:], runs, self._component, self._instance.address)
+        if not runs:
+            self._call(codes.SET_REAL, "SetReal", stretch)
+        elif moved:
+            rows[begun:] = moved
+        else:
+            self._exchange(codes.PUT_REAL, runs)
+
+    def _take(self, name: str, stretch: Stretch) -> None:
+        """Reals, Integers or Booleans got on slots in a row; of the FMU's own memory where it says where they lie."""
+        kind = name.removeprefix("Get")
+        call = codes.GET_REAL if kind == "Real" else codes.GET_WHOLE
+        runs = self._runs(stretch, kind)
+        if not runs:
+            self._call(call, name, stretch)
+        for run in runs:
+            self._exchange(TAKES[kind], [run])
+            if kind == "Integer":
+                self._call(call, name, (run.first, run.size))
+
+    def _exchange(self, code: int, runs: Sequence[Run]) -> None:
+        instance = self._instance.address
+        self._rows.rows += [[code, run.address, instance, run.first, run.size, self._component, 0] for run in runs]
+
+    def _runs(self, stretch: Stretch, kind: str, *, to_set: bool = False) -> list[Run]:
+        """A stretch of slots in an FMU's memory; nothing before all are initialised."""
+        if not self._rows.between_steps:
+            return []
+        first, count = stretch
+        return runs_in_memory(self._instance, self._references[first : first + count], first, kind, to_set=to_set)
+
+    def _call(self, code: int, name: str, stretch: Stretch = (0, 0)) -> None:
+        self._rows.call(code, self._component, FUNCTION[name], stretch)

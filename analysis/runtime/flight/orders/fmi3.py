@@ -1,0 +1,83 @@
+"""The instructions for a component of FMI 3.0: transfers of whole variables by type."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ...instances.library import FUNCTION_NAMES
+from ..compiled import codes
+from ..compiled.events import DO_STEP, GETTERS, SETTERS, UPDATE_DISCRETE_STATES
+from .rows import Rows
+from .transfers import ComponentTransfers, TransferTable
+
+
+def _mode(name: str) -> int:
+    return FUNCTION_NAMES.index(f"fmi3{name}")
+
+
+class Fmi3Orders:
+    """Writes the calls of one component to a list of instructions."""
+
+    def __init__(self, rows: Rows, component: int, transfers: ComponentTransfers, table: TransferTable) -> None:
+        self._rows = rows
+        self._component = component
+        self._transfers = transfers
+        self._table = table
+
+    def set(self, begun: int, *, started: bool) -> None:
+        """All inputs; discrete ones in event mode, if that is used and the flight has ``started``."""
+        events = self._transfers.discrete if started and self._transfers.uses_events else []
+        for transfer in (*self._transfers.inputs, *self._transfers.discrete):
+            self._rows.inject(self._table.slots(transfer))
+            if transfer not in events:
+                self._exchange(self._code(codes.SET_TRANSFER, codes.GIVE_TEXTS, transfer), SETTERS, [transfer])
+        if events:
+            both = (events[0], len(events))
+            self._rows.call(codes.SET_EVENTS, self._component, _mode("EnterEventMode"), both)
+
+    def carry(self) -> None:
+        """The faults on inputs that are not given."""
+        for transfer in (*self._transfers.inputs, *self._transfers.discrete):
+            self._rows.inject(self._table.slots(transfer))
+
+    def get(self) -> None:
+        for transfer in self._transfers.outputs:
+            self._exchange(self._code(codes.GET_TRANSFER, codes.TAKE_TEXTS, transfer), GETTERS, [transfer])
+            self._rows.inject(self._table.slots(transfer))
+
+    def read(self) -> None:
+        """What is recorded only."""
+        self._exchange(codes.READ_TRANSFER, GETTERS, self._transfers.recorded)
+
+    def step(self, count: int) -> None:
+        self._rows.call(codes.STEP_TO_EVENTS, self._component, DO_STEP, (int(self._transfers.uses_events), count))
+
+    def reset(self) -> None:
+        for name in ("Terminate", "Reset"):
+            self._rows.call(codes.MODE, self._component, _mode(name))
+
+    def enter_initialization(self) -> None:
+        """Structure, parameters, initialisation mode, parameters."""
+        if self._transfers.structural:
+            self._rows.call(codes.MODE, self._component, _mode("EnterConfigurationMode"))
+            self._exchange(codes.GIVE_PARAMETERS, SETTERS, self._transfers.structural)
+            self._rows.call(codes.MODE, self._component, _mode("ExitConfigurationMode"))
+        self._exchange(codes.GIVE_PARAMETERS, SETTERS, self._transfers.before)
+        self._rows.call(codes.ENTER_INITIALIZATION, self._component, _mode("EnterInitializationMode"))
+        self._exchange(codes.GIVE_PARAMETERS, SETTERS, self._transfers.repeated)
+
+    def exit_initialization(self) -> None:
+        """To step mode, by way of event mode where that is used."""
+        self._rows.call(codes.MODE, self._component, _mode("ExitInitializationMode"))
+        if self._transfers.uses_events:
+            self._rows.call(codes.SETTLE, self._component, UPDATE_DISCRETE_STATES)
+
+    def read_back(self) -> None:
+        self._exchange(codes.TAKE_BACK, GETTERS, self._transfers.back)
+
+    def _code(self, of_numbers: int, of_texts: int, transfer: int) -> int:
+        return of_texts if self._table.kind(transfer) >= codes.STRING else of_numbers
+
+    def _exchange(self, code: int, functions: int, transfers: Iterable[int]) -> None:
+        for transfer in transfers:
+            self._rows.call(code, self._component, functions + self._table.kind(transfer), (transfer, 1))

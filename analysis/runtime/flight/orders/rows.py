@@ -1,0 +1,37 @@
+"""Instructions as they are collected, and the injections that are put between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...instances.instance import Instance
+from ..compiled import codes
+
+Stretch = tuple[int, int]  # first, and how many
+
+
+class Rows:
+    """Collects ``rows`` of instructions. ``fault_slots`` are numbered as in the program's arrays."""
+
+    def __init__(self, instances: Sequence[Instance], fault_slots: Sequence[int]) -> None:
+        self.addresses = [(instance.address, instance.function_addresses()) for instance in instances]
+        self.between_steps = False  # all FMUs: what they give and take then may be in their memory
+        self.fault_slots = fault_slots
+        self.rows: list[list[int]] = []
+
+    def array(self) -> np.ndarray:
+        """What has been collected."""
+        return np.array(self.rows, dtype=np.uint64).reshape(-1, codes.COLUMNS)
+
+    def call(self, code: int, component: int, function: int, stretch: Stretch = (0, 0)) -> None:
+        """A call of an FMI function on a stretch of slots or parameters, or on a stretch of the table."""
+        instance, addresses = self.addresses[component]
+        self.rows.append([code, addresses[function], instance, int(stretch[0]), int(stretch[1]), component, function])
+
+    def inject(self, stretch: Stretch) -> None:
+        """The faults on a stretch of slots."""
+        for number, slot in enumerate(self.fault_slots):
+            if stretch[0] <= slot < stretch[0] + stretch[1]:
+                self.rows.append([codes.INJECT, 0, 0, number, 1, 0, 0])

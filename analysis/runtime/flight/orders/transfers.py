@@ -1,0 +1,104 @@
+"""Transfers of FMI 3.0 variables, each given or taken in one call, as rows of the loop's table."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...fmi.representations import REPRESENTATIONS
+from ...fmi.variable import Variable
+from ...instances.library import FUNCTION_NAMES
+from ...system.network import Network
+from ..compiled import codes
+from ..compiled.events import GETTERS, SETTERS
+
+KINDS = {name: number for number, name in enumerate(REPRESENTATIONS)}
+assert (FUNCTION_NAMES[SETTERS], FUNCTION_NAMES[GETTERS]) == ("fmi3SetFloat64", "fmi3GetFloat64")
+
+
+@dataclass
+class ComponentTransfers:
+    """The transfers of a component of FMI 3.0 by what is done with them, as numbers of rows of the table.
+
+    ``discrete`` inputs are given in event mode, those of a component that ``uses_events``; parameters are set before
+    initialisation mode, ``repeated`` in it, and read ``back`` after it, ``structural`` ones in configuration mode.
+    """
+
+    uses_events: bool = False
+    inputs: list[int] = field(default_factory=list)
+    discrete: list[int] = field(default_factory=list)
+    outputs: list[int] = field(default_factory=list)
+    recorded: list[int] = field(default_factory=list)
+    structural: list[int] = field(default_factory=list)
+    before: list[int] = field(default_factory=list)
+    repeated: list[int] = field(default_factory=list)
+    back: list[int] = field(default_factory=list)
+
+
+class TransferTable:
+    """Collects transfers: ``rows`` with the columns of codes, ``references`` of their variables."""
+
+    def __init__(self) -> None:
+        self.rows: list[tuple[int, int, int, int, int]] = []
+        self.references: list[int] = []
+
+    def add(self, variables: Sequence[Variable], first: int) -> int:
+        """A transfer of variables of one representation, their elements in order from a cell on; returns its number."""
+        references = [
+            reference for _, reference in dict.fromkeys((each.array or each.name, each.reference) for each in variables)
+        ]
+        kind = KINDS[variables[0].representation.name]
+        self.rows.append((len(self.references), len(references), first, len(variables), kind))
+        self.references += references
+        return len(self.rows) - 1
+
+    def kind(self, transfer: int) -> int:
+        return self.rows[transfer][codes.KIND]
+
+    def slots(self, transfer: int) -> tuple[int, int]:
+        """First and count of a transfer's slots; none of texts."""
+        row = self.rows[transfer]
+        return (row[codes.FIRST_VALUE], row[codes.VALUES]) if row[codes.KIND] < codes.STRING else (0, 0)
+
+    def array(self) -> np.ndarray:
+        return np.array(self.rows, dtype=np.int64).reshape(-1, codes.TRANSFER_COLUMNS)
+
+
+def needs_events(network: Network, component: str) -> bool:
+    """Whether a component is flown with event mode: it has it, and a discrete input that is given in flight.
+
+    Without it an FMU handles its events by itself, within its steps.
+    """
+    fmu = network.fmus[component]
+    return (
+        fmu.version == 3
+        and bool(fmu.description.coSimulation.hasEventMode)
+        and any(
+            variable.causality == "input"
+            and variable.variability == "discrete"
+            and _is_given(network, component, variable)
+            for variable in fmu.variables.values()
+        )
+    )
+
+
+def whole(variables: Iterable[Variable], selected: Collection[str]) -> list[Variable]:
+    """The variables of which an element is selected by name, with all their elements."""
+    variables = list(variables)
+    arrays = {each.array or each.name for each in variables if each.name in selected}
+    return [each for each in variables if (each.array or each.name) in arrays]
+
+
+def groups(variables: Iterable[Variable]) -> list[list[Variable]]:
+    """Variables by representation."""
+    parted: dict[str, list[Variable]] = {}
+    for each in variables:
+        parted.setdefault(each.representation.name, []).append(each)
+    return list(parted.values())
+
+
+def _is_given(network: Network, component: str, variable: Variable) -> bool:
+    name = f"{component}.{variable.name}"
+    return name in network.driver or name in network.driven

@@ -1,0 +1,96 @@
+"""The Strings and Binaries that FMUs exchange: where they lie in the loop's arrays.
+
+They are no signals of a result, which is made of numbers.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...common.errors import InputError
+from ..fmi.variable import Variable
+from ..system.network import Network
+from ..system.passing.settings import Settings
+from ..system.schedule import origin
+from .compiled import arrays
+from .orders.transfers import whole
+
+LONGEST = {"String": 4096, "Binary": 65536}  # bytes of one, of a String with its end
+
+
+class Texts:
+    """Places of the texts of one type that are connected, by name; those of a component and direction are contiguous.
+
+    ``ranges`` [component, 0 inputs, 1 outputs] are the first and how many there are, ``variables`` [component]
+    [direction] whose they are. ``connections`` [component] lists the component that each of its inputs comes from (-1:
+    a value that the system is given), and both places.
+    """
+
+    def __init__(self, network: Network, settings: Settings, type_name: str = "String") -> None:
+        self.slots: dict[str, int] = {}
+        self.longest = LONGEST[type_name]
+        self.variables: list[list[list[Variable]]] = []
+        self._references: list[int] = []
+        self._initial: list[bytes] = []
+        self._file = network.file
+        self._is_binary = type_name == "Binary"
+        links = {
+            name: origin(network, link)
+            for name, link in network.driver.items()
+            if link.target.type_name == type_name and link.target.component is not None and not link.is_parameter
+        }
+        read = {start.name for start in links.values()}
+        self.ranges = np.zeros((len(network.fmus), 2, 2), dtype=np.int64)
+        for index, (component, fmu) in enumerate(network.fmus.items()):
+            self.variables.append([])
+            for column, (causality, wanted) in enumerate((("input", links), ("output", read))):
+                first = len(self._references)
+                every = [
+                    each for each in fmu.variables.values() if (each.type, each.causality) == (type_name, causality)
+                ]
+                selected = whole(every, {each.name for each in every if f"{component}.{each.name}" in wanted})
+                for variable in selected:
+                    given = settings.variables.get((component, variable.name), variable.start or "")
+                    self._add(f"{component}.{variable.name}", variable.reference, str(given))
+                self.ranges[index, column] = first, len(self._references) - first
+                self.variables[-1].append(selected)
+        for name in sorted(read - set(self.slots)):
+            self._add(name, 0, str(settings.nodes.get(name, "")))
+        numbers = {name: number for number, name in enumerate(network.fmus)}
+        self.connections: list[list[tuple[int, int, int]]] = [[] for _ in network.fmus]
+        for name, start in links.items():
+            owner = network.driver[name].target.component or ""
+            number = -1 if start.component is None else numbers[start.component]
+            self.connections[numbers[owner]].append((number, self.slots[start.name], self.slots[name]))
+
+    def _add(self, name: str, reference: int, initial: str) -> None:
+        try:
+            content = bytes.fromhex(initial) if self._is_binary else initial.encode()
+        except ValueError:
+            raise InputError(
+                self._file, name, f"{initial[:20]!r} is not hexadecimal", "write two digits a byte"
+            ) from None
+        if len(content) >= self.longest:
+            kind = "a binary value" if self._is_binary else "a string"
+            raise InputError(self._file, name, f"{kind} of {self.longest} bytes or more", "shorten it")
+        self.slots[name] = len(self._references)
+        self._references.append(reference)
+        self._initial.append(content)
+
+    def memory(self) -> arrays.Texts:
+        """Arrays for the loop."""
+        count = len(self._references)
+        initial = np.zeros((count, self.longest), dtype=np.uint8)
+        for row, content in zip(initial, self._initial, strict=True):
+            row[: len(content)] = np.frombuffer(content, dtype=np.uint8)
+        rows = initial.copy()
+        sizes = np.array([len(content) for content in self._initial], dtype=np.uint64)
+        return arrays.Texts(
+            reference=np.array(self._references, dtype=np.uint32),
+            initial=initial,
+            rows=rows,
+            address=rows.ctypes.data + self.longest * np.arange(count, dtype=np.uint64),
+            given=np.zeros(count, dtype=np.uint64),
+            sizes=sizes.copy(),
+            initial_sizes=sizes,
+        )

@@ -1,0 +1,156 @@
+"""What an FMI 3.0 modelDescription.xml must have for its FMU to be simulated, and what FMPy leaves unread of it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Callable
+
+from fmpy.model_description import ModelDescription
+from lxml import etree
+
+from ...common.errors import InputError
+from ..ssp.fmu_description import FIX
+from .representations import REPRESENTATIONS, TEXTS
+from .variable import shape
+
+RELEASED = re.compile(r"3\.\d+(\.\d+)?")  # drafts such as 3.0-beta.2 have other functions
+MOST_ELEMENTS = 1_000_000  # of all arrays of an FMU
+SCALAR_REFERENCES = ("Output", "ContinuousStateDerivative", "ClockedState", "InitialUnknown", "EventIndicator")
+NUMBERS = ("start", "min", "max", "nominal")
+
+
+def is_fmi3(version: str | None) -> bool:
+    """Whether a fmiVersion is a released one of FMI 3."""
+    return version is not None and RELEASED.fullmatch(version) is not None
+
+
+def check_description(root: etree._Element, label: str) -> None:
+    """Refuse an FMU without co-simulation, with clocks, without names or references, with numbers that are none.
+
+    Raises InputError, with the FMU's ``label``.
+    """
+    if not root.get("modelName") or not root.get("instantiationToken"):
+        missing = "instantiationToken" if root.get("modelName") else "modelName"
+        raise InputError(label, _line_of(root), f"no attribute {missing}", FIX)
+    interface = root.find("CoSimulation")
+    if interface is None:
+        kinds = [kind for kind in ("ModelExchange", "ScheduledExecution") if root.find(kind) is not None]
+        problem = f"not a co-simulation FMU: {' and '.join(kinds) or 'no interface'} only"
+        raise InputError(label, "CoSimulation", problem, "export it for co-simulation")
+    if not interface.get("modelIdentifier"):
+        raise InputError(label, _line_of(interface), "no attribute modelIdentifier", FIX)
+    variables = [each for each in root.iterfind("ModelVariables/*") if isinstance(each.tag, str)]
+    clock = next((each for each in variables if each.tag == "Clock"), None)
+    if clock is not None:
+        problem = "a Clock: FMUs with clocks are not supported"
+        raise InputError(label, f"{clock.get('name')} (line {clock.sourceline})", problem, "export it without clocks")
+    for variable in variables:
+        _check_variable(variable, label)
+    names = Counter(each.get("name") for each in [*variables, *root.iterfind("ModelVariables/*/Alias")])
+    twice = next((name for name, count in names.items() if count > 1), None)
+    if twice is not None:
+        raise InputError(label, str(twice), "two variables of this name", FIX)
+    _check_references(root, variables, label)
+    sizes = (("DefaultExperiment", ("startTime", "stopTime", "tolerance", "stepSize")),)
+    for path, attributes in (*sizes, ("CoSimulation", ("fixedInternalStepSize",))):
+        for element in root.iterfind(path):
+            for name in attributes:
+                _check_texts(element, name, [element.get(name)], float, "a number", label)
+
+
+def complete(description: ModelDescription, root: etree._Element) -> None:
+    """Add to FMPy's description what it leaves out: limits of unsigned and typed variables, starts of text arrays."""
+    elements = {each.get("name"): each for each in root.iterfind("ModelVariables/*")}
+    for variable in description.modelVariables:
+        element = elements[variable.alias.name if variable.alias is not None else variable.name]
+        kind = variable.declaredType
+        variable.min = element.get("min", kind.min if kind is not None else None)
+        variable.max = element.get("max", kind.max if kind is not None else None)
+        if variable.type in TEXTS and variable.dimensions:
+            variable.start = [each.get("value", "") for each in element.iterfind("Start")] or None
+
+
+def check_sizes(description: ModelDescription, sizes: dict[int, int], label: str) -> None:
+    """Refuse arrays of more elements than can be exchanged one by one. Raises InputError."""
+    total = sum(math.prod(shape(each, sizes)) for each in description.modelVariables if each.dimensions)
+    if total > MOST_ELEMENTS:
+        problem = f"its arrays have {total} elements, of {MOST_ELEMENTS} at most"
+        raise InputError(label, "Dimension", problem, "choose smaller structural parameters")
+
+
+def _check_variable(variable: etree._Element, label: str) -> None:
+    for name in ("name", "valueReference"):
+        if not variable.get(name):
+            raise InputError(label, _line_of(variable), f"no attribute {name}", FIX)
+    tag = str(variable.tag)
+    if tag not in REPRESENTATIONS and tag != "Enumeration":
+        problem = f"{tag} is not a type of FMI 3.0"
+        raise InputError(label, f"{variable.get('name')} (line {variable.sourceline})", problem, FIX)
+    _check_texts(variable, "valueReference", [variable.get("valueReference")], int, "an integer", label)
+    if tag in TEXTS:
+        return
+    if tag == "Boolean":
+        _check_texts(variable, "start", variable.get("start", "").split(), _truth, "true or false", label)
+        return
+    read, kind = (float, "a number") if tag.startswith("Float") else (int, "an integer")
+    for name in NUMBERS:
+        texts = variable.get(name, "").split() if name == "start" else [variable.get(name)]
+        _check_texts(variable, name, texts, read, kind, label)
+
+
+def _check_references(root: etree._Element, variables: list[etree._Element], label: str) -> None:
+    """Refuse value references of no variable: those that are listed as dependencies, states or sizes."""
+    known = {int(each.get("valueReference", "0")): each for each in variables}
+    wanted = [(each, "valueReference") for each in root.iterfind("ModelVariables/*/Dimension")]
+    wanted += [(each, "derivative") for each in variables]
+    for tag in SCALAR_REFERENCES:
+        for each in root.iterfind(f"ModelStructure/{tag}"):
+            wanted += [(each, "valueReference"), (each, "dependencies")]
+    for element, name in wanted:
+        for text in element.get(name, "").split():
+            if not (text.isascii() and text.isdigit() and int(text) in known):
+                raise InputError(label, f"{_line_of(element)}, {name}", f"{text[:20]} is no value reference", FIX)
+    for element in root.iterfind("ModelVariables/*/Dimension"):
+        start, reference = element.get("start"), element.get("valueReference")
+        if start is not None:
+            _check_texts(element, "start", [start], _size, "a number of elements", label)
+        elif reference is None or known[int(reference)].get("causality") != "structuralParameter":
+            raise InputError(label, _line_of(element), "neither a start nor a structural parameter", FIX)
+        else:
+            _check_texts(
+                known[int(reference)],
+                "start",
+                [known[int(reference)].get("start", "")],
+                _size,
+                "a number of elements",
+                label,
+            )
+
+
+def _check_texts(
+    element: etree._Element, name: str, texts: list[str | None], read: Callable[[str], object], kind: str, label: str
+) -> None:
+    for text in texts:
+        try:
+            if text is not None:
+                read(text)
+        except (ValueError, KeyError):
+            raise InputError(label, f"{_line_of(element)}, {name}", f"{text!r} is not {kind}", FIX) from None
+
+
+def _truth(text: str) -> bool:
+    return {"true": True, "1": True, "false": False, "0": False}[text.strip()]
+
+
+def _size(text: str) -> int:
+    size = int(text)
+    if size < 0:
+        raise ValueError(text)
+    return size
+
+
+def _line_of(element: etree._Element) -> str:
+    name = element.get("name")
+    return f"{name or element.tag} (line {element.sourceline})"

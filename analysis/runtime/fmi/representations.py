@@ -1,0 +1,56 @@
+"""How variables are stored: the types of FMI 3.0, with the kind of type that each is and the numbers that it has."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+UNBOUNDED = (-np.inf, np.inf)
+SINGLE = float(np.finfo(np.float32).max)
+EXACT = 2**53  # whole numbers up to this one are float64 exactly
+
+
+class Representation(NamedTuple):
+    """A type of FMI 3.0. ``type`` is what is connected and recorded: Real, Integer, Boolean, String or Binary."""
+
+    name: str
+    type: str
+    dtype: str  # of numpy, empty for bytes of any length
+    limits: tuple[float, float] = UNBOUNDED  # exact, as Python's whole numbers
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether it has whole numbers that a float64 has not."""
+        return self.dtype in ("int64", "uint64")
+
+    def complaint(self) -> str:
+        """What is wrong with a number beyond its limits, as a predicate."""
+        return "has more than 32 bits" if self.name == "Int32" else f"is no {self.name}"
+
+    def demand(self) -> str:
+        """The numbers that a whole one may be, as an object."""
+        low, high = self.limits
+        return "a whole number of 32 bits" if self.name == "Int32" else f"a whole number from {low} to {high}"
+
+
+def _whole(name: str) -> Representation:
+    dtype = name.lower()
+    limits = np.iinfo(dtype)
+    return Representation(name, "Integer", dtype, (int(limits.min), int(limits.max)))
+
+
+# In the order in which the compiled loop numbers them, `compiled.codes`.
+REPRESENTATIONS = {
+    each.name: each
+    for each in (
+        Representation("Float64", "Real", "float64"),
+        Representation("Float32", "Real", "float32", (-SINGLE, SINGLE)),
+        *map(_whole, ("Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64")),
+        Representation("Boolean", "Boolean", "bool", (0, 1)),
+        Representation("String", "String", ""),
+        Representation("Binary", "Binary", ""),
+    )
+}
+OF_FMI2 = {"Real": "Float64", "Integer": "Int32", "Enumeration": "Int32", "Boolean": "Boolean", "String": "String"}
+TEXTS = ("String", "Binary")  # types that are exchanged and not recorded

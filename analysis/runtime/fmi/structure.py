@@ -1,0 +1,65 @@
+"""The structural parameters of a component of FMI 3.0, which size its arrays: read before its variables are named."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Sequence
+
+from ...common.errors import InputError
+from ..ssp.archive import SystemArchive
+from ..ssp.description import Binding, Description, Element, System
+from ..ssp.parameter_sets import Assignment, read_binding
+
+
+def structural_sizes(
+    description: Description,
+    archive: SystemArchive,
+    component: str,
+    names: Collection[str],
+    chosen: Sequence[Assignment],
+) -> dict[str, int]:
+    """The values that a component, by its flat name, is given for these parameters.
+
+    They come from its bindings, those of the systems around it, then ``chosen``; later ones win. Raises InputError for
+    one that is no whole number.
+    """
+    sizes: dict[str, int] = {}
+    for prefix, bindings in _bindings(description.system, component):
+        for binding in bindings:
+            values, _ = read_binding(archive, description.file, binding, description.units, [])
+            sizes |= _sizes(values, prefix, names)
+    return sizes | _sizes(chosen, f"{component}.", names)
+
+
+def _bindings(system: System, component: str) -> Iterator[tuple[str, list[Binding]]]:
+    """Bindings from the inside out, each with what stands before the component's variables there."""
+    owner, remainder = _element(system, component)
+    if owner is None:
+        return
+    if isinstance(owner, System):
+        yield from _bindings(owner, remainder)
+    else:
+        yield "", owner.bindings
+    yield f"{component}.", system.bindings
+
+
+def _element(system: System, name: str) -> tuple[Element | None, str]:
+    """The element of a system that a flat name leads through, and what is left of the name."""
+    for short, element in system.elements.items():
+        if name == short or (isinstance(element, System) and name.startswith(f"{short}.")):
+            return element, name[len(short) + 1 :]
+    return None, name
+
+
+def _sizes(assignments: Iterable[Assignment], prefix: str, names: Collection[str]) -> dict[str, int]:
+    sizes = {}
+    for assignment in assignments:
+        name = assignment.name.removeprefix(prefix)
+        if assignment.name.startswith(prefix) and name in names:
+            try:
+                sizes[name] = int(str(assignment.value))
+            except ValueError:
+                problem = f"{assignment.value!r} is not of type Integer"
+                raise InputError(assignment.file, assignment.where, problem, "write a whole number") from None
+            if sizes[name] < 0:
+                raise InputError(assignment.file, assignment.where, f"{sizes[name]} is negative", "give a size")
+    return sizes

@@ -1,0 +1,114 @@
+"""A variable of an FMU as the runtime sees it, one number or text, whatever the version of FMI.
+
+An array of FMI 3.0 is many: ``x[1]``, ``x[2,1]``, row by row, as FMI 2.0 names the elements of a vector.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from fmpy.model_description import ModelDescription, ModelVariable
+
+from .representations import OF_FMI2, REPRESENTATIONS, Representation
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """``type`` is Real, Integer, Boolean, Enumeration, String or Binary. Bounds and ``start`` are as declared, in text.
+
+    ``start`` is None where none is declared, as for elements beyond the sizes that the description declares.
+    """
+
+    name: str
+    type: str
+    representation: Representation
+    reference: int  # value reference; of an element the array's
+    causality: str
+    variability: str
+    initial: str | None = None
+    start: str | None = None
+    minimum: str | None = None
+    maximum: str | None = None
+    unit: str | None = None
+    description: str | None = None
+    items: Mapping[str, int] = field(default_factory=dict)  # of an Enumeration
+    array: str = ""  # name of the array that it is an element of
+    index: int = 0  # among the array's elements
+
+    @property
+    def start_text(self) -> str:
+        """The start as a text that can be read as a number, of one without NaN."""
+        return "nan" if self.start is None else self.start
+
+
+def variables_of(description: ModelDescription) -> dict[str, Variable]:
+    """The variables of an FMU by name, with the sizes that it declares."""
+    declared = description.modelVariables
+    return elements_of(declared, {}) if description.fmiMajorVersion == 3 else scalars(declared)
+
+
+def scalars(declared: Sequence[ModelVariable]) -> dict[str, Variable]:
+    """The variables of an FMU of FMI 2.0 by name."""
+    return {each.name: _scalar(each, each.type, OF_FMI2[each.type]) for each in declared}
+
+
+def elements_of(declared: Sequence[ModelVariable], sizes: Mapping[int, int]) -> dict[str, Variable]:
+    """The variables of an FMU of FMI 3.0 by name, those of arrays one by one.
+
+    ``sizes`` are the structural parameters by value reference.
+    """
+    variables: dict[str, Variable] = {}
+    for each in declared:
+        type_name = "Enumeration" if each.type == "Enumeration" else REPRESENTATIONS[each.type].type
+        whole = _scalar(each, type_name, "Int64" if each.type == "Enumeration" else each.type)
+        variables |= {element.name: element for element in _elements(whole, each, sizes)}
+    return variables
+
+
+def shape(declared: ModelVariable, sizes: Mapping[int, int] | None = None) -> tuple[int, ...]:
+    """The dimensions of a variable, () of one without: as declared, or with these structural parameters."""
+    return tuple(
+        int(each.start) if each.start is not None else (sizes or {}).get(each.valueReference, int(each.variable.start))
+        for each in declared.dimensions
+    )
+
+
+def _elements(whole: Variable, declared: ModelVariable, sizes: Mapping[int, int]) -> Iterator[Variable]:
+    if not declared.dimensions:
+        yield whole
+        return
+    starts = _starts(declared)
+    for index, position in enumerate(itertools.product(*(range(1, size + 1) for size in shape(declared, sizes)))):
+        name = f"{whole.name}[{','.join(map(str, position))}]"
+        yield replace(whole, name=name, start=starts.get(position), array=whole.name, index=index)
+
+
+def _starts(declared: ModelVariable) -> dict[tuple[int, ...], str]:
+    """The declared starts by position, counted from 1; one for all elements where one is declared."""
+    if declared.start is None:
+        return {}
+    positions = list(itertools.product(*(range(1, size + 1) for size in shape(declared))))
+    texts = declared.start if isinstance(declared.start, list) else str(declared.start).split()
+    return dict(zip(positions, texts * len(positions) if len(texts) == 1 else texts, strict=False))
+
+
+def _scalar(declared: ModelVariable, type_name: str, representation: str) -> Variable:
+    kind = declared.declaredType
+    items = {} if kind is None or type_name != "Enumeration" else {item.name: int(item.value) for item in kind.items}
+    return Variable(
+        name=declared.name,
+        type=type_name,
+        representation=REPRESENTATIONS[representation],
+        reference=declared.valueReference,
+        causality=declared.causality,
+        variability=declared.variability,
+        initial=declared.initial,
+        start=declared.start,
+        minimum=declared.min,
+        maximum=declared.max,
+        unit=declared.unit or (kind.unit if kind is not None else None),
+        description=declared.description,
+        items=items,
+    )

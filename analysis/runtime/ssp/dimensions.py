@@ -1,0 +1,82 @@
+"""Arrays of SSP 2.0: dimensions as documents state them, and the names of elements, ``x[2,1]``, row by row from 1."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from lxml import etree
+
+from ...common.bounds import ARRAY_ELEMENTS
+from ...common.errors import InputError
+from .documents import children
+
+Shape = tuple[int, ...]  # of a scalar: empty
+ELEMENT = re.compile(r"(?P<array>.+)\[(?P<index>[1-9]\d*(?:,[1-9]\d*)*)\]")
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """One dimension of an array: its ``size``, or the connector of the same element that gives it, or neither."""
+
+    size: int | None
+    connector: str | None
+    line: int
+
+
+def read_dimensions(element: etree._Element, file: str, name: str, *, fixed: bool = False) -> tuple[Dimension, ...]:
+    """The dimensions of a connector or parameter, none of a scalar; ``fixed``: each needs a size. Raises InputError."""
+    dimensions = []
+    for dimension in children(element, "ssc:Dimension"):
+        size, connector = dimension.get("size"), dimension.get("sizeConnector")
+        where = f"{name}, Dimension (line {dimension.sourceline})"
+        if size is not None and connector is not None:
+            raise InputError(file, where, "both size and sizeConnector", "remove one")
+        if fixed and size is None:
+            raise InputError(file, where, "no size, which only connectors may do without", 'write size="..."')
+        dimensions.append(Dimension(None if size is None else int(size), connector, dimension.sourceline))
+    if all(each.size is not None for each in dimensions):
+        ARRAY_ELEMENTS.check(math.prod(each.size or 0 for each in dimensions), file, name)
+    return tuple(dimensions)
+
+
+def indices(shape: Shape) -> list[Shape]:
+    """The indices of all elements, row by row; of a scalar the empty one."""
+    return list(itertools.product(*(range(1, size + 1) for size in shape)))
+
+
+def element_name(array: str, index: Shape) -> str:
+    """The name of an element; of a scalar its own name."""
+    return f"{array}[{','.join(map(str, index))}]" if index else array
+
+
+def element_names(array: str, shape: Shape) -> list[str]:
+    """The names of all elements of an array, row by row."""
+    return [element_name(array, index) for index in indices(shape)]
+
+
+def array_shapes(names: Iterable[str]) -> dict[str, Shape]:
+    """The arrays among names of elements: those of which every element is there, in the order of their first ones."""
+    known = dict.fromkeys(names)
+    arrays: dict[str, list[Shape]] = {}
+    for name in known:
+        match = ELEMENT.fullmatch(name)
+        if match:
+            arrays.setdefault(match["array"], []).append(tuple(map(int, match["index"].split(","))))
+    shapes: dict[str, Shape] = {}
+    for array, present in arrays.items():
+        if array not in known and len({len(index) for index in present}) == 1:
+            shape = tuple(map(max, zip(*present, strict=True)))
+            if math.prod(shape) == len(present):
+                shapes[array] = shape
+    return shapes
+
+
+def text_of(shape: Shape) -> str:
+    """A shape as messages have it: `a scalar`, `3 elements`, `2 x 3 elements`."""
+    if not shape:
+        return "a scalar"
+    return f"{' x '.join(map(str, shape))} element{'' if shape == (1,) else 's'}"

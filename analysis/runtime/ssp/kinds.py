@@ -1,0 +1,28 @@
+"""Kinds of connectors, and which may be connected with which: the table of allowed connections of SSP 2.0.
+
+It contains that of SSP 1.0. The system is the one in which a connection stands, elements are what is inside it.
+"""
+
+from __future__ import annotations
+
+PARAMETERS = ("parameter", "structuralParameter")  # have their value before a flight
+LED_OUT = ("output", "local", "calculatedParameter", "constant")  # what a system gives outwards
+OUT = ("output", "local")
+VALUES = ("calculatedParameter", *OUT)
+IN = ("input", "inout")
+ALLOWED: dict[tuple[bool, str], dict[bool, tuple[str, ...]]] = {
+    # (whether the source is the system, its kind): kinds of targets by whether they are the system's
+    (True, "structuralParameter"): {True: VALUES, False: (*PARAMETERS, *IN)},
+    (True, "parameter"): {True: VALUES, False: ("parameter", *IN)},
+    (True, "input"): {True: OUT, False: IN},
+    (False, "constant"): {True: ("constant", *VALUES), False: (*PARAMETERS, *IN)},
+    (False, "calculatedParameter"): {True: VALUES, False: ("parameter", *IN)},
+    (False, "output"): {True: OUT, False: IN},
+    (False, "local"): {True: OUT, False: IN},
+    (False, "inout"): {True: OUT, False: IN},  # the standard has no way from one dictionary to another; we have
+}
+
+
+def leads(kind: str, is_system: bool, target: str, is_target_system: bool) -> bool:
+    """Whether values go from a connector of one kind to one of another, each of the system itself or of an element."""
+    return target in ALLOWED.get((is_system, kind), {}).get(is_target_system, ())

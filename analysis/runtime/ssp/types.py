@@ -1,0 +1,33 @@
+"""Types of connectors and parameters in SSP 1.0 and 2.0, and the runtime's type of each."""
+
+from __future__ import annotations
+
+RUNTIME_TYPES = {
+    **dict.fromkeys(("Real", "Float64", "Float32"), "Real"),
+    **dict.fromkeys(
+        ("Integer", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64"),
+        "Integer",
+    ),
+    "Boolean": "Boolean",
+    "String": "String",
+    "Enumeration": "Enumeration",
+    "Binary": "Binary",
+}
+GENERAL = ("Real", "Integer")  # the only ones of SSP 1.0, whatever an FMU of FMI 3.0 has
+
+
+def runtime_type(name: str) -> str:
+    """The type that the runtime computes with, by the name that a document or an FMU has for it."""
+    return RUNTIME_TYPES.get(name, name)
+
+
+def is_of_type(stored: str, declared: str) -> bool:
+    """Whether a variable's type is the one that is declared: Real and Integer are said of all of their kind."""
+    return stored == declared or (declared in GENERAL and runtime_type(stored) == declared)
+
+
+def integer_range(name: str) -> tuple[int, int]:
+    """The smallest and the largest value of an integer type."""
+    exact = "Int32" if name == "Integer" else name
+    bits = int(exact.removeprefix("U").removeprefix("Int"))
+    return (0, 2**bits - 1) if exact.startswith("U") else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)

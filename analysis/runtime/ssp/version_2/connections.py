@@ -1,0 +1,50 @@
+"""One connection for an array instead of one for each of its elements."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from lxml import etree
+
+from ..dimensions import ELEMENT, Shape, indices
+from ..documents import child, children
+from .trees import content, remove
+
+Arrays = Mapping[tuple[str, str], Shape]  # by element, "" for the system itself, and connector
+SIDES = ("start", "end")
+
+
+def merge_connections(system: etree._Element, arrays: Arrays) -> None:
+    """Write connections of the elements of ``arrays`` as connections of the arrays, in place.
+
+    Where all elements of one are connected with those of another of the same shape in the same order, alike, that is
+    one connection. Others name the elements by their indices.
+    """
+    groups: dict[tuple[bytes, Shape, Shape], list[tuple[etree._Element, Shape, Shape]]] = {}
+    for connection in children(child(system, "ssd:Connections"), "ssd:Connection"):
+        ends = [_end(connection, side, arrays) for side in SIDES]
+        for side, (_, array, index) in zip(SIDES, ends, strict=True):
+            if index:
+                connection.set(f"{side}Connector", array)
+                connection.set(f"{side}Indices", " ".join(map(str, index)))
+        if all(index for _, _, index in ends):
+            shape, other = (arrays[element, array] for element, array, _ in ends)
+            alike = content(connection, ("startIndices", "endIndices"))
+            groups.setdefault((alike, shape, other), []).append((connection, ends[0][2], ends[1][2]))
+    for (_, shape, other), members in groups.items():
+        pairs = {(start, end) for _, start, end in members}
+        if shape == other and pairs == {(index, index) for index in indices(shape)}:
+            first, *others = [connection for connection, _, _ in members]
+            for side in SIDES:
+                first.attrib.pop(f"{side}Indices")
+            for connection in others:
+                remove(connection)
+
+
+def _end(connection: etree._Element, side: str, arrays: Arrays) -> tuple[str, str, Shape]:
+    """Element, connector and index of an end of a connection; without an index where it is no element of an array."""
+    element, name = connection.get(f"{side}Element", ""), connection.get(f"{side}Connector", "")
+    match = ELEMENT.fullmatch(name)
+    if match and (element, match["array"]) in arrays:
+        return element, match["array"], tuple(map(int, match["index"].split(",")))
+    return element, name, ()

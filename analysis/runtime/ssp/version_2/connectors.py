@@ -1,0 +1,33 @@
+"""One connector for an array instead of one for each of its elements."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from lxml import etree
+
+from ..dimensions import Shape, array_shapes
+from ..documents import child, children
+from ..types import RUNTIME_TYPES
+from .trees import add_dimensions, group_elements, is_whole, remove
+
+
+def merge_connectors(owner: etree._Element, arrays: Mapping[str, Shape] | None) -> dict[str, Shape]:
+    """Write the arrays of a component or a system as one connector each, in place; the shapes of those that are.
+
+    ``arrays`` are those of a component's FMU: of them one element is enough, since the FMU has no variable of an
+    element's name. None: a system, whose arrays are those of which all elements are there and alike.
+    """
+    connectors = children(child(owner, "ssd:Connectors"), "ssd:Connector")
+    shapes = array_shapes(connector.get("name", "") for connector in connectors) if arrays is None else arrays
+    merged: dict[str, Shape] = {}
+    for array, elements in group_elements(connectors, shapes).items():
+        if arrays is None and not is_whole(elements, shapes[array], ("name",)):
+            continue
+        first, *others = elements.values()
+        first.set("name", array)
+        add_dimensions(first, shapes[array], RUNTIME_TYPES)
+        for other in others:
+            remove(other)
+        merged[array] = shapes[array]
+    return merged

@@ -1,0 +1,90 @@
+"""A System Structure Description of SSP 1.0 as one of SSP 2.0."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from copy import deepcopy
+from dataclasses import dataclass
+
+from lxml import etree
+
+from ..dimensions import Shape
+from ..documents import child, children, tag
+from .connections import merge_connections
+from .connectors import merge_connectors
+from .trees import to_version_2
+from .values import merge_values
+
+ArraysOf = Callable[[str], Mapping[str, Shape]]  # the arrays of the FMU of a source
+
+
+@dataclass(frozen=True)
+class BoundSet:
+    """A parameter set file that a description binds, and the arrays that its names may mean; none behind a mapping."""
+
+    source: str
+    arrays: Mapping[str, Shape]
+
+
+def convert_description(description: etree._Element, arrays_of: ArraysOf) -> tuple[etree._Element, list[BoundSet]]:
+    """The same system in SSP 2.0, and the files that it binds, that of the whole system first.
+
+    ``arrays_of`` gives the arrays that the FMU of a source has as such (FMI 3.0); one of FMI 2.0 has a variable for
+    each element, and SSP wants a connector for each variable.
+    """
+    root = deepcopy(description)
+    to_version_2(root)
+    system = child(root, "ssd:System")
+    bound: list[BoundSet] = []
+    whole = _convert_system(system, arrays_of, bound) if system is not None else {}
+    return root, [BoundSet("", whole), *bound]
+
+
+def _convert_system(system: etree._Element, arrays_of: ArraysOf, bound: list[BoundSet]) -> dict[str, Shape]:
+    """Convert a system and those inside it, in place; its arrays by hierarchical name."""
+    outer = merge_connectors(system, None)
+    connected: dict[tuple[str, str], Shape] = {("", name): shape for name, shape in outer.items()}
+    known = dict(outer)
+    for element in _elements(system):
+        name = element.get("name", "")
+        if tag(element) == "System":
+            inner = _convert_system(element, arrays_of, bound)
+            merged = {array: inner[array] for array in inner if _declares(element, array)}
+        else:
+            inner = dict(arrays_of(element.get("source", "")))
+            merged = merge_connectors(element, inner)
+            bound += _convert_bindings(element, inner)
+        connected |= {(name, array): shape for array, shape in merged.items()}
+        known |= {f"{name}.{array}": shape for array, shape in inner.items()}
+    merge_connections(system, connected)
+    bound += _convert_bindings(system, known)
+    return known
+
+
+def _elements(system: etree._Element) -> Iterator[etree._Element]:
+    """Components and systems inside a system."""
+    elements = child(system, "ssd:Elements")
+    for element in elements if elements is not None else ():
+        if tag(element) in ("Component", "System"):
+            yield element
+
+
+def _declares(element: etree._Element, name: str) -> bool:
+    return any(
+        connector.get("name") == name for connector in children(child(element, "ssd:Connectors"), "ssd:Connector")
+    )
+
+
+def _convert_bindings(owner: etree._Element, known: Mapping[str, Shape]) -> Iterator[BoundSet]:
+    """The files that an element binds; parameter sets inside the description are converted in place."""
+    for binding in children(child(owner, "ssd:ParameterBindings"), "ssd:ParameterBinding"):
+        prefix = binding.get("prefix", "")
+        arrays = {name.removeprefix(prefix): shape for name, shape in known.items() if name.startswith(prefix)}
+        if child(binding, "ssd:ParameterMapping") is not None:
+            arrays = {}  # whose entries name elements
+        values = child(binding, "ssd:ParameterValues")
+        if binding.get("source") is not None:
+            yield BoundSet(binding.get("source", ""), arrays)
+        elif values is not None:
+            for parameter_set in children(values, "ssv:ParameterSet"):
+                merge_values(parameter_set, arrays)

@@ -1,0 +1,25 @@
+"""The array variables of an FMU, by its modelDescription.xml."""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from ..dimensions import Shape
+from ..documents import tag
+
+
+def arrays_of_fmu(description: etree._Element) -> dict[str, Shape]:
+    """The shapes of the arrays of an FMI 3.0 FMU at their start sizes; none of FMI 2.0, which has scalars only."""
+    if not description.get("fmiVersion", "").startswith("3."):
+        return {}
+    variables = description.findall("ModelVariables/*")
+    starts = {variable.get("valueReference"): variable.get("start", "0") for variable in variables}
+    shapes: dict[str, Shape] = {}
+    for variable in variables:
+        dimensions = [inner for inner in variable if tag(inner) == "Dimension"]
+        if dimensions:
+            sizes = [
+                declared.get("start") or starts.get(declared.get("valueReference"), "0") for declared in dimensions
+            ]
+            shapes[variable.get("name", "")] = tuple(map(int, sizes))
+    return shapes

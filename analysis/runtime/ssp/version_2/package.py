@@ -1,0 +1,73 @@
+"""The files of an .ssp of SSP 1.0 as those of one of SSP 2.0."""
+
+from __future__ import annotations
+
+import io
+import posixpath
+import zipfile
+from collections.abc import Mapping
+from copy import deepcopy
+from functools import cache
+from urllib.parse import unquote
+
+from lxml import etree
+
+from ..dimensions import Shape
+from ..documents import parse_xml
+from ..fmu_description import DESCRIPTION
+from .descriptions import convert_description
+from .fmu_arrays import arrays_of_fmu
+from .trees import to_version_2
+from .values import merge_values
+
+OTHERS = (".ssm", ".ssb")
+
+
+def convert_package(files: Mapping[str, bytes], label: str) -> dict[str, bytes]:
+    """The files of a package by name, its documents in SSP 2.0, everything else as it is; ``label`` names it in errors.
+
+    Raises InputError for a document that is no XML.
+    """
+
+    @cache
+    def arrays_of(source: str) -> Mapping[str, Shape]:
+        name = _name(source, files)
+        if name is None:
+            return {}
+        with zipfile.ZipFile(io.BytesIO(files[name])) as archive:
+            return arrays_of_fmu(parse_xml(archive.read(DESCRIPTION), f"{label}!{name}!{DESCRIPTION}"))
+
+    converted = dict(files)
+    by_set: dict[str, list[Mapping[str, Shape]]] = {}  # what the names of a parameter set mean wherever it is bound
+    whole: list[Mapping[str, Shape]] = []
+    for name in files:
+        if name.endswith(".ssd") and "/" not in name:
+            root, (system, *bound) = convert_description(parse_xml(files[name], f"{label}!{name}"), arrays_of)
+            converted[name] = _write(root)
+            whole.append(system.arrays)
+            for each in bound:
+                by_set.setdefault(_name(each.source, files) or "", []).append(each.arrays)
+    for name in files:
+        if name.endswith((".ssv", *OTHERS)):
+            root = deepcopy(parse_xml(files[name], f"{label}!{name}"))
+            to_version_2(root)
+            if name.endswith(".ssv"):
+                merge_values(root, _in_all(by_set.get(name, whole)))
+            converted[name] = _write(root)
+    return converted
+
+
+def _name(source: str, files: Mapping[str, bytes]) -> str | None:
+    """The file of a package that a source means."""
+    names = (posixpath.normpath(source), posixpath.normpath(unquote(source)))
+    return next((name for name in names if name in files), None)
+
+
+def _in_all(meanings: list[Mapping[str, Shape]]) -> dict[str, Shape]:
+    """The arrays that are the same by all of several meanings."""
+    first, *others = meanings or [{}]
+    return {name: shape for name, shape in first.items() if all(other.get(name) == shape for other in others)}
+
+
+def _write(root: etree._Element) -> bytes:
+    return etree.tostring(root.getroottree(), encoding="UTF-8", xml_declaration=True) + b"\n"

@@ -1,0 +1,94 @@
+"""A description in which every array connector, and every connection of one, is replaced by those of its elements."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from ....common.errors import InputError
+from ...ssp.description import Connection, Connector, Description, Element, Point, System
+from ...ssp.dimensions import Shape, element_name, element_names, indices, text_of
+from .shapes import Shapes
+from .sizes import Sizes, walk
+
+
+def expand_arrays(description: Description, sizes: Sizes) -> Description:
+    """The description with scalar connectors ``x[1]``, ``x[2]`` or ``x[2,1]`` for an array x, and connections of these.
+
+    ``sizes`` are those that structural parameters give. A description without arrays is returned as it is. Raises
+    InputError.
+    """
+    if not any(_has_arrays(system) for _, system in walk(description.system)):
+        return description
+    shapes = Shapes(description, sizes)
+    return replace(description, system=_expanded(description, shapes, "", description.system))
+
+
+def _has_arrays(system: System) -> bool:
+    """Whether a system, inner ones apart, has an array, or a connection that names an element of one."""
+    return (
+        any(each.dimensions for owner in (system, *system.elements.values()) for each in owner.connectors.values())
+        or any(each.dimensions for signals in system.dictionaries.values() for each in signals.values())
+        or any(each.start_indices or each.end_indices for each in system.connections)
+    )
+
+
+def _expanded(description: Description, shapes: Shapes, path: str, system: System) -> System:
+    elements: dict[str, Element] = {}
+    for name, element in system.elements.items():
+        inner = f"{path}{name}."
+        if isinstance(element, System):
+            elements[name] = _expanded(description, shapes, inner, element)
+        else:
+            elements[name] = replace(element, connectors=_connectors(shapes, inner, element.connectors))
+    return replace(
+        system,
+        connectors=_connectors(shapes, path, system.connectors),
+        elements=elements,
+        dictionaries={
+            name: _connectors(shapes, f"{path}{name}.", signals) for name, signals in system.dictionaries.items()
+        },
+        connections=[
+            each for connection in system.connections for each in _connections(description, shapes, path, connection)
+        ],
+    )
+
+
+def _connectors(shapes: Shapes, path: str, connectors: Mapping[str, Connector]) -> dict[str, Connector]:
+    expanded: dict[str, Connector] = {}
+    for connector in connectors.values():
+        for name in element_names(connector.name, shapes.known.get(path + connector.name, ())):
+            if name in expanded:
+                raise shapes.refuse_second(path, name, connector, expanded[name])
+            expanded[name] = replace(connector, name=name, dimensions=()) if connector.dimensions else connector
+    return expanded
+
+
+def _connections(description: Description, shapes: Shapes, path: str, connection: Connection) -> list[Connection]:
+    """One connection for each element that one connects, elements of both ends in the order of their indices."""
+    starts, part = _part(description, shapes, path, connection, connection.start, connection.start_indices)
+    ends, other = _part(description, shapes, path, connection, connection.end, connection.end_indices)
+    if part != other:
+        problem = f"connects {text_of(part)} with {text_of(other)}"
+        remedy = "connect arrays of one shape, or their elements by startIndices and endIndices"
+        raise InputError(description.file, connection.where, problem, remedy)
+    if starts == [connection.start] and ends == [connection.end]:
+        return [connection]
+    return [
+        replace(connection, start=start, end=end, start_indices=(), end_indices=())
+        for start, end in zip(starts, ends, strict=True)
+    ]
+
+
+def _part(
+    description: Description, shapes: Shapes, path: str, connection: Connection, point: Point, chosen: Shape
+) -> tuple[list[Point], Shape]:
+    """The elements that an end of a connection means, and the shape that they have together."""
+    element, connector = point
+    shape = shapes.at(path, point)
+    if len(chosen) > len(shape) or any(index > size for index, size in zip(chosen, shape, strict=False)):
+        name = connector if element is None else f"{element}.{connector}"
+        problem = f"no element {' '.join(map(str, chosen))} in {name}, {text_of(shape)}"
+        raise InputError(description.file, connection.where, problem, "correct the indices")
+    part = shape[len(chosen) :]
+    return [(element, element_name(connector, chosen + index)) for index in indices(part)], part

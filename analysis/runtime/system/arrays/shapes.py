@@ -1,0 +1,128 @@
+"""How many elements each array connector has: as stated, as its FMU has it, or as what it is connected to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ....common.bounds import ARRAY_ELEMENTS
+from ....common.errors import InputError
+from ...ssp.description import Component, Connection, Connector, Description, Element, Point, System
+from ...ssp.dimensions import Shape, array_shapes, text_of
+from .sizes import Sizes, walk
+
+Open = tuple[int | None, ...]  # a shape of which sizes may not be known
+
+
+class Shapes:
+    """The shapes of all array connectors by hierarchical name. Raises InputError for one that nothing gives."""
+
+    def __init__(self, description: Description, sizes: Sizes) -> None:
+        self.description = description
+        self.load = sizes.load
+        self.of_fmus: dict[str, dict[str, Shape]] = {}
+        self.without_arrays: list[str] = []  # components of FMI 2.0, whose variables are scalars
+        shapes: dict[str, Open] = {}
+        declared: dict[str, Connector] = {}
+        for path, element in _elements(description.system):
+            for connector in element.connectors.values():
+                if connector.dimensions:
+                    name = path + connector.name
+                    declared[name] = connector
+                    shapes[name] = tuple(
+                        sizes.size(element, path, each, connector.name) if each.connector else each.size
+                        for each in connector.dimensions
+                    )
+                    if isinstance(element, Component):
+                        shapes[name] = self._as_in_fmu(path.removesuffix("."), element, connector, shapes[name])
+        for path, system in walk(description.system):
+            for dictionary, signals in system.dictionaries.items():
+                for signal in signals.values():
+                    if signal.dimensions:
+                        name = f"{path}{dictionary}.{signal.name}"
+                        declared[name] = signal
+                        shapes[name] = tuple(each.size for each in signal.dimensions)
+        if self.without_arrays:
+            names = ", ".join(self.without_arrays)
+            note = f"array connectors of FMI 2.0 FMUs ({names}), where SSP 2.0 has one for each element"
+            description.notes.append(note)
+        self._settle(shapes)
+        for name, shape in shapes.items():
+            if None in shape:
+                problem = f"dimension {shape.index(None) + 1} has no size, nor has what it is connected to"
+                raise InputError(description.file, declared[name].at(name), problem, "write size or sizeConnector")
+        self.known: dict[str, Shape] = {name: tuple(each or 0 for each in shape) for name, shape in shapes.items()}
+        ARRAY_ELEMENTS.check(sum(math.prod(shape) for shape in self.known.values()), description.file, "Dimension")
+
+    def at(self, path: str, point: Point) -> Shape:
+        """The shape of the connector that an end of a connection names; empty for scalars and unknown ones."""
+        return self.known.get(name_of(path, point), ())
+
+    def refuse_second(self, path: str, name: str, second: Connector, first: Connector) -> InputError:
+        """The error of an array's element that is a connector by itself, too."""
+        where = second.at(path + name)
+        return InputError(self.description.file, where, f"declared in line {first.line}, too", "remove one")
+
+    def _as_in_fmu(self, name: str, component: Component, connector: Connector, shape: Open) -> Open:
+        """The shape that a component's FMU gives an array; raises InputError for another than is declared."""
+        fmu = self.load(name, component)
+        if name not in self.of_fmus:
+            self.of_fmus[name] = array_shapes(fmu.variables)
+            if fmu.description.fmiVersion == "2.0":
+                self.without_arrays.append(name)
+        actual = self.of_fmus[name].get(connector.name)
+        where = connector.at(f"{name}.{connector.name}")
+        if actual is None:
+            if math.prod(each or 0 for each in shape) == 0 and None not in shape:
+                return shape  # without an element, which an FMU has no name for
+            known = "is a scalar in" if connector.name in fmu.variables else "is no array of"
+            raise InputError(
+                self.description.file, where, f"{known} {fmu.label}", "correct its Dimensions or use another FMU"
+            )
+        if len(actual) != len(shape) or any(
+            stated not in (None, size) for stated, size in zip(shape, actual, strict=True)
+        ):
+            size = " x ".join("?" if each is None else str(each) for each in shape)
+            problem = f"has {text_of(actual)} in {fmu.label}, {size} here"
+            raise InputError(self.description.file, where, problem, "correct its Dimensions or use another FMU")
+        return actual
+
+    def _settle(self, shapes: dict[str, Open]) -> None:
+        """Give sizes that are open those at the other end of whole connections."""
+        ends = [
+            (name_of(path, connection.start), name_of(path, connection.end))
+            for path, connection in _connections(self.description)
+            if not connection.start_indices and not connection.end_indices
+        ]
+        changed = True
+        while changed:
+            changed = False
+            for pair in (*ends, *((end, start) for start, end in ends)):
+                here, there = (shapes.get(name, ()) for name in pair)
+                if None in here and len(here) == len(there):
+                    filled = tuple(
+                        second if first is None else first for first, second in zip(here, there, strict=True)
+                    )
+                    changed = changed or filled != here
+                    shapes[pair[0]] = filled
+
+
+def name_of(path: str, point: Point) -> str:
+    """The hierarchical name of an end of a connection in the system at ``path``."""
+    element, connector = point
+    return path + connector if element is None else f"{path}{element}.{connector}"
+
+
+def _elements(system: System, path: str = "") -> Iterator[tuple[str, Element]]:
+    """All elements with what stands before the names of their connectors."""
+    for outer, inner in walk(system, path):
+        yield outer, inner
+        for element in inner.elements.values():
+            if not isinstance(element, System):
+                yield f"{outer}{element.name}.", element
+
+
+def _connections(description: Description) -> Iterator[tuple[str, Connection]]:
+    for path, system in walk(description.system):
+        for connection in system.connections:
+            yield path, connection

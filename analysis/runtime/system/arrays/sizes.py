@@ -1,0 +1,143 @@
+"""The sizes of dimensions that a structural parameter or a constant gives, before a system is flattened."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+
+from ....common.errors import InputError
+from ...ssp.archive import SystemArchive
+from ...ssp.description import Component, Description, Element, System
+from ...ssp.dimensions import Dimension
+from ...ssp.given_values import ParameterValue
+from ...ssp.parameter_sets import Assignment, read_binding
+from ..fmu import Fmu
+
+SIZES = ("structuralParameter", "constant")  # kinds of connectors that give a size
+Load = Callable[[str, Component], Fmu]
+
+
+def walk(system: System, path: str = "") -> Iterator[tuple[str, System]]:
+    """A system and those inside it, with their paths: empty for the outermost, else with a dot behind."""
+    yield path, system
+    for element in system.elements.values():
+        if isinstance(element, System):
+            yield from walk(element, f"{path}{element.name}.")
+
+
+def given_values(
+    description: Description, archive: SystemArchive, assignments: Sequence[Assignment]
+) -> dict[str, ParameterValue]:
+    """The values of parameter sets and options by hierarchical name, later ones over earlier, outer over inner ones.
+
+    No FMU is needed for that: names are not looked up, nor values converted. Raises InputError.
+    """
+    values: dict[str, ParameterValue] = {}
+    unmatched: list[str] = []  # flaws are for the reading that applies the values
+    for path, system in sorted(walk(description.system), key=lambda pair: -pair[0].count(".")):
+        for prefix, element in [(f"{path}{inner.name}.", inner) for inner in system.elements.values()] + [
+            (path, system)
+        ]:
+            if isinstance(element, Component) or element is system:
+                for binding in element.bindings:
+                    given, _ = read_binding(archive, description.file, binding, description.units, unmatched)
+                    values |= {prefix + each.name: each.value for each in given}
+    return values | {each.name: each.value for each in assignments}
+
+
+class Sizes:
+    """Sizes of dimensions. ``given`` reads the values that are given, when they are first needed."""
+
+    def __init__(self, description: Description, given: Callable[[], Mapping[str, ParameterValue]], load: Load) -> None:
+        self.description = description
+        self.given = given
+        self.load = load
+        self.sources = _structural_sources(description)
+        self.components = {
+            path + element.name: element
+            for path, system in walk(description.system)
+            for element in system.elements.values()
+            if isinstance(element, Component)
+        }
+
+    def size(self, owner: Element, path: str, dimension: Dimension, array: str) -> int:
+        """The size of a dimension of ``array`` that a connector gives, of the element ``owner`` at ``path``.
+
+        Raises InputError.
+        """
+        name = dimension.connector or ""
+        where = f"{path}{array}, Dimension (line {dimension.line})"
+        connector = owner.connectors.get(name)
+        if connector is None or connector.kind not in SIZES or connector.dimensions:
+            problem = f"sizeConnector {name} is no structural parameter and no constant of {owner.name}"
+            raise InputError(self.description.file, where, problem, "correct it, or write size")
+        full = path + name
+        chain = self._chain(full)
+        given = self._brought(chain) if connector.kind == "structuralParameter" else None
+        return self._check(self._declared(full) if given is None else given, full, where)
+
+    def connected(self, component: str, names: Collection[str]) -> dict[str, int]:
+        """The values that connections bring the structural parameters ``names`` of a component. Raises InputError."""
+        sizes = {}
+        for name in names:
+            full = f"{component}.{name}"
+            chain = self._chain(full)[1:]
+            given = self._brought(chain)
+            if given is not None:
+                sizes[name] = self._check(given, chain[-1], full)
+        return sizes
+
+    def _chain(self, name: str) -> list[str]:
+        """A structural parameter, and those that lead to it, the outermost at the end."""
+        chain = [name]
+        while self.sources.get(chain[-1], chain[-1]) not in chain:
+            chain.append(self.sources[chain[-1]])
+        return chain
+
+    def _brought(self, chain: Sequence[str]) -> object:
+        """The outermost value that is given along a chain, or that of the constant at its end."""
+        if not chain:
+            return None
+        given = self.given()
+        return next((given[name] for name in reversed(chain) if name in given), self._constant(chain[-1]))
+
+    def _constant(self, name: str) -> object:
+        component, _, short = name.rpartition(".")
+        owner = self.components.get(component)
+        declared = owner.connectors.get(short) if owner is not None else None
+        return self._declared(name) if declared is not None and declared.kind == "constant" else None
+
+    def _declared(self, name: str) -> object:
+        """What the FMU of a component declares as a variable's start."""
+        component, _, short = name.rpartition(".")
+        if component not in self.components:
+            return None
+        variable = self.load(component, self.components[component]).variables.get(short)
+        return None if variable is None else variable.start
+
+    def _check(self, given: object, name: str, where: str) -> int:
+        try:
+            size = int(str(given))
+        except ValueError:
+            size = -1
+        if size < 0:
+            problem = f"{name} has no value" if given is None else f"{name} is {given}, which is no size"
+            raise InputError(self.description.file, where, problem, "give it one in a parameter set")
+        return size
+
+
+def _structural_sources(description: Description) -> dict[str, str]:
+    """What leads to structural parameters, by hierarchical name."""
+    sources: dict[str, str] = {}
+    for path, system in walk(description.system):
+        for connection in system.connections:
+            ends = []
+            for element, connector in (connection.start, connection.end):
+                owner = system if element is None else system.elements.get(element)
+                declared = owner.connectors.get(connector) if owner is not None else None
+                name = path + connector if element is None else f"{path}{element}.{connector}"
+                ends.append((element, name, declared.kind if declared is not None else ""))
+            for (outer, source, kind), (inner, target, target_kind) in (ends, ends[::-1]):
+                leads = (kind == "constant" and outer is not None) or (kind in SIZES and outer is None)
+                if leads and inner is not None and target_kind == "structuralParameter":
+                    sources[target] = source
+    return sources

@@ -1,0 +1,123 @@
+"""Event mode, early returns, endings and failures, with an FMU that refuses calls that FMI 3.0 does not allow."""
+
+import numpy as np
+import pytest
+
+import perilune
+from tests.support.fmi3.strict_fmu import strict_fmu
+
+STEPS = {0: 0, 0.125: 0, 0.3: 3, 0.5: 3}
+
+
+def series(folder):
+    """Column d of a file: 0, then 3 from 0.3 s on, then 3 still."""
+    path = folder / "d.csv"
+    path.write_text("\n".join(["time,d", *(f"{time},{value}" for time, value in STEPS.items())]))
+    return str(path)
+
+
+def test_discrete_input_is_given_in_event_mode_when_it_changes(tmp_path):
+    path = str(strict_fmu(tmp_path, events=True))
+    flight = perilune.simulate(path, input=series(tmp_path), set={"Strict.rounds": 5})
+    assert flight.status == "stop_time"
+    # it changes at the communication point of 0.5 s, of which the step to 0.75 s knows
+    assert flight.signals["Strict.events"].tolist() == [0, 0, 0, 1, 1]
+    assert flight.signals["Strict.accepted"].tolist() == [0, 0, 0, 3, 3]
+
+
+def test_without_a_discrete_input_in_flight_there_is_no_event_mode(tmp_path):
+    """The FMU handles events within its steps then; a continuous input needs no event."""
+    flight = perilune.simulate(str(strict_fmu(tmp_path, events=True)), set={"Strict.early": 0.1, "Strict.d": 3})
+    assert flight.status == "stop_time"
+    assert not flight.signals["Strict.events"].any()
+    assert not flight.signals["Strict.returns"].any()
+
+
+def test_early_returns_are_continued_to_the_communication_point(tmp_path):
+    """Each step of 0.25 s is cut at 0.1 and 0.2 s, each cut an event; y' = gain u goes on across them."""
+    path = str(strict_fmu(tmp_path, events=True))
+    flight = perilune.simulate(path, input=series(tmp_path), set={"Strict.early": 0.1})
+    assert flight.status == "stop_time"
+    assert flight.signals["Strict.returns"].tolist() == [0, 2, 4, 6, 8]
+    assert flight.signals["Strict.events"].tolist() == [0, 2, 4, 7, 9]
+    assert np.allclose(flight.signals["Strict.y[1]"], 0.5 * flight.time, rtol=1e-14)
+
+
+def test_an_fmu_ends_the_simulation(tmp_path):
+    flight = perilune.simulate(str(strict_fmu(tmp_path)), set={"Strict.end_at": 0.6})
+    assert (flight.status, flight.message) == ("terminated", "Strict asked for the end at t = 0.6 s")
+    assert flight.time.tolist() == [0.0, 0.25, 0.5, 0.6]
+    assert np.allclose(flight.signals["Strict.y[1]"], 0.5 * flight.time, rtol=1e-14)
+
+
+def test_an_fmu_ends_the_simulation_in_event_mode(tmp_path):
+    path = tmp_path / "ends.csv"
+    path.write_text("time,d\n0,0\n0.5,0\n0.5,-1\n1,-1")
+    flight = perilune.simulate(str(strict_fmu(tmp_path, events=True)), input=str(path))
+    assert flight.status == "terminated"
+    assert flight.time[-1] == 0.5
+
+
+@pytest.mark.parametrize(
+    ("trouble", "message"),
+    [
+        ("fails", "fmi3DoStep returned error at t = 0.25 s: as asked for"),
+        ("discards", "fmi3DoStep returned discard at t = 0.25 s: as asked for"),
+        ("dies", "fmi3DoStep returned fatal at t = 0.25 s: as asked for"),
+        ("stands_still", "fmi3DoStep does not advance at t = 0.25 s: no message in its log"),
+        ("never_settles", "fmi3UpdateDiscreteStates does not settle in event mode at t = 0 s: no message in its log"),
+    ],
+)
+def test_failures_are_named(tmp_path, trouble, message):
+    path = str(strict_fmu(tmp_path, events=True))
+    flight = perilune.simulate(path, input=series(tmp_path), set={"Strict.trouble": trouble})
+    assert (flight.status, flight.message) == ("failed", f"Strict: {message}")
+
+
+def test_messages_are_no_formats(tmp_path, capfd):
+    path = str(strict_fmu(tmp_path))
+    assert perilune.simulate(path, set={"Strict.trouble": "talks"}, log="warning").status == "stop_time"
+    assert "Strict: warning (logEvents): 100% of a %s" in capfd.readouterr().err
+
+
+def test_tolerance_reaches_the_fmu(tmp_path):
+    assert perilune.simulate(str(strict_fmu(tmp_path))).signals["Strict.tolerance"][0] == -1.0
+    path = str(strict_fmu(tmp_path, tolerance=1e-7, name="tolerant"))
+    assert perilune.simulate(path).signals["Strict.tolerance"][0] == 1e-7
+
+
+def test_binary_beyond_its_room_ends_the_flight(strict_pair):
+    flight = perilune.simulate(strict_pair(blob_size=65537))
+    assert flight.status == "failed"
+    assert flight.message == "source.blob gave a binary value of more than 65536 bytes at t = 0 s"
+
+
+PLAN = """
+system = "strict"
+trials = 8
+seed = 1
+[draw."Strict.trouble"]
+distribution = "choice"
+values = [0, 1]
+[draw."Strict.u[1]"]
+distribution = "uniform"
+low = 1.0
+high = 2.0
+[metric.last]
+expression = "Strict.y[1]"
+reduction = "final"
+[success]
+expression = "last > 0"
+"""
+
+
+@pytest.mark.parametrize("events", [False, True])
+def test_trials_after_failures_are_those_of_fresh_instances(tmp_path, events):
+    """Reset, or instantiated anew after an error: y is the drawn u after 1 s with gain 1."""
+    path, plan = str(strict_fmu(tmp_path, events=events)), tmp_path / "plan.toml"
+    plan.write_text(PLAN)
+    trials = perilune.batch(path, plan, workers=1).trials["default"]
+    flown = np.array(trials.statuses) == "stop_time"
+    assert set(trials.statuses) == {"stop_time", "failed"}
+    assert np.array_equal(trials.metrics["last"][flown], trials.draws["Strict.u[1]"][flown])
+    assert "fmi3DoStep returned error" in next(iter(trials.messages.values()))

@@ -1,0 +1,103 @@
+"""Our systems as SSP 2.0: valid, smaller, and the same run to the last bit.
+
+Truth: the systems as SSP 1.0; the schemas of SSP 2.0; the counts of elements by their names.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lxml import etree
+
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.ssp.dimensions import array_shapes
+from perilune.analysis.runtime.ssp.documents import check_schema
+from perilune.analysis.runtime.ssp.version_2 import package
+from perilune.analysis.runtime.ssp.version_2.package import convert_package
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.analysis.verbs.export import export
+from perilune.fmus_src.export.archive import read_zip, write_zip
+from perilune.fmus_src.paths import BUILD, SYSTEMS
+from tests.support.builders import fly
+
+pytestmark = pytest.mark.usefixtures("fmus")
+NAMES = sorted(path.parent.name for path in SYSTEMS.glob("*/SystemStructure.ssd"))
+
+
+def grouped(description: etree._Element) -> dict[str, tuple[int, ...]]:
+    """The arrays of an FMU by the names of its variables, as if it were one of FMI 3.0."""
+    return array_shapes(each.get("name", "") for each in description.iterfind("ModelVariables/ScalarVariable"))
+
+
+def documents(files: dict[str, bytes]) -> dict[str, etree._Element]:
+    return {name: etree.fromstring(text) for name, text in files.items() if name.endswith((".ssd", ".ssv"))}
+
+
+def count(files: dict[str, bytes], name: str) -> int:
+    return sum(len(root.findall(f".//{{*}}{name}")) for root in documents(files).values())
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_with_arrays_they_are_smaller_and_run_alike(name, tmp_path, monkeypatch):
+    monkeypatch.setattr(package, "arrays_of_fmu", grouped)
+    one = read_zip(BUILD / "ssp" / f"{name}.ssp")
+    two = convert_package(one, name)
+    for file, root in documents(two).items():
+        check_schema(root, file[-3:], file)
+    assert count(two, "Connector") < count(one, "Connector") or name == "lunar_descent_2d"  # whose signals are scalars
+    assert count(two, "Connection") < count(one, "Connection") or name == "lunar_descent_2d"
+    assert count(two, "Parameter") < count(one, "Parameter")
+    assert sum(map(len, two.values())) < sum(map(len, one.values()))
+    before, after = fly(BUILD / "ssp" / f"{name}.ssp"), fly(write_zip_at(tmp_path / f"{name}.ssp", two))
+    assert list(after.signals) == list(before.signals)
+    for signal, values in before.signals.items():
+        np.testing.assert_array_equal(after.signals[signal].view(np.uint8), values.view(np.uint8), err_msg=signal)
+
+
+def write_zip_at(path: Path, files: dict[str, bytes]) -> Path:
+    write_zip(path, files)
+    return path
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_parameter_set_gives_what_it_gave(name, tmp_path, monkeypatch):
+    monkeypatch.setattr(package, "arrays_of_fmu", grouped)
+    one = read_zip(BUILD / "ssp" / f"{name}.ssp")
+    path = write_zip_at(tmp_path / f"{name}.ssp", convert_package(one, name))
+    for file in (each for each in one if each.endswith(".ssv")):
+        options = SystemOptions(parameters=(Path(file).name,), allow_unmatched=True)
+        before, after = (prepare_system(each, options).settings for each in (BUILD / "ssp" / f"{name}.ssp", path))
+        assert after.variables == before.variables, file
+        assert after.nodes == before.nodes, file
+
+
+def test_exported_with_fmus_of_fmi_2_every_variable_has_a_connector(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    command = [sys.executable, "-m", "perilune", "export", "lunar_terminal_guidance", "--ssp", "2"]
+    subprocess.run([*command, "--flavour", "python"], check=True, capture_output=True)
+    path = tmp_path / "lunar_terminal_guidance.ssp"
+    with zipfile.ZipFile(path) as archive:
+        root = etree.fromstring(archive.read("SystemStructure.ssd"))
+    check_schema(root, "ssd", "s.ssd")
+    assert root.get("version") == "2.0"
+    names = [each.get("name") for each in root.iterfind(".//{*}Component/{*}Connectors/{*}Connector")]
+    assert "position[1]" in names
+    assert "position" not in names
+    assert not [note for note in prepare_system(path, SystemOptions()).network.notes if "FMI 2.0" in note]
+    before, after = fly(BUILD / "ssp" / "lunar_terminal_guidance.ssp"), fly(path)
+    for signal, values in before.signals.items():
+        np.testing.assert_array_equal(after.signals[signal], values, err_msg=signal)
+
+
+@pytest.mark.parametrize("ssp", ["1", "2"])
+def test_a_version_of_ssp_is_for_systems(tmp_path, monkeypatch, ssp):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match="forming_filter is no system, which it is for; leave it out"):
+        export("forming_filter", ssp=ssp)
+    assert not list(tmp_path.iterdir())

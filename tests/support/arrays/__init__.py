@@ -1,0 +1,1 @@
+"""FMUs with arrays, and descriptions in SSP 2.0."""
