@@ -7,7 +7,7 @@ import pytest
 
 from perilune.analysis.cli import main
 from perilune.fmus_src.evidence.manifest import STUDY
-from tests.hostile.evidence import OUT, experiment, fmu, manifest
+from tests.evidence.hostile import OUT, experiment, fmu, manifest
 
 STUDIED = f"<Annotations><Annotation type='{STUDY}'><Study name='/etc/passwd'/></Annotation></Annotations>"
 WIDE = "time," + ",".join(f"c{n}" for n in range(20_000)) + "\n" + "0," * 20_000 + "0\n"

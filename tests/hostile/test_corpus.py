@@ -15,12 +15,12 @@ import pytest
 
 from perilune.analysis.common.visible import CONTROLS
 from perilune.fmus_src.paths import ROOT
+from tests.evidence import hostile as evidence
 from tests.hostile import (
     archives,
     arrays,
     campaigns,
     documents,
-    evidence,
     expressions,
     fmus,
     folders,

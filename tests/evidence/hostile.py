@@ -7,9 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from perilune.fmus_src.evidence.manifest import FOLDER, MANIFEST, NAMESPACE, STANDARD, SUMS
+from tests.hostile.case import Case, Write
 from tests.support.builders import write_zip
-
-from .case import Case, Write
 
 VERIFY = ("verify x.fmu",)
 ATTRIBUTES = {"name": STANDARD, "version": "1.0.0-beta.1", "description": "d"}
