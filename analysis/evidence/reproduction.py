@@ -26,6 +26,7 @@ from .trajectory import Trajectory, read_trajectory
 
 NAMED = 6  # columns without a variable
 RELATIVE = 1e-6  # of a signal's greatest magnitude, where no tolerance is declared
+WHOLE = 1e-6  # what a number of steps may lack of a whole one
 SET = "resources/experiment.ssv"  # the parameters of an experiment among the files of its archive
 
 
@@ -141,9 +142,8 @@ def _prepare(
         fmu = loaded.setdefault(archive.label, load_fmu(read_fmu(archive.path)(), archive.label))
         component = describe_alone(fmu, options)[0].system.name
         others = {name for name, variable in fmu.variables.items() if variable.causality != "input"}
-        spacing = np.diff(reference.time)
-        if options.step is None and proposed_step(fmu) is None and (spacing > 0.0).any():
-            options = replace(options, step=float(spacing[spacing > 0.0].min()))
+        if options.step is None:
+            options = replace(options, step=_step(reference.time, proposed_step(fmu)))
     if experiment.parameters is not None:
         content = _content(files, experiment.parameters, archive.label)
         if component:
@@ -154,6 +154,18 @@ def _prepare(
     if experiment.stimuli is not None:
         series = _table(files, experiment.stimuli, archive.label).series(without=others)
     return prepare_system(archive, options, loaded, series)
+
+
+def _step(time: np.ndarray, proposed: float | None) -> float | None:
+    """The step (s) of a default experiment: the FMU's where all times are whole steps of it, else their spacing."""
+    spacing = np.diff(time)
+    if not (spacing > 0.0).any():
+        return proposed
+    if proposed is not None:
+        steps = (time - time[0]) / proposed
+        if np.all(np.abs(steps - np.round(steps)) <= WHOLE):
+            return proposed
+    return float(spacing[spacing > 0.0].min())
 
 
 def _with_component(content: bytes, component: str, file: str) -> bytes:

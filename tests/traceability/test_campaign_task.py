@@ -4,7 +4,9 @@ Truth: the folder's files, digested by hashlib; the summary of the same batch.
 """
 
 import hashlib
+import importlib.util
 import json
+from pathlib import Path
 from urllib.parse import unquote
 
 import pytest
@@ -129,3 +131,39 @@ def test_without_a_folder(traced, tmp_path, capsys):
     assert main(["batch", SYSTEM, "--campaign", few, "--output", str(tmp_path), "--trace", "x.xml"]) == 2
     assert ".stmd" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+XLINK = """<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema" targetNamespace="http://www.w3.org/1999/xlink">
+{}</xs:schema>"""
+LINK_ATTRIBUTES = ("type", "href", "label", "title", "role", "arcrole", "from", "to")
+
+
+def standard_schema(name, folder):
+    """A schema of the standard from the package that carries it, as XSD 1.0: lxml has no 1.1, nor the network."""
+    source = Path(importlib.util.find_spec("pyssp_standard").origin).parent / "resources"
+    for path in source.glob("*.xsd"):
+        text = path.read_text(encoding="utf-8").replace("xs:dateTimeStamp", "xs:dateTime")
+        (folder / path.name).write_text(text.replace("https://www.w3.org/XML/2008/06/xlink.xsd", "xlink.xsd"))
+    attributes = "".join(f'<xs:attribute name="{name}" type="xs:string"/>' for name in LINK_ATTRIBUTES)
+    (folder / "xlink.xsd").write_text(XLINK.format(attributes))
+    return etree.XMLSchema(etree.parse(folder / name))
+
+
+def test_the_schemas_of_the_standard(traced, tmp_path):
+    """Steps against SSP Traceability Common, documents of resources against SRMD; the package has no schema of STMD."""
+    root = traced[1]
+    documents = list(root.iter(f"{{{NAMESPACES['srmd']}}}SimulationResourceMetaData"))
+    resources = standard_schema("SRMD11.xsd", tmp_path)
+    assert len(documents) > 10
+    for document in documents:
+        resources.assertValid(etree.fromstring(etree.tostring(document)))
+    elements = "".join(f'<xs:element name="{name}" type="stc:StepType"/>' for name in dict.fromkeys(steps(root)))
+    (tmp_path / "steps.xsd").write_text(
+        f'<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema" xmlns:stc="{NAMESPACES["stc"]}" '
+        f'targetNamespace="{NAMESPACES["stmd"]}">'
+        f'<xs:import namespace="{NAMESPACES["stc"]}" schemaLocation="STC11.xsd"/>{elements}</xs:schema>'
+    )
+    schema = etree.XMLSchema(etree.parse(tmp_path / "steps.xsd"))
+    for phase in root:
+        for step in phase:
+            schema.assertValid(etree.fromstring(etree.tostring(step)))

@@ -1,0 +1,47 @@
+"""`perilune verify` on Reference-FMUs of FMI 2 and 3, with the manifest that their repository has for them.
+
+Truth: FMPy's simulation of the default experiment.
+"""
+
+import re
+import zipfile
+
+import fmpy
+import pytest
+
+from perilune.analysis.cli import main
+from perilune.fmus_src.evidence.manifest import FOLDER, MANIFEST
+from tests.evidence.test_verify import OTHERS, changed
+from tests.runtime.fmi3.test_reference_alone import columns
+from tests.support.builders import write_zip
+from tests.support.fmi3.reference import FMI2, FMI3, reference_fmu
+
+FMUS = [*((2, name) for name in FMI2), *((3, name) for name in FMI3)]
+STOP = 2.0  # s, of all of them a whole number of default steps
+
+
+def with_result(version, name, path, change=lambda table: table):
+    """The FMU with FMPy's trajectory; those of texts and of arrays are left out."""
+    fmu = reference_fmu(version, name)
+    simulated = fmpy.simulate_fmu(str(fmu), stop_time=STOP)
+    numbers = {"time": simulated["time"], **columns(simulated)}
+    rows = (",".join(repr(samples[row].item()) for samples in numbers.values()) for row in range(simulated.size))
+    table = "\n".join([",".join(numbers), *rows, ""])
+    with zipfile.ZipFile(fmu) as archive:
+        files = {entry: archive.read(entry) for entry in archive.namelist()}
+    return write_zip(path, files | {MANIFEST: OTHERS, f"{FOLDER}/out.csv": change(table.encode())})
+
+
+@pytest.mark.parametrize(("version", "name"), FMUS)
+def test_reproduced(version, name, tmp_path, capsys):
+    path = with_result(version, name, tmp_path / "x.fmu")
+    assert main(["verify", str(path)]) == 0
+    out = capsys.readouterr().out
+    assert "no attribute fmi-ls-description" in " ".join(out.split())
+    assert re.search(r"default experiment: out.csv: \d+ samples of \d+ signals: the same bits\n", out)
+
+
+def test_a_difference_is_named(tmp_path, capsys):
+    path = with_result(3, "Dahlquist", tmp_path / "x.fmu", lambda table: changed(table, "x", 7, lambda x: x * 1.001))
+    assert main(["verify", str(path)]) == 1
+    assert re.search(r"x differs by 0\.000478 at t = 0\.7 s: reference 0\.478", capsys.readouterr().err)
