@@ -19,6 +19,7 @@ RUNS = {
     "manifests": 1_000_000,
     "shards": 100_000,
     **dict.fromkeys(("systems", "parameter_sets", "campaigns", "descriptions"), 500_000),
+    **dict.fromkeys(("systems_with_arrays", "parameter_sets_with_arrays"), 500_000),
     **dict.fromkeys(("mappings", "inputs", "draws", "expressions", "archives"), 500_000),
     "fmi": 2_000_000,
 }

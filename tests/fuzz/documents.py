@@ -24,7 +24,7 @@ from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.analysis.stability.request.reading import read_declaration
 from tests.fuzz.changes import changed_text, changed_xml, flipped
-from tests.fuzz.originals import CAMPAIGN, SOURCE, SSD, SSV
+from tests.fuzz.originals import CAMPAIGN, SOURCE, SSD, SSD_2, SSV, SSV_2
 from tests.support.builders import pack
 
 SSD_NAME = "SystemStructure.ssd"
@@ -94,6 +94,16 @@ def any_system(fmus: Path, folder: Path) -> Target:
 def any_parameter_set(_fmus: Path, _folder: Path) -> Target:
     """A parameter set with something changed."""
     return reads(changed_xml(SSV) | flipped(SSV), read_parameters)
+
+
+def any_system_with_arrays(fmus: Path, folder: Path) -> Target:
+    """A system's SSD of SSP 2.0 with something changed."""
+    return reads(changed_xml(SSD_2) | flipped(SSD_2), system_reader(fmus, folder))
+
+
+def any_parameter_set_with_arrays(_fmus: Path, _folder: Path) -> Target:
+    """A parameter set of SSP 2.0 with something changed."""
+    return reads(changed_xml(SSV_2) | flipped(SSV_2), read_parameters)
 
 
 def any_campaign(fmus: Path, folder: Path) -> Target:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tests.hostile.campaigns import GOOD
+from tests.support.arrays.documents import in_version_2
 from tests.support.builders import (
     component,
     connection,
@@ -57,6 +58,42 @@ SSM = mapping(
     '<ssm:MappingEntry source="ramp.flag_at" target="z" suppressUnitConversion="true">'
     '<ssc:LinearTransformation factor="2" offset="1"/></ssm:MappingEntry>'
 )
+ARRAYS = system(
+    component("gain", "gain", "input u Float64 m; output y Float64 m"),
+    name="arrays",
+    declared="structuralParameter n UInt64; input in(n) Float64 km; local same(2) Float64 m; output one Float64",
+    bindings=inline("n=UInt64:2"),
+    connections=connection("in", "same")
+    + connection("in", "gain.u", attributes='startIndices="2"')
+    + connection("in", "one", attributes='startIndices="1"'),
+)
+SIGNED = (
+    '<ssc:MetaData kind="quality" type="x/y"><ssc:Content>a</ssc:Content></ssc:MetaData>'
+    '<ssc:Signature role="authenticity" type="x/y"/></ssd:SystemStructureDescription>'
+)
+SSD_2 = in_version_2(
+    document(
+        system(
+            RAMP,
+            GAIN,
+            ARRAYS,
+            declared="structuralParameter n UInt64; parameter p(1,2) Float32; input in(?) Float64 m; output out Int32",
+            connections=WIRED
+            + connection("n", "arrays.n")
+            + connection("in", "arrays.in")
+            + connection(
+                "ramp.count",
+                "out",
+                "<ssc:IntegerMappingTransformation><ssc:MapEntry source='1' target='2'/>"
+                "</ssc:IntegerMappingTransformation>",
+            ),
+            bindings=inline("n=UInt64:2; p(1,2)=Float32:1,2; in(2)=Float64:1,2 km; arrays.n=UInt8:3"),
+        )
+    )
+).replace("</ssd:SystemStructureDescription>", SIGNED)
+SSV_2 = in_version_2(
+    parameter_set("a(2,2)=Float64:1,2,3,4 m; b(3)=Boolean:true,false,1; c=UInt64:5; d=String:x; e(1)=Int8:-5")
+).replace('<ssv:String value="x"/>', '<ssv:String><ssv:Value value="x y"/></ssv:String>')
 SERIES = "time,gain.u,whole.b\n0,1.5,true\n0.5,-2,False\n0.5,1e3,1\n2,0,0\n"
 CAMPAIGN = (
     GOOD

@@ -15,7 +15,8 @@ from .dimensions import Dimension, Shape
 class Connector:
     """A declared connector; type and unit are None where the document does not state them, the kind is empty.
 
-    ``exact_type`` is the type's name as the document has it, such as Float32; ``dimensions`` are those of an array.
+    ``exact_type`` is the type's name as the document has it, such as Float32; ``dimensions`` are those of an array,
+    ``array`` is the name of the one that it is an element of.
     """
 
     name: str
@@ -26,6 +27,7 @@ class Connector:
     line: int
     exact_type: str | None = None
     dimensions: tuple[Dimension, ...] = ()
+    array: str = ""
 
     def at(self, name: str) -> str:
         """Where it is declared, by the name that it has in the flat network."""

@@ -89,6 +89,9 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     name = f"{component}.{connector.name}"
     variable = fmu.variables.get(connector.name)
     if variable is None:
+        if f"{connector.name}[1]" in fmu.variables or f"{connector.name}[1,1]" in fmu.variables:
+            problem = f"is an array in {fmu.label}, a scalar here"
+            raise network.refuse(connector.at(name), problem, "give it its Dimensions (SSP 2.0), or name its elements")
         remedy = f"correct the connector or use another FMU; {suggestion(connector.name, fmu.variables)}"
         raise network.refuse(connector.at(name), f"{fmu.label} has no variable of this name", remedy)
     kind = connector.kind or variable.causality
@@ -116,7 +119,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
             "correct the connector's unit or use another FMU",
         )
     unit, items = declared or own, dict(variable.items)
-    return Node(name, kind, component, connector.name, variable.type, unit, connector.line, items)
+    return Node(name, kind, component, connector.name, variable.type, unit, connector.line, items, connector.array)
 
 
 def _end(network: Network, path: str, system: System, point: Point, connection: Connection) -> Node:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypedDict
 
@@ -12,7 +13,7 @@ from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError, suggestion
 from ..fmi.representations import OF_FMI2, REPRESENTATIONS, TEXTS, Representation
 from ..ssp.kinds import LED_OUT
-from .network import Link, Network
+from .network import Link, Network, Node
 from .passing.settings import Settings
 from .series import InputSeries
 
@@ -22,11 +23,11 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
 
     Raises InputError.
     """
+    inputs = [node for node in network.nodes.values() if node.kind == "input"]
     open_inputs = [
         node
-        for node in network.nodes.values()
-        if node.kind == "input"
-        and node.name not in network.driver
+        for node in inputs
+        if node.name not in network.driver
         and node.name not in network.driven
         and node.name not in settings.nodes
         and (node.component or "", node.variable) not in settings.variables
@@ -34,6 +35,8 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
     if not open_inputs:
         return
     if not keep_starts:
+        open_inputs = _whole(network, inputs, open_inputs)
+    if open_inputs and not keep_starts:
         one = len(open_inputs) == 1
         problem = f"{'input is' if one else f'{len(open_inputs)} inputs are'} neither connected nor given a value"
         setting = f"`set` {shlex.quote(f'{open_inputs[0].name}=VALUE')}"
@@ -56,6 +59,20 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
             if link.target.name not in without:
                 without.add(link.target.name)
                 open_inputs.append(link.target)
+
+
+def _whole(network: Network, inputs: Sequence[Node], open_inputs: Sequence[Node]) -> list[Node]:
+    """Open inputs without those of array connectors of which another element is connected or given a value.
+
+    SSP 2.0 cannot declare part of an array: what is left of it keeps the start of its FMU, which is noted.
+    """
+    names = {node.name for node in open_inputs}
+    in_part = {(node.component, node.array) for node in inputs if node.array and node.name not in names}
+    remainder = [node for node in open_inputs if node.component is not None and (node.component, node.array) in in_part]
+    for node in remainder:
+        start = network.fmus[node.component or ""].variables[node.variable].start
+        network.notes.append(f"{node.name}: open element of an array, keeps {start}")
+    return [node for node in open_inputs if node not in remainder]
 
 
 def missing_outputs(network: Network) -> list[str]:

@@ -17,6 +17,7 @@ class Node:
     """A connector of the flat network: of a component, of a system, or a dictionary's signal.
 
     ``kind`` is the connector's (inout for dictionary signals); ``component`` is None where no FMU stands behind it.
+    ``array`` is the array connector that it is an element of.
     """
 
     name: str
@@ -27,6 +28,7 @@ class Node:
     unit: Unit | None
     line: int
     enumeration: dict[str, int] = field(default_factory=dict)
+    array: str = ""
 
     @property
     def where(self) -> str:

@@ -109,6 +109,35 @@ def test_written_with_elements_it_is_converted_to_arrays_and_flies_alike(tmp_pat
     assert one.signals["one.y[2]"][-1] == 32.0
 
 
+def test_part_of_an_array_is_connected_and_the_other_part_keeps_its_start(tmp_path):
+    """As an SSD of SSP 1.0 that declares some elements only, which is what it is converted from."""
+    strict_fmu(tmp_path)
+    root = system(
+        component("one", "strict", "input u[1] Real; output y[1] Real; output y[2] Real"),
+        declared="input in Real",
+        bindings=inline("in=Real:7"),
+        connections=connection("in", "one.u[1]"),
+    )
+    path = pack(tmp_path / "s.ssp", tmp_path, document(root))
+    files = convert_package(read_zip(path), "s.ssp")
+    for each in (path, write_zip(tmp_path / "t.ssp", files)):
+        flight = perilune.simulate(str(each))
+        assert [flight.signals[f"one.y[{number}]"][-1] for number in (1, 2)] == [7.0, 0.5]
+    text = files["SystemStructure.ssd"].decode()
+    text = text.replace(text[text.index("<ssd:Connections>") : text.index("</ssd:Connections>") + 18], "")
+    with pytest.raises(InputError, match=r"one\.u\[1\] \(line \d+\), one\.u\[2\] \(line \d+\): 2 inputs are neither"):
+        perilune.simulate(str(pack(tmp_path / "u.ssp", tmp_path, text)))
+
+
+def test_an_array_without_dimensions_is_refused(tmp_path):
+    strict_fmu(tmp_path)
+    path = pack(tmp_path / "s.ssp", tmp_path, document(system(component("one", "strict", "input u Real"))))
+    with pytest.raises(
+        InputError, match=r"one\.u \(line \d+\): is an array in .*, a scalar here; give it its Dimensions"
+    ):
+        perilune.simulate(str(path))
+
+
 def test_every_type_by_its_name(tmp_path):
     strict_fmu(tmp_path)
     outputs = "output wide Int64; output wider UInt64; output text String; output blob Binary; output small Int8"

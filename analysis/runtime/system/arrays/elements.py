@@ -60,7 +60,10 @@ def _connectors(shapes: Shapes, path: str, connectors: Mapping[str, Connector]) 
         for name in element_names(connector.name, shapes.known.get(path + connector.name, ())):
             if name in expanded:
                 raise shapes.refuse_second(path, name, connector, expanded[name])
-            expanded[name] = replace(connector, name=name, dimensions=()) if connector.dimensions else connector
+            if connector.dimensions:
+                expanded[name] = replace(connector, name=name, dimensions=(), array=connector.name)
+            else:
+                expanded[name] = connector
     return expanded
 
 

@@ -20,12 +20,28 @@ from perilune.analysis.runtime.ssp.parameter_sets import read_parameter_set
 from perilune.analysis.runtime.ssp.reading import read_ssd
 from perilune.analysis.runtime.ssp.version_2.descriptions import convert_description
 from perilune.analysis.runtime.ssp.version_2.fmu_arrays import arrays_of_fmu
+from perilune.analysis.runtime.ssp.version_2.package import convert_package
 from perilune.analysis.runtime.ssp.version_2.trees import to_version_2
 from perilune.analysis.runtime.ssp.version_2.values import merge_values
 from perilune.analysis.runtime.system.arrays.elements import expand_arrays
 from perilune.analysis.runtime.system.arrays.sizes import Sizes, walk
-from tests.support.builders import component, connection, document, inline, parameter_set, system
+from perilune.fmus_src.export.archive import read_zip
+from tests.support.builders import NAMESPACES as SPACES
+from tests.support.builders import (
+    component,
+    connection,
+    document,
+    external,
+    fly,
+    inline,
+    mapping,
+    pack,
+    parameter_set,
+    system,
+    write_zip,
+)
 
+OTHERS = ("set.ssv", "map.ssm", "bus.ssb")
 SHAPES = {"one.y": (3,), "one.m": (2, 2), "two.u": (3,), "two.v": (2, 2), "two.w": (3,)}
 SCALARS = {"one.y": (), "two.w": ()}
 
@@ -68,7 +84,7 @@ def flattened(text, shapes):
     description = read_ssd(text, "s.ssd", lambda name, element: b"")
     root = expand_arrays(description, Sizes(description, dict, load)).system
     connectors = {
-        f"{path}{owner.name}.{name}": replace(each, line=0, exact_type=None)
+        f"{path}{owner.name}.{name}": replace(each, line=0, exact_type=None, array="")
         for path, inner in walk(root)
         for owner in (inner, *inner.elements.values())
         for name, each in owner.connectors.items()
@@ -230,6 +246,44 @@ def test_values_behind_a_mapping_stay_elements():
     _, plain, _ = converted(written(binding=given_here))
     _, mapped, _ = converted(written(binding=given_here.replace("</ssd:ParameterBinding>", mapping)))
     assert [len(root.findall(".//{*}Parameter")) for root in (plain, mapped)] == [1, 3]
+
+
+def test_all_documents_of_a_package_are_of_version_2(tiny, tmp_path):
+    entry = '<ssm:MappingEntry source="a" target="start"><ssc:LinearTransformation factor="2"/></ssm:MappingEntry>'
+    entries = '<ssb:DictionaryEntry name="y"><ssc:Real unit="m"/></ssb:DictionaryEntry>'
+    units = '<ssb:Units><ssc:Unit name="m"><ssc:BaseUnit m="1"/></ssc:Unit></ssb:Units>'
+    bus = (
+        '<ssd:SignalDictionaries><ssd:SignalDictionary name="bus" source="resources/bus.ssb"/></ssd:SignalDictionaries>'
+    )
+    reference = (
+        '<ssd:SignalDictionaryReference name="here" dictionary="bus"><ssd:Connectors>'
+        '<ssd:Connector name="y" kind="inout"/></ssd:Connectors></ssd:SignalDictionaryReference>'
+    )
+    binding = external("resources/set.ssv", mapping='<ssd:ParameterMapping source="resources/map.ssm"/>')
+    root = system(
+        component("ramp", "ramp", "output y Real m", binding),
+        reference,
+        connections=connection("ramp.y", "here.y"),
+        extra=bus,
+    )
+    path = pack(
+        tmp_path / "s.ssp",
+        tiny,
+        document(root),
+        resources___set__ssv=parameter_set("a=Real:3 m"),
+        resources___map__ssm=mapping(entry),
+        resources___bus__ssb=f'<ssb:SignalDictionary version="1.0" {SPACES}>{entries}{units}</ssb:SignalDictionary>',
+    )
+    files = convert_package(read_zip(path), "s.ssp")
+    for name, kind in (("SystemStructure.ssd", "ssd"), *((f"resources/{each}", each[-3:]) for each in OTHERS)):
+        converted_root = etree.fromstring(files[name])
+        assert converted_root.get("version") == "2.0"
+        check_schema(converted_root, kind, name)
+        assert b"ssc:Real" not in files[name]
+        assert b"ssv:Real" not in files[name]
+    assert files["resources/ramp.fmu"] == (tiny / "ramp.fmu").read_bytes()
+    for each in (path, write_zip(tmp_path / "t.ssp", files)):
+        assert fly(each)["bus.y"][0] == 6.0
 
 
 @pytest.mark.parametrize(
