@@ -78,6 +78,11 @@ class PreparedSystem:
         return all(fmu.is_native for fmu in self.network.fmus.values())
 
     @property
+    def has_fmi3(self) -> bool:
+        """Whether one of its FMUs is of FMI 3.0."""
+        return any(fmu.version == 3 for fmu in self.network.fmus.values())
+
+    @property
     def is_alone(self) -> bool:
         """Whether a process can fly it once at a time only, since an FMU of it allows no second instance."""
         return any(fmu.is_alone for fmu in self.network.fmus.values())
