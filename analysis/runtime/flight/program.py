@@ -77,7 +77,7 @@ class Layout:
     parameters: Parameters
     texts: Texts
     binaries: Texts
-    unfed: Collection[str] = ()
+    unfed: frozenset[str] = frozenset()
 
 
 def build_program(
@@ -384,7 +384,9 @@ class _Builder:
 
     def layout(self) -> Layout:
         texts = self.texts, self.binaries
-        return Layout(self.slots, self.types, self.units, self.parameters, *texts, self.unfed & self.slots.keys())
+        return Layout(
+            self.slots, self.types, self.units, self.parameters, *texts, frozenset(self.unfed & self.slots.keys())
+        )
 
     def _connection_code(self, link: Link) -> int:
         """The instruction that carries a connection's value."""

@@ -89,6 +89,14 @@ class Simulation(BaseSimulation):
         arguments = (self.program, self.buffers, self.layout.parameters.values, span, recording, excitation)
         self._loop = loop.compile_for(arguments, locked=False, with_fmi3=self.prepared.has_fmi3)
 
+    def set(self, values: Mapping[str, ParameterValue]) -> None:
+        """See `BaseSimulation.set`; an element of an array that is partly connected is given with each step, too."""
+        super().set(values)
+        for name in self.layout.unfed & values.keys() if self.layout.unfed else ():
+            slot = self.layout.slots[name]
+            self.program.initial[slot] = float(values[name])
+            self.program.transfers.exact[slot] = int(values[name]) % 2**64
+
     def set_faults(self, faults: Sequence[Fault | None]) -> None:
         """See `BaseSimulation.set_faults`."""
         check_replaced(self._selection.faults, faults)
