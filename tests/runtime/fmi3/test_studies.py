@@ -1,4 +1,4 @@
-"""Campaigns, studies and margins with FMUs of FMI 3.0: closed forms, as of the strict FMU y' = gain u with a constant u."""
+"""Campaigns, studies and margins with FMUs of FMI 3.0, in closed form: the strict FMU has y' = gain u, u constant."""
 
 import math
 

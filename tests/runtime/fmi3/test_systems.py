@@ -143,13 +143,13 @@ def test_elements_that_nothing_is_connected_to_vary_from_trial_to_trial(tmp_path
         connections=connection("source.y[1]", "sink.u[1]"),
     )
     path = pack(tmp_path / "t.ssp", tmp_path, document(root))
-    (tmp_path / "c.toml").write_text(DRAWN)
+    (tmp_path / "c.toml").write_text(PLAN)
     trials = perilune.batch(str(path), str(tmp_path / "c.toml"), workers=1).trials["default"]
     assert np.array_equal(trials.metrics["second"], 2.0 * trials.draws["sink.u[2]"])
     assert np.allclose(trials.metrics["first"], 0.25 * (0.0 + 0.125 + 0.25 + 0.375))
 
 
-DRAWN = """
+PLAN = """
 system = "t.ssp"
 trials = 5
 seed = 1
