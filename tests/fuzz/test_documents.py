@@ -11,6 +11,7 @@ from hypothesis import settings
 from tests.fuzz.documents import (
     any_campaign,
     any_description,
+    any_fmi3_description,
     any_parameter_set,
     any_system,
     campaign_reader,
@@ -30,7 +31,7 @@ def test_the_originals_are_good(tiny_folder, tmp_path):
     assert read_parameters(SSV.encode())
 
 
-DOCUMENTS = [any_system, any_parameter_set, any_campaign, any_description]
+DOCUMENTS = [any_system, any_parameter_set, any_campaign, any_description, any_fmi3_description]
 TABLES = [any_mapping, any_series, any_draws, any_expression, any_archive]
 
 

@@ -18,7 +18,13 @@ STATE_ANNOTATION = "org.perilune.state"  # of FMUs that declare how they seriali
 MANY_BYTES = 1_000_000  # of a description that may have many violations
 FIX = f"fix the FMU's {DESCRIPTION}"
 VARIABLE = "ModelVariables/ScalarVariable"
-REQUIRED = {".": ("modelName", "guid"), "CoSimulation": ("modelIdentifier",), VARIABLE: ("name", "valueReference")}
+ITEM = "TypeDefinitions/SimpleType/Enumeration/Item"
+REQUIRED = {
+    ".": ("modelName", "guid"),
+    "CoSimulation": ("modelIdentifier",),
+    VARIABLE: ("name", "valueReference"),
+    ITEM: ("name", "value"),
+}
 
 
 def _truth(text: str) -> bool:
@@ -29,6 +35,7 @@ NUMBERS: dict[str, tuple[Callable[[str], object], str, tuple[str, ...]]] = {
     "DefaultExperiment": (float, "a number", ("startTime", "stopTime", "tolerance", "stepSize")),
     "CoSimulation": (float, "a number", ("fixedInternalStepSize",)),
     VARIABLE: (int, "an integer", ("valueReference",)),
+    ITEM: (int, "an integer", ("value",)),
     f"{VARIABLE}/Real": (float, "a number", ("start", "min", "max", "nominal")),
     f"{VARIABLE}/Integer": (int, "an integer", ("start", "min", "max")),
     f"{VARIABLE}/Enumeration": (int, "an integer", ("start", "min", "max")),

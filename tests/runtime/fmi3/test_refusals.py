@@ -43,7 +43,7 @@ DESCRIPTIONS = {
     "no name": (changed(' name="early"', ""), r"Float64 \(line \d+\): no attribute name; fix"),
     "no reference": (
         changed(' valueReference="8"', ' valueReference="x"'),
-        r"early \(line \d+\), valueReference: 'x' is",
+        r"early \(line \d+\), valueReference: 'x' is not a value reference",
     ),
     "names twice": (changed('name="factor"', 'name="early"'), "early: two variables of this name"),
     "start": (changed('start="0.5 0.25"', 'start="0.5 much"'), r"u \(line \d+\), start: 'much' is not a number"),
