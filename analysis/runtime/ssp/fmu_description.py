@@ -79,8 +79,15 @@ def external_state_of(xml: bytes) -> tuple[str, ...]:
     """The names of a block's external state, which its FMU can neither save nor restore."""
     if b"ExternalState" not in xml:
         return ()
-    declared = parse_xml(xml, DESCRIPTION).find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/ExternalState")
+    declared = find_annotation(parse_xml(xml, DESCRIPTION), "ExternalState")
     return () if declared is None else tuple(declared.get("names", "").split())
+
+
+def find_annotation(root: etree._Element, name: str) -> etree._Element | None:
+    """An element of our annotation on an FMU's memory, as FMI 2.0 and FMI 3.0 have them; None without it."""
+    if root.get("fmiVersion") == "2.0":
+        return root.find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/{name}")
+    return root.find(f"Annotations/Annotation[@type='{STATE_ANNOTATION}']/{{*}}{name}")
 
 
 def _check_indices(root: etree._Element, label: str) -> None:

@@ -20,7 +20,7 @@ from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
 from .alone import describe_alone
 from .assignments import Settings, collect_settings, single_value
-from .checks import check_samples, check_shared, unfit
+from .checks import check_aliases, check_samples, check_shared, unfit
 from .feedthrough import find_feedthrough
 from .flattening import build_network
 from .fmu import Fmu, load_fmu
@@ -201,6 +201,7 @@ def _prepare(
     settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
     check_signals(network, settings)
     check_shared(network, settings)
+    check_aliases(network)
     for fmu in {fmu.label: fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
     network.notes += filter(None, [archive.note()])

@@ -4,6 +4,10 @@ import numpy as np
 import pytest
 
 import perilune
+from perilune.analysis.runtime.instances.instance import instantiate
+from perilune.analysis.runtime.instances.trial import begin, read, step
+from perilune.analysis.runtime.system.fmu import load_fmu
+from tests.support.fmi3.reference import reference_fmu
 from tests.support.fmi3.strict_fmu import strict_fmu
 
 STEPS = {0: 0, 0.125: 0, 0.3: 3, 0.5: 3}
@@ -90,6 +94,32 @@ def test_binary_beyond_its_room_ends_the_flight(strict_pair):
     flight = perilune.simulate(strict_pair(blob_size=65537))
     assert flight.status == "failed"
     assert flight.message == "source.blob gave a binary value of more than 65536 bytes at t = 0 s"
+
+
+def test_state_of_one_instance_in_another():
+    """Saved after 1 s, carried as bytes: the other goes on with the same bits, and so does the first, set back."""
+    path = reference_fmu(3, "VanDerPol")
+    fmu = load_fmu(path.read_bytes(), str(path))
+    first, second = instantiate(fmu, "first"), instantiate(fmu, "second")
+    for instance in (first, second):
+        begin(instance, {}, 0.0, None)
+    for n in range(10):
+        step(first, 0.1 * n, 0.1)
+    state, at_first = first.state(), read(first, "output")
+    serialized = first.serialize(state)
+    step(first, 1.0, 0.1)
+    later = read(first, "output")
+    carried = second.deserialize(serialized)
+    second.set_state(carried)
+    first.set_state(state)
+    for instance in (first, second):
+        assert read(instance, "output") == at_first
+        step(instance, 1.0, 0.1)
+        assert read(instance, "output") == later != at_first
+    first.free_state(state)
+    second.free_state(carried)
+    for instance in (first, second):
+        instance.free()
 
 
 PLAN = """

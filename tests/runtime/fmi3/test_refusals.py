@@ -119,6 +119,21 @@ def test_structural_parameter_sampled(tmp_path):
         perilune.batch(path, plan)
 
 
+def test_input_by_two_names(tmp_path):
+    named = changed(
+        'name="d" valueReference="5" causality="input" start="0"/>',
+        r'name="d" valueReference="5" causality="input" start="0"><Alias name="also"/></Int32>',
+    )
+    retouched(strict_fmu(tmp_path), tmp_path / "aliased.fmu", named)
+    root = system(
+        component("a", "strict", "output small Integer"),
+        component("b", "aliased", "input d Integer; input also Integer"),
+        connections=connection("a.small", "b.d") + connection("a.small", "b.also"),
+    )
+    path = pack(tmp_path / "t.ssp", tmp_path, document(root))
+    refused("b.also: is b.d by another name, which is connected or driven, too; connect one of them", str(path))
+
+
 def test_binary_to_string(tmp_path):
     strict_fmu(tmp_path)
     root = system(
