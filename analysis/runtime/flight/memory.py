@@ -81,7 +81,7 @@ class Memory(BaseMemory[Snapshot]):
             self._write[component] = ENCODINGS[encoding]
             mine = _remembered(instance.fmu, frozen)
             self.cells += [
-                Cell(f"{component}.{item.name}", item.unit, component, place) for place, item in mine.items()
+                Cell(f"{component}.{item.name}", item.unit, component, index) for index, item in mine.items()
             ]
             references = list(dict.fromkeys(item.reference for item in mine.values()))
             self._pieces.append(Piece(instance, np.array(references, dtype=np.uint32), len(mine)))
@@ -139,16 +139,16 @@ class Memory(BaseMemory[Snapshot]):
 
 
 def _remembered(fmu: Fmu, frozen: set[int]) -> dict[int, Variable]:
-    """The variables that are cells, by what their place in the serialised state is counted from.
+    """The variables that are cells, by their index in the serialised state.
 
     That is the value reference; the elements of an array follow on that of their array.
     """
-    cells: dict[int, Variable] = {}
+    remembered: dict[int, Variable] = {}
     for variable in fmu.variables.values():
-        place = variable.reference + variable.index
-        if variable.representation.name == "Float64" and variable.causality in REMEMBERED and place not in frozen:
-            cells.setdefault(place, variable)  # not once more by an alias
-    return cells
+        index = variable.reference + variable.index
+        if variable.representation.name == "Float64" and variable.causality in REMEMBERED and index not in frozen:
+            remembered.setdefault(index, variable)  # not once more by an alias
+    return remembered
 
 
 def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:
