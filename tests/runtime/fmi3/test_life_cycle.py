@@ -1,5 +1,6 @@
 """Event mode, early returns, endings and failures, with an FMU that refuses calls that FMI 3.0 does not allow."""
 
+import fmpy
 import numpy as np
 import pytest
 
@@ -45,6 +46,29 @@ def test_early_returns_are_continued_to_the_communication_point(tmp_path):
     assert flight.signals["Strict.returns"].tolist() == [0, 2, 4, 6, 8]
     assert flight.signals["Strict.events"].tolist() == [0, 2, 4, 7, 9]
     assert np.allclose(flight.signals["Strict.y[1]"], 0.5 * flight.time, rtol=1e-14)
+
+
+def test_events_are_those_of_fmpy(tmp_path):
+    """FMPy takes a sample at each early return, too: at the communication points both have the same bits."""
+    path = str(strict_fmu(tmp_path, events=True, lenient=True))
+    given = {"early": 0.07, "gain": [0.3, 0.7], "rounds": 2}
+    changes = np.array([(0.0, 0), (0.5, 0), (0.5, 3), (1.0, 3)], dtype=[("time", np.float64), ("d", np.int32)])
+    expected = fmpy.simulate_fmu(
+        path,
+        start_values=given,
+        input=changes,
+        output_interval=0.25,
+        use_event_mode=True,
+        early_return_allowed=True,
+    )
+    (tmp_path / "changes.csv").write_text("time,d\n0,0\n0.5,0\n0.5,3\n1,3")
+    values = {f"Strict.{name}": number for name, number in given.items()}
+    flight = perilune.simulate(path, set=values, input=str(tmp_path / "changes.csv"))
+    last = [int(np.flatnonzero(expected["time"] == time)[-1]) for time in flight.time]
+    for element in (0, 1):
+        assert np.array_equal(flight.signals[f"Strict.y[{element + 1}]"], expected["y"][last, element])
+    for name in ("events", "returns", "accepted"):
+        assert flight.signals[f"Strict.{name}"][-1] == expected[name][-1], name
 
 
 def test_an_fmu_ends_the_simulation(tmp_path):
