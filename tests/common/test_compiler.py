@@ -13,7 +13,7 @@ import pytest
 from numba import config
 
 from perilune.analysis.common import compiler
-from perilune.analysis.runtime.flight.compiled.loop import fly_locked, fly_unlocked
+from perilune.analysis.runtime.flight.compiled.loop import function
 from perilune.fmus_src.paths import CACHE
 
 
@@ -22,7 +22,7 @@ def doubled(x):
 
 
 def test_the_loop_is_kept_in_the_cache_folder():
-    for loop in (fly_locked, fly_unlocked):
+    for loop in (function(locked=locked, with_fmi3=fmi3) for locked in (False, True) for fmi3 in (False, True)):
         assert Path(loop.stats.cache_path).is_relative_to(config.CACHE_DIR or CACHE / "numba")
 
 
@@ -56,7 +56,7 @@ def test_threads_keep_functions_in_the_folders_of_their_rooms(tmp_path, monkeypa
 
         return folders_of
 
-    functions = [doubled, fly_locked.py_func] * 20
+    functions = [doubled, function(locked=True, with_fmi3=False).py_func] * 20
     with ThreadPoolExecutor(8) as threads:
         folders = list(threads.map(lambda function: compiler.compile_cached(function, compile_slowly), functions))
     assert all(before == after for before, after in folders)

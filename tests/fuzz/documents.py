@@ -26,6 +26,7 @@ from perilune.analysis.stability.request.reading import read_declaration
 from tests.fuzz.changes import changed_text, changed_xml, flipped
 from tests.fuzz.originals import CAMPAIGN, SOURCE, SSD, SSD_2, SSV, SSV_2
 from tests.support.builders import pack
+from tests.support.fmi3.strict_fmu import strict_fmu
 
 SSD_NAME = "SystemStructure.ssd"
 Reader = Callable[[bytes], object]
@@ -113,7 +114,16 @@ def any_campaign(fmus: Path, folder: Path) -> Target:
 
 def any_description(fmus: Path, folder: Path) -> Target:
     """The modelDescription.xml of an FMU, with something changed."""
-    with zipfile.ZipFile(fmus / "native" / "whole.fmu") as good:
+    return _description_of(fmus / "native" / "whole.fmu", folder)
+
+
+def any_fmi3_description(_fmus: Path, folder: Path) -> Target:
+    """That of an FMU of FMI 3.0, with arrays, sizes and all types, likewise."""
+    return _description_of(strict_fmu(folder), folder)
+
+
+def _description_of(fmu: Path, folder: Path) -> Target:
+    with zipfile.ZipFile(fmu) as good:
         files = {name: good.read(name) for name in good.namelist()}
     text = files.pop("modelDescription.xml").decode()
     path = folder / "changed.fmu"

@@ -11,6 +11,7 @@ from hypothesis import settings
 from tests.fuzz.documents import (
     any_campaign,
     any_description,
+    any_fmi3_description,
     any_parameter_set,
     any_parameter_set_with_arrays,
     any_system,
@@ -35,7 +36,7 @@ def test_the_originals_are_good(tiny_folder, tmp_path):
 
 
 DOCUMENTS = [any_system, any_system_with_arrays, any_parameter_set, any_parameter_set_with_arrays]
-OTHERS = [any_campaign, any_description]
+OTHERS = [any_campaign, any_description, any_fmi3_description]
 TABLES = [any_mapping, any_series, any_draws, any_expression, any_archive]
 
 

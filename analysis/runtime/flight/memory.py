@@ -11,9 +11,10 @@ import numpy as np
 from lxml import etree
 
 from ...common.errors import InputError
+from ..fmi.variable import Variable
 from ..instances.fmi3_slave import Fmi3Slave
 from ..instances.instance import Instance
-from ..ssp.fmu_description import STATE_ANNOTATION
+from ..ssp.fmu_description import find_annotation
 from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem
 from .base_memory import BaseMemory, Cell
@@ -40,10 +41,10 @@ class Snapshot:
 class Piece:
     """The real variables of one FMU, read in one call."""
 
-    def __init__(self, instance: Instance, references: np.ndarray) -> None:
+    def __init__(self, instance: Instance, references: np.ndarray, size: int) -> None:
         self._instance = instance
         self._references = references
-        self._values = np.zeros(references.size)
+        self._values = np.zeros(size)
         self._pointers = (
             references.ctypes.data_as(ctypes.POINTER(ctypes.c_uint)),
             self._values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)),
@@ -78,15 +79,12 @@ class Memory(BaseMemory[Snapshot]):
         for component, instance in instances.items():
             encoding, frozen = _layout(instance.fmu, component)
             self._write[component] = ENCODINGS[encoding]
-            mine = [
-                variable
-                for variable in instance.fmu.variables.values()
-                if variable.type == "Real" and variable.causality in REMEMBERED and variable.reference not in frozen
-            ]
+            mine = _remembered(instance.fmu, frozen)
             self.cells += [
-                Cell(f"{component}.{item.name}", instance.fmu.unit_of(item), component, item.reference) for item in mine
+                Cell(f"{component}.{item.name}", item.unit, component, index) for index, item in mine.items()
             ]
-            self._pieces.append(Piece(instance, np.array([item.reference for item in mine], dtype=np.uint32)))
+            references = list(dict.fromkeys(item.reference for item in mine.values()))
+            self._pieces.append(Piece(instance, np.array(references, dtype=np.uint32), len(mine)))
         # Followers' outputs that others read a step late are remembered by the exchange only.
         followers = set(prepared.schedule.followers)
         self._slots: list[int] = []
@@ -140,6 +138,19 @@ class Memory(BaseMemory[Snapshot]):
             self._instances[component].free_state(state)
 
 
+def _remembered(fmu: Fmu, frozen: set[int]) -> dict[int, Variable]:
+    """The variables that are cells, by their index in the serialised state.
+
+    That is the value reference; the elements of an array follow on that of their array.
+    """
+    remembered: dict[int, Variable] = {}
+    for variable in fmu.variables.values():
+        index = variable.reference + variable.index
+        if variable.representation.name == "Float64" and variable.causality in REMEMBERED and index not in frozen:
+            remembered.setdefault(index, variable)  # not once more by an alias
+    return remembered
+
+
 def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:
     """Encoding of an FMU's serialised state, and the value references that are no cells."""
     if fmu.external_state:
@@ -147,7 +158,7 @@ def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:
         problem = f"{names} is external state, which cannot be saved or perturbed"
         raise InputError(fmu.label, component, problem, "measure by injection, or use another FMU")
     description = etree.parse(fmu.folder / "modelDescription.xml")
-    declared = description.find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/SerializedState")
+    declared = find_annotation(description.getroot(), "SerializedState")
     if declared is None or declared.get("encoding") not in ENCODINGS:
         raise InputError(fmu.label, component, "does not tell how it serialises its memory", "measure by injection")
     return declared.get("encoding"), {int(item) for item in declared.get("frozen", "").split()}

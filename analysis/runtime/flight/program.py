@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...common.errors import InputError
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable
 from ..instances.instance import Instance
@@ -30,7 +29,9 @@ from .compiled import arrays, codes
 from .instructions import InstructionList, Orders, Term, write_instructions
 from .orders.fmi2 import Fmi2Orders
 from .orders.fmi3 import Fmi3Orders
-from .orders.transfers import ComponentTransfers, TransferTable, groups, needs_events, whole
+from .orders.placing import TransferPlacing
+from .orders.slots import Slots
+from .orders.transfers import ComponentTransfers, TransferTable
 from .parameters import TYPE_KIND, Parameters
 from .texts import Texts
 
@@ -79,7 +80,7 @@ class Layout:
     parameters: Parameters
     texts: Texts
     binaries: Texts
-    unfed: Collection[str] = ()
+    unfed: frozenset[str] = frozenset()
 
 
 def build_program(
@@ -124,11 +125,8 @@ class _Builder:
         self.injections = injections
         self.names = list(network.fmus)
         self.numbers = {name: number for number, name in enumerate(self.names)}
-        self.slots: dict[str, int] = {}
-        self.references: list[int] = []
-        self.initial: list[float] = []
-        self.types: dict[str, str] = {}
-        self.units: dict[str, str | None] = {}
+        self.signals = Slots(settings)
+        self.slots = self.signals.numbers
         read = {link.source.name for link in network.links()}
         self.fetched = (
             None
@@ -142,14 +140,14 @@ class _Builder:
         self.ranges = np.zeros((len(self.names), len(EXCHANGES), 2), dtype=np.int64)
         self.table = TransferTable()
         self.transfers: dict[int, ComponentTransfers] = {}  # of components of FMI 3.0
-        self.exact: dict[int, int] = {}  # starts of whole numbers of 64 bits, by slot
-        self.unfed: set[str] = set()
         self.parameters = Parameters(network, settings, self.table)
         self.texts, self.binaries = (Texts(network, settings, kind) for kind in TEXTS)
         self.recorded: dict[int, list[tuple[int, int, int]]] = {}  # by component: function, first and count of slots
+        placing = TransferPlacing(network, self.signals, self.table, self.fetched, self.named, self.other_sources)
         for index, name in enumerate(self.names):
             if network.fmus[name].version == 3:
-                self.transfers[index] = self._place_transfers(index, name)
+                self.transfers[index] = self.parameters.transfers[index]
+                placing.place(name, self.transfers[index], self._texts(index))
             else:
                 self._place_component(index, name)
         for node in network.nodes.values():
@@ -157,14 +155,14 @@ class _Builder:
             is_signal = node.kind not in PARAMETERS or node.name in self.passed_parameters
             if node.component is None and is_signal and known and node.type_name not in TEXTS:
                 unit = node.unit.name if node.unit else None
-                self._place(node.name, 0, float(settings.nodes.get(node.name, np.nan)), node.type_name or "Real", unit)
+                self.signals.add(
+                    node.name, 0, float(settings.nodes.get(node.name, np.nan)), node.type_name or "Real", unit
+                )
 
-    def _place(self, name: str, reference: int, initial: float, type_name: str, unit: str | None) -> None:
-        self.slots[name] = len(self.references)
-        self.types[name] = type_name
-        self.units[name] = unit
-        self.references.append(reference)
-        self.initial.append(initial)
+    def _texts(self, index: int) -> list[list[tuple[Sequence[Variable], int]]]:
+        """The Strings and Binaries of a component with their first rows: inputs, outputs."""
+        kinds = (self.texts, self.binaries)
+        return [[(each.variables[index][way], int(each.ranges[index, way, 0])) for each in kinds] for way in (0, 1)]
 
     def _place_component(self, index: int, component: str) -> None:
         fmu = self.network.fmus[component]
@@ -177,7 +175,7 @@ class _Builder:
             if causality in CAUSALITIES and 2 * kind < len(EXCHANGES):
                 exchanged[2 * kind + CAUSALITIES.index(causality)].append(variable)
         for function, variables in enumerate(exchanged):
-            first = len(self.references)
+            first = len(self.signals.references)
             causality = CAUSALITIES[function % 2]
             for variable in variables:
                 name = f"{component}.{variable.name}"
@@ -185,9 +183,9 @@ class _Builder:
                     continue
                 if causality == "output" and self.fetched is not None and name not in self.fetched:
                     continue
-                initial = self._start(component, variable) if causality == "input" else np.nan
-                self._place(name, variable.reference, initial, variable.type, fmu.unit_of(variable))
-            self.ranges[index, function] = first, len(self.references) - first
+                initial = self.signals.start(component, variable) if causality == "input" else np.nan
+                self.signals.add(name, variable.reference, initial, variable.type, fmu.unit_of(variable))
+            self.ranges[index, function] = first, len(self.signals.references) - first
         self.recorded[index] = self._place_recorded(component) if self.named else []
 
     def _place_recorded(self, component: str) -> list[tuple[int, int, int]]:
@@ -195,71 +193,14 @@ class _Builder:
         fmu = self.network.fmus[component]
         reads = []
         for kind, function in enumerate(GETTERS):
-            first = len(self.references)
+            first = len(self.signals.references)
             for variable in fmu.variables.values():
                 name = f"{component}.{variable.name}"
                 if name in self.named and name not in self.slots and TYPE_KIND.get(variable.type) == kind:
-                    self._place(name, variable.reference, np.nan, variable.type, fmu.unit_of(variable))
-            if len(self.references) > first:
-                reads.append((function, first, len(self.references) - first))
+                    self.signals.add(name, variable.reference, np.nan, variable.type, fmu.unit_of(variable))
+            if len(self.signals.references) > first:
+                reads.append((function, first, len(self.signals.references) - first))
         return reads
-
-    def _place_transfers(self, index: int, component: str) -> ComponentTransfers:
-        """Slots and transfers of what is exchanged with a component of FMI 3.0, and of what is recorded."""
-        transfers = self.parameters.transfers[index]
-        transfers.uses_events = needs_events(self.network, component)
-        variables = self.network.fmus[component].variables.values()
-        numbers = [variable for variable in variables if variable.type not in TEXTS]
-        names = {variable.name: f"{component}.{variable.name}" for variable in numbers}
-        driven = {short for short, name in names.items() if name in self.network.driver or name in self.network.driven}
-        fetched = {short for short, name in names.items() if self.fetched is None or name in self.fetched}
-        inputs = whole((each for each in numbers if each.causality == "input"), driven)
-        others = {each.array or each.name for each in numbers if names[each.name] in self.other_sources}
-        given = (each for each in numbers if each.causality == "output" or (each.array or each.name) in others)
-        outputs = whole(given, fetched)
-        # discrete inputs are transfers in a row
-        for is_discrete, target in ((False, transfers.inputs), (True, transfers.discrete)):
-            mine = (each for each in inputs if (each.variability == "discrete") == is_discrete)
-            target += [self._place_group(component, group) for group in groups(mine)]
-        transfers.discrete += self._text_transfers(index, 0)
-        transfers.outputs += [self._place_group(component, group) for group in groups(outputs)]
-        transfers.outputs += self._text_transfers(index, 1)
-        named = {short for short, name in names.items() if name in self.named and name not in self.slots}
-        recorded = whole((each for each in numbers if each.name in named), named)
-        transfers.recorded += [self._place_group(component, group) for group in groups(recorded)]
-        self.unfed |= {names[each.name] for each in numbers if each.causality == "input"} - {
-            names[short] for short in driven
-        }
-        return transfers
-
-    def _text_transfers(self, index: int, column: int) -> list[int]:
-        """Transfers of the Strings and Binaries of a component: 0 inputs, 1 outputs."""
-        firsts = (
-            (texts.variables[index][column], texts.ranges[index, column, 0]) for texts in (self.texts, self.binaries)
-        )
-        return [self.table.add(group, int(first)) for group, first in firsts if group]
-
-    def _place_group(self, component: str, group: Sequence[Variable]) -> int:
-        first = len(self.references)
-        fmu = self.network.fmus[component]
-        for slot, variable in enumerate(group, first):
-            name = f"{component}.{variable.name}"
-            initial = np.nan
-            if variable.causality == "input":
-                given = self.settings.variables.get((component, variable.name), variable.start)
-                if given is None and name not in self.network.driver and name not in self.network.driven:
-                    problem = "has neither a connection, a value nor a start, and its array is given as a whole"
-                    raise InputError(self.network.file, name, problem, f"connect it, or give `set` {name}=VALUE")
-                initial = self._start(component, variable)
-                if variable.representation.is_wide and given is not None:
-                    self.exact[slot] = int(given)
-            self._place(name, variable.reference, initial, variable.type, fmu.unit_of(variable))
-        return self.table.add(group, first)
-
-    def _start(self, component: str, variable: Variable) -> float:
-        """What an input is given while its source is not known yet: the value set for it, else its FMU's start."""
-        value = self.settings.variables.get((component, variable.name), variable.start or 0.0)
-        return float({"true": 1, "false": 0}.get(str(value).lower(), value))
 
     def _links(self) -> list[list[Link]]:
         """Links grouped by the component they feed, upstream first; the last group feeds system connectors."""
@@ -320,8 +261,8 @@ class _Builder:
             instructions=instructions,
             reset_end=reset_end,
             phases=phases,
-            reference=np.array(self.references, dtype=np.uint32),
-            initial=np.array(self.initial, dtype=np.float64),
+            reference=np.array(self.signals.references, dtype=np.uint32),
+            initial=np.array(self.signals.initial, dtype=np.float64),
             parameter_reference=np.array(self.parameters.references, dtype=np.uint32),
             tolerance=np.array([_tolerance(self.network.fmus[name]) for name in self.names], dtype=np.float64),
             source=np.array([self.slots[link.source.name] for link in links], dtype=np.int64),
@@ -351,7 +292,7 @@ class _Builder:
             collected,
             index,
             instance,
-            np.array(self.references, dtype=np.uint32),
+            np.array(self.signals.references, dtype=np.uint32),
             self.ranges[index].tolist(),
             self.parameters.ranges[index].tolist(),
             self.texts.ranges[index].tolist(),
@@ -364,7 +305,7 @@ class _Builder:
         if not self.transfers:
             return arrays.blank()[0].transfers
         exact = np.zeros(len(self.slots), dtype=np.uint64)
-        for slot, number in self.exact.items():
+        for slot, number in self.signals.exact.items():
             exact[slot] = number % 2**64
         return arrays.Transfers(
             rows=self.table.array(),
@@ -390,8 +331,9 @@ class _Builder:
         return self.slots[injection.connector]
 
     def layout(self) -> Layout:
+        table = self.signals
         texts = self.texts, self.binaries
-        return Layout(self.slots, self.types, self.units, self.parameters, *texts, self.unfed & self.slots.keys())
+        return Layout(self.slots, table.types, table.units, self.parameters, *texts, frozenset(table.unfed))
 
     def _connection_code(self, link: Link) -> int:
         """The instruction that carries a connection's value."""

@@ -87,7 +87,15 @@ class Simulation(BaseSimulation):
         """
         span, recording, excitation = self._request(-1, 0, 1, False, NOTHING)
         arguments = (self.program, self.buffers, self.layout.parameters.values, span, recording, excitation)
-        self._loop = loop.compile_for(arguments, locked=False)
+        self._loop = loop.compile_for(arguments, locked=False, with_fmi3=self.prepared.has_fmi3)
+
+    def set(self, values: Mapping[str, ParameterValue]) -> None:
+        """See `BaseSimulation.set`; an element of an array that is partly connected is given with each step, too."""
+        super().set(values)
+        for name in self.layout.unfed & values.keys() if self.layout.unfed else ():
+            slot = self.layout.slots[name]
+            self.program.initial[slot] = float(values[name])
+            self.program.transfers.exact[slot] = int(values[name]) % 2**64
 
     def set_faults(self, faults: Sequence[Fault | None]) -> None:
         """See `BaseSimulation.set_faults`."""
@@ -193,7 +201,9 @@ class Simulation(BaseSimulation):
         arguments = (program, self.buffers, self.layout.parameters.values, span, recording, excitation)
         with self._under_way:
             if self._loop is None:
-                self._loop = loop.compile_for(arguments, locked=not self.prepared.is_native)
+                self._loop = loop.compile_for(
+                    arguments, locked=not self.prepared.is_native, with_fmi3=self.prepared.has_fmi3
+                )
             return self._loop(*arguments)
 
     def _fly_last_row(self, component: int, end: float, row: int) -> None:

@@ -46,6 +46,8 @@ def check_description(root: etree._Element, label: str) -> None:
     if clock is not None:
         problem = "a Clock: FMUs with clocks are not supported"
         raise InputError(label, f"{clock.get('name')} (line {clock.sourceline})", problem, "export it without clocks")
+    for element in root.iterfind("TypeDefinitions/*"):
+        _check_type(element, label)
     for variable in variables:
         _check_variable(variable, label)
     names = Counter(each.get("name") for each in [*variables, *root.iterfind("ModelVariables/*/Alias")])
@@ -80,6 +82,16 @@ def check_sizes(description: ModelDescription, sizes: dict[int, int], label: str
         raise InputError(label, "Dimension", problem, "choose smaller structural parameters")
 
 
+def _check_type(declared: etree._Element, label: str) -> None:
+    for item in declared.iterfind("Item"):
+        for name in ("name", "value"):
+            if not item.get(name):
+                raise InputError(label, _line_of(item), f"no attribute {name}", FIX)
+        _check_texts(item, "value", [item.get("value")], int, "an integer", label)
+    for name in ("min", "max"):
+        _check_texts(declared, name, [declared.get(name)], float, "a number", label)
+
+
 def _check_variable(variable: etree._Element, label: str) -> None:
     for name in ("name", "valueReference"):
         if not variable.get(name):
@@ -88,7 +100,7 @@ def _check_variable(variable: etree._Element, label: str) -> None:
     if tag not in REPRESENTATIONS and tag != "Enumeration":
         problem = f"{tag} is not a type of FMI 3.0"
         raise InputError(label, f"{variable.get('name')} (line {variable.sourceline})", problem, FIX)
-    _check_texts(variable, "valueReference", [variable.get("valueReference")], int, "an integer", label)
+    _check_texts(variable, "valueReference", [variable.get("valueReference")], _reference, "a value reference", label)
     if tag in TEXTS:
         return
     if tag == "Boolean":
@@ -110,13 +122,13 @@ def _check_references(root: etree._Element, variables: list[etree._Element], lab
             wanted += [(each, "valueReference"), (each, "dependencies")]
     for element, name in wanted:
         for text in element.get(name, "").split():
-            if not (text.isascii() and text.isdigit() and int(text) in known):
+            if not (text.isascii() and text.isdigit() and len(text) < 11 and int(text) in known):
                 raise InputError(label, f"{_line_of(element)}, {name}", f"{text[:20]} is no value reference", FIX)
     for element in root.iterfind("ModelVariables/*/Dimension"):
         start, reference = element.get("start"), element.get("valueReference")
         if start is not None:
             _check_texts(element, "start", [start], _size, "a number of elements", label)
-        elif reference is None or known[int(reference)].get("causality") != "structuralParameter":
+        elif not (reference or "").strip() or known[int(reference)].get("causality") != "structuralParameter":
             raise InputError(label, _line_of(element), "neither a start nor a structural parameter", FIX)
         else:
             _check_texts(
@@ -142,6 +154,13 @@ def _check_texts(
 
 def _truth(text: str) -> bool:
     return {"true": True, "1": True, "false": False, "0": False}[text.strip()]
+
+
+def _reference(text: str) -> int:
+    reference = int(text)
+    if not 0 <= reference < 2**32:
+        raise ValueError(text)
+    return reference
 
 
 def _size(text: str) -> int:

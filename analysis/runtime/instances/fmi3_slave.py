@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from typing import Any
 
 from fmpy import fmi2, fmi3
@@ -19,7 +20,7 @@ class Fmi3Slave(fmi3.FMU3Slave):  # type: ignore[misc]  # FMPy has no types
         """Instantiate; ``log`` is a fmi3LogMessageCallback. Raises bare Exception where there is no instance."""
         self.environment, self.logMessage = environment, log
         self.intermediateUpdate = ctypes.cast(ignore_address(), fmi3.fmi3IntermediateUpdateCallback)
-        resources = f"{self.unzipDirectory}/resources/"
+        resources = os.path.join(self.unzipDirectory, "resources", "")
         self.component = self.fmi3InstantiateCoSimulation(
             self.instanceName.encode(),
             self.guid.encode(),

@@ -18,7 +18,13 @@ STATE_ANNOTATION = "org.perilune.state"  # of FMUs that declare how they seriali
 MANY_BYTES = 1_000_000  # of a description that may have many violations
 FIX = f"fix the FMU's {DESCRIPTION}"
 VARIABLE = "ModelVariables/ScalarVariable"
-REQUIRED = {".": ("modelName", "guid"), "CoSimulation": ("modelIdentifier",), VARIABLE: ("name", "valueReference")}
+ITEM = "TypeDefinitions/SimpleType/Enumeration/Item"
+REQUIRED = {
+    ".": ("modelName", "guid"),
+    "CoSimulation": ("modelIdentifier",),
+    VARIABLE: ("name", "valueReference"),
+    ITEM: ("name", "value"),
+}
 
 
 def _truth(text: str) -> bool:
@@ -29,6 +35,7 @@ NUMBERS: dict[str, tuple[Callable[[str], object], str, tuple[str, ...]]] = {
     "DefaultExperiment": (float, "a number", ("startTime", "stopTime", "tolerance", "stepSize")),
     "CoSimulation": (float, "a number", ("fixedInternalStepSize",)),
     VARIABLE: (int, "an integer", ("valueReference",)),
+    ITEM: (int, "an integer", ("value",)),
     f"{VARIABLE}/Real": (float, "a number", ("start", "min", "max", "nominal")),
     f"{VARIABLE}/Integer": (int, "an integer", ("start", "min", "max")),
     f"{VARIABLE}/Enumeration": (int, "an integer", ("start", "min", "max")),
@@ -72,8 +79,15 @@ def external_state_of(xml: bytes) -> tuple[str, ...]:
     """The names of a block's external state, which its FMU can neither save nor restore."""
     if b"ExternalState" not in xml:
         return ()
-    declared = parse_xml(xml, DESCRIPTION).find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/ExternalState")
+    declared = find_annotation(parse_xml(xml, DESCRIPTION), "ExternalState")
     return () if declared is None else tuple(declared.get("names", "").split())
+
+
+def find_annotation(root: etree._Element, name: str) -> etree._Element | None:
+    """An element of our annotation on an FMU's memory, as FMI 2.0 and FMI 3.0 have them; None without it."""
+    if root.get("fmiVersion") == "2.0":
+        return root.find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/{name}")
+    return root.find(f"Annotations/Annotation[@type='{STATE_ANNOTATION}']/{{*}}{name}")
 
 
 def _check_indices(root: etree._Element, label: str) -> None:

@@ -55,6 +55,19 @@ def check_shared(network: Network, settings: Settings) -> None:
             raise InputError(last[name].file, last[name].where, problem, f"set {shared} instead: they must agree")
 
 
+def check_aliases(network: Network) -> None:
+    """Refuse an input of FMI 3.0 that is given by two of its names. Raises InputError."""
+    for component, fmu in network.fmus.items():
+        given: dict[tuple[int, int], str] = {}
+        for name, variable in fmu.variables.items() if fmu.version == 3 else ():
+            full = f"{component}.{name}"
+            if variable.causality == "input" and (full in network.driver or full in network.driven):
+                first = given.setdefault((variable.reference, variable.index), full)
+                if first != full:
+                    problem = f"is {first} by another name, which is connected or driven, too"
+                    raise InputError(network.file, full, problem, "connect one of them")
+
+
 def check_samples(network: Network, settings: Settings, step: float, periods: dict[str, int]) -> None:
     """Refuse a sample period shorter than what its component steps by, of which two samples would fall into one step.
 

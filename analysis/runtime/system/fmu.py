@@ -78,11 +78,6 @@ class Fmu:
         """The parameters of FMI 3.0 that size arrays, or others that are set before an instance has its structure."""
         return [name for name, variable in self.variables.items() if variable.causality == STRUCTURAL]
 
-    @property
-    def binary(self) -> Path:
-        """Its library for this platform."""
-        return self.folder / _binary(self.description)
-
     def unit_of(self, variable: Variable) -> str | None:
         """Name of a variable's unit, its own or its type's."""
         return variable.unit

@@ -22,7 +22,7 @@ from .alone import describe_alone
 from .arrays.elements import expand_arrays
 from .arrays.sizes import Sizes, given_values
 from .assignments import collect_settings, single_value
-from .checks import check_samples, check_shared, unfit
+from .checks import check_aliases, check_samples, check_shared, unfit
 from .feedthrough import find_feedthrough
 from .flattening import build_network
 from .fmu import Fmu, load_fmu
@@ -79,6 +79,11 @@ class PreparedSystem:
     @property
     def is_native(self) -> bool:
         return all(fmu.is_native for fmu in self.network.fmus.values())
+
+    @property
+    def has_fmi3(self) -> bool:
+        """Whether one of its FMUs is of FMI 3.0."""
+        return any(fmu.version == 3 for fmu in self.network.fmus.values())
 
     @property
     def is_alone(self) -> bool:
@@ -206,6 +211,7 @@ def _prepare(
     settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
     check_signals(network, settings)
     check_shared(network, settings)
+    check_aliases(network)
     for fmu in {fmu.label: fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
     network.notes += filter(None, [archive.note()])

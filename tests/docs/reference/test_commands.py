@@ -42,6 +42,7 @@ ELSEWHERE = {
     "perilune run lunar_landing --parameters ideal.ssv --set plant.internal_step=0.05": "likewise",
     "perilune diff ours.parquet basilisk.parquet": "likewise",
     "perilune run build/fmus/python/basilisk_orbiter.fmu": "likewise",
+    "perilune run StateSpace.fmu": "tests/runtime/fmi3/test_systems.py, with the Reference-FMU",
     "LD_PRELOAD=": "of a host of the reader's own",
     "python -m tests.fuzz": "hours of random inputs; tests/fuzz/test_documents.py tries a thousand of each",
 }

@@ -1,9 +1,14 @@
 """Event mode, early returns, endings and failures, with an FMU that refuses calls that FMI 3.0 does not allow."""
 
+import fmpy
 import numpy as np
 import pytest
 
 import perilune
+from perilune.analysis.runtime.instances.instance import instantiate
+from perilune.analysis.runtime.instances.trial import begin, read, step
+from perilune.analysis.runtime.system.fmu import load_fmu
+from tests.support.fmi3.reference import reference_fmu
 from tests.support.fmi3.strict_fmu import strict_fmu
 
 STEPS = {0: 0, 0.125: 0, 0.3: 3, 0.5: 3}
@@ -41,6 +46,29 @@ def test_early_returns_are_continued_to_the_communication_point(tmp_path):
     assert flight.signals["Strict.returns"].tolist() == [0, 2, 4, 6, 8]
     assert flight.signals["Strict.events"].tolist() == [0, 2, 4, 7, 9]
     assert np.allclose(flight.signals["Strict.y[1]"], 0.5 * flight.time, rtol=1e-14)
+
+
+def test_events_are_those_of_fmpy(tmp_path):
+    """FMPy takes a sample at each early return, too: at the communication points both have the same bits."""
+    path = str(strict_fmu(tmp_path, events=True, lenient=True))
+    given = {"early": 0.07, "gain": [0.3, 0.7], "rounds": 2}
+    changes = np.array([(0.0, 0), (0.5, 0), (0.5, 3), (1.0, 3)], dtype=[("time", np.float64), ("d", np.int32)])
+    expected = fmpy.simulate_fmu(
+        path,
+        start_values=given,
+        input=changes,
+        output_interval=0.25,
+        use_event_mode=True,
+        early_return_allowed=True,
+    )
+    (tmp_path / "changes.csv").write_text("time,d\n0,0\n0.5,0\n0.5,3\n1,3")
+    values = {f"Strict.{name}": number for name, number in given.items()}
+    flight = perilune.simulate(path, set=values, input=str(tmp_path / "changes.csv"))
+    last = [int(np.flatnonzero(expected["time"] == time)[-1]) for time in flight.time]
+    for element in (0, 1):
+        assert np.array_equal(flight.signals[f"Strict.y[{element + 1}]"], expected["y"][last, element])
+    for name in ("events", "returns", "accepted"):
+        assert flight.signals[f"Strict.{name}"][-1] == expected[name][-1], name
 
 
 def test_an_fmu_ends_the_simulation(tmp_path):
@@ -90,6 +118,32 @@ def test_binary_beyond_its_room_ends_the_flight(strict_pair):
     flight = perilune.simulate(strict_pair(blob_size=65537))
     assert flight.status == "failed"
     assert flight.message == "source.blob gave a binary value of more than 65536 bytes at t = 0 s"
+
+
+def test_state_of_one_instance_in_another():
+    """Saved after 1 s, carried as bytes: the other goes on with the same bits, and so does the first, set back."""
+    path = reference_fmu(3, "VanDerPol")
+    fmu = load_fmu(path.read_bytes(), str(path))
+    first, second = instantiate(fmu, "first"), instantiate(fmu, "second")
+    for instance in (first, second):
+        begin(instance, {}, 0.0, None)
+    for n in range(10):
+        step(first, 0.1 * n, 0.1)
+    state, at_first = first.state(), read(first, "output")
+    serialized = first.serialize(state)
+    step(first, 1.0, 0.1)
+    later = read(first, "output")
+    carried = second.deserialize(serialized)
+    second.set_state(carried)
+    first.set_state(state)
+    for instance in (first, second):
+        assert read(instance, "output") == at_first
+        step(instance, 1.0, 0.1)
+        assert read(instance, "output") == later != at_first
+    first.free_state(state)
+    second.free_state(carried)
+    for instance in (first, second):
+        instance.free()
 
 
 PLAN = """

@@ -43,7 +43,7 @@ DESCRIPTIONS = {
     "no name": (changed(' name="early"', ""), r"Float64 \(line \d+\): no attribute name; fix"),
     "no reference": (
         changed(' valueReference="8"', ' valueReference="x"'),
-        r"early \(line \d+\), valueReference: 'x' is",
+        r"early \(line \d+\), valueReference: 'x' is not a value reference",
     ),
     "names twice": (changed('name="factor"', 'name="early"'), "early: two variables of this name"),
     "start": (changed('start="0.5 0.25"', 'start="0.5 much"'), r"u \(line \d+\), start: 'much' is not a number"),
@@ -117,6 +117,21 @@ def test_structural_parameter_sampled(tmp_path):
     plan.write_text(f'system = "strict"\ntrials = 2\nseed = 1\n{draw}{metric}')
     with pytest.raises(perilune.InputError, match="a structural parameter, which sizes arrays, does not vary"):
         perilune.batch(path, plan)
+
+
+def test_input_by_two_names(tmp_path):
+    named = changed(
+        'name="d" valueReference="5" causality="input" start="0"/>',
+        r'name="d" valueReference="5" causality="input" start="0"><Alias name="also"/></Int32>',
+    )
+    retouched(strict_fmu(tmp_path), tmp_path / "aliased.fmu", named)
+    root = system(
+        component("a", "strict", "output small Integer"),
+        component("b", "aliased", "input d Integer; input also Integer"),
+        connections=connection("a.small", "b.d") + connection("a.small", "b.also"),
+    )
+    path = pack(tmp_path / "t.ssp", tmp_path, document(root))
+    refused("b.also: is b.d by another name, which is connected or driven, too; connect one of them", str(path))
 
 
 def test_binary_to_string(tmp_path):

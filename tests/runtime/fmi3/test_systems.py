@@ -10,6 +10,7 @@ from scipy.linalg import expm
 import perilune
 from tests.support.builders import component, connection, document, pack, system
 from tests.support.fmi3.reference import reference_fmu
+from tests.support.fmi3.strict_fmu import strict_fmu
 
 EULER = 1e-3  # s, of StateSpace
 
@@ -131,3 +132,37 @@ def test_state_space_of_other_sizes_against_the_matrix_exponential(order, inputs
         assert np.allclose(state[:, n], solved(matrix, entry @ drive, n), rtol=1e-11, atol=1e-14)
         assert np.allclose(state[:, n], expm(n * extended(matrix, entry @ drive))[:order, order], rtol=1e-3)
     assert np.allclose(outputs, output @ state, rtol=1e-13, atol=1e-15)
+
+
+def test_elements_that_nothing_is_connected_to_vary_from_trial_to_trial(tmp_path):
+    """u[1] is connected, u[2] drawn: y[2] = 2 u[2] after 1 s, u[1] = y[1] of the source 0.25 s late."""
+    strict_fmu(tmp_path)
+    root = system(
+        component("source", "strict", "output y[1] Real"),
+        component("sink", "strict", "input u[1] Real; output y[1] Real; output y[2] Real"),
+        connections=connection("source.y[1]", "sink.u[1]"),
+    )
+    path = pack(tmp_path / "t.ssp", tmp_path, document(root))
+    (tmp_path / "c.toml").write_text(PLAN)
+    trials = perilune.batch(str(path), str(tmp_path / "c.toml"), workers=1).trials["default"]
+    assert np.array_equal(trials.metrics["second"], 2.0 * trials.draws["sink.u[2]"])
+    assert np.allclose(trials.metrics["first"], 0.25 * (0.0 + 0.125 + 0.25 + 0.375))
+
+
+PLAN = """
+system = "t.ssp"
+trials = 5
+seed = 1
+[draw."sink.u[2]"]
+distribution = "uniform"
+low = 1
+high = 2
+[metric.first]
+expression = "sink.y[1]"
+reduction = "final"
+[metric.second]
+expression = "sink.y[2]"
+reduction = "final"
+[success]
+expression = "first > 0"
+"""

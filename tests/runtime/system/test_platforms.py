@@ -1,6 +1,7 @@
 """Platforms that FMI 2.0 has no name for, and those that an FMU has no library for: one line says so.
 
-Truth: the platforms of FMI 2.0.4, section 2.3, which are of x86 alone; macOS loads universal libraries by that name.
+Truth: the platforms of FMI 2.0.4, section 2.3, which are of x86 alone, and of FMI 3.0.1, which are not; macOS loads
+universal libraries by the name of FMI 2.0.
 """
 
 import platform
@@ -12,6 +13,7 @@ import pytest
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.fmus_src.export.compilers import local_platform
+from tests.support.fmi3.reference import reference_fmu
 
 
 @pytest.mark.parametrize(("system", "named"), [("linux", False), ("windows", False), ("darwin", True)])
@@ -25,6 +27,22 @@ def test_an_arm_processor(tiny_folder, monkeypatch, system, named):
         return
     with pytest.raises(InputError, match=f"ramp.fmu: binaries: FMI 2.0 has no name for the platform aarch64-{system}"):
         load_fmu(data, "ramp.fmu")
+
+
+@pytest.mark.parametrize(("system", "suffix"), [("linux", ".so"), ("darwin", ".dylib"), ("windows", None)])
+def test_fmi3_names_arm_processors(monkeypatch, system, suffix):
+    """The Reference-FMUs have libraries for two of them."""
+    content = reference_fmu(3, "Dahlquist").read_bytes()
+    monkeypatch.setattr(fmpy, "platform_tuple", f"aarch64-{system}")
+    monkeypatch.setattr(fmpy, "architecture", "aarch64")
+    monkeypatch.setattr(fmpy, "sharedLibraryExtension", suffix or ".dll")
+    if suffix is not None:
+        assert (load_fmu(content, "D.fmu").folder / "binaries" / f"aarch64-{system}" / f"Dahlquist{suffix}").is_file()
+        return
+    with pytest.raises(
+        InputError, match=r"binaries/aarch64-windows/Dahlquist\.dll: no binary for this platform; compile"
+    ):
+        load_fmu(content, "D.fmu")
 
 
 @pytest.mark.parametrize(

@@ -213,7 +213,7 @@ static int may_set(Instance *me, fmi3ValueReference vr) {
             return me->state == INSTANTIATED || me->state == INITIALIZATION;
         case U: case SINGLE_IN: return me->state != CONFIGURATION && me->state != ENDED;
         case D: case WIDE_IN: case WIDER_IN: case SMALL_IN: case TEXT_IN: case BLOB_IN:
-            return me->state != CONFIGURATION && me->state != ENDED && (me->state != STEP || !me->uses_events);
+            return me->state != CONFIGURATION && me->state != ENDED && (me->state != STEP || !me->uses_events || IS_LENIENT);
         default: return 0;
     }
 }

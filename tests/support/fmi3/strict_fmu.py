@@ -58,9 +58,18 @@ OUTPUTS = (4, 6, 7, 9, 13, 14, 17, 18, 20, 22, 24, 25)
 
 
 def strict_fmu(
-    folder: Path, *, events: bool = False, blob_size: int = 3, tolerance: float | None = None, name: str = "strict"
+    folder: Path,
+    *,
+    events: bool = False,
+    blob_size: int = 3,
+    tolerance: float | None = None,
+    name: str = "strict",
+    lenient: bool = False,
 ) -> Path:
-    """``folder``/name.fmu; with ``events`` it has event mode. ``blob_size`` is what it says of its Binary output."""
+    """``folder``/name.fmu; with ``events`` it has event mode. ``blob_size`` is what it says of its Binary output.
+
+    ``lenient``: discrete inputs may be set in step mode too, though there is event mode, as FMPy does it.
+    """
     structure = "".join(f'<Output valueReference="{each}" dependencies=""/>' for each in OUTPUTS)
     structure += "".join(f'<InitialUnknown valueReference="{each}"/>' for each in OUTPUTS)
     description = DESCRIPTION.format(
@@ -70,6 +79,6 @@ def strict_fmu(
         tolerance="" if tolerance is None else f' tolerance="{tolerance}"',
     )
     binary = f"binaries/{fmpy.platform_tuple}/Strict{fmpy.sharedLibraryExtension}"
-    macros = (f"-DHAS_EVENTS={int(events)}", f"-DBLOB_SIZE={blob_size}")
+    macros = (f"-DHAS_EVENTS={int(events)}", f"-DBLOB_SIZE={blob_size}", f"-DIS_LENIENT={int(lenient)}")
     files = {"modelDescription.xml": description, binary: library("strict", macros, Path(__file__).parent)}
     return write_zip(folder / f"{name}.fmu", files)

@@ -12,6 +12,7 @@ from typing import Any
 
 from ....common.errors import InputError
 from ...flight.base_simulation import NOTHING
+from ...flight.compiled import loop
 from ...flight.memory import Memory, Snapshot
 from ...flight.simulation import Simulation
 from ...instances.instance import Log, leave_messages_unformatted
@@ -44,10 +45,11 @@ def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket,
     pilot.serve()
 
 
-def compile_callback(subject: Any) -> None:
-    """Compile what an FMU of FMI 3.0, or a system with one, calls: a child cannot write the cache."""
-    fmus = subject.network.fmus.values() if isinstance(subject, PreparedSystem) else [subject]
-    if any(isinstance(fmu, Fmu) and fmu.version == 3 for fmu in fmus):
+def load(subject: object, *, locked: bool) -> None:
+    """Have all compiled that flights of a system, or the trial of an FMU, will call: a child cannot write the cache."""
+    with_fmi3 = subject.has_fmi3 if isinstance(subject, PreparedSystem) else False
+    loop.load(locked=locked, with_fmi3=with_fmi3)
+    if with_fmi3 or (isinstance(subject, Fmu) and subject.version == 3):
         ignore_address()
 
 

@@ -80,8 +80,7 @@ class FlightServer:
     def _do(self, request: Learn | Forget | Begin | Look | End, descriptors: list[int]) -> None:
         if isinstance(request, Learn):
             self._subjects[request.key] = unpack(request.content)
-            loop.load(locked=request.locked)
-            child.compile_callback(self._subjects[request.key])
+            child.load(self._subjects[request.key], locked=request.locked)
             gc.collect()
             gc.freeze()
         elif isinstance(request, Begin):

@@ -7,7 +7,6 @@ import socket
 import sys
 
 from ....common.process import leave
-from ...flight.compiled import loop
 from ..protocol.messages import Done, send_answer
 from ..protocol.orders import Single
 from ..protocol.requests import unpack
@@ -23,9 +22,8 @@ def main() -> None:
     else:
         assert isinstance(order.channel, int)
         channel = socket.socket(fileno=order.channel)
-    loop.load(locked=order.locked)
     subject = unpack(order.content)
-    child.compile_callback(subject)
+    child.load(subject, locked=order.locked)
     send_answer(channel, Done())
     child.work(order.task, subject, channel, order.files)
     leave(0)

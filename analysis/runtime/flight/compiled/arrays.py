@@ -49,7 +49,7 @@ class Settings(NamedTuple):
     real: np.ndarray  # float64 [p]
     whole: np.ndarray  # int32 [p]
     text: np.ndarray  # uint64 [p], addresses of C strings
-    stored: np.ndarray  # uint64 [p], those of FMI 3.0: each transfer's values side by side from its first cell on
+    stored: np.ndarray  # uint64 [p], those of FMI 3.0: each transfer's values side by side from its first word on
 
 
 class Span(NamedTuple):

@@ -12,7 +12,9 @@ others, since every name that is kept alive here is read from memory instead of 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from types import FunctionType
+from typing import Any
 
 import numpy as np
 from numba import typeof
@@ -64,6 +66,7 @@ from .fmi_calls import boolean_at, do_step, exchange, exchange_texts, put_real, 
 from .text_transfers import exchange_with_texts
 
 ONE = np.uint64(1)
+WITH_FMI3 = False  # a constant of each compilation
 WHOLE_MIN, WHOLE_MAX = -(2**31), 2**31 - 1  # of FMI's Integers
 
 
@@ -224,15 +227,16 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                     status = exchange_texts(instructions[k], buffers.texts, outcome)
                 elif code < FIRST_OF_FMI3:
                     status = begin(instructions[k], program, settings, buffers.read_back, span, outcome)
-                elif code < COPY_BINARY:
-                    transfers, stored = program.transfers, buffers.stored
-                    status = exchange_in_steps(
-                        instructions[k], transfers, values, stored, outcome, time, step, start, n
-                    )
-                elif code < GIVE_PARAMETERS:
-                    status = exchange_with_texts(instructions[k], program.transfers, buffers, after)
-                else:
-                    status = begin_fmi3(instructions[k], program, settings, buffers.read_back, span, outcome)
+                elif WITH_FMI3:
+                    if code < COPY_BINARY:
+                        transfers, stored = program.transfers, buffers.stored
+                        status = exchange_in_steps(
+                            instructions[k], transfers, values, stored, outcome, time, step, start, n
+                        )
+                    elif code < GIVE_PARAMETERS:
+                        status = exchange_with_texts(instructions[k], program.transfers, buffers, after)
+                    else:
+                        status = begin_fmi3(instructions[k], program, settings, buffers.read_back, span, outcome)
                 if outcome[0] != 0:
                     outcome[5] = k
                     return rows
@@ -271,26 +275,30 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
         last_instruction = np.uint64(phases[phase + 1])
 
 
-def _under_another_name(function: Callable[..., int], name: str) -> FunctionType:
-    """A copy for another compilation: numba's cache tells functions apart by name, not by options."""
-    copy = FunctionType(function.__code__.replace(co_name=name, co_qualname=name), globals(), name)
+def _under_another_name(function: Callable[..., int], name: str, **constants: bool) -> FunctionType:
+    """A copy for another compilation: numba's cache tells functions apart by name, not by options or constants."""
+    copy = FunctionType(function.__code__.replace(co_name=name, co_qualname=name), {**globals(), **constants}, name)
     copy.__qualname__ = name
     return copy
 
 
-# For Python FMUs, which need the interpreter lock at every call, and for native ones, which run without.
-fly_locked = compile_cached(_fly)
-fly_unlocked = compile_cached(_under_another_name(_fly, "_fly_unlocked"), nogil=True)
+@cache
+def function(*, locked: bool, with_fmi3: bool) -> Any:
+    """For Python FMUs, which need the interpreter lock at every call, or native ones; compiled when it is called."""
+    name = f"_fly{'' if locked else '_unlocked'}{'_fmi3' if with_fmi3 else ''}"
+    return compile_cached(_under_another_name(_fly, name, WITH_FMI3=with_fmi3), nogil=not locked)
 
 
-def compile_for(arguments: tuple, *, locked: bool) -> Callable[..., int]:
+def compile_for(arguments: tuple, *, locked: bool, with_fmi3: bool) -> Callable[..., int]:
     """The loop for arguments of these types, as all flights of a simulation have them; ``locked`` for Python FMUs.
 
+    One that is not ``with_fmi3`` has no instructions of FMI 3.0, which take twice as long to compile as all others.
     Called by itself numba's dispatcher would look at the type of every array in every flight.
     """
-    return (fly_locked if locked else fly_unlocked).compile(tuple(typeof(part) for part in arguments))
+    chosen = function(locked=locked, with_fmi3=with_fmi3)
+    return chosen.compile(tuple(typeof(part) for part in arguments))
 
 
-def load(*, locked: bool) -> None:
+def load(*, locked: bool, with_fmi3: bool = False) -> None:
     """Have the loop compiled, or read from the cache, before a system is there to fly."""
-    compile_for(arrays.blank(), locked=locked)
+    compile_for(arrays.blank(), locked=locked, with_fmi3=with_fmi3)

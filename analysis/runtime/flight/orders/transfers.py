@@ -45,7 +45,7 @@ class TransferTable:
         self.references: list[int] = []
 
     def add(self, variables: Sequence[Variable], first: int) -> int:
-        """A transfer of variables of one representation, their elements in order from a cell on; returns its number."""
+        """A transfer of variables of one representation, their elements from index ``first`` on; returns its number."""
         references = [
             reference for _, reference in dict.fromkeys((each.array or each.name, each.reference) for each in variables)
         ]

@@ -1,0 +1,86 @@
+"""Slots and transfers of a component of FMI 3.0: whole variables, those of one representation side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+
+from ....common.errors import InputError
+from ...fmi.representations import TEXTS
+from ...fmi.variable import Variable
+from ...system.network import Network
+from .slots import Slots
+from .transfers import ComponentTransfers, TransferTable, groups, needs_events, whole
+
+
+class TransferPlacing:
+    """Adds components to ``slots`` and to the ``table``.
+
+    ``fetched`` names outputs that are taken (None: all), ``named`` what is recorded in addition, ``others`` what is
+    connected like an output and is none.
+    """
+
+    def __init__(
+        self,
+        network: Network,
+        slots: Slots,
+        table: TransferTable,
+        fetched: Collection[str] | None,
+        named: Collection[str],
+        others: Collection[str],
+    ) -> None:
+        self._network = network
+        self._slots = slots
+        self._table = table
+        self._fetched = fetched
+        self._named = named
+        self._others = others
+
+    def place(
+        self, component: str, transfers: ComponentTransfers, texts: Sequence[Sequence[tuple[Sequence[Variable], int]]]
+    ) -> None:
+        """Complete the transfers of a component, whose parameters are there already.
+
+        ``texts`` are its Strings and Binaries with their first rows, inputs and outputs.
+        """
+        network = self._network
+        transfers.uses_events = needs_events(network, component)
+        variables = network.fmus[component].variables.values()
+        numbers = [variable for variable in variables if variable.type not in TEXTS]
+        names = {variable.name: f"{component}.{variable.name}" for variable in numbers}
+        driven = {short for short, name in names.items() if name in network.driver or name in network.driven}
+        fetched = {short for short, name in names.items() if self._fetched is None or name in self._fetched}
+        inputs = whole((each for each in numbers if each.causality == "input"), driven)
+        others = {each.array or each.name for each in numbers if names[each.name] in self._others}
+        given = (each for each in numbers if each.causality == "output" or (each.array or each.name) in others)
+        outputs = whole(given, fetched)
+        for is_discrete, target in ((False, transfers.inputs), (True, transfers.discrete)):
+            mine = (each for each in inputs if (each.variability == "discrete") == is_discrete)
+            target += [self._add(component, group, is_given=True) for group in groups(mine)]
+        transfers.discrete += self._add_texts(texts[0])  # behind the others: they are numbers in a row
+        transfers.outputs += [self._add(component, group) for group in groups(outputs)]
+        transfers.outputs += self._add_texts(texts[1])
+        named = {short for short, name in names.items() if name in self._named and name not in self._slots.numbers}
+        recorded = whole((each for each in numbers if each.name in named), named)
+        transfers.recorded += [self._add(component, group) for group in groups(recorded)]
+        self._slots.unfed |= {names[each.name] for each in inputs if each.name not in driven}
+
+    def _add_texts(self, texts: Sequence[tuple[Sequence[Variable], int]]) -> list[int]:
+        return [self._table.add(group, first) for group, first in texts if group]
+
+    def _add(self, component: str, group: Sequence[Variable], *, is_given: bool = False) -> int:
+        slots, first = self._slots, len(self._slots.references)
+        for number, variable in enumerate(group, first):
+            name = f"{component}.{variable.name}"
+            initial = np.nan
+            if is_given:
+                start = slots.settings.variables.get((component, variable.name), variable.start)
+                if start is None and name not in self._network.driver and name not in self._network.driven:
+                    problem = "has neither a connection, a value nor a start, and its array is given as a whole"
+                    raise InputError(self._network.file, name, problem, f"connect it, or give `set` {name}=VALUE")
+                initial = slots.start(component, variable)
+                if variable.representation.is_wide and start is not None:
+                    slots.exact[number] = int(start)
+            slots.add(name, variable.reference, initial, variable.type, variable.unit)
+        return self._table.add(group, first)

@@ -1,0 +1,39 @@
+"""The slots of the loop's array of values: what lies where, and with which value it begins."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ...fmi.variable import Variable
+from ...system.passing.settings import Settings
+
+
+@dataclass
+class Slots:
+    """``numbers`` by name, with the type and unit of each; ``references`` and ``initial`` values by number.
+
+    ``exact`` are the starts of whole numbers of 64 bits, by number. ``unfed`` are elements of arrays that nothing is
+    connected to, whose array is given as a whole.
+    """
+
+    settings: Settings
+    numbers: dict[str, int] = field(default_factory=dict)
+    types: dict[str, str] = field(default_factory=dict)
+    units: dict[str, str | None] = field(default_factory=dict)
+    references: list[int] = field(default_factory=list)
+    initial: list[float] = field(default_factory=list)
+    exact: dict[int, int] = field(default_factory=dict)
+    unfed: set[str] = field(default_factory=set)
+
+    def add(self, name: str, reference: int, initial: float, type_name: str, unit: str | None) -> None:
+        """One more slot."""
+        self.numbers[name] = len(self.references)
+        self.types[name] = type_name
+        self.units[name] = unit
+        self.references.append(reference)
+        self.initial.append(initial)
+
+    def start(self, component: str, variable: Variable) -> float:
+        """What an input is given while its source is not known yet: the value set for it, else its FMU's start."""
+        start = self.settings.variables.get((component, variable.name), variable.start or 0.0)
+        return float({"true": 1, "false": 0}.get(str(start).lower(), start))
