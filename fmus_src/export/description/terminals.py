@@ -36,7 +36,6 @@ def terminals(block_class: type[Block]) -> bytes | None:
                 "Terminal",
                 name=owner.fmu_name,
                 matchingRule="bus",
-                terminalKind=f"{KIND}.{owner.fmu_name}",
                 description=owner.summary(),
             )
             bundled = {name for bundle in bundles.values() for name in bundle.names.values()}
