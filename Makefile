@@ -135,9 +135,11 @@ elementary: .venv/ready
 processors: build emulator windows
 	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 tests/processors
 
-# What the tests of the C on aarch64 need, from Debian's packages (as root); without it they are left out.
+# What the tests of the C on aarch64 need, from Debian's packages (as root), its C library among them; without it they
+# are left out.
 emulator:
-	@command -v qemu-aarch64-static >/dev/null || { apt-get update -qq && apt-get install -y -qq qemu-user-static >/dev/null; }
+	@command -v qemu-aarch64-static >/dev/null && [ -d /usr/aarch64-linux-gnu/lib ] || \
+		{ apt-get update -qq && apt-get install -y -qq --no-install-recommends qemu-user-static libc6-arm64-cross >/dev/null; }
 
 # What runs the Windows libraries, from Debian's packages (as root).
 windows:

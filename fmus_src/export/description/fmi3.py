@@ -7,6 +7,7 @@ import re
 from lxml import etree
 
 from ...block import Block
+from ...kernel.enumerations import Enumeration
 from ...variables import Output, Parameter, State
 from .common import STATE_ANNOTATION, add_log_categories, add_units, is_continuous, literal
 from .variables import TIME, ArrayVariable, list_variables
@@ -62,9 +63,11 @@ def model_description(block_class: type[Block], *, token: str, generation_tool: 
 
 def _add_types(root: etree._Element, variables: list[ArrayVariable]) -> None:
     """An EnumerationType for each enumeration."""
-    enumerations = {
-        variable.enumeration.__name__: variable.enumeration for variable in variables if variable.enumeration
-    }
+    enumerations: dict[str, type[Enumeration]] = {}
+    for used in filter(None, (variable.enumeration for variable in variables)):
+        other = enumerations.setdefault(used.__name__, used)
+        if other is not used:
+            raise ValueError(f"{root.get('modelName')}: two enumerations are called {used.__name__}; rename one")
     if enumerations:
         definitions = etree.SubElement(root, "TypeDefinitions")
         for name, enumeration in sorted(enumerations.items()):

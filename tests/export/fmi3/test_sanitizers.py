@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import subprocess
 from pathlib import Path
 
 import pytest
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.export.description.variables import list_variables
 from perilune.fmus_src.export.native_fmu import native_sources
-from tests.support import lengths, native
+from tests.support import lengths
 from tests.support.kernels.native_instance import GUID
+from tests.support.native.driver import drive, link
 from tests.support.native.sanitizers import find_compiler
 
-DRIVER = Path(native.__file__).with_name("drive_fmi3.c")
 # Vectors, matrices and enumerations; a record; Booleans and Integers in several bundles.
 DENSE = ("output_feedback", "command_switch", "slew_quintic")
 BLOCKS = [
@@ -34,13 +32,5 @@ def compiler(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
 def test_no_sanitizer_objects(block: type[Block], compiler: list[str], tmp_path: Path) -> None:
     for name, text in native_sources(block, GUID, 3).items():
         (tmp_path / name).write_bytes(text)
-    command = [*compiler, "-I", ".", "-o", "driver", str(DRIVER), f"{block.fmu_name}.c", "-lm"]
-    compiled = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert compiled.returncode == 0, compiled.stderr
-    variables = list_variables(block)
-    types = "".join(variable.type_name[0].lower() for variable in variables)
-    causalities = "".join(variable.declared.causality[0] for variable in variables)
-    sizes = ",".join(str(variable.size) for variable in variables)
-    arguments = [GUID, types, causalities, sizes, str(block.default_step), str(STEPS)]
-    done = subprocess.run([str(tmp_path / "driver"), *arguments], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    link(compiler, [f"{block.fmu_name}.c"], tmp_path / "driver")
+    drive(block, [str(tmp_path / "driver")], GUID, STEPS)

@@ -4,7 +4,8 @@
  *
  * TYPES has a letter f, i, b or e (Float64, Int32, Boolean, Enumeration) per value reference, CAUSALITIES a letter
  * p, i, o or l (parameter, input, output, local), SIZES the elements with commas between. Inputs are random, some of
- * them infinite or NaN. The sanitizers watch memory and arithmetic; this program watches the answers.
+ * them infinite or NaN. The sanitizers watch memory and arithmetic; this program watches the answers, and prints a
+ * checksum of all values.
  */
 #include <inttypes.h>
 #include <math.h>
@@ -60,7 +61,7 @@ static double number(void)
 {
     const double odd[] = {0.0, -0.0, 1.0, -1.0, 1e-310, 1e300, -1e308, INFINITY, -INFINITY, NAN};
     if (draw(200) == 0) return odd[draw(sizeof odd / sizeof odd[0])];
-    return (2.0 * (double)draw(1 << 30) / (1 << 30) - 1.0) * pow(10.0, 6.0 * (double)draw(1 << 30) / (1 << 30) - 2.0);
+    return ldexp((double)draw(1 << 30) / (1 << 29) - 1.0, (int)draw(20) - 6);
 }
 
 /* ---- a variable by its type ---- */
@@ -123,6 +124,21 @@ static void draw_values(char type, size_t size)
     }
 }
 
+static uint64_t checksum = UINT64_C(14695981039346656037); /* FNV-1a of all that was read; one NaN is as another */
+
+static void add_to_checksum(char type, size_t size)
+{
+    for (size_t k = 0; k < size; k++) {
+        Value value = {.word = 0};
+        if (type == 'f') value.real = buffer->reals[k];
+        if (type == 'f' && isnan(value.real)) value.word = 1;
+        if (type == 'i') value.integer = buffer->integers[k];
+        if (type == 'e') value.wide = buffer->wides[k];
+        if (type == 'b') value.boolean = buffer->booleans[k];
+        checksum = (checksum ^ value.word) * UINT64_C(1099511628211);
+    }
+}
+
 /* All bytes of all variables; what cannot be read, after an overflow of 32 bits, is 0. */
 static void read_all(fmi3Instance fmu, unsigned char *bytes)
 {
@@ -130,6 +146,7 @@ static void read_all(fmi3Instance fmu, unsigned char *bytes)
     for (size_t i = 0; i < count; i++) {
         if (get(fmu, (fmi3ValueReference)i, types[i], sizes[i]) == fmi3OK) {
             memcpy(bytes, buffer, sizes[i] * width(types[i]));
+            add_to_checksum(types[i], sizes[i]);
         }
         bytes += sizes[i] * sizeof(Value);
     }
@@ -384,6 +401,7 @@ int main(int argument_count, char **arguments)
     wrong_instantiation();
     wrong_moments();
     fly(atoi(arguments[6]));
+    printf("checksum %016" PRIx64 "\n", checksum);
     free(buffer);
     free(sizes);
     return failures == 0 ? 0 : 1;
