@@ -47,11 +47,11 @@ def is_continuous(block_class: type[Block], variable: Variable) -> bool:
     return variable.type_name == "Real" and not (sampled and variable.causality != "input")
 
 
-def boolean(value: bool) -> str:
+def boolean(flag: bool) -> str:
     """true or false."""
-    return "true" if value else "false"
+    return "true" if flag else "false"
 
 
-def literal(value: float | int | bool) -> str:
+def literal(number: float | int | bool) -> str:
     """A start value as XML text that reads back to the same bits."""
-    return boolean(value) if isinstance(value, bool) else repr(value)
+    return boolean(number) if isinstance(number, bool) else repr(number)

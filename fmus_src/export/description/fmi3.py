@@ -73,9 +73,9 @@ def _add_types(root: etree._Element, variables: list[ArrayVariable]) -> None:
         for name, enumeration in sorted(enumerations.items()):
             attributes = {"name": name, "description": _one_line((enumeration.__doc__ or "").strip())}
             kind = etree.SubElement(definitions, "EnumerationType", attributes)
-            for number, item in enumeration.names.items():
+            for number, label in enumeration.names.items():
                 meaning = enumeration.meanings[number]
-                etree.SubElement(kind, "Item", name=item, value=str(number), description=meaning)
+                etree.SubElement(kind, "Item", name=label, value=str(number), description=meaning)
 
 
 def _add_variable(parent: etree._Element, variable: ArrayVariable, continuous: bool) -> None:

@@ -81,13 +81,13 @@ def _references(block_class: type[Block], fmi: int) -> list[str]:
     return lines.text
 
 
-def _initialise(value: Any) -> str:
+def _initialise(start: Any) -> str:
     """A number, vector or record as C initialises it."""
-    if isinstance(value, vector_types.Vector):
-        return f"{{{{{', '.join(map(literal, value))}}}}}"
-    if isinstance(value, Record):
-        return f"{{{', '.join(_initialise(getattr(value, name)) for name in value.fields)}}}"
-    return literal(value)
+    if isinstance(start, vector_types.Vector):
+        return f"{{{{{', '.join(map(literal, start))}}}}}"
+    if isinstance(start, Record):
+        return f"{{{', '.join(_initialise(getattr(start, name)) for name in start.fields)}}}"
+    return literal(start)
 
 
 def _alike(traits: list[str]) -> list[int]:

@@ -175,7 +175,7 @@ def test_matrices_records_and_enumerations(tmp_path: Path) -> None:
     assert (variables["wanted"].type, variables["wanted"].start) == ("Enumeration", "3")
     (phase,) = new.typeDefinitions
     assert (phase.name, phase.description) == ("Phase", "What it does.")
-    items = [(item.name, item.value, item.description) for item in phase.items]
+    items = [(each.name, each.value, each.description) for each in phase.items]
     assert items == [("CLIMB", "2", "upwards"), ("FALL", "3", "down & out")]
     text = fmi3.model_description(Everything, token="", generation_tool="")
     (layout,) = etree.fromstring(text).find("Annotations/Annotation[@type='org.perilune.state']")

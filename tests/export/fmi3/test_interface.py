@@ -46,8 +46,8 @@ class VectorWalk(Block):
     total = Output([0.0, 0.0, 0.0], direct=True, unit="m", description="the sum")
     starts = Output([0.0, 0.0, 0.0], direct=True, unit="m", description="the input at the start")
     product = Output(1, direct=True, description="grows beyond 32 bits")
-    taken = Output(Way, direct=True, description="the way at the last sample")
-    samples = State(0, description="samples taken")
+    last_way = Output(Way, direct=True, description="the way at the last sample")
+    samples = State(0, description="samples last_way")
     start_time = State(0.0, unit="s", description="start of the flight")
 
     def initialize(self) -> None:
@@ -57,7 +57,7 @@ class VectorWalk(Block):
         if self.on and self.way == Way.FORWARDS:
             self.total = self.total + self.gain * self.x
         self.product = self.product * self.k
-        self.taken = self.way
+        self.last_way = self.way
         self.samples = self.samples + 1
 
 
@@ -87,10 +87,10 @@ class Walk:
         return values if variable.shape else values[0]
 
     def set(self, **values: Any) -> None:
-        for name, value in values.items():
+        for name, given in values.items():
             variable = self.variables[name]
             kind = {"Enumeration": "Int64"}.get(variable.type, variable.type)
-            elements = list(value) if variable.shape else [value]
+            elements = list(given) if variable.shape else [given]
             getattr(self.slave, f"set{kind}")([variable.valueReference], elements)
 
     def start(self, time: float = 0.0) -> None:
@@ -143,11 +143,11 @@ def test_it_steps_as_the_block_in_python(walk: Walk) -> None:
     for n in range(100):
         values = {"x": [0.1 * n, 1.0, -1.0], "on": n % 7 != 0, "way": int(n % 11 != 0), "k": -1}
         walk.set(**values)
-        for name, value in values.items():
-            setattr(plain.block, name, vector(*value) if name == "x" else value)
+        for name, given in values.items():
+            setattr(plain.block, name, vector(*given) if name == "x" else given)
         assert walk.slave.doStep(n * 0.1, 0.1) == (False, False, False, n * 0.1 + 0.1)
         plain.do_step(n * 0.1, 0.1)
-        for name in ("total", "product", "taken", "samples"):
+        for name in ("total", "product", "last_way", "samples"):
             expected = getattr(plain.block, name)
             assert walk.get(name) == (list(expected) if name == "total" else expected)
         assert walk.get("time") == n * 0.1 + 0.1

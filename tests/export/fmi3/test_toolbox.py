@@ -63,10 +63,10 @@ class Jacobi:
     def __init__(self) -> None:
         self.guidance, self.switch = Component(GUIDANCE), Component(SWITCH)
 
-    def set(self, name: str, value: Any) -> None:
+    def set(self, name: str, given: Any) -> None:
         for component in (self.guidance, self.switch):
             if name in component.block.variables:
-                setattr(component.block, name, value)
+                setattr(component.block, name, given)
                 return
         raise KeyError(name)
 
@@ -85,8 +85,8 @@ class Jacobi:
         self.exchange()
 
 
-def elements(value: Any) -> list:
-    return list(value) if hasattr(value, "__len__") else [value]
+def elements(given: Any) -> list:
+    return list(given) if hasattr(given, "__len__") else [given]
 
 
 def test_a_container_has_the_bits_of_its_blocks(tmp_path: Path) -> None:
@@ -102,10 +102,10 @@ def test_a_container_has_the_bits_of_its_blocks(tmp_path: Path) -> None:
     )
     ours, random = Jacobi(), generator("container of FMI 3.0")
 
-    def set_both(name: str, value: Any) -> None:
+    def set_both(name: str, given: Any) -> None:
         variable = variables[name]
-        getattr(slave, f"set{variable.type}")([variable.valueReference], elements(value))
-        ours.set(name, value)
+        getattr(slave, f"set{variable.type}")([variable.valueReference], elements(given))
+        ours.set(name, given)
 
     def theirs(name: str, size: int) -> list:
         variable = variables[name]
@@ -124,7 +124,7 @@ def test_a_container_has_the_bits_of_its_blocks(tmp_path: Path) -> None:
     set_inputs(0)
     slave.exitInitializationMode()
     ours.start()
-    moving = set()
+    nonzero = set()
     for n in range(40):
         set_inputs(n)
         slave.doStep(n * STEP, STEP)
@@ -137,8 +137,8 @@ def test_a_container_has_the_bits_of_its_blocks(tmp_path: Path) -> None:
                 expected = elements(getattr(block, name))
                 actual = theirs(inside if inside in variables else name, len(expected))
                 assert list(map(repr, map(float, actual))) == list(map(repr, map(float, expected))), (n, inside)
-                moving |= {inside} if any(expected) else set()
-    assert {"command_switch.thrust_acceleration", "analytic_guidance.time_to_go"} <= moving
+                nonzero |= {inside} if any(expected) else set()
+    assert {"command_switch.thrust_acceleration", "analytic_guidance.time_to_go"} <= nonzero
     slave.terminate()
     slave.freeInstance()
 

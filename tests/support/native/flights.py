@@ -37,16 +37,16 @@ def fly_fmi2(fmu: Path, parameters: Row, inputs: Sequence[Row], step: float, fol
     )
 
     def set_elements(values: Row) -> None:
-        for name, value in values.items():
+        for name, number in values.items():
             kind = variables[name].type
             python = {"Real": float, "Integer": int, "Boolean": bool}[kind]
-            getattr(slave, f"set{kind}")([variables[name].valueReference], [python(value)])
+            getattr(slave, f"set{kind}")([variables[name].valueReference], [python(number)])
 
     def get_all() -> Values:
         values: Values = {}
         for variable in description.modelVariables:
-            (value,) = getattr(slave, f"get{variable.type}")([variable.valueReference])
-            values.setdefault(variable.name.partition("[")[0], []).append(value)
+            (number,) = getattr(slave, f"get{variable.type}")([variable.valueReference])
+            values.setdefault(variable.name.partition("[")[0], []).append(number)
         return values
 
     slave.instantiate()
@@ -81,16 +81,16 @@ def fly_fmi3(fmu: Path, parameters: Row, inputs: Sequence[Row], step: float, fol
 
     def set_arrays(values: Row) -> None:
         changed = set()
-        for element, value in values.items():
+        for element, number in values.items():
             name, _, index = element.partition("[")
             variable = variables[name]
             array = arrays.setdefault(name, _starts(variable))
-            array[_position(index, variable.shape)] = value
+            array[_position(index, variable.shape)] = number
             changed.add(name)
         for name in sorted(changed):
             variable = variables[name]
             kind, python = FUNCTIONS[variable.type]
-            getattr(slave, f"set{kind}")([variable.valueReference], [python(value) for value in arrays[name]])
+            getattr(slave, f"set{kind}")([variable.valueReference], [python(number) for number in arrays[name]])
 
     def get_all() -> Values:
         values: Values = {}
