@@ -15,10 +15,16 @@ from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.archive import read_zip, write_zip
 from ...fmus_src.export.available import fmu_file
-from ...fmus_src.export.compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
+from ...fmus_src.export.compilers import (
+    PLATFORMS,
+    CompilationFailed,
+    CompilerMissing,
+    available_platforms,
+    platforms_of,
+)
 from ...fmus_src.export.judge.subset import SubsetError
 from ...fmus_src.export.native_fmu import build_native_fmu
-from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with, own_blocks
+from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with, folder_of, own_blocks
 from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
 from ...fmus_src.export.sources import record_source, remove_outdated
 from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
@@ -44,6 +50,7 @@ class Exported(NoProblems):
     paths: tuple[Path, ...]
     flavours: tuple[str, ...]
     platforms: tuple[str, ...]
+    fmi: int
 
     def lines(self) -> list[str]:
         """What `perilune export` prints: a path each."""
@@ -51,7 +58,8 @@ class Exported(NoProblems):
 
     def to_json(self) -> dict[str, object]:
         """The same for other programs."""
-        return {"paths": self.lines(), "flavours": list(self.flavours), "platforms": list(self.platforms)}
+        kind = {"flavours": list(self.flavours), "platforms": list(self.platforms), "fmi": self.fmi}
+        return {"paths": self.lines(), **kind}
 
 
 @verb(EXPORT)
@@ -59,19 +67,27 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
     """Build an FMU, a system as one .ssp with its FMUs, or the blocks of a .py file: `perilune export`.
 
     ``name`` is a block's, a system's (or its folder), or a file; a block of one's own is looked up by its name in the
-    .py files of the working folder. ``platforms`` are of native FMUs (linux64, win64, darwin64), by default those that
-    are prebuilt, or for which a compiler is installed; ``flavour`` is native by default, of a file both where one
-    is installed; ``ssp`` is the version of a system's documents; ``output`` is NAME.fmu or NAME.ssp in the working
-    folder, of a file its build/fmus. Raises InputError, with a line for each thing that is wrong with a block.
+    .py files of the working folder. ``fmi`` 3 writes native FMUs of FMI 3.0, for which a compiler is needed.
+    ``platforms`` are of native FMUs (linux64, win64, darwin64; of FMI 3.0 x86_64-linux and the like), by default those
+    that are prebuilt, or for which a compiler is installed; ``flavour`` is native by default, of a file both where one
+    is installed; ``ssp`` is the version of a system's documents, 2 with FMUs of FMI 3.0, which have arrays; ``output``
+    is NAME.fmu or NAME.ssp in the working folder, of a file its build/fmus. Raises InputError, with a line for each
+    thing that is wrong with a block.
     """
-    platforms, flavour = options["platforms"], options["flavour"]
+    platforms, flavour, fmi = options["platforms"], options["flavour"], options["fmi"]
     text = os.fspath(name)
     target = None if options["output"] is None else Path(options["output"])
     if platforms and flavour == "python":
         raise InputError("`platforms`", platforms[0], "Python FMUs have no platform to choose", "leave it out")
+    if fmi == 3 and flavour == "python":
+        raise InputError("`flavour`", flavour, "Python FMUs are of FMI 2.0", "leave it out, or leave out `fmi`")
+    for platform in platforms:
+        if PLATFORMS[platform].fmi != fmi:
+            problem = f"a name of FMI {PLATFORMS[platform].fmi}.0"
+            raise InputError("`platforms`", platform, problem, f"for FMI {fmi}.0 give {', '.join(platforms_of(fmi))}")
     check_file("`output`", target)
     try:
-        exported = _export(text, platforms, flavour, target, options["ssp"])
+        exported = _export(text, platforms, flavour, target, fmi, options["ssp"])
     except CompilerMissing as error:
         raise InputError("export", text, "cannot be compiled here", str(error)) from error
     except CompilationFailed as error:
@@ -88,18 +104,18 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
 
 
 def _export(
-    text: str, platforms: Sequence[str], flavour: Flavour | None, target: Path | None, ssp: str | None
+    text: str, platforms: Sequence[str], flavour: Flavour | None, target: Path | None, fmi: int, ssp: str | None
 ) -> Exported:
     is_system = text in system_names() or Path(text).is_dir()
     if ssp is not None and not is_system:
         raise InputError("`ssp`", ssp, f"{text} is no system, which it is for", "leave it out")
     if text.endswith(".py"):
         _check_there(Path(text))
-        return _export_file(Path(text), platforms, flavour, target)
+        return _export_file(Path(text), platforms, flavour, target, fmi)
     own = _own_file(text)
     if own is not None:
-        return _export_file(own, platforms, flavour, target, text if text in defines(own) else None)
-    return _export_named(text, platforms, flavour or "native", target, ssp)
+        return _export_file(own, platforms, flavour, target, fmi, text if text in defines(own) else None)
+    return _export_named(text, platforms, flavour or "native", target, fmi, ssp)
 
 
 def _check_there(file: Path) -> None:
@@ -129,48 +145,65 @@ def _own_file(name: str) -> Path | None:
 
 
 def _export_named(
-    name: str, requested: Sequence[str], flavour: Flavour, output: Path | None, ssp: str | None
+    name: str, requested: Sequence[str], flavour: Flavour, output: Path | None, fmi: int, ssp: str | None
 ) -> Exported:
     """An FMU or a system of this repository or of a folder."""
-    platforms = [] if flavour == "python" else _platforms(requested, own=False)
+    platforms = [] if flavour == "python" else _platforms(requested, fmi, own=False)
     blocks = catalogue()
     if name in blocks:
         path = output or Path(f"{name}.fmu")
         check_file("`output`", path, (".fmu",))
-        _build(blocks[name], path, flavour, platforms)
+        _build(blocks[name], path, flavour, platforms, fmi)
     elif name in system_names() or Path(name).is_dir():
         path = output or Path(f"{Path(name).resolve().name}.ssp")
         check_file("`output`", path, (".ssp",))
-        _export_system(open_system(name), path, flavour, platforms, ssp)
+        if fmi == 3 and ssp == "1":
+            problem = "FMUs of FMI 3.0 have arrays, which SSP 1.0 has not"
+            raise InputError("`ssp`", ssp, problem, "give 2, or leave out `fmi`")
+        _export_system(open_system(name), path, flavour, platforms, fmi, "2" if fmi == 3 else ssp)
     else:
         problem = "neither an FMU, a system nor a .py file, and no block of a .py file here"
         own = [block for path in sorted(Path().glob("*.py")) for block in (path.stem, *defines(path))]
         raise InputError("export", name, problem, suggestion(name, [*blocks, *system_names(), *own]))
-    return Exported((path,), (flavour,), tuple(platforms))
+    return Exported((path,), (flavour,), tuple(platforms), fmi)
 
 
-def _platforms(requested: Sequence[str], *, own: bool) -> list[str]:
+def _platforms(requested: Sequence[str], fmi: int, *, own: bool) -> list[str]:
     if requested:
         return list(requested)
-    return available_platforms() if IS_CHECKOUT or own else list(PLATFORMS)
+    return available_platforms(fmi) if IS_CHECKOUT or own or fmi == 3 else platforms_of(fmi)
 
 
-def _build(block: type[Block], path: Path, flavour: str, platforms: list[str]) -> None:
-    """One FMU of this repository: an installed package has its native ones with all their libraries inside."""
+def _build(block: type[Block], path: Path, flavour: str, platforms: list[str], fmi: int) -> None:
+    """One FMU of this repository: an installed package has its native ones of FMI 2.0 with all their libraries inside.
+
+    Those of FMI 3.0 are compiled where they are asked for, as few users want them: they would double the package.
+    """
     if flavour == "python":
         build_python_fmu(block, path)
     elif block.python_only:
-        raise InputError("export", block.fmu_name, "needs Python and has no native form", "give `flavour` python")
-    elif not IS_CHECKOUT:
+        raise _needs_python("export", block.fmu_name, fmi)
+    elif fmi == 2 and not IS_CHECKOUT:
         files = read_zip(shipped_fmu(block.fmu_name, flavour))
         left_out = tuple(f"binaries/{name}/" for name in PLATFORMS if name not in platforms)
         write_zip(path, {name: content for name, content in files.items() if not name.startswith(left_out)})
     elif not platforms:
-        raise InputError(
-            "export", block.fmu_name, "no C compiler here", "pip install ziglang, or give `flavour` python"
-        )
+        raise _no_compiler(block.fmu_name, fmi)
     else:
-        build_native_fmu(block, path, platforms=platforms, portable=_zig_is_here())
+        build_native_fmu(block, path, platforms=platforms, portable=_zig_is_here(), fmi=fmi)
+
+
+def _no_compiler(element: FilePath, fmi: int) -> InputError:
+    """That native FMUs cannot be made here, and what to do."""
+    other = "give `flavour` python" if fmi == 2 else "leave out `fmi`"
+    return InputError("export", str(element), "no C compiler here", f"pip install ziglang, or {other}")
+
+
+def _needs_python(file: FilePath, element: str, fmi: int) -> InputError:
+    """That a block cannot be compiled, and what to do."""
+    if fmi == 3:
+        return InputError(file, element, "needs Python, and Python FMUs are of FMI 2.0", "leave out `fmi`")
+    return InputError(file, element, "needs Python and has no native form", "give `flavour` python")
 
 
 def _zig_is_here() -> bool:
@@ -178,7 +211,9 @@ def _zig_is_here() -> bool:
     return "win64" in available_platforms()
 
 
-def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: list[str], ssp: str | None) -> None:
+def _export_system(
+    archive: SystemArchive, path: Path, flavour: str, platforms: list[str], fmi: int, ssp: str | None
+) -> None:
     """The system's folder as one archive, with the FMUs of this repository and of the working folder that it names."""
     blocks = catalogue()
     with tempfile.TemporaryDirectory() as name:
@@ -192,7 +227,7 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
                     continue
                 own = fmu_file(target.stem, flavour, archive.path)
                 if target.stem in blocks:
-                    _build(blocks[target.stem], target, flavour, platforms)
+                    _build(blocks[target.stem], target, flavour, platforms, fmi)
                 elif own is not None:
                     shutil.copyfile(own, target)
                 else:
@@ -208,37 +243,53 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
 
 
 def _export_file(
-    file: Path, requested: Sequence[str], flavour: Flavour | None, output: Path | None, only: str | None = None
+    file: Path,
+    requested: Sequence[str],
+    flavour: Flavour | None,
+    output: Path | None,
+    fmi: int,
+    only: str | None = None,
 ) -> Exported:
     """The blocks of a file, or ``only`` one, into the working folder's build/fmus, where ``use`` finds them by name."""
-    platforms = _platforms(requested, own=True)
+    platforms = _platforms(requested, fmi, own=True)
     flavours = [flavour] if flavour else [name for name in FLAVOURS if platforms or name == "python"]
+    if fmi == 3:
+        flavours = ["native"]
     blocks = [block for block in own_blocks(file) if only in (None, block.fmu_name)]
     if requested and all(block.python_only for block in blocks):
         problem = f"{', '.join(block.fmu_name for block in blocks)}: needs Python and has no native form"
         raise InputError("`platforms`", requested[0], problem, "leave it out")
+    if flavours == ["native"] and not platforms:
+        raise _no_compiler(file, fmi)
     if output is None:
         for each in flavours:
-            check_file("export", own_fmu(file.stem, each), new_folders=3)  # build/fmus/FLAVOUR
+            check_file("export", own_fmu(file.stem, folder_of(each, fmi)), new_folders=3)  # build/fmus/FLAVOUR
         folder = own_fmu("x", "x").parents[1]
-        written = build_own_blocks(file, folder, flavours, platforms, only=only, portable=_zig_is_here())
+        written = _build_file(file, folder, flavours, platforms, only, fmi)
         if not written:
-            raise InputError(file, only or file.stem, "needs Python and has no native form", "give `flavour` python")
+            raise _needs_python(file, only or file.stem, fmi)
         record_source(folder, file, written, files_with(file))
         for block in own_blocks(file) if "native" in flavours else ():
             if block.python_only:
                 remove_outdated(folder, file, own_fmu(block.fmu_name, "native"))
-        built = tuple(name for name in flavours if any(path.parent.name == name for path in written))
+        folders = {path.parent.name for path in written}
+        built = tuple(name for name in flavours if folder_of(name, fmi) in folders)
         paths = tuple(path.relative_to(Path.cwd()) for path in written)
-        return Exported(paths, built, tuple(platforms) if "native" in built else ())
+        return Exported(paths, built, tuple(platforms) if "native" in built else (), fmi)
     if output.suffix != ".fmu" or len(blocks) > 1:
         problem = "not an .fmu" if output.suffix != ".fmu" else f"the {len(blocks)} blocks of {file} are no one FMU"
         raise InputError("`output`", str(output), problem, "leave it out: FMUs go to build/fmus")
-    if flavour is None and blocks[0].python_only:
+    if flavour is None and blocks[0].python_only and fmi == 2:
         flavours = ["python"]
     with tempfile.TemporaryDirectory() as name:
-        written = build_own_blocks(file, Path(name), flavours[:1], platforms, only=only, portable=_zig_is_here())
+        written = _build_file(file, Path(name), flavours[:1], platforms, only, fmi)
         if not written:
-            raise InputError(file, blocks[0].__name__, "needs Python and has no native form", "give `flavour` python")
+            raise _needs_python(file, blocks[0].__name__, fmi)
         write_atomically(output, written[0].read_bytes())
-    return Exported((output,), tuple(flavours[:1]), tuple(platforms) if flavours[0] == "native" else ())
+    return Exported((output,), tuple(flavours[:1]), tuple(platforms) if flavours[0] == "native" else (), fmi)
+
+
+def _build_file(
+    file: Path, folder: Path, flavours: Sequence[str], platforms: Sequence[str], only: str | None, fmi: int
+) -> list[Path]:
+    return build_own_blocks(file, folder, flavours, platforms, only=only, portable=_zig_is_here(), fmi=fmi)
