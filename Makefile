@@ -112,7 +112,7 @@ $(BASILISK)/ready: .venv/ready
 
 # The C of every block under the address and undefined-behaviour sanitizers, 10000 steps each.
 sanitize: .venv/ready
-	PERILUNE_LONG=1 PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py
+	PERILUNE_LONG=1 PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py tests/export/fmi3/test_sanitizers.py
 
 # What others may hand in, changed at random under atheris and libFuzzer (Debian's clang, installed as root): manifests,
 # shards, documents, tables, archives, and calls of native FMUs. It takes hours; FUZZ="--runs N" takes N of each,
@@ -135,9 +135,11 @@ elementary: .venv/ready
 processors: build emulator windows
 	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 tests/processors
 
-# What the tests of the C on aarch64 need, from Debian's packages (as root); without it they are left out.
+# What the tests of the C on aarch64 need, from Debian's packages (as root), its C library among them; without it they
+# are left out.
 emulator:
-	@command -v qemu-aarch64-static >/dev/null || { apt-get update -qq && apt-get install -y -qq qemu-user-static >/dev/null; }
+	@command -v qemu-aarch64-static >/dev/null && [ -d /usr/aarch64-linux-gnu/lib ] || \
+		{ apt-get update -qq && apt-get install -y -qq --no-install-recommends qemu-user-static libc6-arm64-cross >/dev/null; }
 
 # What runs the Windows libraries, from Debian's packages (as root).
 windows:

@@ -63,7 +63,9 @@ class Variable:
         columns: int | None = None,
         vector: bool = True,
     ) -> None:
+        self.enumeration: type[Enumeration] | None = None
         if isinstance(declared, type) and issubclass(declared, Enumeration):
+            self.enumeration = declared
             minimum, maximum = min(declared.meanings), max(declared.meanings)
             description = declared.describe(description)
             declared = minimum if start is None else start

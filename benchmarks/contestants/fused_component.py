@@ -17,7 +17,7 @@ from perilune.fmus_src.export.write.translate import translate
 WRAPPER = '#include "fmi2_wrapper.c"\n'
 STRUCT = re.compile(r"^typedef struct (\w+) \{\n.*?^\} \1;\n", re.DOTALL | re.MULTILINE)
 
-# What fmi2_component.h does, for one instance and without what an importer may do wrong.
+# What instance.h does, for one instance and without what an importer may do wrong.
 LIFE_CYCLE = """\
 /* ---- without FMI: one instance ---- */
 

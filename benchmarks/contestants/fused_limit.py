@@ -19,6 +19,7 @@ from .fused_main import FILE, write_main
 
 # Over the FMUs' own flags: all units optimised as one, and nothing but the entry point visible from outside.
 FUSING = ("-flto", "-fvisibility=hidden")
+INCLUDED = [f"-I{C_FILES / folder}" for folder in ("instance", "kernel")]
 
 
 def prepare(course: Course, blocks: Mapping[str, type[Block]] | None = None) -> Fly:
@@ -64,7 +65,7 @@ def compile_system(course: Course, blocks: Mapping[str, type[Block]]) -> Path:
         (folder / name).write_text(text, encoding="utf-8")
     library = folder / f"fused{PLATFORMS[platform].extension}"
     finished = subprocess.run(
-        [*command, *FLAGS, *FUSING, f"-I{C_FILES}", "-o", library.name, *units, "-lm"],
+        [*command, *FLAGS, *FUSING, *INCLUDED, "-o", library.name, *units, "-lm"],
         cwd=folder,
         capture_output=True,
         text=True,

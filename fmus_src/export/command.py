@@ -15,7 +15,7 @@ from tqdm import tqdm
 from ..catalogue import catalogue
 from ..own_digests import list_own
 from ..paths import BUILD, FLAVOURS, SYSTEMS
-from .compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
+from .compilers import CompilationFailed, CompilerMissing, available_platforms, platforms_of
 from .native_fmu import build_native_fmu
 from .pythonfmu_fmu import build_python_fmu
 from .ssp_package import pack_system
@@ -31,7 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--platform",
         action="append",
-        choices=tuple(PLATFORMS),
+        choices=tuple(platforms_of(2)),
         help="platforms of native FMUs; may be repeated; default: all for which a compiler is installed",
     )
     parser.add_argument("--portable", action="store_true", help="compile with zig, against an old C library")

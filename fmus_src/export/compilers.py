@@ -21,6 +21,7 @@ from .fat_binary import fat_binary
 # -O3 for what it does to calls and branches. -fno-tree-vectorize for bits: GCC's vectoriser fuses a difference next to
 # a sum with their products even under -ffp-contract=off (`kernel_self_test.h`). It costs no speed: vectors of
 # doubles of our loops, of three or nine passes, cost more than they save.
+SOURCE_OPTIONS = ("-std=c99", "-O2", "-ffp-contract=off", "-fno-tree-vectorize")  # for whoever compiles sources/
 FLAGS = ("-O3", "-fno-tree-vectorize", "-std=c99", "-ffp-contract=off", "-fPIC", "-shared", "-s")
 
 
@@ -34,27 +35,48 @@ class CompilationFailed(RuntimeError):  # noqa: N818
 
 @dataclass(frozen=True)
 class Platform:
-    """An FMI 2.0 platform: the extension of its libraries, and zig's names for it; several make a universal library."""
+    """A platform of a version of FMI: the extension of its libraries, and zig's names for it.
 
+    Several make a universal library.
+    """
+
+    fmi: int
     extension: str
     zig_targets: tuple[str, ...]
 
 
+LINUX, WINDOWS = "x86_64-linux-gnu.2.17", "x86_64-windows-gnu"
 PLATFORMS = {
-    "linux64": Platform(".so", ("x86_64-linux-gnu.2.17",)),
-    "win64": Platform(".dll", ("x86_64-windows-gnu",)),
-    "darwin64": Platform(".dylib", ("x86_64-macos", "aarch64-macos")),
+    "linux64": Platform(2, ".so", (LINUX,)),
+    "win64": Platform(2, ".dll", (WINDOWS,)),
+    "darwin64": Platform(2, ".dylib", ("x86_64-macos", "aarch64-macos")),
+    "x86_64-linux": Platform(3, ".so", (LINUX,)),
+    "aarch64-linux": Platform(3, ".so", ("aarch64-linux-gnu.2.17",)),
+    "x86_64-windows": Platform(3, ".dll", (WINDOWS,)),
+    "x86_64-darwin": Platform(3, ".dylib", ("x86_64-macos",)),
+    "aarch64-darwin": Platform(3, ".dylib", ("aarch64-macos",)),
 }
+USUAL = {2: ("linux64", "win64"), 3: tuple(name for name, each in PLATFORMS.items() if each.fmi == 3)}
 
 
-def local_platform() -> str | None:
-    """FMI 2.0 name of the platform that this process runs on; None where FMI 2.0 has none."""
+def platforms_of(fmi: int) -> list[str]:
+    """The names that a version of FMI has for platforms."""
+    return [name for name, platform in PLATFORMS.items() if platform.fmi == fmi]
+
+
+def local_platform(fmi: int = 2) -> str | None:
+    """What FMI calls the platform that this process runs on; None where it has no name, or nobody compiles for it."""
     machine = host.machine().lower()
-    if sys.platform == "darwin":
+    system = {"linux": "linux", "win32": "windows", "darwin": "darwin"}.get(sys.platform)
+    if fmi == 3:
+        processor = {"amd64": "x86_64", "arm64": "aarch64"}.get(machine, machine)
+        name = f"{processor}-{system}"
+        return name if name in PLATFORMS else None
+    if system == "darwin":
         return "darwin64"
     if machine not in ("x86_64", "amd64"):
         return None
-    return {"linux": "linux64", "win32": "win64"}.get(sys.platform)
+    return {"linux": "linux64", "windows": "win64"}.get(system or "")
 
 
 def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
@@ -67,7 +89,7 @@ def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
     if platform not in PLATFORMS:
         raise ValueError(f"platform {platform!r} is unknown; give one of {', '.join(PLATFORMS)}")
     system = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
-    if system and platform == local_platform() and not portable:
+    if system and platform in (local_platform(2), local_platform(3)) and not portable:
         return [[system]]
     if importlib.util.find_spec("ziglang") is not None:
         return [[sys.executable, "-m", "ziglang", "cc", "-target", name] for name in PLATFORMS[platform].zig_targets]
@@ -77,10 +99,13 @@ def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
     )
 
 
-def available_platforms() -> list[str]:
-    """The usual platforms that some compiler here serves: linux64 and win64 with zig, else the local one."""
+def available_platforms(fmi: int = 2) -> list[str]:
+    """The usual platforms that some compiler here serves.
+
+    FMI 2.0: linux64 and win64 with zig, else the local one. FMI 3.0: all with zig, else the local one.
+    """
     platforms = []
-    for platform in ("linux64", "win64"):
+    for platform in USUAL[fmi]:
         try:
             compilers_for(platform)
         except CompilerMissing:

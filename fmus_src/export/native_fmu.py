@@ -13,40 +13,40 @@ from ..evidence.block import add_evidence
 from ..own_digests import note_own
 from ..paths import CACHE
 from .archive import content_guid, write_zip
-from .compilers import PLATFORMS, build_library
-from .model_description import model_description
+from .compilers import PLATFORMS, SOURCE_OPTIONS, build_library
+from .description import fmi2, fmi3
+from .description.build import build_description
+from .description.terminals import FILE as TERMINALS_FILE
+from .description.terminals import terminals
 from .write.translate import translate
 
 C_FILES = Path(__file__).parent / "fmi"
-WRAPPER_FILES = (
-    "fmi2_block.h",
-    "fmi2_component.h",
-    "fmi2_fmu_state.h",
-    "fmi2_python_repr.h",
-    "fmi2_values.h",
-    "fmi2_wrapper.c",
-    "kernel_math.h",
-    "kernel_self_test.h",
-    "kernel_vectors.h",
-)
-STANDARD_HEADERS = ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h")  # BSD-2, licence inside
+STANDARD = Path(fmpy.__file__).parent / "c-code"  # headers under BSD-2, licence inside
+STANDARD_HEADERS = {
+    2: ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h"),
+    3: ("fmi3FunctionTypes.h", "fmi3Functions.h", "fmi3PlatformTypes.h"),
+}
 
 
-def native_sources(block_class: type[Block], guid: str) -> dict[str, bytes]:
+def wrapper_files(fmi: int) -> list[Path]:
+    """The C around every block for a version of FMI: that of all versions, and the version's."""
+    return [path for folder in ("instance", "kernel", f"fmi{fmi}") for path in sorted((C_FILES / folder).iterdir())]
+
+
+def native_sources(block_class: type[Block], guid: str, fmi: int = 2) -> dict[str, bytes]:
     """The files of ``sources/`` by name; ``FMU_NAME.c`` is the one to compile, it includes the others.
 
     Raises `SubsetError` where the block is outside the subset of Python.
     """
-    standard = Path(fmpy.__file__).parent / "c-code"
-    files = {name: (C_FILES / name).read_bytes() for name in WRAPPER_FILES}
-    files |= {name: (standard / name).read_bytes() for name in STANDARD_HEADERS}
-    files[f"{block_class.fmu_name}.c"] = translate(block_class, guid).encode()
+    files = {path.name: path.read_bytes() for path in wrapper_files(fmi)}
+    files |= {name: (STANDARD / name).read_bytes() for name in STANDARD_HEADERS[fmi]}
+    files[f"{block_class.fmu_name}.c"] = translate(block_class, guid, fmi).encode()
     return files
 
 
-def native_guid(block_class: type[Block]) -> str:
-    """The GUID of a block's native FMU: a hash of its sources and its description."""
-    return content_guid(_files(block_class, guid=""))
+def native_guid(block_class: type[Block], fmi: int = 2) -> str:
+    """The GUID of a block's native FMU, FMI 3.0's instantiation token: a hash of its sources and its description."""
+    return content_guid(_files(block_class, "", fmi))
 
 
 def build_native_fmu(
@@ -56,16 +56,18 @@ def build_native_fmu(
     platforms: Sequence[str] = ("linux64", "win64"),
     cache: Path = CACHE,
     portable: bool = False,
+    fmi: int = 2,
 ) -> Path:
     """Build the native FMU of a block at ``path``; two builds on one machine are byte-identical.
 
-    Compiled libraries are kept in the folder ``cache``, so that an unchanged block is not compiled
-    again. ``portable`` compiles with zig even where the system has a compiler. Raises
-    `SubsetError`, `CompilerMissing` and `CompilationFailed`.
+    ``fmi`` is 2 or 3, of which the ``platforms`` are. Compiled libraries are kept in the folder ``cache``, so that an
+    unchanged block is not compiled again. ``portable`` compiles with zig even where the system has a compiler. Raises
+    `SubsetError`, `CompilerMissing` and `CompilationFailed`; ValueError for a block that this version of FMI cannot
+    describe.
     """
-    guid = native_guid(block_class)
-    files = _files(block_class, guid)
-    sources = native_sources(block_class, guid)
+    guid = native_guid(block_class, fmi)
+    files = _files(block_class, guid, fmi)
+    sources = native_sources(block_class, guid, fmi)
     name = block_class.fmu_name
     for platform in platforms:
         library = build_library(sources, f"{name}.c", platform, cache, portable=portable)
@@ -75,14 +77,16 @@ def build_native_fmu(
     return path
 
 
-def _files(block_class: type[Block], guid: str) -> dict[str, bytes]:
-    """The FMU without its binaries."""
-    files = {f"sources/{name}": text for name, text in native_sources(block_class, guid).items()}
-    files["modelDescription.xml"] = model_description(
-        block_class,
-        guid=guid,
-        generation_tool=f"Perilune {version('perilune')}",
-        needs_execution_tool=False,
-        sources=[f"{block_class.fmu_name}.c"],
+def _files(block_class: type[Block], guid: str, fmi: int) -> dict[str, bytes]:
+    """The FMU without its binaries and its check."""
+    files = {f"sources/{name}": text for name, text in native_sources(block_class, guid, fmi).items()}
+    tool, main = f"Perilune {version('perilune')}", f"{block_class.fmu_name}.c"
+    if fmi == 3:
+        files["modelDescription.xml"] = fmi3.model_description(block_class, token=guid, generation_tool=tool)
+        files["sources/buildDescription.xml"] = build_description(block_class.fmu_name, main, SOURCE_OPTIONS)
+        connected = terminals(block_class)
+        return files if connected is None else files | {TERMINALS_FILE: connected}
+    files["modelDescription.xml"] = fmi2.model_description(
+        block_class, guid=guid, generation_tool=tool, needs_execution_tool=False, sources=[main]
     )
     return files

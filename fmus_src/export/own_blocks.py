@@ -48,21 +48,27 @@ def build_own_blocks(
     *,
     only: str | None = None,
     portable: bool = False,
+    fmi: int = 2,
 ) -> list[Path]:
     """Build the blocks of a file, or ``only`` one by its FMU name, as ``folder``/FLAVOUR/NAME.fmu; returns the paths.
 
-    A block that needs Python has no native form, and is left out there. Raises ValueError for what is wrong in the
-    file, `CompilerMissing` and `CompilationFailed`.
+    Those of FMI 3.0 go to ``folder``/fmi3. A block that needs Python has no native form, and is left out there.
+    Raises ValueError for what is wrong in the file, `CompilerMissing` and `CompilationFailed`.
     """
     written = []
     for block in own_blocks(path):
         for flavour in flavours if only in (None, block.fmu_name) else ():
-            target = folder / flavour / f"{block.fmu_name}.fmu"
+            target = folder / folder_of(flavour, fmi) / f"{block.fmu_name}.fmu"
             if flavour == "python":
                 build_python_fmu(block, target)
             elif not block.python_only:
-                build_native_fmu(block, target, platforms=platforms, portable=portable)
+                build_native_fmu(block, target, platforms=platforms, portable=portable, fmi=fmi)
             else:
                 continue
             written.append(target)
     return written
+
+
+def folder_of(flavour: str, fmi: int) -> str:
+    """The folder of FMUs of one kind, in which ``use`` looks for those of FMI 2.0."""
+    return flavour if fmi == 2 else f"fmi{fmi}"

@@ -15,7 +15,7 @@ from ..own_digests import note_own
 from .archive import content_guid, read_zip, write_zip
 from .attributes import check_attributes
 from .closure import Closure, closure_of
-from .model_description import model_description
+from .description.fmi2 import model_description
 
 SCRIPT = '''"""FMU script of {fmu_name}, generated; the block is in {package}/{block_path}."""
 

@@ -28,13 +28,16 @@ class Enumeration:
     """Values numbered in the order of declaration, from 0 or ``class RendezvousPhase(Enumeration, first=1)``."""
 
     meanings: ClassVar[dict[int, str]] = {}  # by number
+    names: ClassVar[dict[int, str]] = {}
 
     def __init_subclass__(cls, *, first: int = 0) -> None:
         members = [(name, value) for name, value in vars(cls).items() if isinstance(value, _Member)]
         cls.meanings = {}
+        cls.names = {}
         for number, (name, value) in enumerate(members, first):
             setattr(cls, name, number)
             cls.meanings[number] = value.meaning
+            cls.names[number] = name
 
     @classmethod
     def describe(cls, about: str) -> str:

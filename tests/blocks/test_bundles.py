@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from perilune.fmus_src.block import Block, Output
 from perilune.fmus_src.bundles import Bundle, Inputs, Outputs
 from perilune.fmus_src.export.attributes import UndeclaredError, check_attributes
+from perilune.fmus_src.export.description.fmi2 import model_description
 from perilune.fmus_src.export.judge.subset import check
-from perilune.fmus_src.export.model_description import model_description
 from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.ports import Port
 from perilune.fmus_src.variables import DeclarationError, Input, State

@@ -14,7 +14,7 @@ from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export import compilers
 from perilune.fmus_src.export.compilers import CompilationFailed, CompilerMissing, build_library, local_platform
-from perilune.fmus_src.export.native_fmu import C_FILES, STANDARD_HEADERS, WRAPPER_FILES, build_native_fmu
+from perilune.fmus_src.export.native_fmu import STANDARD_HEADERS, build_native_fmu, wrapper_files
 from perilune.fmus_src.export.write.names import WRAPPER_NAMES
 from perilune.fmus_src.runtime import Component
 from tests.support import kernels
@@ -80,7 +80,7 @@ def test_sources_compile_without_warnings_by_themselves(tmp_path: Path) -> None:
         archive.extractall(tmp_path, sources)
     command = ["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-c", "-o", "out.o", "forming_filter.c"]
     subprocess.run(command, cwd=tmp_path / "sources", check=True)
-    assert b"2-Clause BSD License" in (tmp_path / "sources" / STANDARD_HEADERS[0]).read_bytes()
+    assert b"2-Clause BSD License" in (tmp_path / "sources" / STANDARD_HEADERS[2][0]).read_bytes()
 
 
 def test_c_program_steps_the_fmu_without_python(tmp_path: Path) -> None:
@@ -110,8 +110,10 @@ def test_c_program_steps_the_fmu_without_python(tmp_path: Path) -> None:
 
 
 def test_every_name_of_the_wrapper_is_kept_from_blocks() -> None:
-    text = "".join((C_FILES / name).read_text(encoding="utf-8") for name in WRAPPER_FILES)
+    files = dict.fromkeys((*wrapper_files(2), *wrapper_files(3)))
+    text = "".join(path.read_text(encoding="utf-8") for path in files)
     types = re.findall(r"^typedef (?:struct|enum|union) (\w+)", text, re.MULTILINE)
+    types += re.findall(r"^typedef [\w ]+ (\w+);", text, re.MULTILINE)
     functions = re.findall(r"^(?:static|FMI2_Export) (?:[\w *]+?)\b(\w+)\(", text, re.MULTILINE)
     for size in re.findall(r"^VECTOR_TYPE\((\d)\)", text, re.MULTILINE):  # a macro for each size
         types.append(f"Vector{size}")

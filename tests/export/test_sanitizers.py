@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
-import shutil
 import subprocess
-import sys
-import warnings
 from pathlib import Path
 
 import pytest
@@ -17,37 +13,19 @@ from perilune.fmus_src.export.native_fmu import native_sources
 from tests.support import kernels, lengths
 from tests.support.kernels.native_instance import GUID
 from tests.support.lengths import LONG
+from tests.support.native.sanitizers import find_compiler
 
 DRIVER = Path(kernels.__file__).with_name("sanitize_fmu.c")
 # Those with the most lists, random numbers, searches and vectors between them.
 DENSE = ("kalman_navigation", "jet_allocation_least_propellant", "free_flying_robot")
 BLOCKS = [block for block in catalogue().values() if not block.python_only and (LONG or block.fmu_name in DENSE)]
 STEPS = lengths.size(200)
-# Kernels divide and convert through checked helpers, so these two, allowed by IEEE 754 or left out of
-# `undefined`, would be faults of the translation.
-UNDEFINED = "undefined,float-divide-by-zero,float-cast-overflow"
-FLAGS = ["-std=c99", "-O1", "-g", "-ffp-contract=off", "-fno-sanitize-recover=all"]
 
 
 @pytest.fixture(scope="session")
 def compiler(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
-    """The command that compiles with sanitizers: the system's compiler, else zig's without the one for addresses."""
-    system = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
-    if system is not None:
-        command = [system, *FLAGS, f"-fsanitize=address,{UNDEFINED}"]
-        folder = tmp_path_factory.mktemp("probe")
-        (folder / "probe.c").write_text("int main(void) { return 0; }\n")
-        probe = subprocess.run([*command, "-o", "probe", "probe.c"], cwd=folder, capture_output=True, text=True)
-        assert probe.returncode == 0, (
-            f"{system} cannot link its sanitizers; install them (Debian: apt-get install libasan8 libubsan1, which "
-            f"come with gcc; Fedora: dnf install libasan libubsan):\n{probe.stderr}"
-        )
-        return command
-    assert importlib.util.find_spec("ziglang") is not None, (
-        "no C compiler: install one with sanitizers (apt-get install gcc libc6-dev), or pip install ziglang"
-    )
-    warnings.warn("no system C compiler: addresses are not checked, apt-get install gcc libc6-dev", stacklevel=1)
-    return [sys.executable, "-m", "ziglang", "cc", *FLAGS, f"-fsanitize={UNDEFINED}"]
+    """The command that compiles with sanitizers."""
+    return find_compiler(tmp_path_factory.mktemp("probe"))
 
 
 @pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.fmu_name)

@@ -158,6 +158,9 @@ def test_export_without_a_compiler(installed, perform, tmp_path):
     with zipfile.ZipFile(tmp_path / "forming_filter.fmu") as fmu:
         libraries = {name.split("/")[1] for name in fmu.namelist() if name.startswith("binaries/")}
     assert libraries == {"darwin64", "linux64"}
+    refused = installed.run("export", "forming_filter", "--fmi", "3", cwd=tmp_path)
+    problem = "forming_filter: no C compiler here; pip install ziglang, or leave out --fmi"
+    assert (refused.returncode, refused.stderr) == (2, f"perilune: export: {problem}\n")
     for flavour in ("native", "python"):
         perform("export", SYSTEM, "--flavour", flavour, "--output", f"{flavour}.ssp")
         flown = json.loads(perform("run", f"{flavour}.ssp", "--stop-time", "5", "--json", "-", status=1))

@@ -188,13 +188,30 @@ NEW_SYSTEM = Verb(
 )
 
 
+FmuPlatform = Literal[
+    "linux64",
+    "win64",
+    "darwin64",
+    "x86_64-linux",
+    "aarch64-linux",
+    "x86_64-windows",
+    "x86_64-darwin",
+    "aarch64-darwin",
+]
+
+
 class ExportOptions(TypedDict, total=False):
     """Options of export"""
 
+    fmi: Annotated[
+        int,
+        Option("version of FMI; 3: a native FMU of FMI 3.0, compiled here", 2, minimum=2, maximum=3, metavar="2|3"),
+    ]
     platforms: Annotated[
-        Sequence[Literal["linux64", "win64", "darwin64"]],
+        Sequence[FmuPlatform],
         Option(
-            "of native FMUs; default: the prebuilt ones, and those for which a compiler is installed",
+            "of native FMUs, by the names of their version of FMI; default: the prebuilt ones, and those for which a "
+            "compiler is installed",
             (),
             flag="platform",
         ),
@@ -230,6 +247,7 @@ EXPORT = Verb(
     options=ExportOptions,
     examples={
         "perilune export forming_filter --platform linux64": "forming_filter.fmu",
+        "perilune export forming_filter --fmi 3 --output forming_filter_3.fmu": "the same in FMI 3.0",
         "perilune export lunar_terminal_guidance --flavour python "
         "--output landing.ssp": "a system with its FMUs inside",
         "perilune export lunar_terminal_guidance --ssp 2": "the same as SSP 2.0",

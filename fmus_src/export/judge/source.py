@@ -9,9 +9,11 @@ import tokenize
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from threading import Lock
 from types import FunctionType, ModuleType
 from typing import Any
 
+PARSING = Lock()
 PACKAGE_ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -140,8 +142,13 @@ def _comments(text: str) -> dict[int, str]:
 
 
 def _tree(path: Path) -> ast.Module:
-    """A file's tree; one per content, since functions are told apart by their nodes."""
-    return _parse(path.read_text(encoding="utf-8"))
+    """A file's tree; one per content, since functions are told apart by their nodes.
+
+    One thread at a time: two would make two trees, and CPython 3.11 counts the depth of a tree for all together, with
+    which `ast.parse` ends now and then (its issue 106905).
+    """
+    with PARSING:
+        return _parse(path.read_text(encoding="utf-8"))
 
 
 @cache

@@ -5,13 +5,10 @@ from __future__ import annotations
 import inspect
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 from ...block import Block
 from ...kernel import vector_types
 from ...kernel.functions import DOMAIN_ERROR, EITHER_ERROR, FAULTS, RANGE_ERROR
-from ...kernel.records import Record
-from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
 from ...variables import Variable
 from ..judge.expressions import SCALARS, type_of_variable
 from ..judge.kernel import FLOAT, INT, Function, Kernel, List, Matrix, Several, Vector
@@ -19,13 +16,14 @@ from ..judge.source import label
 from ..judge.subset import analyse_kernel
 from .functions import write_function
 from .layout import Lines
-from .names import C_TYPES, Names, block_type_name, c_type, comment, declaration, identifier, literal, member, names_of
+from .names import C_TYPES, Names, block_type_name, c_type, comment, declaration, identifier, literal, names_of
 from .records import write_records
+from .tables import write_tables
 
-KINDS = {float: "KIND_REAL", int: "KIND_INTEGER", bool: "KIND_BOOLEAN"}
 FREXP = Several((FLOAT, INT))
 C_ERRORS = {DOMAIN_ERROR: "DOMAIN_ERROR", RANGE_ERROR: "RANGE_ERROR"}
-ROLES = {"parameter": "ROLE_PARAMETER", "input": "ROLE_INPUT", "output": "ROLE_OUTPUT", "local": "ROLE_STATE"}
+
+DECLARATIONS = {2: "block_elements.h", 3: "fmi3_variables.h"}  # by version of FMI
 
 HEADER = """\
 /* {name}: {summary}
@@ -35,33 +33,36 @@ HEADER = """\
  *
  * Compile with -std=c99 -O2 -ffp-contract=off -fno-tree-vectorize and link with -lm: then every
  * result has the bits of the Python source. To link several FMUs into one program, define
- * FMI2_FUNCTION_PREFIX={name}_ for each.
+ * FMI{fmi}_FUNCTION_PREFIX={name}_ for each.
  */
-#include "fmi2_block.h"
+#include "{include}"
 """
 
 
-def translate(block_class: type[Block], guid: str) -> str:
-    """The C source of a block for an FMU with the given GUID; it includes fmi2_wrapper.c.
+def translate(block_class: type[Block], guid: str, fmi: int = 2) -> str:
+    """The C source of a block for an FMU with the given GUID; it includes the wrapper of FMI 2.0 or 3.0.
 
     Raises `SubsetError` where the block is outside the subset of Python.
     """
-    before, after = _around_tables(block_class)  # type: ignore[arg-type]
-    return "\n".join((*before, _tables(block_class, block_type_name(block_class.__name__), guid), *after))
+    header = HEADER.format(
+        name=block_class.fmu_name,
+        summary=comment(block_class.summary()),
+        file=label(Path(inspect.getfile(block_class))),
+        fmi=fmi,
+        include=DECLARATIONS[fmi],
+    )
+    kernel, entry_points = _around_tables(block_class)  # type: ignore[arg-type]
+    tables = write_tables(block_class, block_type_name(block_class.__name__), guid, fmi)
+    return "\n".join((header, *kernel, tables, entry_points, f'#include "fmi{fmi}_wrapper.c"\n'))
 
 
 @cache  # an FMU is translated twice, without its GUID, which is a hash of that, and with it
-def _around_tables(block_class: type[Block]) -> tuple[list[str], list[str]]:
-    """What stands before and after the tables, the one place where the GUID stands."""
+def _around_tables(block_class: type[Block]) -> tuple[list[str], str]:
+    """The kernel and its entry points, before and after the tables, in which the GUID is."""
     kernel = analyse_kernel(block_class)
     names = names_of(kernel)
     type_name = block_type_name(block_class.__name__)
     before = [
-        HEADER.format(
-            name=block_class.fmu_name,
-            summary=comment(block_class.summary()),
-            file=label(Path(inspect.getfile(block_class))),
-        ),
         *_matrices(kernel),
         *write_records(kernel),
         _struct(block_class, type_name),
@@ -69,7 +70,7 @@ def _around_tables(block_class: type[Block]) -> tuple[list[str], list[str]]:
         *_several(kernel),
         *_functions(kernel, names, type_name),
     ]
-    return before, [_entry_points(kernel, names), '#include "fmi2_wrapper.c"\n']
+    return before, _entry_points(kernel, names)
 
 
 def _matrices(kernel: Kernel) -> list[str]:
@@ -179,74 +180,6 @@ def _by_file(functions: list[Function]) -> list[Function]:
         ordered.append((same_file or ready)[0])
         waiting.remove(ordered[-1])
     return ordered
-
-
-def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
-    """What the wrapper needs to know: GUID, declared starts, and two tables by value reference."""
-    starts = Lines()
-    starts.open("static const Block STARTS = {")
-    elements = Lines()
-    elements.open("static const Element ELEMENTS[] = {")
-    described: list[tuple[str, str]] = []
-    element_names = []
-    for name, variable in block_class.variables.items():
-        values = ", ".join(map(literal, variable.elements))
-        if variable.record is not None:
-            values = _initialise(variable.record.of_elements(variable.elements))
-        elif variable.is_array:
-            values = f"{{{{{values}}}}}" if variable.is_vector or variable.shape else f"{{{values}}}"
-        starts.add(f".{identifier(name)} = {values},")
-        kind, role = KINDS[type(variable.elements[0])], ROLES[variable.causality]
-        for position, element_name in enumerate(variable.element_names()):
-            place, traits = f"offsetof(Block, {member(variable, position)})", f"{kind} | {role}"
-            described.append((place, traits))
-            element_names.append(f'"{element_name}"')
-    starts.close("};")
-    for (place, traits), alike in zip(described, _alike([traits for _, traits in described]), strict=True):
-        elements.add(f"{{{place}, {traits}, {alike}}},")
-    elements.close("};")
-    names = Lines()
-    names.add(f"static const char *const NAMES[] = {{{', '.join(element_names)}}};")
-    return "\n".join(
-        [
-            "/* ---- for the FMI wrapper ---- */",
-            "",
-            f"typedef {type_name} Block;",
-            "",
-            f'#define MODEL_GUID "{guid}"',
-            f"#define SAMPLE_TOLERANCE {SAMPLE_TOLERANCE!r} /* of a sample period */",
-            f"#define TIME_TOLERANCE {TIME_TOLERANCE!r} /* of the time */",
-            f"#define POINT_TOLERANCE {POINT_TOLERANCE!r} /* of a step */",
-            "",
-            "/* Declared start values. */",
-            *starts.text,
-            "",
-            "/* In order of value references. */",
-            *elements.text,
-            "",
-            "/* For messages. */",
-            *names.text,
-            "",
-        ]
-    )
-
-
-def _initialise(value: Any) -> str:
-    """A number, vector or record as C initialises it."""
-    if isinstance(value, vector_types.Vector):
-        return f"{{{{{', '.join(map(literal, value))}}}}}"
-    if isinstance(value, Record):
-        return f"{{{', '.join(_initialise(getattr(value, name)) for name in value.fields)}}}"
-    return literal(value)
-
-
-def _alike(traits: list[str]) -> list[int]:
-    """For each element how many from it on have its traits: members of one kind lie side by side in the struct."""
-    counts: list[int] = []
-    for number in range(len(traits) - 1, -1, -1):
-        goes_on = counts and traits[number] == traits[number + 1]
-        counts.append(counts[-1] + 1 if goes_on else 1)
-    return counts[::-1]
 
 
 def _entry_points(kernel: Kernel, names: Names) -> str:

@@ -126,7 +126,7 @@ def _source() -> bytes:
 @cache
 def harness(portable: bool) -> ctypes.CDLL:
     """The compiled cases, by the system's compiler or by zig."""
-    sources = {"harness.c": _source(), "kernel_math.h": (C_FILES / "kernel_math.h").read_bytes()}
+    sources = {"harness.c": _source(), "kernel_math.h": (C_FILES / "kernel" / "kernel_math.h").read_bytes()}
     return load(sources, "harness.c", portable)
 
 
@@ -171,7 +171,7 @@ def test_errors_name_the_place() -> None:
         b'Fault place(double x) { Fault fault = {NULL, NULL, 0}; py_sqrt(&fault, "kernel.py", 12, x);\n'
         b'py_fmod(&fault, "kernel.py", 13, 1.0, 0.0); return fault; }\n'
     )
-    library = load({"place.c": source, "kernel_math.h": (C_FILES / "kernel_math.h").read_bytes()}, "place.c")
+    library = load({"place.c": source, "kernel_math.h": (C_FILES / "kernel" / "kernel_math.h").read_bytes()}, "place.c")
 
     class Fault(ctypes.Structure):
         _fields_ = [("what", ctypes.c_char_p), ("file", ctypes.c_char_p), ("line", ctypes.c_int)]

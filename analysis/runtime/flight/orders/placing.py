@@ -17,8 +17,8 @@ from .transfers import ComponentTransfers, TransferTable, groups, needs_events, 
 class TransferPlacing:
     """Adds components to ``slots`` and to the ``table``.
 
-    ``fetched`` names outputs that are taken (None: all), ``named`` what is recorded in addition, ``other_sources``
-    variables that are no outputs and connected as sources.
+    ``fetched`` names outputs that are taken (None: all), ``named`` what is recorded in addition, ``others`` what is
+    connected like an output and is none.
     """
 
     def __init__(
@@ -28,14 +28,14 @@ class TransferPlacing:
         table: TransferTable,
         fetched: Collection[str] | None,
         named: Collection[str],
-        other_sources: Collection[str],
+        others: Collection[str],
     ) -> None:
         self._network = network
         self._slots = slots
         self._table = table
         self._fetched = fetched
         self._named = named
-        self._other_sources = other_sources
+        self._others = others
 
     def place(
         self, component: str, transfers: ComponentTransfers, texts: Sequence[Sequence[tuple[Sequence[Variable], int]]]
@@ -52,7 +52,7 @@ class TransferPlacing:
         driven = {short for short, name in names.items() if name in network.driver or name in network.driven}
         fetched = {short for short, name in names.items() if self._fetched is None or name in self._fetched}
         inputs = whole((each for each in numbers if each.causality == "input"), driven)
-        others = {each.array or each.name for each in numbers if names[each.name] in self._other_sources}
+        others = {each.array or each.name for each in numbers if names[each.name] in self._others}
         given = (each for each in numbers if each.causality == "output" or (each.array or each.name) in others)
         outputs = whole(given, fetched)
         for is_discrete, target in ((False, transfers.inputs), (True, transfers.discrete)):

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from copy import deepcopy
 from dataclasses import dataclass
 
 from lxml import etree
 
 from ..dimensions import Shape
-from ..documents import child, children, tag
+from ..documents import NAMESPACES, child, children, tag
 from .connections import merge_connections
 from .connectors import merge_connectors
-from .trees import to_version_2
+from .trees import remove, to_version_2
 from .values import merge_values
 
 ArraysOf = Callable[[str], Mapping[str, Shape]]  # the arrays of the FMU of a source
+EnumerationsOf = Callable[[str], Collection[str]]
 
 
 @dataclass(frozen=True)
@@ -26,18 +27,31 @@ class BoundSet:
     arrays: Mapping[str, Shape]
 
 
-def convert_description(description: etree._Element, arrays_of: ArraysOf) -> tuple[etree._Element, list[BoundSet]]:
+def convert_description(
+    description: etree._Element, arrays_of: ArraysOf, enumerations_of: EnumerationsOf = lambda source: ()
+) -> tuple[etree._Element, list[BoundSet]]:
     """The same system in SSP 2.0, and the files that it binds, that of the whole system first.
 
     ``arrays_of`` gives the arrays that the FMU of a source has as such (FMI 3.0); one of FMI 2.0 has a variable for
-    each element, and SSP wants a connector for each variable.
+    each element, and SSP wants a connector for each variable. ``enumerations_of`` gives its enumerations.
     """
     root = deepcopy(description)
     to_version_2(root)
+    _leave_types_to_fmus(root, enumerations_of)
     system = child(root, "ssd:System")
     bound: list[BoundSet] = []
     whole = _convert_system(system, arrays_of, bound) if system is not None else {}
     return root, [BoundSet("", whole), *bound]
+
+
+def _leave_types_to_fmus(root: etree._Element, enumerations_of: EnumerationsOf) -> None:
+    """Take away the Integer of connectors that are enumerations of their FMU, in place."""
+    for component in root.iter(f"{{{NAMESPACES['ssd']}}}Component"):
+        names = enumerations_of(component.get("source", ""))
+        for connector in children(child(component, "ssd:Connectors"), "ssd:Connector"):
+            declared = child(connector, "ssc:Int32")
+            if declared is not None and connector.get("name") in names:
+                remove(declared)
 
 
 def _convert_system(system: etree._Element, arrays_of: ArraysOf, bound: list[BoundSet]) -> dict[str, Shape]:

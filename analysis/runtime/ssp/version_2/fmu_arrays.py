@@ -1,4 +1,4 @@
-"""The array variables of an FMU, by its modelDescription.xml."""
+"""The arrays and enumerations among the variables of an FMU, by its modelDescription.xml."""
 
 from __future__ import annotations
 
@@ -23,3 +23,8 @@ def arrays_of_fmu(description: etree._Element) -> dict[str, Shape]:
             ]
             shapes[variable.get("name", "")] = tuple(map(int, sizes))
     return shapes
+
+
+def enumerations_of_fmu(description: etree._Element) -> set[str]:
+    """The variables of an FMI 3.0 FMU that are enumerations."""
+    return {variable.get("name", "") for variable in description.iterfind("ModelVariables/Enumeration")}

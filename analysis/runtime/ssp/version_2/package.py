@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import posixpath
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from copy import deepcopy
 from functools import cache
 from urllib.parse import unquote
@@ -16,7 +16,7 @@ from ..dimensions import Shape
 from ..documents import parse_xml
 from ..fmu_description import DESCRIPTION
 from .descriptions import convert_description
-from .fmu_arrays import arrays_of_fmu
+from .fmu_arrays import arrays_of_fmu, enumerations_of_fmu
 from .trees import to_version_2
 from .values import merge_values
 
@@ -30,19 +30,26 @@ def convert_package(files: Mapping[str, bytes], label: str) -> dict[str, bytes]:
     """
 
     @cache
-    def arrays_of(source: str) -> Mapping[str, Shape]:
+    def fmu(source: str) -> etree._Element:
         name = _name(source, files)
         if name is None:
-            return {}
+            return etree.Element("none")
         with zipfile.ZipFile(io.BytesIO(files[name])) as archive:
-            return arrays_of_fmu(parse_xml(archive.read(DESCRIPTION), f"{label}!{name}!{DESCRIPTION}"))
+            return parse_xml(archive.read(DESCRIPTION), f"{label}!{name}!{DESCRIPTION}")
+
+    def arrays_of(source: str) -> Mapping[str, Shape]:
+        return arrays_of_fmu(fmu(source))
+
+    def enumerations_of(source: str) -> Collection[str]:
+        return enumerations_of_fmu(fmu(source))
 
     converted = dict(files)
     by_set: dict[str, list[Mapping[str, Shape]]] = {}  # what the names of a parameter set mean wherever it is bound
     whole: list[Mapping[str, Shape]] = []
     for name in files:
         if name.endswith(".ssd") and "/" not in name:
-            root, (system, *bound) = convert_description(parse_xml(files[name], f"{label}!{name}"), arrays_of)
+            read = parse_xml(files[name], f"{label}!{name}")
+            root, (system, *bound) = convert_description(read, arrays_of, enumerations_of)
             converted[name] = _write(root)
             whole.append(system.arrays)
             for each in bound:

@@ -10,6 +10,7 @@ import sys
 import zipfile
 from pathlib import Path
 
+import fmpy
 import numpy as np
 import pytest
 from lxml import etree
@@ -25,6 +26,7 @@ from perilune.analysis.verbs.export import export
 from perilune.fmus_src.export.archive import read_zip, write_zip
 from perilune.fmus_src.paths import BUILD, SYSTEMS
 from tests.support.builders import fly
+from tests.support.lengths import either
 
 pytestmark = pytest.mark.usefixtures("fmus")
 NAMES = sorted(path.parent.name for path in SYSTEMS.glob("*/SystemStructure.ssd"))
@@ -93,6 +95,26 @@ def test_exported_with_fmus_of_fmi_2_every_variable_has_a_connector(tmp_path, mo
     before, after = fly(BUILD / "ssp" / "lunar_terminal_guidance.ssp"), fly(path)
     for signal, values in before.signals.items():
         np.testing.assert_array_equal(after.signals[signal], values, err_msg=signal)
+
+
+@pytest.mark.parametrize("name", either(NAMES, ["satellite_pointing"]))
+def test_exported_with_fmus_of_fmi_3_every_array_has_a_connector(name, tmp_path):
+    path = tmp_path / f"{name}.ssp"
+    export(name, fmi=3, platforms=[fmpy.platform_tuple], output=path)
+    files = read_zip(path)
+    for file, root in documents(files).items():
+        check_schema(root, file[-3:], file)
+    description = etree.fromstring(files["SystemStructure.ssd"])
+    assert not [each.get("name") for each in description.iterfind(".//{*}Connector") if "[" in each.get("name")]
+    before, after = fly(BUILD / "ssp" / f"{name}.ssp"), fly(path)
+    assert set(after.signals) == set(before.signals)
+    for signal, values in before.signals.items():
+        np.testing.assert_array_equal(after.signals[signal], values, err_msg=signal)
+
+
+def test_fmus_of_fmi_3_need_version_2(tmp_path):
+    with pytest.raises(InputError, match=r"FMUs of FMI 3\.0 have arrays, which SSP 1\.0 has not"):
+        export("lunar_terminal_guidance", fmi=3, ssp="1", output=tmp_path / "s.ssp")
 
 
 @pytest.mark.parametrize("ssp", ["1", "2"])

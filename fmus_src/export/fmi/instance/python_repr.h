@@ -1,6 +1,6 @@
 /* A double as text, as Python's repr() writes it. */
-#ifndef FMI2_PYTHON_REPR_H
-#define FMI2_PYTHON_REPR_H
+#ifndef PYTHON_REPR_H
+#define PYTHON_REPR_H
 
 #include <math.h>
 #include <stdio.h>

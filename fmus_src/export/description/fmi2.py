@@ -7,15 +7,9 @@ from collections.abc import Sequence
 
 from lxml import etree
 
-from ..block import Block
-from ..units import unit_definition
-from ..variables import Output, Parameter, State, Variable
-
-STATE_ANNOTATION = "org.perilune.state"
-LOG_CATEGORIES = {
-    "logStatusError": "what ended a step, with the traceback or source line",
-    "logAll": "everything",
-}
+from ...block import Block
+from ...variables import Output, Parameter, State, Variable
+from .common import STATE_ANNOTATION, add_log_categories, add_units, boolean, is_continuous, literal
 
 
 def model_description(
@@ -46,57 +40,37 @@ def model_description(
         root,
         "CoSimulation",
         modelIdentifier=block_class.fmu_name,
-        needsExecutionTool=_boolean(needs_execution_tool),
+        needsExecutionTool=boolean(needs_execution_tool),
         canHandleVariableCommunicationStepSize="true",
-        canGetAndSetFMUstate=_boolean(not block_class.external),
-        canSerializeFMUstate=_boolean(not block_class.external),
-        canNotUseMemoryManagementFunctions=_boolean(not native_memory),
+        canGetAndSetFMUstate=boolean(not block_class.external),
+        canSerializeFMUstate=boolean(not block_class.external),
+        canNotUseMemoryManagementFunctions=boolean(not native_memory),
     )
     if sources:
         files = etree.SubElement(simulation, "SourceFiles")
         for name in sources:
             etree.SubElement(files, "File", name=name)
     variables = list(block_class.variables.values())
-    _unit_definitions(root, variables)
-    categories = etree.SubElement(root, "LogCategories")
-    for name, description in LOG_CATEGORIES.items():
-        etree.SubElement(categories, "Category", name=name, description=description)
+    add_units(root, variables)
+    add_log_categories(root)
     etree.SubElement(root, "DefaultExperiment", startTime="0.0", stepSize=repr(block_class.default_step))
     _state_layout(root, block_class, "json" if needs_execution_tool else "words")
-    sampled = "sample_period" in block_class.variables
     model_variables = etree.SubElement(root, "ModelVariables")
     indices: dict[str, list[int]] = {}
     reference = 0
     for variable in variables:
         indices[variable.name] = []
         for position, name in enumerate(variable.element_names()):
-            _scalar_variable(model_variables, variable, name, position, reference, sampled)
+            _scalar_variable(model_variables, variable, name, position, reference, is_continuous(block_class, variable))
             reference += 1
             indices[variable.name].append(reference)  # ScalarVariable indices count from 1
     _structure(root, block_class, indices)
     return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)
 
 
-def _unit_definitions(root: etree._Element, variables: list[Variable]) -> None:
-    used = sorted({unit for variable in variables for unit in variable.units() if unit})
-    if used:
-        definitions = etree.SubElement(root, "UnitDefinitions")
-        for name in used:
-            unit = etree.SubElement(definitions, "Unit", name=name)
-            meaning = unit_definition(name)
-            assert meaning is not None  # the declaration refuses what has none
-            numbers = {base: str(power) for base, power in meaning.exponents.items()}
-            if meaning.factor != 1.0:
-                numbers["factor"] = repr(meaning.factor)
-            if meaning.offset:
-                numbers["offset"] = repr(meaning.offset)
-            etree.SubElement(unit, "BaseUnit", numbers)
-
-
 def _scalar_variable(
-    parent: etree._Element, variable: Variable, name: str, position: int, reference: int, sampled: bool
+    parent: etree._Element, variable: Variable, name: str, position: int, reference: int, continuous: bool
 ) -> None:
-    continuous = variable.type_name == "Real" and not (sampled and variable.causality != "input")
     attributes = {
         "name": name,
         "valueReference": str(reference),
@@ -169,12 +143,3 @@ def _unknown(parent: etree._Element, index: int, dependencies: list[int]) -> Non
         dependencies=" ".join(map(str, dependencies)),
         dependenciesKind=" ".join(["dependent"] * len(dependencies)),
     )
-
-
-def _boolean(value: bool) -> str:
-    return "true" if value else "false"
-
-
-def literal(value: float | int | bool) -> str:
-    """A start value as XML text that reads back to the same bits."""
-    return _boolean(value) if isinstance(value, bool) else repr(value)

@@ -5,10 +5,11 @@
  * model_set_start_time. Nothing is global: instances are independent of one another and may run
  * in different threads.
  */
-#include "fmi2_component.h"
+#include "fmi2_types.h"
+
 #include "fmi2_fmu_state.h"
 #include "fmi2_values.h"
-#include "kernel_self_test.h"
+#include "life_cycle.h"
 
 const char *fmi2GetTypesPlatform(void)
 {
@@ -20,24 +21,15 @@ const char *fmi2GetVersion(void)
     return fmi2Version;
 }
 
-/* Errors are always logged and there is nothing else to log. */
 fmi2Status fmi2SetDebugLogging(
     fmi2Component c, fmi2Boolean logging_on, size_t category_count, const fmi2String categories[])
 {
     (void)logging_on;
-    Component *component = c;
-    const fmi2Status status = check_mode(component, "fmi2SetDebugLogging", MODE_ANY);
-    if (status != fmi2OK) return status;
-    if (category_count > 0 && categories == NULL) return fail(component, "fmi2SetDebugLogging: categories is NULL");
-    for (size_t i = 0; i < category_count; i++) {
-        if (categories[i] == NULL) return fail(component, "fmi2SetDebugLogging: category %zu is NULL", i);
-    }
-    return fmi2OK;
+    return set_logging(c, "fmi2SetDebugLogging", category_count, categories);
 }
 
 /* ---- creation and destruction ---- */
 
-/* Memory comes from calloc: modelDescription.xml says canNotUseMemoryManagementFunctions. */
 fmi2Component fmi2Instantiate(fmi2String instance_name, fmi2Type fmu_type, fmi2String guid,
     fmi2String resource_location, const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging_on)
 {
@@ -45,25 +37,9 @@ fmi2Component fmi2Instantiate(fmi2String instance_name, fmi2Type fmu_type, fmi2S
     (void)visible;
     (void)logging_on;
     if (functions == NULL || instance_name == NULL) return NULL;
-    Component *component = calloc(1, sizeof(Component) + strlen(instance_name));
-    if (component == NULL) return NULL;
-    component->logger = functions->logger;
-    component->environment = functions->componentEnvironment;
-    strcpy(component->instance_name, instance_name);
-    const char *refusal = NULL;
-    if (instance_name[0] == '\0') refusal = "the instance name is empty";
-    if (fmu_type != fmi2CoSimulation) refusal = "this FMU is for co-simulation only";
-    if (guid == NULL || strcmp(guid, MODEL_GUID) != 0) {
-        refusal = "the GUID is not that of this binary, " MODEL_GUID "; unpack the FMU again";
-    }
-    if (refusal == NULL) refusal = check_arithmetic();
-    if (refusal != NULL) {
-        fail(component, "fmi2Instantiate: %s", refusal);
-        free(component);
-        return NULL;
-    }
-    restart(component);
-    return component;
+    return create_instance("fmi2Instantiate", instance_name, guid, "GUID", functions->logger,
+        functions->componentEnvironment,
+        fmu_type == fmi2CoSimulation ? NULL : "this FMU is for co-simulation only");
 }
 
 void fmi2FreeInstance(fmi2Component c)
@@ -81,13 +57,7 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, f
     Component *component = c;
     const fmi2Status status = check_mode(component, "fmi2SetupExperiment", MODE_INSTANTIATED);
     if (status != fmi2OK) return status;
-    if (!isfinite(start_time)) return fail(component, "fmi2SetupExperiment: the start time is not finite");
-    if (stop_time_defined && !(stop_time >= start_time)) {
-        return fail(component, "fmi2SetupExperiment: the stop time is before the start time");
-    }
-    component->now.start_time = start_time;
-    component->now.time = start_time;
-    return fmi2OK;
+    return set_start(component, "fmi2SetupExperiment", start_time, stop_time_defined, stop_time);
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c)
@@ -100,27 +70,17 @@ fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c)
 {
-    Component *component = c;
-    fmi2Status status = check_mode(component, "fmi2ExitInitializationMode", MODE_INITIALIZATION);
-    if (status == fmi2OK && component->now.unsettled) status = settle(component);
-    if (status == fmi2OK) component->now.mode = MODE_STEP;
-    return status;
+    return leave_initialisation(c, "fmi2ExitInitializationMode");
 }
 
 fmi2Status fmi2Terminate(fmi2Component c)
 {
-    Component *component = c;
-    const fmi2Status status = check_mode(component, "fmi2Terminate", MODE_STEP);
-    if (status == fmi2OK) component->now.mode = MODE_TERMINATED;
-    return status;
+    return terminate(c, "fmi2Terminate");
 }
 
 fmi2Status fmi2Reset(fmi2Component c)
 {
-    Component *component = c;
-    const fmi2Status status = check_mode(component, "fmi2Reset", MODE_ANY);
-    if (status == fmi2OK) restart(component);
-    return status;
+    return reset(c, "fmi2Reset");
 }
 
 /* ---- stepping ---- */
@@ -129,19 +89,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real communication_point, fmi2Real st
     fmi2Boolean no_set_fmu_state_prior_to_current_point)
 {
     (void)no_set_fmu_state_prior_to_current_point;
-    Component *component = c;
-    const fmi2Status status = check_mode(component, "fmi2DoStep", MODE_STEP);
-    if (status != fmi2OK) return status;
-    if (!isfinite(communication_point) || !isfinite(step_size) || step_size <= 0.0) {
-        return fail(component, "fmi2DoStep: communication point and step size must be finite, the latter positive");
-    }
-    const double here = component->now.time;
-    if (fabs(communication_point - here) > POINT_TOLERANCE * step_size + TIME_TOLERANCE * fabs(here)) {
-        return refuse_point(component, communication_point);
-    }
-    component->last_step = advance(component, communication_point, step_size);
-    if (component->last_step == fmi2OK) component->now.time = communication_point + step_size;
-    return component->last_step;
+    return do_step(c, "fmi2DoStep", communication_point, step_size);
 }
 
 fmi2Status fmi2CancelStep(fmi2Component c)

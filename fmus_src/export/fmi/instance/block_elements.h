@@ -1,6 +1,6 @@
-/* What the C of a block tells the FMI wrapper about the block's variables. */
-#ifndef FMI2_BLOCK_H
-#define FMI2_BLOCK_H
+/* What the C of a block tells the FMI wrappers about the elements of the block's variables. */
+#ifndef BLOCK_ELEMENTS_H
+#define BLOCK_ELEMENTS_H
 
 #include "kernel_vectors.h"
 
@@ -20,8 +20,8 @@ typedef enum Trait {
 #define ROLE_OUTPUT COMPUTED
 #define ROLE_STATE COMPUTED
 
-/* One scalar, or one element of a vector. Value references number these in order. Eight bytes each:
- * every call that gets or sets reads them. Their names, for messages only, are in a table apart. */
+/* One scalar, or one element of a vector. FMI 2.0's value references number these in order. Eight bytes each:
+ * every call that gets or sets reads them. Names, for messages only, are in a table apart. */
 typedef struct Element {
     uint32_t offset; /* in the block's struct */
     uint16_t traits;

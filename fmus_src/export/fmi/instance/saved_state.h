@@ -1,18 +1,22 @@
-/* Complete FMU state: saved, restored, and as bytes.
+/* Complete state of an instance: saved, restored, and as bytes, alike in all versions of FMI.
  *
  * The bytes are words of 8 in the machine's order: a hash of the GUID, mode, unsettled, tick,
- * start_time, time, then one word per variable's element in order of value references (a double,
+ * start_time, time, then one word per variable's element in order of declaration (a double,
  * an int64, or 0 and 1).
  */
-#ifndef FMI2_FMU_STATE_H
-#define FMI2_FMU_STATE_H
+#ifndef SAVED_STATE_H
+#define SAVED_STATE_H
+
+#include "instance.h"
 
 #define HEADER_WORDS 6
 #define WORD_COUNT (HEADER_WORDS + ELEMENT_COUNT)
 #define WORD_SIZE sizeof(int64_t)
 #define LAST_TICK (INT64_C(1) << 53) /* beyond, the time of a sample is no exact product */
 
-/* What fmi2FMUstate points to. */
+typedef unsigned char Byte;
+
+/* What an FMU state points to. */
 typedef struct SavedState {
     uint64_t model; /* tells the states of other FMUs apart */
     Snapshot snapshot;
@@ -28,99 +32,97 @@ static uint64_t model_hash(void)
     return hash;
 }
 
-/* fmi2OK where a state is one of this FMU. */
-static fmi2Status check_state(const Component *component, const char *function, const SavedState *state)
+/* STATUS_OK where a state is one of this FMU. */
+static Status check_state(const Component *component, const char *function, const SavedState *state)
 {
-    const fmi2Status status = check_mode(component, function, MODE_ANY);
-    if (status != fmi2OK) return status;
+    const Status status = check_mode(component, function, MODE_ANY);
+    if (status != STATUS_OK) return status;
     if (state == NULL) return fail(component, "%s: FMUstate is NULL", function);
     if (state->model != model_hash()) return fail(component, "%s: FMUstate is not one of this FMU", function);
-    return fmi2OK;
+    return STATUS_OK;
 }
 
 /* Space for a state: the one given, or a new one. NULL when there is no memory. */
-static SavedState *state_space(fmi2FMUstate *place)
+static SavedState *state_space(void **place)
 {
     if (*place == NULL) *place = calloc(1, sizeof(SavedState));
     return *place;
 }
 
-fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *place)
+static Status save_state(Component *component, const char *function, void **place)
 {
-    Component *component = c;
-    const fmi2Status status = check_mode(component, "fmi2GetFMUstate", MODE_ANY);
-    if (status != fmi2OK) return status;
-    if (place == NULL) return fail(component, "fmi2GetFMUstate: FMUstate is NULL");
+    const Status status = check_mode(component, function, MODE_ANY);
+    if (status != STATUS_OK) return status;
+    if (place == NULL) return fail(component, "%s: FMUstate is NULL", function);
     SavedState *state = state_space(place);
-    if (state == NULL) return fail(component, "fmi2GetFMUstate: out of memory");
+    if (state == NULL) return fail(component, "%s: out of memory", function);
     state->model = model_hash();
     state->snapshot = component->now;
-    return fmi2OK;
+    return STATUS_OK;
 }
 
-fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate given)
+static Status restore_state(Component *component, const char *function, const SavedState *state)
 {
-    Component *component = c;
-    const SavedState *state = given;
-    const fmi2Status status = check_state(component, "fmi2SetFMUstate", state);
-    if (status == fmi2OK) component->now = state->snapshot;
+    const Status status = check_state(component, function, state);
+    if (status == STATUS_OK) component->now = state->snapshot;
     return status;
 }
 
-fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *place)
+static Status free_state(const Component *component, const char *function, void **place)
 {
-    const fmi2Status status = check_mode(c, "fmi2FreeFMUstate", MODE_ANY);
-    if (status != fmi2OK || place == NULL) return status;
+    const Status status = check_mode(component, function, MODE_ANY);
+    if (status != STATUS_OK || place == NULL) return status;
     free(*place);
     *place = NULL;
-    return fmi2OK;
+    return STATUS_OK;
 }
 
-fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate given, size_t *size)
+static Status serialised_size(
+    const Component *component, const char *function, const SavedState *state, size_t *size)
 {
-    const fmi2Status status = check_state(c, "fmi2SerializedFMUstateSize", given);
-    if (status != fmi2OK) return status;
-    if (size == NULL) return fail(c, "fmi2SerializedFMUstateSize: size is NULL");
+    const Status status = check_state(component, function, state);
+    if (status != STATUS_OK) return status;
+    if (size == NULL) return fail(component, "%s: size is NULL", function);
     *size = WORD_COUNT * WORD_SIZE;
-    return fmi2OK;
+    return STATUS_OK;
 }
 
-static fmi2Byte *put_int(fmi2Byte *next, int64_t value)
+static Byte *put_int(Byte *next, int64_t value)
 {
     memcpy(next, &value, WORD_SIZE);
     return next + WORD_SIZE;
 }
 
-static fmi2Byte *put_double(fmi2Byte *next, double value)
+static Byte *put_double(Byte *next, double value)
 {
     memcpy(next, &value, WORD_SIZE);
     return next + WORD_SIZE;
 }
 
-static int64_t int_at(const fmi2Byte *bytes, size_t word)
+static int64_t int_at(const Byte *bytes, size_t word)
 {
     int64_t value;
     memcpy(&value, bytes + word * WORD_SIZE, WORD_SIZE);
     return value;
 }
 
-static double double_at(const fmi2Byte *bytes, size_t word)
+static double double_at(const Byte *bytes, size_t word)
 {
     double value;
     memcpy(&value, bytes + word * WORD_SIZE, WORD_SIZE);
     return value;
 }
 
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate given, fmi2Byte bytes[], size_t size)
+static Status serialise(
+    const Component *component, const char *function, const SavedState *state, Byte bytes[], size_t size)
 {
-    const SavedState *state = given;
-    const fmi2Status status = check_state(c, "fmi2SerializeFMUstate", state);
-    if (status != fmi2OK) return status;
+    const Status status = check_state(component, function, state);
+    if (status != STATUS_OK) return status;
     if (bytes == NULL || size < WORD_COUNT * WORD_SIZE) {
-        return fail(c, "fmi2SerializeFMUstate: serializedState is NULL or shorter than the state");
+        return fail(component, "%s: serializedState is NULL or shorter than the state", function);
     }
     const Snapshot *snapshot = &state->snapshot;
-    fmi2Byte *next = put_int(bytes, (int64_t)state->model);
+    Byte *next = put_int(bytes, (int64_t)state->model);
     next = put_int(next, snapshot->mode);
     next = put_int(next, snapshot->unsettled);
     next = put_int(next, snapshot->tick);
@@ -134,7 +136,7 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate given, fmi2Byte b
             case KIND_BOOLEAN: next = put_int(next, *(const bool *)value); break;
         }
     }
-    return fmi2OK;
+    return STATUS_OK;
 }
 
 static bool is_mode(int64_t value)
@@ -143,24 +145,24 @@ static bool is_mode(int64_t value)
         || value == MODE_TERMINATED || value == MODE_ERROR;
 }
 
-/* Whether the header is one that fmi2SerializeFMUstate writes for this FMU. */
-static bool is_header(const fmi2Byte *bytes)
+/* Whether the header is one that `serialise` writes for this FMU. */
+static bool is_header(const Byte *bytes)
 {
     const int64_t tick = int_at(bytes, 3);
     return (uint64_t)int_at(bytes, 0) == model_hash() && is_mode(int_at(bytes, 1)) && tick >= 0 && tick <= LAST_TICK;
 }
 
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *place)
+static Status deserialise(
+    const Component *component, const char *function, const Byte bytes[], size_t size, void **place)
 {
-    Component *component = c;
-    const fmi2Status status = check_mode(component, "fmi2DeSerializeFMUstate", MODE_ANY);
-    if (status != fmi2OK) return status;
-    if (bytes == NULL || place == NULL) return fail(component, "fmi2DeSerializeFMUstate: an argument is NULL");
+    const Status status = check_mode(component, function, MODE_ANY);
+    if (status != STATUS_OK) return status;
+    if (bytes == NULL || place == NULL) return fail(component, "%s: an argument is NULL", function);
     if (size != WORD_COUNT * WORD_SIZE || !is_header(bytes)) {
-        return fail(component, "fmi2DeSerializeFMUstate: the bytes are not a state of this FMU");
+        return fail(component, "%s: the bytes are not a state of this FMU", function);
     }
     SavedState *state = state_space(place);
-    if (state == NULL) return fail(component, "fmi2DeSerializeFMUstate: out of memory");
+    if (state == NULL) return fail(component, "%s: out of memory", function);
     Snapshot *snapshot = &state->snapshot;
     state->model = model_hash();
     snapshot->mode = (Mode)int_at(bytes, 1);
@@ -177,7 +179,7 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size
             case KIND_BOOLEAN: *(bool *)value = int_at(bytes, word) != 0; break;
         }
     }
-    return fmi2OK;
+    return STATUS_OK;
 }
 
 #endif

@@ -1,6 +1,8 @@
-/* Getting and setting variables by value reference. */
+/* FMI 2.0: getting and setting variables by value reference. */
 #ifndef FMI2_VALUES_H
 #define FMI2_VALUES_H
+
+#include "life_cycle.h"
 
 static const char *kind_name(uint32_t kind)
 {
@@ -194,12 +196,6 @@ FMI2_Export void *perilune_place(
 }
 
 /* ---- derivatives: modelDescription.xml declares none of these ---- */
-
-static fmi2Status not_provided(const Component *component, const char *function)
-{
-    if (component == NULL) return fmi2Error;
-    return fail(component, "%s: this FMU does not provide it, see modelDescription.xml", function);
-}
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[], size_t unknown_count,
     const fmi2ValueReference known[], size_t known_count, const fmi2Real known_change[], fmi2Real unknown_change[])

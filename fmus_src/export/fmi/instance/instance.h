@@ -1,11 +1,13 @@
-/* One instance of a block: its state, its life cycle, its messages.
+/* One instance of a block: its state, its life cycle, its messages, alike in all versions of FMI.
+ *
+ * fmi2_types.h or fmi3_types.h, included before, says what a status and a logger are.
  *
  * The life cycle is that of fmus_src/runtime.py, line by line: setting a variable during
  * initialisation marks the instance, the next read puts states and outputs back to their
  * declared starts and runs the block's initialize again.
  */
-#ifndef FMI2_COMPONENT_H
-#define FMI2_COMPONENT_H
+#ifndef INSTANCE_H
+#define INSTANCE_H
 
 #include <inttypes.h>
 #include <stdarg.h>
@@ -13,21 +15,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fmi2Functions.h"
-#include "fmi2_python_repr.h"
+#include "python_repr.h"
 
-/* This copy of fmi2Functions.h adds no prefix to the names of functions, so ask its macros to do so. */
-#ifdef FMI2_FUNCTION_PREFIX
-#undef fmi2FullName
-#define fmi2FullName(name) WITH_PREFIX(FMI2_FUNCTION_PREFIX, name)
-#define WITH_PREFIX(prefix, name) JOINED(prefix, name)
-#define JOINED(prefix, name) prefix##name
-#endif
-
-#define ELEMENT_COUNT (sizeof NAMES / sizeof NAMES[0])
+#define ELEMENT_COUNT (sizeof ELEMENTS / sizeof ELEMENTS[0])
 #define MESSAGE_SIZE 1024
 
-/* States of the FMI 2.0 co-simulation state machine; bits, so that a set of them is one number. */
+/* States of the co-simulation state machine; bits, so that a set of them is one number. */
 typedef enum Mode {
     MODE_INSTANTIATED = 1,
     MODE_INITIALIZATION = 2,
@@ -52,14 +45,14 @@ typedef struct Snapshot {
 
 typedef struct Component {
     Snapshot now;
-    fmi2Status last_step;
-    fmi2CallbackLogger logger;
-    fmi2ComponentEnvironment environment;
+    Status last_step;
+    Logger logger;
+    Environment environment;
     char instance_name[1]; /* as long as it needs, at the end of the allocation */
 } Component;
 
 /* Log an error and return it. */
-static COLD fmi2Status fail(const Component *component, const char *format, ...)
+static COLD Status fail(const Component *component, const char *format, ...)
 {
     if (component->logger != NULL) {
         char message[MESSAGE_SIZE];
@@ -67,10 +60,9 @@ static COLD fmi2Status fail(const Component *component, const char *format, ...)
         va_start(arguments, format);
         vsnprintf(message, sizeof message, format, arguments);
         va_end(arguments);
-        component->logger(
-            component->environment, component->instance_name, fmi2Error, "logStatusError", "%s", message);
+        log_error(component->logger, component->environment, component->instance_name, message);
     }
-    return fmi2Error;
+    return STATUS_ERROR;
 }
 
 static const char *mode_name(Mode mode)
@@ -85,18 +77,18 @@ static const char *mode_name(Mode mode)
     return "in an unknown state";
 }
 
-/* fmi2OK where the function may be called now. */
-static inline fmi2Status check_mode(const Component *component, const char *function, int allowed)
+/* STATUS_OK where the function may be called now. */
+static inline Status check_mode(const Component *component, const char *function, int allowed)
 {
-    if (component == NULL) return fmi2Error;
+    if (component == NULL) return STATUS_ERROR;
     if ((component->now.mode & allowed) == 0) {
         return fail(component, "%s is not allowed %s", function, mode_name(component->now.mode));
     }
-    return fmi2OK;
+    return STATUS_OK;
 }
 
 /* End the run with the Python line that raises in the Python flavour. */
-static COLD fmi2Status end_with_fault(Component *component, const Fault *fault, const char *where)
+static COLD Status end_with_fault(Component *component, const Fault *fault, const char *where)
 {
     component->now.mode = MODE_ERROR;
     return fail(component, "File \"%s\", line %d: %s%s", fault->file, fault->line, fault->what, where);
@@ -109,7 +101,7 @@ static void restart(Component *component)
     component->now.block = STARTS;
     component->now.mode = MODE_INSTANTIATED;
     component->now.unsettled = true;
-    component->last_step = fmi2OK;
+    component->last_step = STATUS_OK;
 }
 
 /* An element from one block to another. */
@@ -125,7 +117,7 @@ static void copy_element(Block *to, const Block *from, const Element *element)
 }
 
 /* Run the block's initialize from the declared starts of states and outputs. */
-static fmi2Status settle(Component *component)
+static Status settle(Component *component)
 {
     for (size_t i = 0; i < ELEMENT_COUNT; i++) {
         if (ELEMENTS[i].traits & COMPUTED) copy_element(&component->now.block, &STARTS, &ELEMENTS[i]);
@@ -136,10 +128,10 @@ static fmi2Status settle(Component *component)
     model_initialize(&component->now.block, &fault);
     if (fault.what != NULL) return end_with_fault(component, &fault, ", during initialisation");
     component->now.unsettled = false;
-    return fmi2OK;
+    return STATUS_OK;
 }
 
-static COLD fmi2Status refuse_step(Component *component, double h, double period)
+static COLD Status refuse_step(Component *component, double h, double period)
 {
     char h_text[REPR_SIZE];
     char period_text[REPR_SIZE];
@@ -150,7 +142,7 @@ static COLD fmi2Status refuse_step(Component *component, double h, double period
         python_repr(h, h_text), python_repr(period, period_text));
 }
 
-static COLD fmi2Status refuse_point(Component *component, double point)
+static COLD Status refuse_point(Component *component, double point)
 {
     char point_text[REPR_SIZE];
     char here_text[REPR_SIZE];
@@ -159,7 +151,7 @@ static COLD fmi2Status refuse_point(Component *component, double point)
         python_repr(point, point_text), python_repr(component->now.time, here_text));
 }
 
-static COLD fmi2Status end_step_with_fault(Component *component, const Fault *fault, double t, double h)
+static COLD Status end_step_with_fault(Component *component, const Fault *fault, double t, double h)
 {
     char t_text[REPR_SIZE];
     char h_text[REPR_SIZE];
@@ -170,20 +162,20 @@ static COLD fmi2Status end_step_with_fault(Component *component, const Fault *fa
 }
 
 /* Advance from t to t + h; a sampled block steps at its sample instants only. */
-static fmi2Status advance(Component *component, double t, double h)
+static Status advance(Component *component, double t, double h)
 {
     Snapshot *now = &component->now;
     const double period = model_sample_period(&now->block);
     if (period > 0.0) {
         const double margin = SAMPLE_TOLERANCE * period + TIME_TOLERANCE * fabs(t + h);
         const double due = now->start_time + (double)(now->tick + 1) * period;
-        if (t + h < due - margin) return fmi2OK;
+        if (t + h < due - margin) return STATUS_OK;
         if (t + h >= due + period - margin) return refuse_step(component, h, period);
         now->tick += 1;
     }
     Fault fault = {NULL, NULL, 0};
     model_step(&now->block, &fault, t, h);
-    return fault.what == NULL ? fmi2OK : end_step_with_fault(component, &fault, t, h);
+    return fault.what == NULL ? STATUS_OK : end_step_with_fault(component, &fault, t, h);
 }
 
 #endif

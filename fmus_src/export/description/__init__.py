@@ -1,0 +1,1 @@
+"""What an FMU says of itself: its XML documents, by version of FMI."""

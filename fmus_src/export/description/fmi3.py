@@ -1,0 +1,149 @@
+"""A block's declaration as FMI 3.0 modelDescription.xml."""
+
+from __future__ import annotations
+
+import re
+
+from lxml import etree
+
+from ...block import Block
+from ...kernel.enumerations import Enumeration
+from ...variables import Output, Parameter, State
+from .common import STATE_ANNOTATION, add_log_categories, add_units, is_continuous, literal
+from .variables import TIME, ArrayVariable, list_variables
+
+FMI_VERSION = "3.0"  # of all of 3.0.x, as fmi3GetVersion has it
+
+
+def model_description(block_class: type[Block], *, token: str, generation_tool: str) -> bytes:
+    """modelDescription.xml of a block's native FMU for co-simulation.
+
+    Value references number the variables in order of declaration, arrays as wholes; the last is time. Raises ValueError
+    for a variable ``time``, and for two enumerations of one name.
+    """
+    root = etree.Element(
+        "fmiModelDescription",
+        fmiVersion=FMI_VERSION,
+        modelName=block_class.fmu_name,
+        instantiationToken=token,
+        description=block_class.summary(),
+        generationTool=generation_tool,
+        variableNamingConvention="structured",
+    )
+    etree.SubElement(
+        root,
+        "CoSimulation",
+        modelIdentifier=block_class.fmu_name,
+        needsExecutionTool="false",
+        canGetAndSetFMUState="true",
+        canSerializeFMUState="true",
+        canHandleVariableCommunicationStepSize="true",
+    )
+    variables = list_variables(block_class)
+    add_units(root, block_class.variables.values())
+    _add_types(root, variables)
+    add_log_categories(root)
+    etree.SubElement(root, "DefaultExperiment", startTime="0.0", stepSize=repr(block_class.default_step))
+    model_variables = etree.SubElement(root, "ModelVariables")
+    for variable in variables:
+        _add_variable(model_variables, variable, is_continuous(block_class, variable.declared))
+    etree.SubElement(
+        model_variables,
+        "Float64",
+        name=TIME,
+        valueReference=str(len(variables)),
+        description="simulation time",
+        causality="independent",
+        variability="continuous",
+    )
+    _add_structure(root, block_class, variables)
+    _add_state_layout(root, variables)
+    return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)
+
+
+def _add_types(root: etree._Element, variables: list[ArrayVariable]) -> None:
+    """An EnumerationType for each enumeration."""
+    enumerations: dict[str, type[Enumeration]] = {}
+    for used in filter(None, (variable.enumeration for variable in variables)):
+        other = enumerations.setdefault(used.__name__, used)
+        if other is not used:
+            raise ValueError(f"{root.get('modelName')}: two enumerations are called {used.__name__}; rename one")
+    if enumerations:
+        definitions = etree.SubElement(root, "TypeDefinitions")
+        for name, enumeration in sorted(enumerations.items()):
+            attributes = {"name": name, "description": _one_line((enumeration.__doc__ or "").strip())}
+            kind = etree.SubElement(definitions, "EnumerationType", attributes)
+            for number, label in enumeration.names.items():
+                meaning = enumeration.meanings[number]
+                etree.SubElement(kind, "Item", name=label, value=str(number), description=meaning)
+
+
+def _add_variable(parent: etree._Element, variable: ArrayVariable, continuous: bool) -> None:
+    declared = variable.declared
+    attributes = {
+        "name": variable.name,
+        "valueReference": str(variable.reference),
+        "description": _one_line(variable.description),
+        "causality": declared.causality,
+        "variability": "continuous" if continuous else "discrete",
+    }
+    if isinstance(declared, Parameter):
+        attributes |= {"variability": "fixed", "initial": "exact"}
+    elif isinstance(declared, Output | State):
+        attributes["initial"] = "calculated"
+    if variable.enumeration:
+        attributes["declaredType"] = variable.enumeration.__name__
+    elif variable.type_name == "Float64" and variable.unit:
+        attributes["unit"] = variable.unit
+    if not isinstance(declared, Output | State):
+        attributes["start"] = " ".join(map(literal, variable.starts))
+    for key, bound in (("min", declared.minimum), ("max", declared.maximum)):
+        if bound is not None:
+            attributes[key] = literal(bound)
+    if declared.nominal is not None and variable.type_name == "Float64":
+        attributes["nominal"] = literal(declared.nominal)
+    element = etree.SubElement(parent, variable.type_name, attributes)
+    for length in variable.dimensions:
+        etree.SubElement(element, "Dimension", start=str(length))
+
+
+def _add_structure(root: etree._Element, block_class: type[Block], variables: list[ArrayVariable]) -> None:
+    structure = etree.SubElement(root, "ModelStructure")
+    references = {variable.name: variable.reference for variable in variables}  # no connector is a record
+    parameters = [v.reference for v in variables if isinstance(v.declared, Parameter)]
+    outputs = [(v.reference, v.declared) for v in variables if isinstance(v.declared, Output)]
+    direct = {
+        reference: [references[name] for name in block_class.direct_inputs(declared)]
+        for reference, declared in outputs
+        if isinstance(declared, Output)
+    }
+    for reference, inputs in direct.items():
+        _add_unknown(structure, "Output", reference, inputs)
+    for reference, inputs in direct.items():
+        _add_unknown(structure, "InitialUnknown", reference, sorted(inputs + parameters))
+
+
+def _add_unknown(parent: etree._Element, kind: str, reference: int, dependencies: list[int]) -> None:
+    etree.SubElement(
+        parent,
+        kind,
+        valueReference=str(reference),
+        dependencies=" ".join(map(str, dependencies)),
+        dependenciesKind=" ".join(["dependent"] * len(dependencies)),
+    )
+
+
+def _add_state_layout(root: etree._Element, variables: list[ArrayVariable]) -> None:
+    """How fmi3SerializeFMUState writes the complete memory, so that analyses can read and change it.
+
+    6 words of 8 bytes, then one for every element of the variables but time, in order of value references; ``frozen``
+    lists the value references of what a linearisation leaves alone.
+    """
+    annotations = etree.SubElement(root, "Annotations")
+    annotation = etree.SubElement(annotations, "Annotation", type=STATE_ANNOTATION)
+    frozen = " ".join(str(variable.reference) for variable in variables if variable.frozen)
+    etree.SubElement(annotation, "SerializedState", encoding="words", frozen=frozen)
+
+
+def _one_line(text: str) -> str:
+    return re.sub(r"\s+", " ", text)

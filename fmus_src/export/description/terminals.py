@@ -1,0 +1,69 @@
+"""terminalsAndIcons/terminalsAndIcons.xml of FMI 3.0: which variables of a block are connected together.
+
+A slot of a block, as terminal_guidance, is a terminal with the connectors that the slot declares; a bundle, as
+ThrustCommand, is one within its slot's or the block's. Two terminals are connected by the names of their members.
+"""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from ...block import Block, snake_case
+from ...bundles import Connectors
+from ...variables import Input, Output
+from .fmi3 import FMI_VERSION
+
+FILE = "terminalsAndIcons/terminalsAndIcons.xml"
+KIND = "org.perilune"
+SIGNAL = "signal"
+
+
+def terminals(block_class: type[Block]) -> bytes | None:
+    """The document of a block; None where it has neither a slot with connectors nor a bundle."""
+    root = etree.Element("fmiTerminalsAndIcons", fmiVersion=FMI_VERSION)
+    listed = etree.SubElement(root, "Terminals")
+    known: set[str] = set()
+    for owner in reversed(block_class.__mro__):
+        if not issubclass(owner, Block) or owner is Block:
+            continue
+        new = [name for name in _connectors(owner) if name not in known]
+        bundles = {name: bundle for name, bundle in owner.bundles.items() if set(bundle.names.values()) <= {*new}}
+        known.update(new)
+        parent = listed
+        if owner.is_interface and new:
+            parent = etree.SubElement(
+                listed,
+                "Terminal",
+                name=owner.fmu_name,
+                matchingRule="bus",
+                description=owner.summary(),
+            )
+            bundled = {name for bundle in bundles.values() for name in bundle.names.values()}
+            for name in new:
+                if name not in bundled:
+                    _add_member(parent, name, name)
+        for name, bundle in bundles.items():
+            _add_bundle(parent, name, bundle)
+    if len(listed) == 0:
+        return None
+    return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)
+
+
+def _connectors(owner: type[Block]) -> list[str]:
+    """The names of a class's inputs and outputs, those that it inherits among them."""
+    return [name for name, variable in owner.variables.items() if isinstance(variable, Input | Output)]
+
+
+def _add_bundle(parent: etree._Element, name: str, bundle: Connectors) -> None:
+    """A terminal whose members have the names of the bundle, whatever prefix the block gives them."""
+    kind = f"{KIND}.{snake_case(bundle.bundle.__name__)}"
+    about = (bundle.bundle.__doc__ or "").strip().partition("\n")[0]
+    terminal = etree.SubElement(
+        parent, "Terminal", name=name, matchingRule="plug", terminalKind=kind, description=about
+    )
+    for member, variable in bundle.names.items():
+        _add_member(terminal, member, variable)
+
+
+def _add_member(terminal: etree._Element, member: str, variable: str) -> None:
+    etree.SubElement(terminal, "TerminalMemberVariable", variableName=variable, memberName=member, variableKind=SIGNAL)

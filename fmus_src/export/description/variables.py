@@ -1,0 +1,84 @@
+"""A block's variables as FMI 3.0 has them: one for a vector, a matrix, or a field of a record."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...block import Block
+from ...kernel.enumerations import Enumeration
+from ...variables import State, Variable
+
+TIME = "time"  # FMI 3.0's independent variable
+TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}
+
+
+@dataclass(frozen=True)
+class ArrayVariable:
+    """A variable of FMI 3.0: ``first`` is the number of its first element among those of all, as FMI 2.0 counts them.
+
+    ``dimensions`` are none of a scalar, one of a vector, rows and columns of a matrix, whose ``starts`` are in row
+    order.
+    """
+
+    name: str
+    reference: int
+    first: int
+    dimensions: tuple[int, ...]
+    starts: tuple[float | int | bool, ...]
+    unit: str | None
+    description: str
+    frozen: bool
+    declared: Variable
+
+    @property
+    def size(self) -> int:
+        """How many elements it has."""
+        return len(self.starts)
+
+    @property
+    def enumeration(self) -> type[Enumeration] | None:
+        """The enumeration whose numbers it has, if any."""
+        return self.declared.enumeration
+
+    @property
+    def type_name(self) -> str:
+        """FMI 3.0 type: Float64, Int32, Boolean or Enumeration."""
+        return "Enumeration" if self.enumeration else TYPES[self.declared.type_name]
+
+
+def list_variables(block_class: type[Block]) -> list[ArrayVariable]:
+    """A block's variables in order of value references, which count from 0.
+
+    Raises ValueError for a block with a variable ``time``.
+    """
+    if TIME in block_class.variables:
+        problem = f"a variable {TIME}, which is the independent one of FMI 3.0"
+        raise ValueError(f"{block_class.__name__}.{TIME}: {problem}; give it another name")
+    variables: list[ArrayVariable] = []
+    first = 0
+    for declared in block_class.variables.values():
+        names = [_whole_name(declared, name) for name in declared.element_names()]
+        frozen = declared.frozen_elements() if isinstance(declared, State) else [False] * declared.size
+        for name in dict.fromkeys(names):
+            begin, size = names.index(name), names.count(name)
+            is_array = declared.is_array if declared.record is None else declared.element_names()[begin] != name
+            variables.append(
+                ArrayVariable(
+                    name,
+                    len(variables),
+                    first + begin,
+                    declared.shape or ((size,) if is_array else ()),
+                    tuple(declared.elements[begin : begin + size]),
+                    declared.units()[begin],
+                    declared.descriptions()[begin],
+                    frozen[begin],
+                    declared,
+                )
+            )
+        first += declared.size
+    return variables
+
+
+def _whole_name(declared: Variable, element: str) -> str:
+    """``motion.attitude`` of a record's ``motion.attitude[1]``; the variable's name of what has no record."""
+    return declared.name if declared.record is None else element.partition("[")[0]

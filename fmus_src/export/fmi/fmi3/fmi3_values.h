@@ -1,0 +1,220 @@
+/* FMI 3.0: getting and setting variables, whole arrays, by value reference. */
+#ifndef FMI3_VALUES_H
+#define FMI3_VALUES_H
+
+#include "life_cycle.h"
+
+#define VARIABLE_COUNT (sizeof VARIABLES / sizeof VARIABLES[0])
+#define TIME_REFERENCE VARIABLE_COUNT
+
+static const char *type_name(VariableType type)
+{
+    switch (type) {
+        case TYPE_FLOAT64: return "Float64";
+        case TYPE_INT32: return "Int32";
+        case TYPE_BOOLEAN: return "Boolean";
+        case TYPE_ENUMERATION: return "Enumeration, which has the functions of Int64";
+    }
+    return "unknown";
+}
+
+static COLD Status refuse_reference(const Component *component, const char *function, fmi3ValueReference reference)
+{
+    return fail(component, "%s: there is no variable with value reference %u", function, reference);
+}
+
+static COLD Status refuse_type(const Component *component, const char *function, fmi3ValueReference reference)
+{
+    const bool is_time = reference == TIME_REFERENCE;
+    const VariableType type = is_time ? TYPE_FLOAT64 : VARIABLES[reference].type;
+    return fail(component, "%s: %s is of type %s", function, is_time ? "time" : NAMES[reference], type_name(type));
+}
+
+static COLD Status refuse_sizes(const Component *component, const char *function, size_t elements, size_t values)
+{
+    return fail(component, "%s: the variables have %zu elements, nValues is %zu", function, elements, values);
+}
+
+static COLD Status refuse_null(const Component *component, const char *function, const void *references)
+{
+    return fail(component, "%s: %s is NULL", function, references == NULL ? "valueReferences" : "values");
+}
+
+/* STATUS_OK where values of this type may be read now, settled if initialisation is under way. */
+static inline Status prepare_get(Component *component, const char *function, VariableType type,
+    const fmi3ValueReference references[], size_t count, const void *values, size_t value_count)
+{
+    const Status status = check_mode(component, function, MODE_READABLE);
+    if (status != STATUS_OK) return status;
+    if (count > 0 && (references == NULL || values == NULL)) return refuse_null(component, function, references);
+    size_t elements = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (references[i] > TIME_REFERENCE) return refuse_reference(component, function, references[i]);
+        const bool is_time = references[i] == TIME_REFERENCE;
+        const VariableType actual = is_time ? TYPE_FLOAT64 : VARIABLES[references[i]].type;
+        if (actual != type) return refuse_type(component, function, references[i]);
+        elements += is_time ? 1 : VARIABLES[references[i]].size;
+    }
+    if (elements != value_count) return refuse_sizes(component, function, elements, value_count);
+    if (component->now.unsettled && component->now.mode == MODE_INITIALIZATION) return settle(component);
+    return STATUS_OK;
+}
+
+/* Log why a variable of the right type may not be set now. */
+static COLD Status refuse_set(const Component *component, const char *function, fmi3ValueReference reference)
+{
+    if (reference == TIME_REFERENCE) return fail(component, "%s: time is the independent variable", function);
+    const char *name = NAMES[reference];
+    if (ELEMENTS[VARIABLES[reference].first].traits & COMPUTED) {
+        return fail(component, "%s: %s is computed and cannot be set", function, name);
+    }
+    return fail(component, "%s: %s is a parameter, fixed after initialisation", function, name);
+}
+
+/* STATUS_OK where all the variables may be set now: a wrong one leaves the others as they are. */
+static inline Status prepare_set(Component *component, const char *function, VariableType type,
+    const fmi3ValueReference references[], size_t count, const void *values, size_t value_count)
+{
+    const Status status = check_mode(component, function, MODE_SETTABLE);
+    if (status != STATUS_OK) return status;
+    if (count > 0 && (references == NULL || values == NULL)) return refuse_null(component, function, references);
+    const bool stepping = component->now.mode == MODE_STEP;
+    const uint32_t trait = stepping ? SET_BETWEEN_STEPS : SET_BEFORE_STEPS;
+    size_t elements = 0;
+    for (size_t i = 0; i < count; i++) {
+        const fmi3ValueReference reference = references[i];
+        if (reference > TIME_REFERENCE) return refuse_reference(component, function, reference);
+        if (reference == TIME_REFERENCE) return refuse_set(component, function, reference);
+        if (VARIABLES[reference].type != type) return refuse_type(component, function, reference);
+        if ((ELEMENTS[VARIABLES[reference].first].traits & trait) == 0) {
+            return refuse_set(component, function, reference);
+        }
+        elements += VARIABLES[reference].size;
+    }
+    if (elements != value_count) return refuse_sizes(component, function, elements, value_count);
+    if (!stepping) component->now.unsettled = true;
+    return STATUS_OK;
+}
+
+/* The first element of a variable in the instance. */
+static inline void *elements_of(Component *component, fmi3ValueReference reference)
+{
+    return (char *)&component->now.block + ELEMENTS[VARIABLES[reference].first].offset;
+}
+
+fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+    fmi3Float64 values[], size_t value_count)
+{
+    Component *component = instance;
+    const Status status =
+        prepare_get(component, "fmi3GetFloat64", TYPE_FLOAT64, references, count, values, value_count);
+    if (status != STATUS_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        if (references[i] == TIME_REFERENCE) {
+            *values++ = component->now.time;
+            continue;
+        }
+        const double *from = elements_of(component, references[i]);
+        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) *values++ = from[k];
+    }
+    return STATUS_OK;
+}
+
+fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+    fmi3Int32 values[], size_t value_count)
+{
+    Component *component = instance;
+    const Status status = prepare_get(component, "fmi3GetInt32", TYPE_INT32, references, count, values, value_count);
+    if (status != STATUS_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        const int64_t *from = elements_of(component, references[i]);
+        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) {
+            if (from[k] < INT32_MIN || from[k] > INT32_MAX) { /* a block's ints are wider */
+                component->now.mode = MODE_ERROR;
+                return fail(component, "OverflowError: %s = %" PRId64 " exceeds an FMI Int32's 32 bits",
+                    NAMES[references[i]], from[k]);
+            }
+            *values++ = (fmi3Int32)from[k];
+        }
+    }
+    return STATUS_OK;
+}
+
+fmi3Status fmi3GetInt64(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+    fmi3Int64 values[], size_t value_count)
+{
+    const Status status =
+        prepare_get(instance, "fmi3GetInt64", TYPE_ENUMERATION, references, count, values, value_count);
+    if (status != STATUS_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        const int64_t *from = elements_of(instance, references[i]);
+        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) *values++ = from[k];
+    }
+    return STATUS_OK;
+}
+
+fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+    fmi3Boolean values[], size_t value_count)
+{
+    const Status status =
+        prepare_get(instance, "fmi3GetBoolean", TYPE_BOOLEAN, references, count, values, value_count);
+    if (status != STATUS_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        const bool *from = elements_of(instance, references[i]);
+        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) *values++ = from[k];
+    }
+    return STATUS_OK;
+}
+
+fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+    const fmi3Float64 values[], size_t value_count)
+{
+    const Status status =
+        prepare_set(instance, "fmi3SetFloat64", TYPE_FLOAT64, references, count, values, value_count);
+    if (status != STATUS_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        double *to = elements_of(instance, references[i]);
+        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) to[k] = *values++;
+    }
+    return STATUS_OK;
+}
+
+fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+    const fmi3Int32 values[], size_t value_count)
+{
+    const Status status = prepare_set(instance, "fmi3SetInt32", TYPE_INT32, references, count, values, value_count);
+    if (status != STATUS_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        int64_t *to = elements_of(instance, references[i]);
+        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) to[k] = *values++;
+    }
+    return STATUS_OK;
+}
+
+fmi3Status fmi3SetInt64(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+    const fmi3Int64 values[], size_t value_count)
+{
+    const Status status =
+        prepare_set(instance, "fmi3SetInt64", TYPE_ENUMERATION, references, count, values, value_count);
+    if (status != STATUS_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        int64_t *to = elements_of(instance, references[i]);
+        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) to[k] = *values++;
+    }
+    return STATUS_OK;
+}
+
+fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
+    const fmi3Boolean values[], size_t value_count)
+{
+    const Status status =
+        prepare_set(instance, "fmi3SetBoolean", TYPE_BOOLEAN, references, count, values, value_count);
+    if (status != STATUS_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        bool *to = elements_of(instance, references[i]);
+        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) to[k] = *values++;
+    }
+    return STATUS_OK;
+}
+
+#endif

@@ -1,0 +1,17 @@
+/* What the C of a block tells the FMI 3.0 wrapper about the block's variables. */
+#ifndef FMI3_VARIABLES_H
+#define FMI3_VARIABLES_H
+
+#include "block_elements.h"
+
+typedef enum VariableType { TYPE_FLOAT64, TYPE_INT32, TYPE_BOOLEAN, TYPE_ENUMERATION } VariableType;
+
+/* One scalar, vector or matrix, or one field of a record. Value references number these in order; the next number is
+ * that of time, the independent variable. */
+typedef struct Variable {
+    uint32_t first; /* of its elements, which follow one another in ELEMENTS and in the block's struct */
+    uint32_t size;
+    VariableType type;
+} Variable;
+
+#endif

@@ -1,0 +1,106 @@
+/* The life of an instance, from its creation to its last step. `function` is the one that was called, for messages. */
+#ifndef LIFE_CYCLE_H
+#define LIFE_CYCLE_H
+
+#include "instance.h"
+#include "kernel_self_test.h"
+
+/* A new instance, or NULL with a message where the arguments or `refusal` are against it. Memory comes from calloc. */
+static Component *create_instance(const char *function, const char *instance_name, const char *token,
+    const char *token_name, Logger logger, Environment environment, const char *refusal)
+{
+    Component *component = calloc(1, sizeof(Component) + strlen(instance_name));
+    if (component == NULL) return NULL;
+    component->logger = logger;
+    component->environment = environment;
+    strcpy(component->instance_name, instance_name);
+    bool is_wrong = true;
+    if (token == NULL || strcmp(token, MODEL_GUID) != 0) {
+        fail(component, "%s: the %s is not that of this binary, " MODEL_GUID "; unpack the FMU again", function,
+            token_name);
+    } else {
+        if (instance_name[0] == '\0') refusal = "the instance name is empty";
+        if (refusal == NULL) refusal = check_arithmetic();
+        is_wrong = refusal != NULL;
+        if (is_wrong) fail(component, "%s: %s", function, refusal);
+    }
+    if (is_wrong) {
+        free(component);
+        return NULL;
+    }
+    restart(component);
+    return component;
+}
+
+/* Note when the simulation starts, and check when it is to stop. */
+static Status set_start(
+    Component *component, const char *function, double start_time, bool stop_time_defined, double stop_time)
+{
+    if (!isfinite(start_time)) return fail(component, "%s: the start time is not finite", function);
+    if (stop_time_defined && !(stop_time >= start_time)) {
+        return fail(component, "%s: the stop time is before the start time", function);
+    }
+    component->now.start_time = start_time;
+    component->now.time = start_time;
+    return STATUS_OK;
+}
+
+static Status leave_initialisation(Component *component, const char *function)
+{
+    Status status = check_mode(component, function, MODE_INITIALIZATION);
+    if (status == STATUS_OK && component->now.unsettled) status = settle(component);
+    if (status == STATUS_OK) component->now.mode = MODE_STEP;
+    return status;
+}
+
+static Status terminate(Component *component, const char *function)
+{
+    const Status status = check_mode(component, function, MODE_STEP);
+    if (status == STATUS_OK) component->now.mode = MODE_TERMINATED;
+    return status;
+}
+
+static Status reset(Component *component, const char *function)
+{
+    const Status status = check_mode(component, function, MODE_ANY);
+    if (status == STATUS_OK) restart(component);
+    return status;
+}
+
+/* Errors are always logged and there is nothing else to log. */
+static Status set_logging(
+    const Component *component, const char *function, size_t category_count, const char *const categories[])
+{
+    const Status status = check_mode(component, function, MODE_ANY);
+    if (status != STATUS_OK) return status;
+    if (category_count > 0 && categories == NULL) return fail(component, "%s: categories is NULL", function);
+    for (size_t i = 0; i < category_count; i++) {
+        if (categories[i] == NULL) return fail(component, "%s: category %zu is NULL", function, i);
+    }
+    return STATUS_OK;
+}
+
+/* One communication step from where the last one ended. */
+static inline Status do_step(Component *component, const char *function, double communication_point, double step_size)
+{
+    const Status status = check_mode(component, function, MODE_STEP);
+    if (status != STATUS_OK) return status;
+    if (!isfinite(communication_point) || !isfinite(step_size) || step_size <= 0.0) {
+        return fail(component, "%s: communication point and step size must be finite, the latter positive", function);
+    }
+    const double here = component->now.time;
+    if (fabs(communication_point - here) > POINT_TOLERANCE * step_size + TIME_TOLERANCE * fabs(here)) {
+        return refuse_point(component, communication_point);
+    }
+    component->last_step = advance(component, communication_point, step_size);
+    if (component->last_step == STATUS_OK) component->now.time = communication_point + step_size;
+    return component->last_step;
+}
+
+static COLD Status not_provided(const Component *component, const char *function)
+{
+    if (component == NULL) return STATUS_ERROR;
+    return fail(component, "%s: this FMU does not provide it, see modelDescription.xml", function);
+}
+
+#endif

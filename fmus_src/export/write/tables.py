@@ -1,0 +1,99 @@
+"""The tables of a block's C file, which the FMI wrappers read: starts, elements, variables, names."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ...block import Block
+from ...kernel import vector_types
+from ...kernel.records import Record
+from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
+from ..description.variables import list_variables
+from .layout import Lines
+from .names import identifier, literal, member
+
+KINDS = {float: "KIND_REAL", int: "KIND_INTEGER", bool: "KIND_BOOLEAN"}
+ROLES = {"parameter": "ROLE_PARAMETER", "input": "ROLE_INPUT", "output": "ROLE_OUTPUT", "local": "ROLE_STATE"}
+
+
+def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) -> str:
+    """What the wrapper needs to know: GUID, declared starts, and tables by value reference."""
+    starts = Lines()
+    starts.open("static const Block STARTS = {")
+    elements = Lines()
+    elements.open("static const Element ELEMENTS[] = {")
+    described: list[tuple[str, str]] = []
+    for name, variable in block_class.variables.items():
+        values = ", ".join(map(literal, variable.elements))
+        if variable.record is not None:
+            values = _initialise(variable.record.of_elements(variable.elements))
+        elif variable.is_array:
+            values = f"{{{{{values}}}}}" if variable.is_vector or variable.shape else f"{{{values}}}"
+        starts.add(f".{identifier(name)} = {values},")
+        kind, role = KINDS[type(variable.elements[0])], ROLES[variable.causality]
+        for position in range(variable.size):
+            place, traits = f"offsetof(Block, {member(variable, position)})", f"{kind} | {role}"
+            described.append((place, traits))
+    starts.close("};")
+    for (place, traits), alike in zip(described, _alike([traits for _, traits in described]), strict=True):
+        elements.add(f"{{{place}, {traits}, {alike}}},")
+    elements.close("};")
+    return "\n".join(
+        [
+            "/* ---- for the FMI wrapper ---- */",
+            "",
+            f"typedef {type_name} Block;",
+            "",
+            f'#define MODEL_GUID "{guid}"',
+            f"#define SAMPLE_TOLERANCE {SAMPLE_TOLERANCE!r} /* of a sample period */",
+            f"#define TIME_TOLERANCE {TIME_TOLERANCE!r} /* of the time */",
+            f"#define POINT_TOLERANCE {POINT_TOLERANCE!r} /* of a step */",
+            "",
+            "/* Declared start values. */",
+            *starts.text,
+            "",
+            "/* In order of declaration. */",
+            *elements.text,
+            "",
+            *_references(block_class, fmi),
+            "",
+        ]
+    )
+
+
+def _references(block_class: type[Block], fmi: int) -> list[str]:
+    """Names by value reference: of elements in FMI 2.0, of whole variables in FMI 3.0, which has a table of these."""
+    lines = Lines()
+    if fmi == 3:
+        lines.comment("In order of value references.")
+        lines.open("static const Variable VARIABLES[] = {")
+        variables = list_variables(block_class)
+        for variable in variables:
+            lines.add(f"{{{variable.first}, {variable.size}, TYPE_{variable.type_name.upper()}}},")
+        lines.close("};")
+        lines.text.append("")
+        names = [variable.name for variable in variables]
+    else:
+        names = [name for variable in block_class.variables.values() for name in variable.element_names()]
+    lines.comment("By value reference, for messages.")
+    quoted = ", ".join(f'"{name}"' for name in names)
+    lines.add(f"static const char *const NAMES[] = {{{quoted}}};")
+    return lines.text
+
+
+def _initialise(start: Any) -> str:
+    """A number, vector or record as C initialises it."""
+    if isinstance(start, vector_types.Vector):
+        return f"{{{{{', '.join(map(literal, start))}}}}}"
+    if isinstance(start, Record):
+        return f"{{{', '.join(_initialise(getattr(start, name)) for name in start.fields)}}}"
+    return literal(start)
+
+
+def _alike(traits: list[str]) -> list[int]:
+    """For each element how many from it on have its traits: members of one kind lie side by side in the struct."""
+    counts: list[int] = []
+    for number in range(len(traits) - 1, -1, -1):
+        goes_on = counts and traits[number] == traits[number + 1]
+        counts.append(counts[-1] + 1 if goes_on else 1)
+    return counts[::-1]

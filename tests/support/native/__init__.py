@@ -1,0 +1,1 @@
+"""Native FMUs: compiled through the cache, flown by FMPy, driven under sanitizers."""

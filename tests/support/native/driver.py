@@ -1,0 +1,31 @@
+"""The program that drives an FMU of FMI 3.0, `drive_fmi3.c`: what it is told of a block, and what it prints."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.export.description.variables import list_variables
+
+DRIVER = Path(__file__).with_name("drive_fmi3.c")
+
+
+def link(command: Sequence[str], inputs: Sequence[str], program: Path) -> None:
+    """Make the program with sources or a library of its folder, where the FMI headers are."""
+    words = [*command, "-I", ".", "-o", str(program), str(DRIVER), *inputs, "-lm"]
+    compiled = subprocess.run(words, cwd=program.parent, capture_output=True, text=True, check=False)
+    assert compiled.returncode == 0, compiled.stderr
+
+
+def drive(block: type[Block], program: Sequence[str], token: str, steps: int) -> str:
+    """The checksum of so many steps, none of whose answers is wrong."""
+    variables = list_variables(block)
+    types = "".join(variable.type_name[0].lower() for variable in variables)
+    causalities = "".join(variable.declared.causality[0] for variable in variables)
+    sizes = ",".join(str(variable.size) for variable in variables)
+    words = [*program, token, types, causalities, sizes, str(block.default_step), str(steps)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
