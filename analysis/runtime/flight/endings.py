@@ -140,9 +140,9 @@ def in_words(
     if code == codes.NOT_TAKEN:
         parameters = layout.parameters
         component, variable = parameters.keys[subject]
-        taken = parameters.words if fmi3 is None else fmi3.taken
+        confirmed = parameters.words if fmi3 is None else fmi3.confirmed
         given = parameters[parameters.keys[subject]]
-        actual = parameters.value_in(buffers.read_back, taken, subject)
+        actual = parameters.value_in(buffers.read_back, confirmed, subject)
         words = f"{component}.{variable}: was set to {given}, and its FMU has {actual} after initialisation"
         return status, " | ".join([f"{words}: it did not take it", *instances[component].messages])
     if code == codes.FAILED:

@@ -312,7 +312,7 @@ class _Builder:
             start=start,
             stored=arrays.stored(start.size),
             given=self.parameters.words,
-            taken=np.zeros_like(self.parameters.words),
+            confirmed=np.zeros_like(self.parameters.words),
             binaries=self.binaries.memory(),
             sizes=sizes.copy(),
             initial_sizes=sizes,

@@ -95,7 +95,7 @@ class Fmi3(NamedTuple):
     start: np.ndarray  # uint64 [s], whole numbers of 64 bits before anything is exchanged
     stored: StoredValues
     given: np.ndarray  # uint64 [p], parameters: each transfer's values side by side from its first word on
-    taken: np.ndarray  # uint64 [p], likewise, once they are read back
+    confirmed: np.ndarray  # uint64 [p], likewise, once they are read back
     binaries: Texts
     sizes: np.ndarray  # uint64 [t], bytes of each Binary
     initial_sizes: np.ndarray  # uint64 [t]
@@ -177,7 +177,7 @@ def _blank_fmi3(texts: Texts) -> Fmi3:
         start=words,
         stored=stored(0),
         given=words,
-        taken=words,
+        confirmed=words,
         binaries=texts,
         sizes=words,
         initial_sizes=words,

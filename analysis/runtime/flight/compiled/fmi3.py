@@ -108,10 +108,10 @@ def _begin(instruction, program, given, read_back, span, outcome, fmi3):  # type
         texts = given.text if gives else read_back.text
         status = exchange_transfer(address, instance, reference, start, size, texts, first, count)
     else:
-        words = fmi3.given if gives else fmi3.taken
+        words = fmi3.given if gives else fmi3.confirmed
         status = exchange_transfer(address, instance, reference, start, size, words, first, count)
     if code == codes.TAKE_BACK and 0 <= status <= codes.FMI_WARNING:
-        refused = first_not_taken(kind, first, count, fmi3.given, fmi3.taken, given.text, read_back.text)
+        refused = first_not_taken(kind, first, count, fmi3.given, fmi3.confirmed, given.text, read_back.text)
         if refused >= 0:
             outcome[0] = codes.NOT_TAKEN
             outcome[1] = refused
