@@ -181,10 +181,11 @@ class ExportOptions(TypedDict, total=False):
     platforms: Annotated[
         Sequence[FmuPlatform],
         Option(
-            "of native FMUs, by the names of their version of FMI; default: the prebuilt ones, and those for which a "
-            "compiler is installed",
+            "of native FMUs: linux64, win64 or darwin64; with --fmi 3 x86_64-linux, aarch64-linux, x86_64-windows, "
+            "x86_64-darwin or aarch64-darwin; default: the prebuilt ones, and those for which a compiler is installed",
             (),
             flag="platform",
+            metavar="NAME",
         ),
     ]
     flavour: Annotated[

@@ -44,7 +44,7 @@ RESERVED = frozenset(_RESERVED_TEXT.split())
 # What the wrappers of fmi/ call their own; block types and functions stay clear of these.
 _WRAPPER_NAMES_TEXT = """
     Block Byte Component DoubleInt64 Element Environment Fault Logger Mode SavedState Snapshot Status Trait
-    Variable VariableType add_and_subtract advance check_arithmetic check_mode check_state checked_result
+    Variable VariableType add_and_subtract advance check_arithmetic check_logging check_mode check_state checked_result
     copy_element create_instance deserialise do_step double_at element_of elements_of end_step_with_fault
     end_with_fault exact_frexp exact_ldexp fail float_floor_divide float_modulo free_state has_traits int_abs
     int_at int_floor_divide int_modulo is_header is_mode kind_name leave_initialisation lie_alike log_error
@@ -52,7 +52,7 @@ _WRAPPER_NAMES_TEXT = """
     no_variables not_provided perilune_place power_of_two prepare_get prepare_set put_double put_int python_repr
     refuse refuse_interface refuse_null refuse_point refuse_reference refuse_set refuse_sizes refuse_step
     refuse_type refuse_wide reset restart restore_state save_state serialise serialised_size set_fault
-    set_logging set_start settle state_space terminate type_name whole_ceil whole_floor whole_trunc
+    set_start settle state_space terminate type_name whole_ceil whole_floor whole_trunc
 """
 VECTOR_OPERATIONS = ("add", "subtract", "negative", "scale", "multiply", "divide", "quotient")
 WRAPPER_NAMES = frozenset(

@@ -74,7 +74,7 @@ class Walk:
             modelIdentifier=description.coSimulation.modelIdentifier,
             instanceName="walk",
         )
-        self.slave.instantiate(logMessage=self.add_message)
+        self.slave.instantiate(logMessage=self.add_message, loggingOn=True)
 
     def add_message(self, environment: object, status: int, category: bytes, message: bytes) -> None:
         assert (status, category) == (3, b"logStatusError")
@@ -179,6 +179,32 @@ def test_wrong_references_types_and_sizes_are_refused(walk: Walk) -> None:
     assert walk.get("x") == before
 
 
+def test_before_initialisation_starts_are_read(walk: Walk) -> None:
+    """As FMI 3.0 allows; what was set, and the declared start of what is computed."""
+    walk.set(x=[1.0, 2.0, 3.0])
+    assert (walk.get("x"), walk.get("gain"), walk.get("product")) == ([1.0, 2.0, 3.0], 1.0, 1)
+
+
+def test_nothing_is_logged_unless_the_importer_wants_it(built: tuple[Path, str]) -> None:
+    walk = Walk(*built)
+    walk.slave.fmi3SetDebugLogging(walk.slave.component, False, 0, None)
+    with pytest.raises(FMICallException):
+        walk.slave.doStep(0.0, 0.1)
+    assert walk.log == []
+    walk.slave.freeInstance()
+    silent = FMU3Slave(
+        guid=walk.slave.guid,
+        unzipDirectory=walk.slave.unzipDirectory,
+        modelIdentifier=walk.slave.modelIdentifier,
+        instanceName="silent",
+    )
+    silent.instantiate(logMessage=walk.add_message)
+    with pytest.raises(FMICallException):
+        silent.doStep(0.0, 0.1)
+    assert walk.log == []
+    silent.freeInstance()
+
+
 def test_several_variables_come_in_one_call(walk: Walk) -> None:
     walk.set(x=[1.0, 2.0, 3.0])
     walk.start(time=7.0)
@@ -187,7 +213,6 @@ def test_several_variables_come_in_one_call(walk: Walk) -> None:
 
 
 def test_calls_at_a_wrong_moment_are_refused(walk: Walk) -> None:
-    refuse(walk, "fmi3GetFloat64 is not allowed before initialisation", walk.get, "x")
     refuse(walk, "fmi3DoStep is not allowed before initialisation", walk.slave.doStep, 0.0, 0.1)
     walk.start()
     refuse(walk, "fmi3EnterInitializationMode is not allowed between steps", walk.slave.enterInitializationMode)

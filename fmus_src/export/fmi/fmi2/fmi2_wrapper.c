@@ -21,11 +21,12 @@ const char *fmi2GetVersion(void)
     return fmi2Version;
 }
 
+/* Errors are always logged. */
 fmi2Status fmi2SetDebugLogging(
     fmi2Component c, fmi2Boolean logging_on, size_t category_count, const fmi2String categories[])
 {
     (void)logging_on;
-    return set_logging(c, "fmi2SetDebugLogging", category_count, categories);
+    return check_logging(c, "fmi2SetDebugLogging", category_count, categories);
 }
 
 /* ---- creation and destruction ---- */

@@ -48,7 +48,7 @@ static Status no_variables(
         fmi3##Type values[], size_t value_count)                                                                      \
     {                                                                                                                 \
         (void)references, (void)values, (void)value_count;                                                            \
-        return no_variables(instance, "fmi3Get" #Type, #Type, MODE_READABLE, count);                                  \
+        return no_variables(instance, "fmi3Get" #Type, #Type, MODE_ANY, count);                                  \
     }                                                                                                                 \
     fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference references[], size_t count,              \
         const fmi3##Type values[], size_t value_count)                                                                \
@@ -70,7 +70,7 @@ fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference referen
     fmi3Binary values[], size_t value_count)
 {
     (void)references, (void)sizes, (void)values, (void)value_count;
-    return no_variables(instance, "fmi3GetBinary", "Binary", MODE_READABLE, count);
+    return no_variables(instance, "fmi3GetBinary", "Binary", MODE_ANY, count);
 }
 
 fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
@@ -84,7 +84,7 @@ fmi3Status fmi3GetClock(
     fmi3Instance instance, const fmi3ValueReference references[], size_t count, fmi3Clock values[])
 {
     (void)references, (void)values;
-    return no_variables(instance, "fmi3GetClock", "Clock", MODE_READABLE, count);
+    return no_variables(instance, "fmi3GetClock", "Clock", MODE_ANY, count);
 }
 
 fmi3Status fmi3SetClock(

@@ -40,11 +40,11 @@ static COLD Status refuse_null(const Component *component, const char *function,
     return fail(component, "%s: %s is NULL", function, references == NULL ? "valueReferences" : "values");
 }
 
-/* STATUS_OK where values of this type may be read now, settled if initialisation is under way. */
+/* STATUS_OK where values of this type may be read, settled if initialisation is under way; before, those of the start. */
 static inline Status prepare_get(Component *component, const char *function, VariableType type,
     const fmi3ValueReference references[], size_t count, const void *values, size_t value_count)
 {
-    const Status status = check_mode(component, function, MODE_READABLE);
+    const Status status = check_mode(component, function, MODE_ANY);
     if (status != STATUS_OK) return status;
     if (count > 0 && (references == NULL || values == NULL)) return refuse_null(component, function, references);
     size_t elements = 0;

@@ -21,23 +21,34 @@ const char *fmi3GetVersion(void)
 fmi3Status fmi3SetDebugLogging(
     fmi3Instance instance, fmi3Boolean logging_on, size_t category_count, const fmi3String categories[])
 {
-    (void)logging_on;
-    return set_logging(instance, "fmi3SetDebugLogging", category_count, categories);
+    Component *component = instance;
+    const Status status = check_logging(component, "fmi3SetDebugLogging", category_count, categories);
+    if (status != STATUS_OK) return status;
+    for (size_t i = 0; i < category_count; i++) {
+        if (strcmp(categories[i], "logStatusError") != 0 && strcmp(categories[i], "logAll") != 0) {
+            return fail(component, "fmi3SetDebugLogging: there is no log category %s", categories[i]);
+        }
+    }
+    component->logger = logging_on ? component->importers_logger : NULL;
+    return STATUS_OK;
 }
 
 /* ---- creation and destruction ---- */
 
+/* Why there is no instance is logged in any case, as FMI says. */
 fmi3Instance fmi3InstantiateCoSimulation(fmi3String instance_name, fmi3String token, fmi3String resource_path,
     fmi3Boolean visible, fmi3Boolean logging_on, fmi3Boolean event_mode_used, fmi3Boolean early_return_allowed,
     const fmi3ValueReference required_intermediate_variables[], size_t required_count,
     fmi3InstanceEnvironment environment, fmi3LogMessageCallback log_message,
     fmi3IntermediateUpdateCallback intermediate_update)
 {
-    (void)resource_path, (void)visible, (void)logging_on, (void)early_return_allowed;
+    (void)resource_path, (void)visible, (void)early_return_allowed;
     (void)required_intermediate_variables, (void)required_count, (void)intermediate_update;
     if (instance_name == NULL) return NULL;
-    return create_instance("fmi3InstantiateCoSimulation", instance_name, token, "instantiation token", log_message,
-        environment, event_mode_used ? "this FMU has no event mode" : NULL);
+    Component *component = create_instance("fmi3InstantiateCoSimulation", instance_name, token, "instantiation token",
+        log_message, environment, event_mode_used ? "this FMU has no event mode" : NULL);
+    if (component != NULL && !logging_on) component->logger = NULL;
+    return component;
 }
 
 void fmi3FreeInstance(fmi3Instance instance)

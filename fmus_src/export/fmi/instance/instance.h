@@ -46,7 +46,8 @@ typedef struct Snapshot {
 typedef struct Component {
     Snapshot now;
     Status last_step;
-    Logger logger;
+    Logger logger; /* NULL where nothing is logged */
+    Logger importers_logger;
     Environment environment;
     char instance_name[1]; /* as long as it needs, at the end of the allocation */
 } Component;

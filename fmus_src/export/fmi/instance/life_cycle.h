@@ -11,7 +11,7 @@ static Component *create_instance(const char *function, const char *instance_nam
 {
     Component *component = calloc(1, sizeof(Component) + strlen(instance_name));
     if (component == NULL) return NULL;
-    component->logger = logger;
+    component->logger = component->importers_logger = logger;
     component->environment = environment;
     strcpy(component->instance_name, instance_name);
     bool is_wrong = true;
@@ -67,8 +67,8 @@ static Status reset(Component *component, const char *function)
     return status;
 }
 
-/* Errors are always logged and there is nothing else to log. */
-static Status set_logging(
+/* Whether a call that says what is to be logged is right. There are errors alone to log. */
+static Status check_logging(
     const Component *component, const char *function, size_t category_count, const char *const categories[])
 {
     const Status status = check_mode(component, function, MODE_ANY);
