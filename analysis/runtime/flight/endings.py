@@ -106,7 +106,12 @@ def end_request(instance: Instance) -> float | None:
 
 
 def in_words(
-    outcome: Outcome, time: float, layout: Layout, buffers: arrays.Buffers, instances: Mapping[str, Instance]
+    outcome: Outcome,
+    time: float,
+    layout: Layout,
+    buffers: arrays.Buffers,
+    fmi3: arrays.Fmi3 | None,
+    instances: Mapping[str, Instance],
 ) -> tuple[str, str]:
     """Status and message of a flight; ``time`` (s) is that of its last communication point."""
     code, subject = outcome.code, outcome.subject
@@ -135,7 +140,9 @@ def in_words(
     if code == codes.NOT_TAKEN:
         parameters = layout.parameters
         component, variable = parameters.keys[subject]
-        given, actual = (parameters.value_in(values, subject) for values in (parameters.values, buffers.read_back))
+        confirmed = parameters.words if fmi3 is None else fmi3.confirmed
+        given = parameters[parameters.keys[subject]]
+        actual = parameters.value_in(buffers.read_back, confirmed, subject)
         words = f"{component}.{variable}: was set to {given}, and its FMU has {actual} after initialisation"
         return status, " | ".join([f"{words}: it did not take it", *instances[component].messages])
     if code == codes.FAILED:

@@ -28,11 +28,13 @@ class LifeCycle:
         self,
         instances: Mapping[str, Instance],
         program: arrays.Program,
+        fmi3: arrays.Fmi3 | None,
         instructions: InstructionList,
         note_subject: Callable[[int], None],
     ) -> None:
         self._instances = instances
         self._program = program
+        self._fmi3 = fmi3
         self._instructions = instructions
         self._note_subject = note_subject
         self._are_self_contained = all(instance.fmu.is_self_contained for instance in instances.values())
@@ -113,8 +115,8 @@ class LifeCycle:
         rows[in_memory, codes.ADDRESS] += np.uint64(instance.address) - rows[in_memory, codes.INSTANCE]
         rows[calls | in_memory, codes.INSTANCE] = instance.address
         rows[calls, codes.ADDRESS] = [addresses[function] for function in rows[calls, codes.FUNCTION]]
-        if self._program.transfers.functions.size:
-            self._program.transfers.functions[index] = addresses
+        if self._fmi3 is not None:
+            self._fmi3.transfers.functions[index] = addresses
         self._instructions.addresses[index] = (instance.address, addresses)
 
     def close(self, fatal: str | None = None) -> None:

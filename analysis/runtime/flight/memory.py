@@ -35,7 +35,7 @@ class Snapshot:
     values: np.ndarray
     whole: np.ndarray
     frozen: np.ndarray
-    stored: tuple[np.ndarray, np.ndarray]
+    stored: tuple[np.ndarray, ...]
 
 
 class Piece:
@@ -69,10 +69,16 @@ class Memory(BaseMemory[Snapshot]):
     """
 
     def __init__(
-        self, prepared: PreparedSystem, layout: Layout, instances: Mapping[str, Instance], buffers: arrays.Buffers
+        self,
+        prepared: PreparedSystem,
+        layout: Layout,
+        instances: Mapping[str, Instance],
+        buffers: arrays.Buffers,
+        fmi3: arrays.Fmi3 | None = None,
     ) -> None:
         self._instances = instances
         self._buffers = buffers
+        self._stored = () if fmi3 is None else (fmi3.stored.sent, fmi3.stored.exact)
         self.cells: list[Cell] = []
         self._write: dict[str, Callable[[bytes, int, float], bytes]] = {}
         self._pieces: list[Piece] = []
@@ -107,7 +113,7 @@ class Memory(BaseMemory[Snapshot]):
             states[component] = instance.state()
             serialized[component] = instance.serialize(states[component])
         buffers = self._buffers
-        stored = buffers.stored.sent.copy(), buffers.stored.exact.copy()
+        stored = tuple(words.copy() for words in self._stored)
         return Snapshot(
             point, states, serialized, buffers.values.copy(), buffers.whole.copy(), buffers.frozen.copy(), stored
         )
@@ -120,7 +126,8 @@ class Memory(BaseMemory[Snapshot]):
         buffers.values[:] = snapshot.values
         buffers.whole[:] = snapshot.whole
         buffers.frozen[:] = snapshot.frozen
-        buffers.stored.sent[:], buffers.stored.exact[:] = snapshot.stored
+        for words, saved in zip(self._stored, snapshot.stored, strict=True):
+            words[:] = saved
         if cell is None:
             return
         if cell.component is None:

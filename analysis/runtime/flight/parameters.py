@@ -70,8 +70,9 @@ class Parameters:
         count = len(self.keys)
         self._texts: dict[int, ctypes.Array[ctypes.c_char]] = {}  # kept alive while the loop has their addresses
         self.values = arrays.Settings(
-            np.zeros(count), np.zeros(count, dtype=np.int32), *np.zeros((2, count), dtype=np.uint64)
+            np.zeros(count), np.zeros(count, dtype=np.int32), np.zeros(count, dtype=np.uint64)
         )
+        self.words = np.zeros(count, dtype=np.uint64)  # of FMI 3.0, as `arrays.Fmi3` has them
         self.update({key: settings.variables[key] for key in self.keys if key in settings.variables})
         for key in self.keys:
             if key not in settings.variables:
@@ -119,7 +120,7 @@ class Parameters:
 
     def __getitem__(self, key: Key) -> ParameterValue:
         """A parameter's value, of its own type."""
-        return self.value_in(self.values, self.positions[key])
+        return self.value_in(self.values, self.words, self.positions[key])
 
     def __setitem__(self, key: Key, value: ParameterValue) -> None:
         position, kind = self.positions[key], self.types[key]
@@ -127,7 +128,7 @@ class Parameters:
             self._texts[position] = ctypes.create_string_buffer(str(value).encode())
             self.values.text[position] = ctypes.addressof(self._texts[position])
         elif position in self._layout:
-            self._view(self.values, position)[0] = value
+            self._view(self.words, position)[0] = value
         elif kind == "Real":
             self.values.real[position] = value
         else:
@@ -137,22 +138,22 @@ class Parameters:
         for key, value in values.items():
             self[key] = value
 
-    def value_in(self, values: arrays.Settings, position: int) -> ParameterValue:
-        """What arrays of the same layout, those read back, hold in a place."""
+    def value_in(self, values: arrays.Settings, words: np.ndarray, position: int) -> ParameterValue:
+        """What arrays of the same layout, those read back, have at a position; ``words`` are those of FMI 3.0."""
         kind = self.types[self.keys[position]]
         if kind == "String":
             address = int(values.text[position])
             return ctypes.string_at(address).decode(errors="replace") if address else ""
         if position in self._layout:
-            return self._view(values, position)[0].item()  # type: ignore[no-any-return]
+            return self._view(words, position)[0].item()  # type: ignore[no-any-return]
         if kind == "Real":
             return float(values.real[position])
         return bool(values.whole[position]) if kind == "Boolean" else int(values.whole[position])
 
-    def _view(self, values: arrays.Settings, position: int) -> np.ndarray:
+    def _view(self, words: np.ndarray, position: int) -> np.ndarray:
         """The one value of FMI 3.0 that is stored for a position, as a view."""
         dtype, first = self._layout[position]
-        return values.stored.view(np.uint8)[first : first + np.dtype(dtype).itemsize].view(dtype)
+        return words.view(np.uint8)[first : first + np.dtype(dtype).itemsize].view(dtype)
 
     def is_one_by_one(self, component: str) -> bool:
         """Whether a component's parameters are read back one by one, since it does not give all of them."""

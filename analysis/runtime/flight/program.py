@@ -90,14 +90,15 @@ def build_program(
     wanted: Collection[str] | None,
     injections: Sequence[Injection],
     more: Collection[str] = (),
-) -> tuple[arrays.Program, InstructionList, Layout]:
-    """Arrays for the loop, and what writes instructions.
+) -> tuple[arrays.Program, arrays.Fmi3 | None, InstructionList, Layout]:
+    """Arrays for the loop, those of FMI 3.0 if there is any, and what writes instructions.
 
     ``wanted`` names what is recorded (None: all that is exchanged), ``more`` what else is. Only outputs that are
     connected or recorded are fetched, and of other variables those that are named.
     """
     builder = _Builder(prepared.network, settings, wanted, injections, more)
-    return *builder.program(prepared, instances), builder.layout()
+    program, instructions = builder.program(prepared, instances)
+    return program, builder.fmi3(instances), instructions, builder.layout()
 
 
 def layout_of(
@@ -253,7 +254,10 @@ class _Builder:
             self.texts,
             self.binaries,
         )
-        collected.orders = [self._orders(collected, index, instances[name]) for index, name in enumerate(self.names)]
+        references = np.array(self.signals.references, dtype=np.uint32)
+        collected.orders = [
+            self._orders(collected, index, instances[name], references) for index, name in enumerate(self.names)
+        ]
         instructions, reset_end, phases = write_instructions(
             collected, self.names, prepared.schedule, prepared.algorithm, prepared.periods
         )
@@ -261,7 +265,7 @@ class _Builder:
             instructions=instructions,
             reset_end=reset_end,
             phases=phases,
-            reference=np.array(self.signals.references, dtype=np.uint32),
+            reference=references,
             initial=np.array(self.signals.initial, dtype=np.float64),
             parameter_reference=np.array(self.parameters.references, dtype=np.uint32),
             tolerance=np.array([_tolerance(self.network.fmus[name]) for name in self.names], dtype=np.float64),
@@ -281,18 +285,17 @@ class _Builder:
             fault_value=np.array([injection.value for injection in self.injections], dtype=np.float64),
             drive_slot=np.array([self.slots[name] for name in driven], dtype=np.int64),
             drive_table=_columns(prepared.drive, driven),
-            transfers=self._transfers(instances),
         )
         return program, collected
 
-    def _orders(self, collected: InstructionList, index: int, instance: Instance) -> Orders:
+    def _orders(self, collected: InstructionList, index: int, instance: Instance, references: np.ndarray) -> Orders:
         if index in self.transfers:
             return Fmi3Orders(collected, index, self.transfers[index], self.table)
         return Fmi2Orders(
             collected,
             index,
             instance,
-            np.array(self.signals.references, dtype=np.uint32),
+            references,
             self.ranges[index].tolist(),
             self.parameters.ranges[index].tolist(),
             self.texts.ranges[index].tolist(),
@@ -300,18 +303,27 @@ class _Builder:
             one_by_one=self.parameters.is_one_by_one(self.names[index]),
         )
 
-    def _transfers(self, instances: Mapping[str, Instance]) -> arrays.Transfers:
-        """The loop's table of FMI 3.0; empty without an FMU of it."""
+    def fmi3(self, instances: Mapping[str, Instance]) -> arrays.Fmi3 | None:
+        """What the loop has in addition of a system with FMUs of FMI 3.0."""
         if not self.transfers:
-            return arrays.blank()[0].transfers
-        exact = np.zeros(len(self.slots), dtype=np.uint64)
+            return None
+        start = np.zeros(len(self.slots), dtype=np.uint64)
         for slot, number in self.signals.exact.items():
-            exact[slot] = number % 2**64
-        return arrays.Transfers(
-            rows=self.table.array(),
-            reference=np.array(self.table.references, dtype=np.uint32),
-            functions=np.array([instances[name].function_addresses() for name in self.names], dtype=np.uint64),
-            exact=exact,
+            start[slot] = number % 2**64
+        sizes = self.binaries.sizes()
+        return arrays.Fmi3(
+            transfers=arrays.Transfers(
+                rows=self.table.array(),
+                reference=np.array(self.table.references, dtype=np.uint32),
+                functions=np.array([instances[name].function_addresses() for name in self.names], dtype=np.uint64),
+            ),
+            start=start,
+            stored=arrays.stored(start.size),
+            given=self.parameters.words,
+            confirmed=np.zeros_like(self.parameters.words),
+            binaries=self.binaries.memory(),
+            sizes=sizes.copy(),
+            initial_sizes=sizes,
         )
 
     def _terms(self, link: Link) -> list[Term]:

@@ -116,6 +116,16 @@ class Provenance(TypedDict):
     perilune: str
 
 
+def _column_type(type_name: str, values: np.ndarray) -> pyarrow.DataType:
+    """The Arrow type of a signal: whole numbers have 32 bits, and more where these do not do (FMI 3.0)."""
+    if type_name == "Boolean":
+        return pyarrow.bool_()
+    if type_name not in ("Integer", "Enumeration"):
+        return pyarrow.float64()
+    largest = max(values.max(initial=0.0), -values.min(initial=0.0))
+    return pyarrow.int32() if largest < 2**31 else pyarrow.int64() if largest < 2**63 else pyarrow.float64()
+
+
 @dataclass(repr=False)
 class Result(Flight):
     """A flight with units by signal, and with parameter values, hashes and versions as provenance."""
@@ -132,9 +142,8 @@ class Result(Flight):
         """The flight as an Arrow table: time first, units and provenance in the metadata."""
         arrays = [pyarrow.array(self.time)]
         fields = [pyarrow.field("time", pyarrow.float64(), metadata={"unit": "s"})]
-        kinds = {"Integer": pyarrow.int32(), "Enumeration": pyarrow.int32(), "Boolean": pyarrow.bool_()}
         for name, values in self.signals.items():
-            kind = kinds.get(self.types[name], pyarrow.float64())
+            kind = _column_type(self.types[name], values)
             arrays.append(pyarrow.array(values).cast(kind))
             unit = self.units[name]
             fields.append(pyarrow.field(name, kind, metadata={"unit": unit} if unit else None))

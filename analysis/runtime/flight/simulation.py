@@ -50,7 +50,7 @@ class Simulation(BaseSimulation):
             uses_events = needs_events(prepared.network, name)
             self.instances[name] = instantiate(fmu, name, self._log, uses_events=uses_events)
         injections = self._selection.injections(prepared.step)
-        self.program, self._instructions, self.layout = build_program(
+        self.program, self.fmi3, self._instructions, self.layout = build_program(
             prepared, self.settings, self.instances, self._selection.wanted, injections, self._selection.more
         )
         self.set_faults(self._faults)
@@ -63,13 +63,11 @@ class Simulation(BaseSimulation):
             frozen=np.zeros(len(injections)),
             read_back=self.layout.parameters.blank(),
             texts=self.layout.texts.memory(),
-            binaries=self.layout.binaries.memory(),
-            stored=arrays.stored(self.program.transfers.exact.size),
             outcome=self.recorder.outcome,
             halt=self.recorder.halt,
         )
         self._loop: Callable[..., int] | None = None
-        self.life_cycle = LifeCycle(self.instances, self.program, self._instructions, self._note_subject)
+        self.life_cycle = LifeCycle(self.instances, self.program, self.fmi3, self._instructions, self._note_subject)
         self._under_way = threading.Lock()
         self.recorder.enter(Phase.IDLE)
 
@@ -86,16 +84,21 @@ class Simulation(BaseSimulation):
         So that other threads run whatever a step does, and a clock measures flights alone.
         """
         span, recording, excitation = self._request(-1, 0, 1, False, NOTHING)
-        arguments = (self.program, self.buffers, self.layout.parameters.values, span, recording, excitation)
+        arguments = self._arguments(self.program, span, recording, excitation)
         self._loop = loop.compile_for(arguments, locked=False, with_fmi3=self.prepared.has_fmi3)
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
         """See `BaseSimulation.set`; an element of an array that is partly connected is given with each step, too."""
         super().set(values)
-        for name in self.layout.unfed & values.keys() if self.layout.unfed else ():
-            slot = self.layout.slots[name]
-            self.program.initial[slot] = float(values[name])
-            self.program.transfers.exact[slot] = int(values[name]) % 2**64
+        self._give_unfed()
+
+    def _give_unfed(self) -> None:
+        """Let elements of partly connected arrays begin with the values that parameters have."""
+        if self.fmi3 is not None:
+            for name in self.layout.unfed & self._varied.keys():
+                slot, number = self.layout.slots[name], self.layout.parameters[self._varied[name]]
+                self.program.initial[slot] = float(number)
+                self.fmi3.start[slot] = int(number) % 2**64
 
     def set_faults(self, faults: Sequence[Fault | None]) -> None:
         """See `BaseSimulation.set_faults`."""
@@ -141,11 +144,16 @@ class Simulation(BaseSimulation):
         recorder.enter(Phase.IDLE)
         self.life_cycle.note(outcome, self.program)
         status, message = in_words(
-            outcome, prepared.start + outcome.point * prepared.step, self.layout, self.buffers, self.instances
+            outcome,
+            prepared.start + outcome.point * prepared.step,
+            self.layout,
+            self.buffers,
+            self.fmi3,
+            self.instances,
         )
         if outcome.is_discarded_step or outcome.is_ended:
             component, instance = list(self.instances.items())[outcome.subject]
-            end = float(self.buffers.stored.time[1]) if outcome.is_ended else end_request(instance)
+            end = float(self.fmi3.stored.time[1]) if outcome.is_ended and self.fmi3 else end_request(instance)
             if end is not None:
                 self._fly_last_row(outcome.subject, end, count)
                 count += 1
@@ -185,8 +193,8 @@ class Simulation(BaseSimulation):
             code, first, count = self.program.instructions[
                 outcome.instruction, [codes.CODE, codes.FIRST, codes.COUNT]
             ].tolist()
-            if code == codes.TAKE_BACK:  # of one variable
-                first = int(self.program.transfers.rows[first, codes.FIRST_VALUE])
+            if code == codes.TAKE_BACK and self.fmi3 is not None:  # of one variable
+                first = int(self.fmi3.transfers.rows[first, codes.FIRST_VALUE])
             parameters.learn_unreadable(first, count)
         elif outcome.is_refused_again(self.program):
             parameters.learn_set_once(list(self.instances)[outcome.subject])
@@ -194,11 +202,17 @@ class Simulation(BaseSimulation):
             return False
         return True
 
+    def _arguments(
+        self, program: arrays.Program, span: arrays.Span, recording: arrays.Recording, excitation: np.ndarray
+    ) -> tuple[object, ...]:
+        fmi3 = () if self.fmi3 is None else self.fmi3
+        return program, self.buffers, self.layout.parameters.values, span, recording, excitation, fmi3
+
     def _call(
         self, program: arrays.Program, span: arrays.Span, recording: arrays.Recording, excitation: np.ndarray
     ) -> int:
         """The compiled loop; returns the number of rows that it recorded."""
-        arguments = (program, self.buffers, self.layout.parameters.values, span, recording, excitation)
+        arguments = self._arguments(program, span, recording, excitation)
         with self._under_way:
             if self._loop is None:
                 self._loop = loop.compile_for(
@@ -223,10 +237,11 @@ class Simulation(BaseSimulation):
         self.instances = {}
         self._instantiate()
         self.layout.parameters.update({key: retained[key] for key in retained.keys})
+        self._give_unfed()
 
     def memory(self) -> Memory:
         """What the FMUs remember. Raises InputError where one does not tell how it serialises it."""
-        return Memory(self.prepared, self.layout, self.instances, self.buffers)
+        return Memory(self.prepared, self.layout, self.instances, self.buffers, self.fmi3)
 
     def close(self) -> None:
         """Free the instances; those of a flight that still goes on in a thread, given up, end with the process."""

@@ -77,6 +77,10 @@ class Texts:
         self._references.append(reference)
         self._initial.append(content)
 
+    def sizes(self) -> np.ndarray:
+        """The bytes of each at the start, uint64."""
+        return np.array([len(content) for content in self._initial], dtype=np.uint64)
+
     def memory(self) -> arrays.Texts:
         """Arrays for the loop."""
         count = len(self._references)
@@ -84,13 +88,10 @@ class Texts:
         for row, content in zip(initial, self._initial, strict=True):
             row[: len(content)] = np.frombuffer(content, dtype=np.uint8)
         rows = initial.copy()
-        sizes = np.array([len(content) for content in self._initial], dtype=np.uint64)
         return arrays.Texts(
             reference=np.array(self._references, dtype=np.uint32),
             initial=initial,
             rows=rows,
             address=rows.ctypes.data + self.longest * np.arange(count, dtype=np.uint64),
             given=np.zeros(count, dtype=np.uint64),
-            sizes=sizes.copy(),
-            initial_sizes=sizes,
         )

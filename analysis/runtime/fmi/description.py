@@ -63,15 +63,15 @@ def check_description(root: etree._Element, label: str) -> None:
 
 
 def complete(description: ModelDescription, root: etree._Element) -> None:
-    """Add to FMPy's description what it leaves out: limits of unsigned and typed variables, starts of text arrays."""
+    """Add to FMPy's description what it leaves out: limits of unsigned and typed variables, starts of arrays."""
     elements = {each.get("name"): each for each in root.iterfind("ModelVariables/*")}
     for variable in description.modelVariables:
         element = elements[variable.alias.name if variable.alias is not None else variable.name]
         kind = variable.declaredType
         variable.min = element.get("min", kind.min if kind is not None else None)
         variable.max = element.get("max", kind.max if kind is not None else None)
-        if variable.type in TEXTS and variable.dimensions:
-            variable.start = [each.get("value", "") for each in element.iterfind("Start")] or None
+        if variable.dimensions:
+            variable.start = _starts(element) or None
 
 
 def check_sizes(description: ModelDescription, sizes: dict[int, int], label: str) -> None:
@@ -104,12 +104,23 @@ def _check_variable(variable: etree._Element, label: str) -> None:
     if tag in TEXTS:
         return
     if tag == "Boolean":
-        _check_texts(variable, "start", variable.get("start", "").split(), _truth, "true or false", label)
+        _check_texts(variable, "start", [*_starts(variable)], _truth, "true or false", label)
         return
     read, kind = (float, "a number") if tag.startswith("Float") else (int, "an integer")
     for name in NUMBERS:
-        texts = variable.get(name, "").split() if name == "start" else [variable.get(name)]
+        texts: list[str | None] = [*_starts(variable)] if name == "start" else [variable.get(name)]
         _check_texts(variable, name, texts, read, kind, label)
+
+
+def _starts(variable: etree._Element) -> list[str]:
+    """The declared starts, one or one for each element; those of texts are elements of their own.
+
+    The FMU Manipulation Toolbox declares those of all arrays so.
+    """
+    texts = [each.get("value", "") for each in variable.iterfind("Start")]
+    if variable.tag in TEXTS:
+        return texts
+    return variable.get("start", " ".join(texts)).split()
 
 
 def _check_references(root: etree._Element, variables: list[etree._Element], label: str) -> None:

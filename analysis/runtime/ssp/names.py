@@ -6,7 +6,10 @@ A component's name holds dots where systems are nested, and a variable's where i
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Container, Iterable, Mapping, Set
+
+MOST_DIMENSIONS = 6  # of an array that is named as a whole
 
 
 def split_name(name: str, components: Mapping[str, object] | Set[str]) -> tuple[str, str]:
@@ -23,10 +26,20 @@ def vectors(names: Iterable[str]) -> list[str]:
 
 
 def elements(name: str, known: Container[str]) -> list[str]:
-    """The known names that one stands for: its own, or name[1], name[2] ... of a vector; none where it is unknown."""
-    if name in known:
-        return [name]
+    """The known names that one stands for: its own, or name[1], name[2] ... of a vector, name[1,1], name[1,2] ... of a
+    matrix, row by row; none where it is unknown."""
+    return [name] if name in known else _indexed(f"{name}[", known, MOST_DIMENSIONS)
+
+
+def _indexed(start: str, known: Container[str], dimensions: int) -> list[str]:
+    """The known names that begin so and go on with as many indices, counted from 1, the last one first."""
     names: list[str] = []
-    while f"{name}[{len(names) + 1}]" in known:
-        names.append(f"{name}[{len(names) + 1}]")
+    for index in itertools.count(1):
+        if f"{start}{index}]" in known:
+            names.append(f"{start}{index}]")
+            continue
+        row = _indexed(f"{start}{index},", known, dimensions - 1) if dimensions > 1 else []
+        if not row:
+            return names
+        names += row
     return names

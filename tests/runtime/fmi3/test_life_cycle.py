@@ -50,7 +50,7 @@ def test_early_returns_are_continued_to_the_communication_point(tmp_path):
 
 def test_events_are_those_of_fmpy(tmp_path):
     """FMPy takes a sample at each early return, too: at the communication points both have the same bits."""
-    path = str(strict_fmu(tmp_path, events=True, lenient=True))
+    path = str(strict_fmu(tmp_path, events=True, is_lenient=True))
     given = {"early": 0.07, "gain": [0.3, 0.7], "rounds": 2}
     changes = np.array([(0.0, 0), (0.5, 0), (0.5, 3), (1.0, 3)], dtype=[("time", np.float64), ("d", np.int32)])
     expected = fmpy.simulate_fmu(
@@ -106,6 +106,22 @@ def test_messages_are_no_formats(tmp_path, capfd):
     path = str(strict_fmu(tmp_path))
     assert perilune.simulate(path, set={"Strict.trouble": "talks"}, log="warning").status == "stop_time"
     assert "Strict: warning (logEvents): 100% of a %s" in capfd.readouterr().err
+
+
+def test_an_array_that_cannot_be_read_back_is_reported_once(tmp_path):
+    path = str(strict_fmu(tmp_path, hides_gain=True))
+    given = {"Strict.gain": [4.0, 5.0], "Strict.rounds": 3}
+    with pytest.warns(UserWarning, match=r"strict\.fmu: gain cannot be read back: whether Strict takes its") as actual:
+        flight = perilune.simulate(path, set=given, in_process=True)
+    assert len(actual) == 1
+    assert flight["Strict.y"][-1].tolist() == [2.0, 1.25]
+
+
+def test_a_number_that_an_fmu_changes_is_reported(tmp_path):
+    path = str(strict_fmu(tmp_path, clamps_rounds=True))
+    flight = perilune.simulate(path, set={"Strict.rounds": 3})
+    assert flight.status == "failed"
+    assert "Strict.rounds: was set to 3, and its FMU has 2 after initialisation: it did not take it" in flight.message
 
 
 def test_tolerance_reaches_the_fmu(tmp_path):

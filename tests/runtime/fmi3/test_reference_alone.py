@@ -6,6 +6,7 @@ import pytest
 
 import perilune
 from tests.support.fmi3.reference import FMI2, FMI3, reference_fmu
+from tests.support.fmi3.tables import columns
 
 STEPS = {"StateSpace": 1.0, "Stair": 0.25}  # s, a whole number of internal steps
 
@@ -17,7 +18,7 @@ def test_same_bits_as_fmpy(version, name):
     flight = perilune.simulate(path, step=step, stop_time=4.0)
     assert flight.status == "stop_time"
     assert np.array_equal(flight.time, expected["time"])
-    compared = {f"{name}.{key}": values for key, values in columns(expected).items()}
+    compared = columns(name, expected)
     assert compared.keys() <= flight.signals.keys()
     for key, values in compared.items():
         assert np.array_equal(flight.signals[key], values), key
@@ -46,16 +47,3 @@ def test_same_bits_with_inputs_over_time(tmp_path):
         values = expected[f"{name}_output"].astype(np.float64)
         assert np.unique(values).size > 1
         assert np.array_equal(flight.signals[f"Feedthrough.{name}_output"], values), name
-
-
-def columns(expected: np.ndarray) -> dict[str, np.ndarray]:
-    """The recorded numbers of FMPy by name, those of arrays by element."""
-    values_by_name = {}
-    for key in expected.dtype.names:
-        values = expected[key]
-        if key == "time" or values.dtype.kind not in "biuf":
-            continue
-        for index in np.ndindex(values.shape[1:]):
-            name = key if values.ndim == 1 else f"{key}[{','.join(str(each + 1) for each in index)}]"
-            values_by_name[name] = values[(slice(None), *index)].astype(np.float64)
-    return values_by_name

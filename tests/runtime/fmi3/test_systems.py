@@ -124,10 +124,11 @@ def test_state_space_of_other_sizes_against_the_matrix_exponential(order, inputs
         "StateSpace.x0": [0.0] * order,
         "StateSpace.u": drive.tolist(),
     }
-    flight = perilune.simulate(path, set=given, stop_time=8.0, step=1.0, record=["x"])
+    flight = perilune.simulate(path, set=given, stop_time=8.0, step=1.0, record=["x", "A"])
     state = np.array([flight.signals[f"StateSpace.x[{each}]"] for each in range(1, order + 1)])
     outputs = np.array([flight.signals[f"StateSpace.y[{each}]"] for each in range(1, inputs + 1)])
-    assert not any(f"StateSpace.x[{order + 1}]" == name for name in flight.signals)
+    assert f"StateSpace.x[{order + 1}]" not in flight.signals
+    assert np.array_equal(flight["StateSpace.A"][-1].reshape(order, order), matrix)
     for n in range(9):
         assert np.allclose(state[:, n], solved(matrix, entry @ drive, n), rtol=1e-11, atol=1e-14)
         assert np.allclose(state[:, n], expm(n * extended(matrix, entry @ drive))[:order, order], rtol=1e-3)

@@ -1,6 +1,7 @@
 """Every type of FMI 3.0 from FMU to FMU: the receiver, written in C, counts what is not exactly what was sent."""
 
 import numpy as np
+import pyarrow.parquet
 import pytest
 
 import perilune
@@ -38,6 +39,18 @@ def test_whole_numbers_of_64_bits_are_set_exactly(tmp_path, number):
     assert flight.status == "stop_time"
     assert flight.signals["Strict.wide_in"].tolist() == [float(number)] * 5
     assert flight.provenance["parameters"]["Strict.wide_in"] == number
+
+
+def test_columns_of_whole_numbers_are_wide_enough(tmp_path):
+    flight = perilune.simulate(str(strict_fmu(tmp_path)))
+    for suffix in ("parquet", "csv"):
+        flight.write(tmp_path / f"flight.{suffix}")
+    table = pyarrow.parquet.read_table(tmp_path / "flight.parquet")
+    assert [str(table[f"Strict.{name}"].type) for name in ("small", "wide", "wider")] == ["int32", "int64", "double"]
+    assert table["Strict.wide"].to_pylist() == flight.signals["Strict.wide"].tolist()
+    assert (tmp_path / "flight.csv").read_text().splitlines()[-1].split(",")[
+        table.column_names.index("Strict.small")
+    ] == "-46"
 
 
 def test_whole_arrays_and_elements_are_set(tmp_path):

@@ -95,6 +95,7 @@ fmi3Status fmi3EnterInitializationMode(
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
     ME; INTO(S(INITIALIZATION));
+    if (CLAMPS_ROUNDS && me->rounds > 2) me->rounds = 2;
     me->state = me->uses_events ? EVENT : STEP, me->left = me->rounds;
     return fmi3OK;
 }
@@ -187,6 +188,7 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
         ME; INTO(GETTER | S(INSTANTIATED)); \
         size_t at = 0, size; \
         for (size_t i = 0; i < n; i++) { \
+            if (HIDES_GAIN && vr[i] == GAIN) return fmi3Error; \
             C *from = place##T(me, vr[i], &size); \
             IN(from && at + size <= count); \
             memcpy(values + at, from, size * sizeof *values), at += size; \

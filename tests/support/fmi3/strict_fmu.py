@@ -54,21 +54,18 @@ DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 <ModelStructure>{outputs}</ModelStructure>
 </fmiModelDescription>
 """
+QUIRKS = {"blob_size": 3, "is_lenient": 0, "hides_gain": 0, "clamps_rounds": 0}
 OUTPUTS = (4, 6, 7, 9, 13, 14, 17, 18, 20, 22, 24, 25)
 
 
 def strict_fmu(
-    folder: Path,
-    *,
-    events: bool = False,
-    blob_size: int = 3,
-    tolerance: float | None = None,
-    name: str = "strict",
-    lenient: bool = False,
+    folder: Path, *, events: bool = False, tolerance: float | None = None, name: str = "strict", **quirks: int
 ) -> Path:
-    """``folder``/name.fmu; with ``events`` it has event mode. ``blob_size`` is what it says of its Binary output.
+    """``folder``/name.fmu; with ``events`` it has event mode.
 
-    ``lenient``: discrete inputs may be set in step mode too, though there is event mode, as FMPy does it.
+    ``quirks`` are blob_size, the bytes that it says its Binary output has; is_lenient: discrete inputs may be set in
+    step mode too, though there is event mode, as FMPy does it; hides_gain: it does not give that parameter back;
+    clamps_rounds: it lets that one be 2 at most.
     """
     structure = "".join(f'<Output valueReference="{each}" dependencies=""/>' for each in OUTPUTS)
     structure += "".join(f'<InitialUnknown valueReference="{each}"/>' for each in OUTPUTS)
@@ -79,6 +76,8 @@ def strict_fmu(
         tolerance="" if tolerance is None else f' tolerance="{tolerance}"',
     )
     binary = f"binaries/{fmpy.platform_tuple}/Strict{fmpy.sharedLibraryExtension}"
-    macros = (f"-DHAS_EVENTS={int(events)}", f"-DBLOB_SIZE={blob_size}", f"-DIS_LENIENT={int(lenient)}")
+    macros = tuple(
+        f"-D{key.upper()}={int(number)}" for key, number in {**QUIRKS, **quirks, "has_events": events}.items()
+    )
     files = {"modelDescription.xml": description, binary: library("strict", macros, Path(__file__).parent)}
     return write_zip(folder / f"{name}.fmu", files)

@@ -7,15 +7,6 @@ from typing import NamedTuple
 import numpy as np
 
 
-class Transfers(NamedTuple):
-    """What is exchanged with FMUs of FMI 3.0: transfers of slots, parameters or texts, one call each."""
-
-    rows: np.ndarray  # int64 [q, codes.TRANSFER_COLUMNS]
-    reference: np.ndarray  # uint32, value references, one of a whole array
-    functions: np.ndarray  # uint64 [components, library.FUNCTION_NAMES], addresses
-    exact: np.ndarray  # uint64 [s], whole numbers of 64 bits before anything is exchanged
-
-
 class Program(NamedTuple):
     """A system as arrays: i instructions, s slots, p parameter values, c connections, f faults."""
 
@@ -40,7 +31,6 @@ class Program(NamedTuple):
     fault_value: np.ndarray  # float64 [f]; of EXCITE the column of the excitation
     drive_slot: np.ndarray  # int64 [d], inputs driven over time
     drive_table: np.ndarray  # float64 [n, d]: values for the initialisation, then for every communication point
-    transfers: Transfers
 
 
 class Settings(NamedTuple):
@@ -49,7 +39,6 @@ class Settings(NamedTuple):
     real: np.ndarray  # float64 [p]
     whole: np.ndarray  # int32 [p]
     text: np.ndarray  # uint64 [p], addresses of C strings
-    stored: np.ndarray  # uint64 [p], those of FMI 3.0: each transfer's values side by side from its first word on
 
 
 class Span(NamedTuple):
@@ -80,8 +69,14 @@ class Texts(NamedTuple):
     rows: np.ndarray  # uint8 [t, bytes], zero-terminated
     address: np.ndarray  # uint64 [t], of the rows
     given: np.ndarray  # uint64 [t], addresses that FMUs gave
-    sizes: np.ndarray  # uint64 [t], bytes of binary ones
-    initial_sizes: np.ndarray  # uint64 [t]
+
+
+class Transfers(NamedTuple):
+    """What is exchanged with FMUs of FMI 3.0: transfers of slots, parameters or texts, one call each."""
+
+    rows: np.ndarray  # int64 [q, codes.TRANSFER_COLUMNS]
+    reference: np.ndarray  # uint32, value references, one of a whole array
+    functions: np.ndarray  # uint64 [components, library.FUNCTION_NAMES], addresses
 
 
 class StoredValues(NamedTuple):
@@ -91,6 +86,19 @@ class StoredValues(NamedTuple):
     exact: np.ndarray  # uint64 [s], whole numbers of 64 bits, of which the float64 of a slot may be rounded
     flags: np.ndarray  # uint8 [8], what calls return
     time: np.ndarray  # float64 [2], likewise: the last is the time (s) at which an FMU has ended the simulation
+
+
+class Fmi3(NamedTuple):
+    """What systems with FMUs of FMI 3.0 have in addition; the loop of others is given an empty tuple instead."""
+
+    transfers: Transfers
+    start: np.ndarray  # uint64 [s], whole numbers of 64 bits before anything is exchanged
+    stored: StoredValues
+    given: np.ndarray  # uint64 [p], parameters: each transfer's values side by side from its first word on
+    confirmed: np.ndarray  # uint64 [p], likewise, once they are read back
+    binaries: Texts
+    sizes: np.ndarray  # uint64 [t], bytes of each Binary
+    initial_sizes: np.ndarray  # uint64 [t]
 
 
 class Buffers(NamedTuple):
@@ -103,8 +111,6 @@ class Buffers(NamedTuple):
     outcome: np.ndarray  # int64 [6]: code; component, slot or parameter; function, fmi2Status, point, instruction; in
     # flight the component that steps and the point it steps to
     texts: Texts
-    binaries: Texts
-    stored: StoredValues
     halt: np.ndarray  # int64 [1]; another thread makes it other than 0 to end the flight at its next point
 
 
@@ -114,11 +120,11 @@ def stored(slots: int) -> StoredValues:
     return StoredValues(whole[0], whole[1], np.zeros(8, dtype=np.uint8), np.zeros(2))
 
 
-def blank() -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray]:
-    """Arguments of the loop, without a system: their types are those of all systems."""
+def blank(*, with_fmi3: bool) -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray, Fmi3 | tuple[()]]:
+    """Arguments of the loop, without a system: their types are those of all systems, or all with FMI 3.0."""
     real, whole, text, index, byte = np.float64, np.int32, np.uint64, np.int64, np.uint8
     row, rows = 0, (0, 0)
-    settings = Settings(np.zeros(row, real), np.zeros(row, whole), np.zeros(row, text), np.zeros(row, text))
+    settings = Settings(np.zeros(row, real), np.zeros(row, whole), np.zeros(row, text))
     program = Program(
         instructions=np.zeros(rows, text),
         reset_end=0,
@@ -141,9 +147,8 @@ def blank() -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray]:
         fault_value=np.zeros(row, real),
         drive_slot=np.zeros(row, index),
         drive_table=np.zeros(rows, real),
-        transfers=Transfers(np.zeros(rows, index), np.zeros(row, np.uint32), np.zeros(rows, text), np.zeros(row, text)),
     )
-    texts = Texts(np.zeros(row, np.uint32), np.zeros(rows, byte), np.zeros(rows, byte), *np.zeros((4, 0), text))
+    texts = Texts(np.zeros(row, np.uint32), np.zeros(rows, byte), np.zeros(rows, byte), *np.zeros((2, 0), text))
     buffers = Buffers(
         values=np.zeros(row, real),
         whole=np.zeros(row, whole),
@@ -151,8 +156,6 @@ def blank() -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray]:
         read_back=settings,
         outcome=np.zeros(row, index),
         texts=texts,
-        binaries=texts,
-        stored=stored(0),
         halt=np.zeros(row, index),
     )
     span = Span(reset=False, start=0.0, step=0.0, stop=0.0, first=0, last=0)
@@ -163,4 +166,19 @@ def blank() -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray]:
         span,
         Recording(np.zeros(row, index), 0, np.zeros(rows), np.zeros(row)),
         np.zeros(rows),
+        _blank_fmi3(texts) if with_fmi3 else (),
+    )
+
+
+def _blank_fmi3(texts: Texts) -> Fmi3:
+    words = np.zeros(0, np.uint64)
+    return Fmi3(
+        transfers=Transfers(np.zeros((0, 0), np.int64), np.zeros(0, np.uint32), np.zeros((0, 0), np.uint64)),
+        start=words,
+        stored=stored(0),
+        given=words,
+        confirmed=words,
+        binaries=texts,
+        sizes=words,
+        initial_sizes=words,
     )

@@ -52,19 +52,22 @@ def _exchange_in_steps(instruction, transfers, values, stored, outcome, time, st
 exchange_in_steps = compile_cached(_exchange_in_steps)
 
 
-def _is_taken(kind, first, count, given, actual):  # type: ignore[no-untyped-def]
-    """The first parameter of a transfer that an FMU has not taken, -1 where it has taken all."""
+def _is_taken(kind, first, count, given, actual, requested_texts, actual_texts):  # type: ignore[no-untyped-def]
+    """The first parameter of a transfer that an FMU has not taken, -1 where it has taken all.
+
+    ``given`` and ``actual`` are words of numbers, the texts addresses.
+    """
     for i in range(count):
         if kind == codes.STRING:
             p = first + i
-            same = actual.text[p] != 0 and compare_texts(actual.text[p], given.text[p]) == 0
+            same = actual_texts[p] != 0 and compare_texts(actual_texts[p], requested_texts[p]) == 0
         elif kind == codes.FLOAT64 or kind == codes.FLOAT32:
             if kind == codes.FLOAT64:
-                requested, stored = given.stored.view(np.float64)[first + i], actual.stored.view(np.float64)[first + i]
+                requested, stored = given.view(np.float64)[first + i], actual.view(np.float64)[first + i]
             else:
                 at = 2 * first + i
-                requested = np.float64(given.stored.view(np.float32)[at])
-                stored = np.float64(actual.stored.view(np.float32)[at])
+                requested = np.float64(given.view(np.float32)[at])
+                stored = np.float64(actual.view(np.float32)[at])
             same = stored == requested or abs(stored - requested) <= LOSS * abs(requested)
             same = same or (np.isnan(stored) and np.isnan(requested))
         else:
@@ -78,7 +81,7 @@ def _is_taken(kind, first, count, given, actual):  # type: ignore[no-untyped-def
             at = 8 * first + size * i
             same = True
             for byte in range(at, at + size):
-                same = same and actual.stored.view(np.uint8)[byte] == given.stored.view(np.uint8)[byte]
+                same = same and actual.view(np.uint8)[byte] == given.view(np.uint8)[byte]
         if not same:
             return first + i
     return -1
@@ -87,7 +90,7 @@ def _is_taken(kind, first, count, given, actual):  # type: ignore[no-untyped-def
 first_not_taken = compile_cached(_is_taken)
 
 
-def _begin(instruction, program, given, read_back, span, outcome):  # type: ignore[no-untyped-def]
+def _begin(instruction, program, given, read_back, span, outcome, fmi3):  # type: ignore[no-untyped-def]
     """Work off one instruction of the initialisation, as `beginning.begin` does."""
     code = instruction[codes.CODE]
     address = instruction[codes.ADDRESS]
@@ -97,17 +100,18 @@ def _begin(instruction, program, given, read_back, span, outcome):  # type: igno
         known = not np.isnan(allowed)
         tolerance = allowed if known else 0.0
         return enter_initialization_mode(address, instance, np.int32(known), tolerance, span.start, span.stop)
-    transfer = program.transfers.rows[instruction[codes.FIRST]]
+    transfer = fmi3.transfers.rows[instruction[codes.FIRST]]
     start, size = transfer[codes.REFERENCE], transfer[codes.REFERENCES]
     first, count, kind = transfer[codes.FIRST_VALUE], transfer[codes.VALUES], transfer[codes.KIND]
-    reference = program.transfers.reference
-    target = given if code == codes.GIVE_PARAMETERS else read_back
+    reference, gives = fmi3.transfers.reference, code == codes.GIVE_PARAMETERS
     if kind == codes.STRING:
-        status = exchange_transfer(address, instance, reference, start, size, target.text, first, count)
+        texts = given.text if gives else read_back.text
+        status = exchange_transfer(address, instance, reference, start, size, texts, first, count)
     else:
-        status = exchange_transfer(address, instance, reference, start, size, target.stored, first, count)
+        words = fmi3.given if gives else fmi3.confirmed
+        status = exchange_transfer(address, instance, reference, start, size, words, first, count)
     if code == codes.TAKE_BACK and 0 <= status <= codes.FMI_WARNING:
-        refused = first_not_taken(kind, first, count, given, read_back)
+        refused = first_not_taken(kind, first, count, fmi3.given, fmi3.confirmed, given.text, read_back.text)
         if refused >= 0:
             outcome[0] = codes.NOT_TAKEN
             outcome[1] = refused

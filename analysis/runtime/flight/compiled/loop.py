@@ -70,11 +70,11 @@ WITH_FMI3 = False  # a constant of each compilation
 WHOLE_MIN, WHOLE_MAX = -(2**31), 2**31 - 1  # of FMI's Integers
 
 
-def _fly(program, buffers, settings, span, recording, excitation):  # type: ignore[no-untyped-def]
+def _fly(program, buffers, settings, span, recording, excitation, fmi3):  # type: ignore[no-untyped-def]
     """Initialise and run; returns the number of rows recorded, buffers.outcome says how it ended.
 
     The rows of ``excitation``, float64 [r, e], are added to the excited slots at the communication points behind
-    ``span.first``.
+    ``span.first``. ``fmi3`` is used by FMUs of FMI 3.0 alone.
     """
     instructions = program.instructions
     reference = program.reference
@@ -98,9 +98,10 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
         values[:] = program.initial
         frozen[:] = np.nan
         buffers.texts.rows[:] = buffers.texts.initial
-        buffers.binaries.rows[:] = buffers.binaries.initial
-        buffers.binaries.sizes[:] = buffers.binaries.initial_sizes
-        buffers.stored.exact[:] = program.transfers.exact
+        if WITH_FMI3:
+            fmi3.binaries.rows[:] = fmi3.binaries.initial
+            fmi3.sizes[:] = fmi3.initial_sizes
+            fmi3.stored.exact[:] = fmi3.start
         first_instruction = np.uint64(0 if span.reset else program.reset_end)
         last_instruction = np.uint64(phases[0])
         after = start
@@ -229,14 +230,14 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                     status = begin(instructions[k], program, settings, buffers.read_back, span, outcome)
                 elif WITH_FMI3:
                     if code < COPY_BINARY:
-                        transfers, stored = program.transfers, buffers.stored
+                        transfers, stored = fmi3.transfers, fmi3.stored
                         status = exchange_in_steps(
                             instructions[k], transfers, values, stored, outcome, time, step, start, n
                         )
                     elif code < GIVE_PARAMETERS:
-                        status = exchange_with_texts(instructions[k], program.transfers, buffers, after)
+                        status = exchange_with_texts(instructions[k], fmi3, buffers, after)
                     else:
-                        status = begin_fmi3(instructions[k], program, settings, buffers.read_back, span, outcome)
+                        status = begin_fmi3(instructions[k], program, settings, buffers.read_back, span, outcome, fmi3)
                 if outcome[0] != 0:
                     outcome[5] = k
                     return rows
@@ -301,4 +302,4 @@ def compile_for(arguments: tuple, *, locked: bool, with_fmi3: bool) -> Callable[
 
 def load(*, locked: bool, with_fmi3: bool = False) -> None:
     """Have the loop compiled, or read from the cache, before a system is there to fly."""
-    compile_for(arrays.blank(), locked=locked, with_fmi3=with_fmi3)
+    compile_for(arrays.blank(with_fmi3=with_fmi3), locked=locked, with_fmi3=with_fmi3)

@@ -11,11 +11,18 @@ from ...fmi.representations import REPRESENTATIONS
 from ...fmi.variable import Variable
 from ...instances.library import FUNCTION_NAMES
 from ...system.network import Network
-from ..compiled import codes
-from ..compiled.events import GETTERS, SETTERS
+from ..compiled import codes, events
 
 KINDS = {name: number for number, name in enumerate(REPRESENTATIONS)}
-assert (FUNCTION_NAMES[SETTERS], FUNCTION_NAMES[GETTERS]) == ("fmi3SetFloat64", "fmi3GetFloat64")
+NUMBERS = {
+    "SetFloat64": events.SETTERS,
+    "GetFloat64": events.GETTERS,
+    "DoStep": events.DO_STEP,
+    "EnterEventMode": events.ENTER_EVENT_MODE,
+    "UpdateDiscreteStates": events.UPDATE_DISCRETE_STATES,
+    "EnterStepMode": events.ENTER_STEP_MODE,
+}  # that the compiled loop has for functions, as it imports nothing of those who load them
+assert all(FUNCTION_NAMES[number] == f"fmi3{name}" for name, number in NUMBERS.items())
 
 
 @dataclass
