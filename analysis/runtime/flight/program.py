@@ -254,7 +254,10 @@ class _Builder:
             self.texts,
             self.binaries,
         )
-        collected.orders = [self._orders(collected, index, instances[name]) for index, name in enumerate(self.names)]
+        references = np.array(self.signals.references, dtype=np.uint32)
+        collected.orders = [
+            self._orders(collected, index, instances[name], references) for index, name in enumerate(self.names)
+        ]
         instructions, reset_end, phases = write_instructions(
             collected, self.names, prepared.schedule, prepared.algorithm, prepared.periods
         )
@@ -262,7 +265,7 @@ class _Builder:
             instructions=instructions,
             reset_end=reset_end,
             phases=phases,
-            reference=np.array(self.signals.references, dtype=np.uint32),
+            reference=references,
             initial=np.array(self.signals.initial, dtype=np.float64),
             parameter_reference=np.array(self.parameters.references, dtype=np.uint32),
             tolerance=np.array([_tolerance(self.network.fmus[name]) for name in self.names], dtype=np.float64),
@@ -285,14 +288,14 @@ class _Builder:
         )
         return program, collected
 
-    def _orders(self, collected: InstructionList, index: int, instance: Instance) -> Orders:
+    def _orders(self, collected: InstructionList, index: int, instance: Instance, references: np.ndarray) -> Orders:
         if index in self.transfers:
             return Fmi3Orders(collected, index, self.transfers[index], self.table)
         return Fmi2Orders(
             collected,
             index,
             instance,
-            np.array(self.signals.references, dtype=np.uint32),
+            references,
             self.ranges[index].tolist(),
             self.parameters.ranges[index].tolist(),
             self.texts.ranges[index].tolist(),
