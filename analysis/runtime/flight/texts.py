@@ -45,9 +45,8 @@ class Texts:
             self.variables.append([])
             for column, (causality, wanted) in enumerate((("input", links), ("output", read))):
                 first = len(self._references)
-                every = [
-                    each for each in fmu.variables.values() if (each.type, each.causality) == (type_name, causality)
-                ]
+                variables = fmu.variables.values() if links else ()
+                every = [each for each in variables if each.type == type_name and each.causality == causality]
                 selected = whole(every, {each.name for each in every if f"{component}.{each.name}" in wanted})
                 for variable in selected:
                     given = settings.variables.get((component, variable.name), variable.start or "")
