@@ -13,9 +13,11 @@ import fmpy
 import pytest
 
 from perilune.analysis.cli import main
+from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.evidence.manifest import FOLDER, MANIFEST, SUMS
 from perilune.fmus_src.paths import shipped_fmu
 from tests.support.builders import write_zip
+from tests.support.lengths import either
 
 pytestmark = pytest.mark.usefixtures("fmus")
 NAME = "flat_moon_lander"
@@ -59,6 +61,20 @@ def test_ours_are_verified(capsys):
     assert re.search(
         r"flat_moon_lander.fmu: check: check.csv: 33 samples of 7 signals: differ by at most 0\.\d+", captured.out
     )
+
+
+def test_every_fmu_of_ours(capsys):
+    """All native ones, and a part of the Python ones."""
+    paths = [
+        shipped_fmu(name, flavour)
+        for flavour, step in (("native", 1), ("python", either(1, 8)))
+        for name in sorted(catalogue())[::step]
+        if shipped_fmu(name, flavour).exists()
+    ]
+    assert main(["verify", *map(str, paths)]) == 0
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    assert captured.out.count(": verified\n") == len(paths) > len(catalogue())
 
 
 def test_as_json(capsys):
