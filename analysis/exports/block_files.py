@@ -1,0 +1,89 @@
+"""The blocks of a file, built into the working folder's build/fmus."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+from ...fmus_src.catalogue import catalogue
+from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with, folder_of, own_blocks
+from ...fmus_src.export.sources import record_source, remove_outdated
+from ...fmus_src.paths import FLAVOURS, own_fmu
+from ..common.atomic import write_atomically
+from ..common.errors import InputError, suggestion
+from ..common.targets import check_file
+from ..runtime.ssp.archive import system_names
+from .fmus import needs_python, no_compiler, zig_is_here
+from .request import ExportRequest, Written
+
+
+def check_there(file: Path) -> None:
+    """Refuse a Python file that is not there, with the names of those that are."""
+    if file.is_file():
+        return
+    beside = [path.name for path in file.parent.glob("*.py")] if file.parent.is_dir() else []
+    remedy = "give the .py file that defines the blocks"
+    raise InputError(str(file), "", "no such file", f"{remedy}: {suggestion(file.name, beside)}" if beside else remedy)
+
+
+def find_block_file(name: str) -> Path | None:
+    """The file of the working folder that a block's name means: NAME.py, or the one with a class of that name.
+
+    None for what is known by this name otherwise, and where there is none. Raises InputError for several.
+    """
+    is_system = name in system_names() or Path(name, "SystemStructure.ssd").is_file()
+    if not name.isidentifier() or name in catalogue() or is_system:
+        return None
+    file = Path(f"{name}.py")
+    if file.is_file():
+        return file
+    files = [path for path in sorted(Path().glob("*.py")) if name in defines(path)]
+    if len(files) > 1:
+        raise InputError("export", name, f"defined in {', '.join(map(str, files))}", "give the file")
+    return files[0] if files else None
+
+
+def export_file(file: Path, request: ExportRequest, only: str | None = None) -> Written:
+    """The blocks of a file, or ``only`` one, into the working folder's build/fmus, where ``use`` finds them by name.
+
+    Raises InputError.
+    """
+    requested, flavour, output, fmi = request.platforms, request.flavour, request.output, request.fmi
+    platforms = request.find_platforms(prebuilt=False)
+    flavours = [flavour] if flavour else [name for name in FLAVOURS if platforms or name == "python"]
+    if fmi == 3:
+        flavours = ["native"]
+    blocks = [block for block in own_blocks(file) if only in (None, block.fmu_name)]
+    if requested and all(block.python_only for block in blocks):
+        problem = f"{', '.join(block.fmu_name for block in blocks)}: needs Python and has no native form"
+        raise InputError("`platforms`", requested[0], problem, "leave it out")
+    if flavours == ["native"] and not platforms:
+        raise no_compiler(file, fmi)
+    if output is None:
+        for each in flavours:
+            check_file("export", own_fmu(file.stem, folder_of(each, fmi)), new_folders=3)  # build/fmus/FLAVOUR
+        folder = own_fmu("x", "x").parents[1]
+        written = build_own_blocks(file, folder, flavours, platforms, only=only, portable=zig_is_here(), fmi=fmi)
+        if not written:
+            raise needs_python(file, only or file.stem, fmi)
+        record_source(folder, file, written, files_with(file))
+        for block in own_blocks(file) if "native" in flavours else ():
+            if block.python_only:
+                remove_outdated(folder, file, own_fmu(block.fmu_name, "native"))
+        folders = {path.parent.name for path in written}
+        built = tuple(name for name in flavours if folder_of(name, fmi) in folders)
+        paths = tuple(path.relative_to(Path.cwd()) for path in written)
+        return Written(paths, built, tuple(platforms) if "native" in built else ())
+    if output.suffix != ".fmu" or len(blocks) > 1:
+        problem = "not an .fmu" if output.suffix != ".fmu" else f"the {len(blocks)} blocks of {file} are no one FMU"
+        raise InputError("`output`", str(output), problem, "leave it out: FMUs go to build/fmus")
+    if flavour is None and blocks[0].python_only and fmi == 2:
+        flavours = ["python"]
+    with tempfile.TemporaryDirectory() as name:
+        written = build_own_blocks(
+            file, Path(name), flavours[:1], platforms, only=only, portable=zig_is_here(), fmi=fmi
+        )
+        if not written:
+            raise needs_python(file, blocks[0].__name__, fmi)
+        write_atomically(output, written[0].read_bytes())
+    return Written((output,), tuple(flavours[:1]), tuple(platforms) if flavours[0] == "native" else ())

@@ -1,0 +1,55 @@
+"""One FMU of the repository, built or taken from the installed package."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from ...fmus_src.block import Block
+from ...fmus_src.evidence.block import add_evidence
+from ...fmus_src.export.archive import read_zip, write_zip
+from ...fmus_src.export.compilers import PLATFORMS, available_platforms
+from ...fmus_src.export.native_fmu import build_native_fmu
+from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
+from ...fmus_src.paths import IS_CHECKOUT, shipped_fmu
+from ..common.errors import InputError
+
+
+def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[str], fmi: int) -> None:
+    """One FMU of the repository: an installed package has its native ones of FMI 2.0 with all their libraries inside.
+
+    Those of FMI 3.0 are compiled where they are asked for, as few users want them: they would double the package.
+    Raises InputError where it cannot be built here.
+    """
+    if flavour == "python":
+        build_python_fmu(block, path)
+    elif block.python_only:
+        raise needs_python("export", block.fmu_name, fmi)
+    elif fmi == 2 and not IS_CHECKOUT:
+        files = read_zip(shipped_fmu(block.fmu_name, flavour))
+        left_out = tuple(f"binaries/{name}/" for name in PLATFORMS if name not in platforms)
+        files = {name: content for name, content in files.items() if not name.startswith(left_out)}
+        write_zip(path, add_evidence(block, files))  # with the digests of these files alone
+    elif not platforms:
+        raise no_compiler(block.fmu_name, fmi)
+    else:
+        build_native_fmu(block, path, platforms=platforms, portable=zig_is_here(), fmi=fmi)
+
+
+def no_compiler(element: str | os.PathLike[str], fmi: int) -> InputError:
+    """That native FMUs cannot be made here, and what to do."""
+    other = "give `flavour` python" if fmi == 2 else "leave out `fmi`"
+    return InputError("export", str(element), "no C compiler here", f"pip install ziglang, or {other}")
+
+
+def needs_python(file: str | os.PathLike[str], element: str, fmi: int) -> InputError:
+    """That a block cannot be compiled, and what to do."""
+    if fmi == 3:
+        return InputError(file, element, "needs Python, and Python FMUs are of FMI 2.0", "leave out `fmi`")
+    return InputError(file, element, "needs Python and has no native form", "give `flavour` python")
+
+
+def zig_is_here() -> bool:
+    """Whether libraries are compiled against an old C library; only zig serves both of these platforms."""
+    return "win64" in available_platforms()

@@ -1,0 +1,55 @@
+"""What `perilune export` is to write, and how."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from ...fmus_src.export.compilers import PLATFORMS, available_platforms, platforms_of
+from ...fmus_src.paths import IS_CHECKOUT
+from ..common.errors import InputError
+from ..common.targets import check_file
+
+Flavour = Literal["native", "python"]
+
+
+@dataclass(frozen=True)
+class ExportRequest:
+    """``name`` as of `perilune.export`; ``fmi`` and ``ssp`` are versions. Raises InputError for what does not go."""
+
+    name: str
+    platforms: Sequence[str]
+    flavour: Flavour | None
+    output: Path | None
+    fmi: int
+    ssp: str | None
+    studies: Sequence[str]
+
+    def __post_init__(self) -> None:
+        if self.platforms and self.flavour == "python":
+            problem = "Python FMUs have no platform to choose"
+            raise InputError("`platforms`", self.platforms[0], problem, "leave it out")
+        if self.fmi == 3 and self.flavour == "python":
+            raise InputError("`flavour`", "python", "Python FMUs are of FMI 2.0", "leave it out, or leave out `fmi`")
+        for platform in self.platforms:
+            if PLATFORMS[platform].fmi != self.fmi:
+                remedy = f"for FMI {self.fmi}.0 give {', '.join(platforms_of(self.fmi))}"
+                raise InputError("`platforms`", platform, f"a name of FMI {PLATFORMS[platform].fmi}.0", remedy)
+        check_file("`output`", self.output)
+
+    def find_platforms(self, *, prebuilt: bool) -> list[str]:
+        """The requested platforms; else those that an installed package has, or a compiler is here for."""
+        if self.platforms:
+            return list(self.platforms)
+        return platforms_of(2) if prebuilt and self.fmi == 2 and not IS_CHECKOUT else available_platforms(self.fmi)
+
+
+@dataclass(frozen=True)
+class Written:
+    """What was written, in which flavours, for which platforms: none where all of it is Python."""
+
+    paths: tuple[Path, ...]
+    flavours: tuple[str, ...]
+    platforms: tuple[str, ...]
