@@ -20,6 +20,7 @@ from ...fmus_src.evidence.manifest import (
     Related,
     add_manifest,
 )
+from ...fmus_src.evidence.recorded import write_table
 from ...fmus_src.export.archive import read_zip
 from ..common.errors import InputError, suggestion
 from ..runtime.apart.opening import open_simulation
@@ -101,9 +102,7 @@ def _table(flight: Flight, prepared: PreparedSystem) -> bytes:
         if not component or prepared.network.fmus[component].variables[variable].causality == "output":
             is_real = flight.types[name] == "Real"
             columns[name] = samples[rows].tolist() if is_real else samples[rows].astype(int).tolist()
-    lines = (",".join(map(repr, row)) for row in zip(*columns.values(), strict=True))
-    header = ",".join(f'"{name}"' if "," in name else name for name in columns)
-    return "\n".join([header, *lines, ""]).encode()
+    return write_table([*columns], ([*map(repr, row)] for row in zip(*columns.values(), strict=True)))
 
 
 def _experiment(prepared: PreparedSystem) -> bytes:

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import csv
+import io
+from collections.abc import Iterable, Sequence
+
 from ..block import Block
 from ..runtime import Component
 from ..variables import Input, Variable
@@ -29,7 +33,14 @@ def record_outputs(block_class: type[Block], check: Check) -> bytes:
         if not row:
             component.start()
         rows.append([repr(time), *map(_text, component.get([references[name] for name in outputs]))])
-    return "\n".join([",".join([TIME, *outputs]), *map(",".join, rows), ""]).encode()
+    return write_table([TIME, *outputs], rows)
+
+
+def write_table(names: Sequence[str], rows: Iterable[Sequence[str]]) -> bytes:
+    """A CSV file; the name of a matrix' element has a comma, and quotation marks."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([names, *rows])
+    return text.getvalue().encode()
 
 
 def _sample(variable: Variable, samples: list[float], row: int) -> float | int | bool:

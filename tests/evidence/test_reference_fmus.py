@@ -12,9 +12,9 @@ import pytest
 from perilune.analysis.cli import main
 from perilune.fmus_src.evidence.manifest import FOLDER, MANIFEST
 from tests.evidence.test_verify import OTHERS, changed
-from tests.runtime.fmi3.test_reference_alone import columns
 from tests.support.builders import write_zip
 from tests.support.fmi3.reference import FMI2, FMI3, reference_fmu
+from tests.support.fmi3.tables import columns
 
 FMUS = [*((2, name) for name in FMI2), *((3, name) for name in FMI3)]
 STOP = 2.0  # s, of all of them a whole number of default steps
@@ -24,7 +24,10 @@ def with_result(version, name, path, change=lambda table: table):
     """The FMU with FMPy's trajectory; those of texts and of arrays are left out."""
     fmu = reference_fmu(version, name)
     simulated = fmpy.simulate_fmu(str(fmu), stop_time=STOP)
-    numbers = {"time": simulated["time"], **columns(simulated)}
+    numbers = {
+        "time": simulated["time"],
+        **{key.removeprefix("fmu."): samples for key, samples in columns("fmu", simulated).items()},
+    }
     rows = (",".join(repr(samples[row].item()) for samples in numbers.values()) for row in range(simulated.size))
     table = "\n".join([",".join(numbers), *rows, ""])
     with zipfile.ZipFile(fmu) as archive:

@@ -141,6 +141,8 @@ def _check_references(root: etree._Element, variables: list[etree._Element], lab
             _check_texts(element, "start", [start], _size, "a number of elements", label)
         elif not (reference or "").strip() or known[int(reference)].get("causality") != "structuralParameter":
             raise InputError(label, _line_of(element), "neither a start nor a structural parameter", FIX)
+        elif known[int(reference)].find("Dimension") is not None:
+            raise InputError(label, _line_of(element), "its structural parameter is an array", FIX)
         else:
             _check_texts(
                 known[int(reference)],

@@ -11,12 +11,11 @@ import io
 from pathlib import Path
 
 import pytest
-from perilune.fmus_src.checks import ARCHIVE_FOLDER, check_files
 
 from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.evidence.check import read_check
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.paths import shipped_fmu
-from tests.support.checks.check import read_declarations
 from tests.support.native.building import COMPILED, NATIVE, REPRESENTATIVE, fmi3_fmu
 from tests.support.native.flights import fly_fmi2, fly_fmi3
 
@@ -26,14 +25,14 @@ HEADER = 48  # bytes before the variables: a hash that tells FMUs apart, mode, w
 
 @pytest.mark.parametrize("name", COMPILED)
 def test_a_block_flies_as_in_fmi_2(name: str, tmp_path: Path) -> None:
-    files = check_files(catalogue()[name])
-    declared = read_declarations(files[f"{ARCHIVE_FOLDER}/check.toml"])
-    rows = list(csv.DictReader(io.StringIO(files[f"{ARCHIVE_FOLDER}/check.csv"].decode())))
+    check = read_check(catalogue()[name])
+    assert check is not None
+    rows = list(csv.DictReader(io.StringIO(check.table.decode())))
     inputs = [
-        {column: float(text) for column, text in row.items() if column not in ("time", *declared["tolerances"])}
+        {column: float(text) for column, text in row.items() if column not in ("time", *check.tolerances)}
         for row in rows
     ]
-    arguments = (declared["parameters"], inputs, declared["step_size"])
+    arguments = (check.parameters, inputs, check.step)
     two = fly_fmi2(shipped_fmu(name, "native"), *arguments, tmp_path / "2")
     three = fly_fmi3(fmi3_fmu(catalogue()[name]), *arguments, tmp_path / "3")
     assert len(two.points) == len(three.points) == len(rows)
