@@ -1,4 +1,4 @@
-"""A flight beside its reference trajectory: which signal differs most, where, and whether it may."""
+"""A flight compared with its reference trajectory: which signal differs most, where, and by how much it may."""
 
 from __future__ import annotations
 

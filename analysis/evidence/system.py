@@ -38,7 +38,7 @@ TRAJECTORY, EXPERIMENT = f"{FOLDER}/outputs.csv", f"{FOLDER}/outputs.exp"
 
 
 def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
-    """The studies that are asked for, all that there are for `ALL`. Raises InputError for one that there is not."""
+    """The requested studies, for `ALL` all that there are. Raises InputError for one that there is not."""
     known = known_studies(archive)
     for name in studies:
         if name not in (*known, ALL):
@@ -79,8 +79,7 @@ def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes
 def _listed(files: dict[str, bytes]) -> list[Related]:
     """What the system's own files are."""
     related = []
-    archive_files = sorted(files)
-    for name in archive_files:
+    for name in sorted(files):
         stem = PurePosixPath(name).stem
         if name.endswith(".ssv"):
             related.append(Related(name, "parameter", PARAMETERS, f"parameter set {stem}"))

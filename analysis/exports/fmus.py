@@ -19,7 +19,7 @@ from ..common.errors import InputError
 def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[str], fmi: int) -> None:
     """One FMU of the repository: an installed package has its native ones of FMI 2.0 with all their libraries inside.
 
-    Those of FMI 3.0 are compiled where they are asked for, as few users want them: they would double the package.
+    Those of FMI 3.0 are compiled on request, as few users want them: they would double the package.
     Raises InputError where it cannot be built here.
     """
     if flavour == "python":

@@ -197,19 +197,19 @@ def test_without_a_manifest_that_is_one(tmp_path, files, capsys, manifest, messa
 
 
 @pytest.mark.parametrize(
-    ("name", "content", "message"),
+    ("name", "content", "status", "message"),
     [
-        (OUTPUTS, b"", "not a table"),
-        (OUTPUTS, b"time,a\n1.0,2.0\n0.5,1.0\n", "times that are not finite, or fall"),
-        (OUTPUTS, b"t,a\n1.0,2.0\n", "time: no such column"),
-        (OUTPUTS, b"time,nothing\n0.0,2.0\n", "column nothing: no such variable"),
-        (f"{FOLDER}/check.ssv", b"<a/>", "not valid SSP"),
-        (f"{FOLDER}/check.exp", b"<a/>", "a: not Experiments"),
+        (OUTPUTS, b"", 1, "not a table"),
+        (OUTPUTS, b"time,a\n1.0,2.0\n0.5,1.0\n", 1, "times that are not finite, or fall"),
+        (OUTPUTS, b"t,a\n1.0,2.0\n", 1, "time: no such column"),
+        (OUTPUTS, b"time,nothing\n0.0,2.0\n", 1, "column nothing: no such variable"),
+        (f"{FOLDER}/check.ssv", b"<a/>", 1, "not valid SSP"),
+        (f"{FOLDER}/check.exp", b"<a/>", 2, "a: not Experiments"),
     ],
 )
-def test_evidence_that_cannot_be_read(tmp_path, files, capsys, name, content, message):
+def test_evidence_that_cannot_be_read(tmp_path, files, capsys, name, content, status, message):
     path = write_zip(tmp_path / "x.fmu", without_digests(files) | {name: content})
-    assert main(["verify", str(path)]) in (1, 2)
+    assert main(["verify", str(path)]) == status
     assert message in capsys.readouterr().err
 
 

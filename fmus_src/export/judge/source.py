@@ -142,7 +142,7 @@ def _comments(text: str) -> dict[int, str]:
 
 
 def _tree(path: Path) -> ast.Module:
-    """A file's tree; one per content, since functions are told apart by their nodes.
+    """A file's tree; one per content, since a function is identified by its node.
 
     One thread at a time: two would make two trees, and CPython 3.11 counts the depth of a tree for all together, with
     which `ast.parse` ends now and then (its issue 106905).

@@ -1,4 +1,4 @@
-"""What FMUs of FMI 3.0 are asked for: exchanges of numbers and steps, and what happens once before a flight."""
+"""Calls of FMUs of FMI 3.0: exchanges of numbers and steps, and what happens once before a flight."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What a component's FMU is asked for, written as instructions: for FMI 2.0 and FMI 3.0 by the same methods."""
+"""Calls of a component's FMU, written as instructions: for FMI 2.0 and FMI 3.0 by the same methods."""
