@@ -10,25 +10,22 @@ import numpy as np
 from ..instances.instance import Instance
 from ..system.schedule import Schedule
 from .compiled import codes
+from .orders.connections import Term
 from .orders.fmi2 import Fmi2Orders
 from .orders.fmi3 import Fmi3Orders
 from .orders.rows import Rows
 from .texts import Texts
 
-Term = tuple[int, tuple[int, ...], int, int]  # of a connection: code, origins, source and target slot
 Orders = Fmi2Orders | Fmi3Orders
 
 
 class InstructionList(Rows):
     """Collects instructions.
 
-    ``orders`` write those of the components. ``connections`` [component] lists, for each
-    connection that feeds a component, in order, its instruction code, the components that the target's value
-    comes from (-1: a system's constant input), source and target slot; the last entry is for
-    system connectors.
-    Connections and ``fault_slots`` are numbered as in the program's arrays; ``drives`` [component] are (first, count)
-    of the inputs driven over time, the last entry of those of system connectors; ``texts`` has the places of Strings,
-    ``binaries`` those of Binaries.
+    ``orders`` write those of the components. ``connections`` [component] lists the terms of each connection that feeds
+    a component, in order; the last entry is for system connectors. Connections and ``fault_slots`` are numbered as in
+    the program's arrays; ``drives`` [component] are (first, count) of the inputs driven over time, the last entry of
+    those of system connectors; ``texts`` has the places of Strings, ``binaries`` those of Binaries.
     """
 
     def __init__(

@@ -15,8 +15,9 @@ from ..system.fmu import NOT_VARIED, STRUCTURAL
 from ..system.network import Network
 from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
+from .orders.injections import Injection, of_excitation, of_fault
 from .parameters import Key
-from .program import Injection, Layout, of_excitation, of_fault
+from .program import Layout
 
 TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry rounding
 

@@ -19,8 +19,9 @@ from .endings import TERMINATED, Outcome, end_request, in_words
 from .instructions import write_ending
 from .life_cycle import LifeCycle
 from .memory import Memory
+from .orders.injections import NEVER, of_fault
 from .orders.transfers import needs_events
-from .program import NEVER, build_program, of_fault
+from .program import build_program
 from .recorder import FlightRecorder, Phase, rows_between
 from .results import Flight
 from .selection import TIME_MARGIN, check_replaced

@@ -9,7 +9,7 @@ import numpy as np
 from ...instances.instance import Instance
 from ...instances.library import FUNCTION_NAMES
 from ..compiled import codes
-from ..in_memory import Run, runs_in_memory, with_moves
+from .in_memory import Run, runs_in_memory, with_moves
 from .rows import Rows, Stretch
 
 TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}

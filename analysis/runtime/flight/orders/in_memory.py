@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..instances.instance import Instance
-from .compiled import codes
+from ...instances.instance import Instance
+from ..compiled import codes
 
 REAL_SIZE = 8  # bytes
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -10,32 +10,19 @@ from ....common.errors import InputError
 from ...fmi.representations import TEXTS
 from ...fmi.variable import Variable
 from ...system.network import Network
+from .exchanged import Exchanged
 from .slots import Slots
 from .transfers import ComponentTransfers, TransferTable, groups, needs_events, whole
 
 
 class TransferPlacing:
-    """Adds components to ``slots`` and to the ``table``.
+    """Adds components to ``slots`` and to the ``table``."""
 
-    ``fetched`` names outputs that are taken (None: all), ``named`` what is recorded in addition, ``others`` what is
-    connected like an output and is none.
-    """
-
-    def __init__(
-        self,
-        network: Network,
-        slots: Slots,
-        table: TransferTable,
-        fetched: Collection[str] | None,
-        named: Collection[str],
-        others: Collection[str],
-    ) -> None:
+    def __init__(self, network: Network, exchanged: Exchanged, slots: Slots, table: TransferTable) -> None:
         self._network = network
+        self._exchanged = exchanged
         self._slots = slots
         self._table = table
-        self._fetched = fetched
-        self._named = named
-        self._others = others
 
     def place(
         self, component: str, transfers: ComponentTransfers, texts: Sequence[Sequence[tuple[Sequence[Variable], int]]]
@@ -44,15 +31,15 @@ class TransferPlacing:
 
         ``texts`` are its Strings and Binaries with their first rows, inputs and outputs.
         """
-        network = self._network
+        network, exchanged = self._network, self._exchanged
         transfers.uses_events = needs_events(network, component)
         variables = network.fmus[component].variables.values()
         numbers = [variable for variable in variables if variable.type not in TEXTS]
         names = {variable.name: f"{component}.{variable.name}" for variable in numbers}
-        driven = {short for short, name in names.items() if name in network.driver or name in network.driven}
-        fetched = {short for short, name in names.items() if self._fetched is None or name in self._fetched}
+        driven = {short for short, name in names.items() if exchanged.is_given(name)}
+        fetched = {short for short, name in names.items() if exchanged.is_fetched(name)}
         inputs = whole((each for each in numbers if each.causality == "input"), driven)
-        others = {each.array or each.name for each in numbers if names[each.name] in self._others}
+        others = {each.array or each.name for each in numbers if names[each.name] in exchanged.other_sources}
         given = (each for each in numbers if each.causality == "output" or (each.array or each.name) in others)
         outputs = whole(given, fetched)
         for is_discrete, target in ((False, transfers.inputs), (True, transfers.discrete)):
@@ -61,7 +48,7 @@ class TransferPlacing:
         transfers.discrete += self._add_texts(texts[0])  # behind the others: they are numbers in a row
         transfers.outputs += [self._add(component, group) for group in groups(outputs)]
         transfers.outputs += self._add_texts(texts[1])
-        named = {short for short, name in names.items() if name in self._named and name not in self._slots.numbers}
+        named = {short for short, name in names.items() if name in exchanged.named and name not in self._slots.numbers}
         recorded = whole((each for each in numbers if each.name in named), named)
         transfers.recorded += [self._add(component, group) for group in groups(recorded)]
         self._slots.unfed |= {names[each.name] for each in inputs if each.name not in driven}
@@ -76,7 +63,7 @@ class TransferPlacing:
             initial = np.nan
             if is_given:
                 start = slots.settings.variables.get((component, variable.name), variable.start)
-                if start is None and name not in self._network.driver and name not in self._network.driven:
+                if start is None and not self._exchanged.is_given(name):
                     problem = "has neither a connection, a value nor a start, and its array is given as a whole"
                     raise InputError(self._network.file, name, problem, f"connect it, or give `set` {name}=VALUE")
                 initial = slots.start(component, variable)

@@ -1,0 +1,42 @@
+"""Which variables of a system are exchanged or recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from ...ssp.kinds import PARAMETERS
+from ...system.network import Network
+from .injections import Injection
+
+
+class Exchanged:
+    """The names of a system's variables, by what is done with them in flight.
+
+    ``wanted`` names what is recorded (None: all that is exchanged), ``more`` what else is. ``fetched`` are the outputs
+    that are taken (None: all), ``named`` is what is recorded whatever its causality, ``other_sources`` what is
+    connected like an output and is none, ``passed_parameters`` are parameters of systems that signals pass through.
+    """
+
+    def __init__(
+        self,
+        network: Network,
+        wanted: Collection[str] | None,
+        more: Collection[str],
+        injections: Sequence[Injection],
+    ) -> None:
+        self._network = network
+        read = {link.source.name for link in network.links()}
+        faulty = {injection.connector for injection in injections}
+        self.fetched = None if wanted is None else read | set(wanted) | set(more) | faulty
+        self.named = {*(wanted or ()), *more}
+        signals = [link.source for link in network.links() if not link.is_parameter]
+        self.other_sources = {node.name for node in signals if node.component is not None and node.kind != "output"}
+        self.passed_parameters = {node.name for node in signals if node.component is None and node.kind in PARAMETERS}
+
+    def is_given(self, name: str) -> bool:
+        """Whether an input is connected or driven over time."""
+        return name in self._network.driver or name in self._network.driven
+
+    def is_fetched(self, name: str) -> bool:
+        """Whether an output is connected or recorded."""
+        return self.fetched is None or name in self.fetched

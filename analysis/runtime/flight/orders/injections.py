@@ -1,0 +1,35 @@
+"""Faults and excitations as the loop applies them to slots."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from ...system.fault import Fault
+from ..compiled import codes
+
+KIND_NUMBERS = {"override": codes.OVERRIDE, "bias": codes.BIAS, "freeze": codes.FREEZE}
+NEVER = (math.inf, math.inf)  # the window of a fault that does not fly
+
+
+class Injection(NamedTuple):
+    """One of the loop's faults: a connector, what is done to it, and in which window [from, until) s.
+
+    ``value`` is in the connector's unit; of an excitation it is the column that is added.
+    """
+
+    connector: str
+    kind: int
+    value: float
+    window: tuple[float, float]
+
+
+def of_fault(fault: Fault, margin: float) -> Injection:
+    """A fault; ``margin`` (s) is what the times of communication points may lack."""
+    window = (fault.start - margin, fault.stop - margin)
+    return Injection(fault.name, KIND_NUMBERS[fault.kind], float(fault.value), window)
+
+
+def of_excitation(connector: str, column: int) -> Injection:
+    """A connector to which `Simulation.advance` adds the given column of its excitation, in the connector's unit."""
+    return Injection(connector, codes.EXCITE, float(column), (-math.inf, math.inf))

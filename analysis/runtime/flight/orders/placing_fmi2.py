@@ -1,0 +1,78 @@
+"""Slots of a component of FMI 2.0: those of one type and direction side by side, for one call."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...fmi.variable import Variable
+from ...instances.library import FUNCTION_NAMES
+from ...system.network import Network
+from ..parameters import TYPE_KIND
+from .exchanged import Exchanged
+from .rows import Stretch
+from .slots import Slots
+
+EXCHANGES = FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
+CAUSALITIES = ("input", "output")  # set and get
+GETTERS = (1, 3, 5)  # of EXCHANGES
+
+
+class ComponentSlots(NamedTuple):
+    """Where the variables of a component lie.
+
+    ``ranges`` [function of EXCHANGES] are first slot and count; ``recorded`` (function, first slot, count) of what is
+    read for the record only.
+    """
+
+    ranges: list[Stretch]
+    recorded: list[tuple[int, int, int]]
+
+
+def place_component(network: Network, component: str, exchanged: Exchanged, slots: Slots) -> ComponentSlots:
+    """Add the slots of a component of FMI 2.0 to ``slots``."""
+    fmu = network.fmus[component]
+    ranges: list[Stretch] = []
+    for function, variables in enumerate(_by_function(network, component, exchanged)):
+        first = len(slots.references)
+        for variable in variables:
+            name = f"{component}.{variable.name}"
+            if CAUSALITIES[function % 2] == "input":
+                if exchanged.is_given(name):
+                    start = slots.start(component, variable)
+                    slots.add(name, variable.reference, start, variable.type, fmu.unit_of(variable))
+            elif exchanged.is_fetched(name):
+                slots.add(name, variable.reference, np.nan, variable.type, fmu.unit_of(variable))
+        ranges.append((first, len(slots.references) - first))
+    return ComponentSlots(ranges, _place_recorded(network, component, exchanged, slots))
+
+
+def _by_function(network: Network, component: str, exchanged: Exchanged) -> list[list[Variable]]:
+    """Variables by the function of EXCHANGES that sets or gets them."""
+    variables: list[list[Variable]] = [[] for _ in EXCHANGES]
+    for variable in network.fmus[component].variables.values():
+        kind = TYPE_KIND.get(variable.type, len(EXCHANGES))
+        causality = variable.causality
+        if f"{component}.{variable.name}" in exchanged.other_sources:
+            causality = "output"
+        if causality in CAUSALITIES and 2 * kind < len(EXCHANGES):
+            variables[2 * kind + CAUSALITIES.index(causality)].append(variable)
+    return variables
+
+
+def _place_recorded(network: Network, component: str, exchanged: Exchanged, slots: Slots) -> list[tuple[int, int, int]]:
+    """Slots of variables that are recorded and not exchanged."""
+    if not exchanged.named:
+        return []
+    fmu = network.fmus[component]
+    reads = []
+    for kind, function in enumerate(GETTERS):
+        first = len(slots.references)
+        for variable in fmu.variables.values():
+            name = f"{component}.{variable.name}"
+            if name in exchanged.named and name not in slots.numbers and TYPE_KIND.get(variable.type) == kind:
+                slots.add(name, variable.reference, np.nan, variable.type, fmu.unit_of(variable))
+        if len(slots.references) > first:
+            reads.append((function, first, len(slots.references) - first))
+    return reads
