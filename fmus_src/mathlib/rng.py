@@ -24,76 +24,86 @@ def nearest(x: float) -> float:
     return x + ROUND - ROUND
 
 
-def multiply_modulo(a: float, s: float, c: float, m: float) -> float:
-    """(a s + c) mod m for integers below 2^34 held in doubles, without losing a bit."""
-    v = a * s + c
-    if abs(v) >= 4503599627370496.0:
-        high = nearest(a / 131072.0)
-        rest = a - high * 131072.0
-        v = high * s
-        v = v - nearest(v / m) * m
-        v = v * 131072.0 + rest * s + c
-    v = v - nearest(v / m) * m
-    if v < 0.0:
-        v = v + m
-    return v
+def reduce_modulo(high: float, low: float, m: float) -> float:
+    """(65536 high + low) mod m, the residue nearest to 0, for whole numbers below 2^52, without losing a bit."""
+    inverse = 1.0 / m
+    v = high - nearest(high * inverse) * m
+    v = 65536.0 * v + low
+    return v - nearest(v * inverse) * m
 
 
-def square(power: list, cube: list, m: float) -> None:
-    """power^2 mod m, of a polynomial of degree two in a matrix, with its ``cube`` as in `jump`."""
-    p0 = power[0]
-    p1 = power[1]
-    p2 = power[2]
-    d0 = multiply_modulo(p0, p0, 0.0, m)
-    d1 = multiply_modulo(2.0 * p0, p1, 0.0, m)
-    d2 = multiply_modulo(2.0 * p0, p2, multiply_modulo(p1, p1, 0.0, m), m)
-    d3 = multiply_modulo(2.0 * p1, p2, 0.0, m)
-    d4 = multiply_modulo(p2, p2, 0.0, m)
-    d1 = multiply_modulo(d4, cube[0], d1, m)
-    d2 = multiply_modulo(d4, cube[1], d2, m)
-    d3 = multiply_modulo(d4, cube[2], d3, m)
-    power[0] = multiply_modulo(d3, cube[0], d0, m)
-    power[1] = multiply_modulo(d3, cube[1], d1, m)
-    power[2] = multiply_modulo(d3, cube[2], d2, m)
+def high_words(v: Vector3) -> Vector3:
+    """v / 65536 in whole numbers. What is left of v has 16 bits: products of it with numbers of 32 bits are exact."""
+    return vector(nearest(v.x / 65536.0), nearest(v.y / 65536.0), nearest(v.z / 65536.0))
 
 
-def transform(state: list, offset: int, a: Matrix, image: list, m: float) -> None:
-    """image = a state[offset : offset + 3] mod m, for a 3 x 3 matrix."""
-    for i in range(3):
-        v = 0.0
-        for k in range(3):
-            v = multiply_modulo(a[i, k], state[offset + k], v, m)
-        image[i] = v
+def combine(s: Vector3, a: Vector3, b: Vector3, c: Vector3, m: float) -> Vector3:
+    """(s.x a + s.y b + s.z c) mod m, for whole numbers of at most 2^32."""
+    words = high_words(s)
+    low_words = s - 65536.0 * words
+    high = words.x * a + words.y * b + words.z * c
+    low = low_words.x * a + low_words.y * b + low_words.z * c
+    return vector(
+        reduce_modulo(high.x, low.x, m),
+        reduce_modulo(high.y, low.y, m),
+        reduce_modulo(high.z, low.z, m),
+    )
 
 
-def jump(state: list, offset: int, a: Matrix, cube: list, count: int, m: float) -> None:
+def square(p: Vector3, cube: Vector3, fourth: Vector3, m: float) -> Vector3:
+    """p^2 mod m, of a polynomial of degree two in a matrix, with its powers as in `jump`."""
+    high = high_words(p)
+    low = p - 65536.0 * high
+    d0 = reduce_modulo(p.x * high.x, p.x * low.x, m)
+    d1 = reduce_modulo(2.0 * p.x * high.y, 2.0 * p.x * low.y, m)
+    d2 = reduce_modulo(2.0 * p.x * high.z + p.y * high.y, 2.0 * p.x * low.z + p.y * low.y, m)
+    d3 = reduce_modulo(2.0 * p.y * high.z, 2.0 * p.y * low.z, m)
+    d4 = reduce_modulo(p.z * high.z, p.z * low.z, m)
+    return combine(vector(1.0, d3, d4), vector(d0, d1, d2), cube, fourth, m)
+
+
+def times_matrix(p: Vector3, cube: Vector3, m: float) -> Vector3:
+    """p a mod m, of a polynomial of degree two in a matrix a."""
+    return combine(vector(1.0, p.z, 0.0), vector(0.0, p.x, p.y), cube, cube, m)
+
+
+def transform(a: Matrix, v: Vector3, m: float) -> Vector3:
+    """a v mod m, for a 3 x 3 matrix."""
+    return combine(
+        v,
+        vector(a[0, 0], a[1, 0], a[2, 0]),
+        vector(a[0, 1], a[1, 1], a[2, 1]),
+        vector(a[0, 2], a[1, 2], a[2, 2]),
+        m,
+    )
+
+
+def jump(state: list, offset: int, a: Matrix, cube: Vector3, count: int, m: float) -> None:
     """state[offset : offset + 3] = a^count state mod m, by repeated squaring from the first bit of count on.
 
-    ``cube`` is t0, t1, t2 of a^3 = t0 + t1 a + t2 a^2 (Cayley and Hamilton), by which every power
-    is a polynomial of degree two in it: squaring that takes 12 products, squaring the matrix 27 (for generators over
+    ``cube`` is t in a^3 = t.x + t.y a + t.z a^2 (Cayley and Hamilton), by which every power
+    is a polynomial of degree two in a: squaring that takes 12 products, squaring the matrix 27 (for generators over
     bits: Haramoto, Matsumoto, Nishimura, Panneton and L'Ecuyer, INFORMS Journal on Computing 20(3), 2008).
     """
     if count > 0:
+        fourth = times_matrix(cube, cube, m)
         bit = 1
         while bit <= count // 2:
             bit = 2 * bit
-        power = [0.0, 1.0, 0.0]
+        left = count - bit
+        power = vector(0.0, 1.0, 0.0)
         while bit > 1:
             bit = bit // 2
-            square(power, cube, m)
-            if count // bit % 2 == 1:
-                last = power[2]
-                power[2] = multiply_modulo(last, cube[2], power[1], m)
-                power[1] = multiply_modulo(last, cube[1], power[0], m)
-                power[0] = multiply_modulo(last, cube[0], 0.0, m)
-        once = [0.0] * 3
-        twice = [0.0] * 3
-        transform(state, offset, a, once, m)
-        transform(once, 0, a, twice, m)
-        for i in range(3):
-            v = multiply_modulo(power[0], state[offset + i], 0.0, m)
-            v = multiply_modulo(power[1], once[i], v, m)
-            state[offset + i] = multiply_modulo(power[2], twice[i], v, m)
+            power = square(power, cube, fourth, m)
+            if left >= bit:
+                left = left - bit
+                power = times_matrix(power, cube, m)
+        v = vector(state[offset], state[offset + 1], state[offset + 2])
+        once = transform(a, v, m)
+        v = combine(power, v, once, transform(a, once, m), m)
+        state[offset] = v.x + m if v.x < 0.0 else v.x
+        state[offset + 1] = v.y + m if v.y < 0.0 else v.y
+        state[offset + 2] = v.z + m if v.z < 0.0 else v.z
 
 
 def seed_streams(state: list, seed: int, stream: int) -> None:
@@ -114,8 +124,8 @@ def seed_streams(state: list, seed: int, stream: int) -> None:
         [32183930.0, 1464411153.0, 1022607788.0],
         [2824425944.0, 32183930.0, 2093834863.0],
     )
-    a1_cube = [2714382928.0, 888045435.0, 593970419.0]
-    a2_cube = [117492272.0, 4204460113.0, 727712726.0]
+    a1_cube = vector(2714382928.0, 888045435.0, 593970419.0)
+    a2_cube = vector(117492272.0, 4204460113.0, 727712726.0)
     jump(state, 0, a1, a1_cube, seed, M1)
     jump(state, 3, a2, a2_cube, seed, M2)
     # A1^(2^76), A2^(2^76): one substream
@@ -129,8 +139,8 @@ def seed_streams(state: list, seed: int, stream: int) -> None:
         [4292754251.0, 1511326704.0, 3889917532.0],
         [3859662829.0, 4292754251.0, 3708466080.0],
     )
-    b1_cube = [179953957.0, 1238372185.0, 221148705.0]
-    b2_cube = [1350139077.0, 1707256826.0, 2436175045.0]
+    b1_cube = vector(179953957.0, 1238372185.0, 221148705.0)
+    b2_cube = vector(1350139077.0, 1707256826.0, 2436175045.0)
     jump(state, 0, b1, b1_cube, stream, M1)
     jump(state, 3, b2, b2_cube, stream, M2)
 

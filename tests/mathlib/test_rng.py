@@ -12,11 +12,12 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from perilune.fmus_src.mathlib.rng import M1, M2, multiply_modulo, normal, normals, seed_streams, uniform
+from perilune.fmus_src.mathlib.rng import M1, M2, combine, normal, normals, reduce_modulo, seed_streams, uniform
+from perilune.fmus_src.mathlib.vectors import vector
 from tests.support.checks.mrg32k3a import P1, P2, advanced, exact_numerator
 from tests.support.lengths import either
 
@@ -92,22 +93,25 @@ def test_streams_are_jumps_of_the_recurrences(seed, stream):
     assert seeded(seed, stream) == advanced([12345] * 6, seed * 2**127 + stream * 2**76)
 
 
-@given(
-    st.integers(-(2**21), 2**33 - 1),
-    st.integers(0, 2**32 - 1),
-    st.integers(0, 2**32 - 1),
-    st.sampled_from([P1, P2]),
-)
-@settings(max_examples=either(300, 75), deadline=None)
-def test_multiply_modulo_is_exact(a, s, c, modulus):
-    assert multiply_modulo(float(a), float(s), float(c), float(modulus)) == (a * s + c) % modulus
+WORDS = st.lists(st.integers(-(2**31), 2**32), min_size=3, max_size=3)
 
 
-@given(st.integers(1, 2**21), st.sampled_from([P1, P2]), st.integers(-2, 2))
+@given(WORDS, WORDS, WORDS, WORDS, st.sampled_from([P1, P2]))
+@example([2**32] * 3, [2**32] * 3, [2**32] * 3, [2**32] * 3, P1)
+@example([-(2**31)] * 3, [2**32] * 3, [2**32] * 3, [2**32] * 3, P2)
 @settings(max_examples=either(300, 75), deadline=None)
-def test_multiply_modulo_is_exact_beside_multiples_of_the_modulus(multiple, modulus, offset):
-    value = multiple * modulus + offset
-    assert multiply_modulo(1.0, float(modulus), float(value - modulus), float(modulus)) == value % modulus
+def test_sums_of_products_are_exact(s, a, b, c, modulus):
+    actual = combine(*(vector(*map(float, words)) for words in (s, a, b, c)), float(modulus))
+    exact = [s[0] * a[i] + s[1] * b[i] + s[2] * c[i] for i in range(3)]
+    assert [int(number) % modulus for number in actual] == [number % modulus for number in exact]
+    assert max(map(abs, actual)) <= (modulus + 1) // 2
+
+
+@given(st.integers(-(2**20), 2**20), st.sampled_from([P1, P2]), st.integers(-2, 2))
+@settings(max_examples=either(300, 75), deadline=None)
+def test_residues_are_exact_beside_multiples_of_the_modulus(multiple, modulus, offset):
+    high, low = divmod(multiple * modulus + offset, 2**16)
+    assert reduce_modulo(float(high), float(low), float(modulus)) == offset
 
 
 def test_uniform_numbers_stay_inside_zero_and_one():

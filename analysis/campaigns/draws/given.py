@@ -48,10 +48,10 @@ class GivenDraws:
         """Its columns, with those of the streams where trials do not have their own."""
         return dict(self.columns) | {stream_column(name): values.astype(float) for name, values in self.streams.items()}
 
-    def stream_of(self, trial: int, component: str) -> int:
-        """The trial whose random stream a component flies with."""
+    def streams_of(self, trials: range, component: str) -> np.ndarray:
+        """The trials whose random streams a component flies with in these."""
         streams = self.streams.get(component, self.streams.get(ALL))
-        return trial if streams is None else int(streams[trial])
+        return np.arange(trials.start, trials.stop) if streams is None else streams[trials.start : trials.stop]
 
     def of_part(self, trials: range) -> GivenDraws:
         rows = slice(trials.start, trials.stop)

@@ -53,10 +53,10 @@ class DrawTable:
     def row(self, trial: int) -> dict[str, float]:
         return {name: column.item(trial) for name, column in self.columns.items()}
 
-    def parameters(self, trial: int) -> dict[str, float]:
-        """The values of one trial that are component parameters: those with a dot in their name, of draws."""
+    def parameters(self, rows: slice) -> dict[str, np.ndarray]:
+        """The columns of some trials that are component parameters: those with a dot in their name, of draws."""
         return {
-            name: column.item(trial)
+            name: column[rows]
             for name, column in self.columns.items()
             if "." in name and stream_component(name) is None
         }

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from ...runtime.apart.opening import flies_here, open_simulation
 from ...runtime.flight.base_simulation import BaseSimulation
+from ...runtime.flight.group import FlightGroup
 from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
 from ...runtime.flight.results import CRASHED, LOST, Flight, Result
 from ...runtime.instances.instance import Log
@@ -102,16 +103,31 @@ class Flyer:
 
     def fly(self, variant: str, trials: range) -> Trials:
         """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
-        judge = self._judge(variant)
-        for trial in trials:
-            if trial == trials.start:
-                self._announce(variant, trial)
-            if trial + 1 in trials:
-                self._announce(variant, trial + 1)
-            judge.add(self._flight(variant, trial), trial, self.values_for(trial))
+        simulation, names = self.simulation(variant)
+        judge = Judge(self.plan.campaign, names)
+        in_groups = simulation.flies_groups and self.plan.watch.timeout is None
+        flown = trials.start
+        while flown < trials.stop:
+            sampled = self.values_for(flown)
+            if in_groups:
+                following = range(flown, min(trials.stop, sampled.numbers.stop))
+                group = simulation.fly_group(sampled.flights(simulation.prepared, following))
+            else:
+                group = self._fly_next(variant, flown, trials)
+            numbers = range(flown, flown + len(group.statuses))
+            judge.add(group, numbers, sampled)
             if self.halted:
                 raise KeyboardInterrupt
+            flown = numbers.stop
         return judge.trials()
+
+    def _fly_next(self, variant: str, trial: int, trials: range) -> FlightGroup:
+        """One of ``trials``, and the one behind it announced."""
+        if trial == trials.start:
+            self._announce(variant, trial)
+        if trial + 1 in trials:
+            self._announce(variant, trial + 1)
+        return FlightGroup.of(self._flight(variant, trial))
 
     def fly_one(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> TrialResult:
         """Fly one trial; the result does not depend on what was flown before.
@@ -119,9 +135,7 @@ class Flyer:
         ``overlay`` gives all of the plan's overlaid parameters their values; without it they keep those of
         the variant's last flight.
         """
-        judge = self._judge(variant)
-        judge.add(self._flight(variant, trial, overlay), trial, self.values_for(trial))
-        return _result(judge.trials())
+        return self._look_at(self._flight(variant, trial, overlay), trial, self.simulation(variant)[1])
 
     def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
         """Fly one trial with every signal recorded; same bits as in the batch."""
@@ -133,13 +147,12 @@ class Flyer:
             simulation.set_faults(sampled.faults_of(trial))
             simulation.set(sampled.parameters(prepared, trial))
             result = fly(simulation, self.plan.watch.timeout)
-        judge = Judge(self.plan.campaign, names)
-        judge.add(result, trial, sampled)
-        return result, _result(judge.trials())
+        return result, self._look_at(result, trial, names)
 
-    def _judge(self, variant: str) -> Judge:
-        """What looks at a variant's flights, with none seen."""
-        return Judge(self.plan.campaign, self.simulation(variant)[1])
+    def _look_at(self, flight: Flight, trial: int, names: VariantNames) -> TrialResult:
+        judge = Judge(self.plan.campaign, names)
+        judge.add(FlightGroup.of(flight), range(trial, trial + 1), self.values_for(trial))
+        return _result(judge.trials())
 
     def _flight(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> Flight:
         simulation, _ = self.simulation(variant)

@@ -17,7 +17,6 @@ from .expressions import Expression
 from .faults import CampaignFault
 from .requirements import Requirement
 
-REDUCTIONS = ("final", "min", "max", "mean", "rms", "last_outside", "settled", "first")
 TRACES = ("none", "failures", "all")
 
 Setting = float | int | bool | str | Sequence[float | int]

@@ -12,6 +12,7 @@ from ...common.errors import InputError
 from ...runtime.system.checks import changeable, check_value
 from ...runtime.system.fault import KINDS, Fault
 from ...runtime.system.network import Network
+from ...runtime.system.passing.flight_table import FaultColumns
 from .expressions import Expression
 from .table import REQUIRED, Table, choice_of, expression, text
 
@@ -107,11 +108,22 @@ class DrawnFault:
         name, kind = self.declared.connector, self.declared.kind
         return Fault(name, kind, value, float(self.start[trial]), float(self.end[trial]))
 
+    def columns_of(self, rows: slice) -> FaultColumns:
+        """The fault in some of the trials."""
+        value = np.zeros(self.flies.size) if self.value is None else self.value.astype(np.float64)
+        return FaultColumns(self.flies[rows], value[rows], self.start[rows], self.end[rows])
+
     def columns(self) -> dict[str, np.ndarray]:
         """What the table of trials holds of it, by name."""
         name = f"fault.{self.declared.name}"
         value = {} if self.value is None else {f"{name}.value": np.where(self.flies, self.value, math.nan)}
         return {name: self.flies, **value, f"{name}.start": self.start, f"{name}.end": self.end}
+
+
+def fault_columns(fault: Fault, flights: int) -> FaultColumns:
+    """A fault that is the same in all of so many flights."""
+    value, start, end = (np.full(flights, float(number)) for number in (fault.value, fault.start, fault.stop))
+    return FaultColumns(np.ones(flights, dtype=bool), value, start, end)
 
 
 def fault_of_trials(declared: CampaignFault, draws: Mapping[str, np.ndarray], numbers: range) -> DrawnFault:

@@ -8,10 +8,11 @@ from pathlib import Path
 from ...common.errors import InputError, suggestion
 from ..draws.declared import Draw
 from ..draws.given import stream_component
-from .campaign import REDUCTIONS, SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting, Variant
+from .campaign import SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting, Variant
 from .distributions import read_draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
+from .reductions import REDUCTIONS
 from .requirements import read_requirements
 from .source import read_source_file
 from .table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, sequence, text

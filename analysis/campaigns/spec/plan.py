@@ -7,21 +7,26 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
+import numpy as np
+
 from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive, open_system
 from ...runtime.system.fault import Fault
 from ...runtime.system.options import UNWATCHED, SystemOptions, Watch
+from ...runtime.system.passing.flight_table import FlightTable
 from ...runtime.system.prepared import PreparedSystem, prepare_system
 from ...runtime.system.series import InputSeries
-from ..draws.generators import StreamNumbers, stream_numbers
+from ..draws.generators import stream_numbers
 from ..draws.given import GivenDraws, read_given
 from ..draws.table import CountedDraws, Draws, DrawTable, draw_parts, draw_table, split_trials, table_of
 from .campaign import Campaign, Group, Variant, groups_of
-from .faults import DrawnFault, fault_of_trials
+from .faults import DrawnFault, fault_columns, fault_of_trials
 from .file import parse_campaign
 from .source import CampaignSource, read_source
 from .sweeps import with_sweeps
+
+SEED, STREAM = "seed", "stream"  # Integer parameters of components that draw random numbers themselves
 
 
 @dataclass(frozen=True)
@@ -35,8 +40,10 @@ class DrawnTrials:
     table: DrawTable
     faults: Sequence[DrawnFault]
 
-    def row(self, trial: int) -> dict[str, float]:
-        return self.table.row(trial - self.numbers.start)
+    def columns_of(self, trials: range) -> dict[str, np.ndarray]:
+        """All drawn and derived values of some of them, by name."""
+        rows = self._rows(trials)
+        return {name: column[rows] for name, column in self.table.columns.items()}
 
     def faults_of(self, trial: int) -> list[Fault | None]:
         """The faults of a trial, in the order of `BatchPlan.list_faults`; None for one that does not fly in it."""
@@ -44,23 +51,32 @@ class DrawnTrials:
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
         """The parameters of a trial: draws, and seed and stream of every component that has them."""
-        values: dict[str, float | int] = dict(self.table.parameters(trial - self.numbers.start))
-        noisy = with_streams(prepared)
-        if noisy:
-            given, campaign = self.given, self.campaign
-            trials = {name: trial if given is None else given.stream_of(trial, name) for name in noisy}
-            streams = {
-                whose: stream_numbers(campaign.seed, whose, prepared.network.fmus, campaign.file)
-                for whose in set(trials.values())
-            }
-            for name, whose in trials.items():
-                values[f"{name}.seed"], values[f"{name}.stream"] = streams[whose][name]
-        return values
+        columns = self._columns(prepared, range(trial, trial + 1))
+        return {name: column.item() for name, column in columns.items()}
+
+    def flights(self, prepared: PreparedSystem, trials: range) -> FlightTable:
+        """What some of them are flown with, in the order of `BatchPlan.list_faults`."""
+        rows = self._rows(trials)
+        drawn = [fault.columns_of(rows) for fault in self.faults]
+        given = [fault_columns(fault, len(trials)) for fault in self.user_faults]
+        return FlightTable(len(trials), self._columns(prepared, trials), [*drawn, *given])
+
+    def _columns(self, prepared: PreparedSystem, trials: range) -> dict[str, np.ndarray]:
+        columns = self.table.parameters(self._rows(trials))
+        campaign, fmus = self.campaign, prepared.network.fmus
+        for name in with_streams(prepared):
+            mine = np.arange(trials.start, trials.stop) if self.given is None else self.given.streams_of(trials, name)
+            seed, streams = stream_numbers(campaign.seed, mine, name, fmus, campaign.file)
+            columns[f"{name}.{SEED}"], columns[f"{name}.{STREAM}"] = np.full(len(trials), seed), streams
+        return columns
+
+    def _rows(self, trials: range) -> slice:
+        return slice(trials.start - self.numbers.start, trials.stop - self.numbers.start)
 
 
 def with_streams(prepared: PreparedSystem) -> list[str]:
     """The components that draw random numbers themselves."""
-    return [name for name, fmu in prepared.network.fmus.items() if {"seed", "stream"} <= fmu.variables.keys()]
+    return [name for name, fmu in prepared.network.fmus.items() if {SEED, STREAM} <= fmu.variables.keys()]
 
 
 PART = 32768  # trials whose draws are looked at together; so few that their number costs no memory
@@ -184,7 +200,7 @@ class BatchPlan:
     def parameter_names(self, prepared: PreparedSystem) -> set[str]:
         """The names of `parameters`, which are those of every trial."""
         sampled = {name for name in self.campaign.input_names() if "." in name}
-        return sampled | {f"{name}.{number}" for name in with_streams(prepared) for number in StreamNumbers._fields}
+        return sampled | {f"{name}.{number}" for name in with_streams(prepared) for number in (SEED, STREAM)}
 
 
 def read_plan(

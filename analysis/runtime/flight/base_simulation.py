@@ -11,8 +11,10 @@ import numpy as np
 from ..instances.instance import Log
 from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
+from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem
 from .base_memory import BaseMemory
+from .group import FlightGroup
 from .program import Layout
 from .recorder import FlightRecorder
 from .results import Flight, Provenance, Result, provenance_of
@@ -79,6 +81,18 @@ class BaseSimulation(ABC):
         """The flight alone, for batches; see `fly`."""
         self.set(values)
         return self.advance(-1, self.prepared.steps, every=every)
+
+    @property
+    def flies_groups(self) -> bool:
+        """Whether `fly_group` may be called, which takes less time a flight than `run`."""
+        return False
+
+    def fly_group(self, table: FlightTable) -> FlightGroup:
+        """Fly the first flights of a table, each from its start, at least one of them.
+
+        None flies behind one that has not come to its end, or for which there is no room. Arrays as in `fly`.
+        """
+        raise NotImplementedError(f"{type(self).__name__} has flights one at a time")
 
     @abstractmethod
     def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:

@@ -37,7 +37,7 @@ class LifeCycle:
         self._fmi3 = fmi3
         self._instructions = instructions
         self._note_subject = note_subject
-        self._are_self_contained = all(instance.fmu.is_self_contained for instance in instances.values())
+        self.are_self_contained = all(instance.fmu.is_self_contained for instance in instances.values())
         self._fresh = True
         self._running: AbstractSet[str] = set()  # initialised, so that they can be terminated
         self._broken: set[str] = set()  # returned an error
@@ -65,7 +65,7 @@ class LifeCycle:
         """
         if self._fresh:
             return False
-        if self._are_self_contained and len(self._running) == len(self._instances):
+        if self.are_self_contained and len(self._running) == len(self._instances):
             self._running = set()
             return True
         for index, (name, instance) in enumerate(self._instances.items()):

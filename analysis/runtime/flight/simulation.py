@@ -12,10 +12,13 @@ from ...common.collection import no_collection
 from ..instances.instance import Instance, instantiate
 from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
+from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem
 from .base_simulation import NOTHING, BaseSimulation, Choices
 from .compiled import arrays, codes, loop
-from .endings import TERMINATED, Outcome, end_request, in_words
+from .compiled.group import compile_for as compile_group
+from .endings import STATUS, TERMINATED, Outcome, end_request, in_words
+from .group import FlightGroup, group_of, most_flights
 from .instructions import write_ending
 from .life_cycle import LifeCycle
 from .memory import Memory
@@ -68,6 +71,7 @@ class Simulation(BaseSimulation):
             halt=self.recorder.halt,
         )
         self._loop: Callable[..., int] | None = None
+        self._group_loop: Callable[..., int] | None = None
         self.life_cycle = LifeCycle(self.instances, self.program, self.fmi3, self._instructions, self._note_subject)
         self._under_way = threading.Lock()
         self.recorder.enter(Phase.IDLE)
@@ -142,6 +146,44 @@ class Simulation(BaseSimulation):
         if self._has_learned(outcome):
             self._replace_instances()
             return self._advance(first, last, every, excitation)
+        return self._conclude(outcome, 0, count)
+
+    @property
+    def flies_groups(self) -> bool:
+        """Of FMUs of our own, which can be trusted to reset, and write no log. Systems with FMI 3.0 have no groups."""
+        return self.fmi3 is None and self._log is None and self.life_cycle.are_self_contained
+
+    def fly_group(self, table: FlightTable) -> FlightGroup:
+        """See `BaseSimulation.fly_group`."""
+        prepared, recorder = self.prepared, self.recorder
+        recorder.enter(Phase.RENEWAL)
+        reset = self.life_cycle.make_ready()
+        rows, signals = rows_between(-1, prepared.steps), self._recorded.size
+        recorder.reserve(signals, rows * most_flights(table.flights, signals, rows), prepared.step)
+        recorder.enter(Phase.FLIGHT)
+        for instance in self.instances.values():
+            instance.said.clear()  # what comes to its end says nothing
+        group = group_of(table, self._varied, self.layout.parameters, rows, TIME_MARGIN * prepared.step)
+        arguments = self._arguments(self.program, *self._request(-1, prepared.steps, 1, reset, NOTHING))
+        with self._under_way:
+            if self._group_loop is None:
+                self._group_loop = compile_group((*arguments, group), locked=not prepared.is_native, with_fmi3=False)
+            flown = self._group_loop(*arguments, group)
+        ends = group.ends[:flown]
+        start = int(ends[-2]) if flown > 1 else 0
+        last = self._conclude(Outcome(*self.buffers.outcome.tolist()), start, int(ends[-1]))
+        return FlightGroup(
+            time=recorder.times[: ends[-1]],
+            signals=dict(zip(self.signal_names, recorder.record[:, : ends[-1]], strict=True)),
+            ends=ends,
+            statuses=[*(STATUS[code] for code in group.endings[: flown - 1].tolist()), last.status],
+            complete=np.append(np.ones(flown - 1, dtype=bool), last.complete),
+            messages=[*[""] * (flown - 1), last.message],
+        )
+
+    def _conclude(self, outcome: Outcome, start: int, end: int) -> Flight:
+        """The flight whose rows of the record these are, as the loop has left it."""
+        prepared, recorder = self.prepared, self.recorder
         recorder.enter(Phase.IDLE)
         self.life_cycle.note(outcome, self.program)
         status, message = in_words(
@@ -154,15 +196,15 @@ class Simulation(BaseSimulation):
         )
         if outcome.is_discarded_step or outcome.is_ended:
             component, instance = list(self.instances.items())[outcome.subject]
-            end = float(self.fmi3.stored.time[1]) if outcome.is_ended and self.fmi3 else end_request(instance)
-            if end is not None:
-                self._fly_last_row(outcome.subject, end, count)
-                count += 1
+            time = float(self.fmi3.stored.time[1]) if outcome.is_ended and self.fmi3 else end_request(instance)
+            if time is not None:
+                self._fly_last_row(outcome.subject, time, end)
+                end += 1
                 said = f": {' | '.join(instance.messages)}" if instance.messages else ""
-                status, message = TERMINATED, f"{component} asked for the end at t = {end:g} s{said}"
+                status, message = TERMINATED, f"{component} asked for the end at t = {time:g} s{said}"
         flight = Flight(
-            time=recorder.times[:count],
-            signals=dict(zip(self.signal_names, recorder.record[:, :count], strict=True)),
+            time=recorder.times[start:end],
+            signals=dict(zip(self.signal_names, recorder.record[:, start:end], strict=True)),
             types=self._types,
             status=status,
             message=message,
@@ -184,7 +226,7 @@ class Simulation(BaseSimulation):
             first=first,
             last=last,
         )
-        recording = arrays.Recording(self._recorded, every, self.recorder.record, self.recorder.times)
+        recording = arrays.Recording(self._recorded, every, self.recorder.record, self.recorder.times, 0)
         return span, recording, excitation if excitation.size else np.zeros((0, len(self._selection.excited)))
 
     def _has_learned(self, outcome: Outcome) -> bool:
@@ -227,7 +269,9 @@ class Simulation(BaseSimulation):
         whole = np.array([0, len(instructions)], dtype=np.int64)
         program = self.program._replace(instructions=instructions, phases=whole)
         span = arrays.Span(reset=False, start=end, step=0.0, stop=end, first=0, last=1)
-        recording = arrays.Recording(self._recorded, 1, np.empty((self._recorded.size, 1)), self.recorder.times[row:])
+        recording = arrays.Recording(
+            self._recorded, 1, np.empty((self._recorded.size, 1)), self.recorder.times[row:], 0
+        )
         self._call(program, span, recording, np.zeros((0, len(self._selection.excited))))
         self.recorder.record[:, row] = recording.record[:, 0]
 

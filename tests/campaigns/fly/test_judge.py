@@ -1,8 +1,9 @@
 """What flights come to when a task's are looked at together.
 
-Truth: every metric of every flight worked out by itself, to the bit.
+Truth: every metric of every flight worked out by itself, to the bit; statuses and last rows by hand.
 """
 
+import itertools
 import math
 import tomllib
 
@@ -16,6 +17,7 @@ from perilune.analysis.campaigns.spec.file import parse_campaign
 from perilune.analysis.campaigns.spec.metrics import evaluate_metric
 from perilune.analysis.campaigns.spec.plan import DrawnTrials
 from perilune.analysis.campaigns.spec.table import Table
+from perilune.analysis.runtime.flight.group import FlightGroup
 from perilune.analysis.runtime.flight.results import Flight
 
 TEXT = """
@@ -43,6 +45,7 @@ traces = "{traces}"
 expression = "miss < 1.5"
 """
 COUNT = 40
+SIZES = (0, 1, 4, 17, 40)  # where groups begin and end
 
 
 def flight(number):
@@ -53,6 +56,19 @@ def flight(number):
     signals["p.status"] = np.zeros(rows)
     status = "failed" if rows == 0 or number % 7 == 6 else "finished"
     return Flight(np.arange(rows) * 0.5, signals, {}, status, "it broke" if status == "failed" else "")
+
+
+def joined(numbers):
+    """Flights as a group."""
+    flights = [flight(number) for number in numbers]
+    return FlightGroup(
+        time=np.concatenate([each.time for each in flights]),
+        signals={name: np.concatenate([each.signals[name] for each in flights]) for name in flights[0].signals},
+        ends=np.cumsum([each.time.size for each in flights]),
+        statuses=[each.status for each in flights],
+        complete=np.array([each.complete for each in flights]),
+        messages=[each.message for each in flights],
+    )
 
 
 @pytest.fixture(params=["none", "failures", "all"])
@@ -69,9 +85,10 @@ def test_together_or_one_by_one_to_the_bit(judged):
     campaign, names, sampled, bias = judged
     together, alone = Judge(campaign, names), Judge(campaign, names)
     singles = []
+    for first, last in itertools.pairwise(SIZES):
+        together.add(joined(range(first, last)), range(100 + first, 100 + last), sampled)
     for number in range(COUNT):
-        together.add(flight(number), 100 + number, sampled)
-        alone.add(flight(number), 100 + number, sampled)
+        alone.add(FlightGroup.of(flight(number)), range(100 + number, 101 + number), sampled)
         singles.append(alone.trials())
     actual = together.trials()
     assert actual.trial.tolist() == list(range(100, 100 + COUNT))
@@ -80,7 +97,8 @@ def test_together_or_one_by_one_to_the_bit(judged):
         one = flight(number)
         values = {"time": one.time, **one.signals, "p.gain": 2.5, "bias": bias[number]}
         for metric in campaign.metrics:
-            expected = evaluate_metric(metric, one.time, values) if one.complete else math.nan
+            number_of_rows = np.array([one.time.size])
+            (expected,) = evaluate_metric(metric, one.time, values, number_of_rows) if one.complete else [math.nan]
             for value in (actual.metrics[metric.name][number], single.metrics[metric.name][0]):
                 assert value == expected or math.isnan(expected)
         miss = actual.metrics["miss"][number]

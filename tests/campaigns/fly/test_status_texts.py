@@ -6,7 +6,8 @@ Truth: flights made by hand, whose worst statuses are seen.
 import numpy as np
 import pytest
 
-from perilune.analysis.campaigns.fly.evaluation import trial_status, worst_statuses
+from perilune.analysis.campaigns.fly.evaluation import trial_statuses, worst_statuses
+from perilune.analysis.runtime.flight.group import FlightGroup
 from perilune.analysis.runtime.flight.results import Flight
 
 
@@ -21,7 +22,9 @@ from perilune.analysis.runtime.flight.results import Flight
 )
 def test_what_is_written_is_read_back(statuses, text):
     signals = {name: np.array(values, dtype=float) for name, values in statuses.items()}
-    flight = Flight(np.zeros(0), signals, {}, "finished", "")
-    assert trial_status(flight, list(statuses)) == text
+    longest = max((len(values) for values in signals.values()), default=0)
+    signals = {name: np.resize(values, longest) for name, values in signals.items()}
+    flight = FlightGroup.of(Flight(np.arange(longest) * 0.1, signals, {}, "finished", ""))
+    assert trial_statuses(flight, list(statuses)) == [text]
     worst = {name: int(max(values)) for name, values in statuses.items()}
     assert worst_statuses(text) == {name: status for name, status in worst.items() if status != 0}

@@ -7,11 +7,12 @@ import numpy as np
 
 import perilune
 from perilune.analysis.campaigns.draws.table import draw_table
-from perilune.analysis.campaigns.spec.campaign import REDUCTIONS, TRACES
+from perilune.analysis.campaigns.spec.campaign import TRACES
 from perilune.analysis.campaigns.spec.distributions import DISTRIBUTIONS
 from perilune.analysis.campaigns.spec.expressions import FUNCTIONS
 from perilune.analysis.campaigns.spec.faults import KEYS
 from perilune.analysis.campaigns.spec.file import REDUCTION_OF, SCATTER
+from perilune.analysis.campaigns.spec.reductions import REDUCTIONS
 from perilune.analysis.campaigns.spec.requirements import KEYS as REQUIREMENT
 from perilune.analysis.campaigns.spec.requirements import SIDES
 from perilune.analysis.runtime.system.fault import KINDS
@@ -24,7 +25,7 @@ EXAMPLES = re.findall(r"```toml\n(.*?)```", TEXT, re.DOTALL)
 
 def test_the_example_is_a_campaign(parse):
     campaign = parse(EXAMPLES[0])
-    assert draw_table(campaign).parameters(0).keys() == {
+    assert draw_table(campaign).parameters(slice(0, 1)).keys() == {
         "plant.initial_mass",
         "plant.initial_position[1]",
         "plant.initial_position[2]",

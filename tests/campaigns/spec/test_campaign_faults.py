@@ -57,7 +57,7 @@ def plan(campaign):
 def test_each_of_six_jets_in_turn(plan):
     made = plan(DRAWS + JETS)
     for trial in range(12):
-        row = made.draws.row(trial)
+        row = {name: column[trial] for name, column in made.draws.columns.items()}
         jet = int(row["jet"])
         expected = [None] * 6
         expected[jet - 1] = Fault(f"plant.jet_factor[{jet}]", "override", 0.0, row["failure_time"])
@@ -69,7 +69,7 @@ def test_each_of_six_jets_in_turn(plan):
 def test_value_and_times_are_expressions_over_draws(plan):
     made = plan(fault("bias", '"failure_time / 2"', 'value = "2 * size"\nend = "repair_time"'))
     for trial in range(12):
-        row = made.draws.row(trial)
+        row = {name: column[trial] for name, column in made.draws.columns.items()}
         start, end = row["failure_time"] / 2, row["failure_time"] + 20
         assert made.faults_of(trial) == [Fault("a.b", "bias", 2 * row["size"], start, end)]
     assert made.fault_texts() == ["x: a.b=bias:2 * size@failure_time / 2..repair_time"]

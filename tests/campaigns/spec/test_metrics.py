@@ -21,7 +21,13 @@ def metric(expression, reduction, **options):
 
 def value(expression, reduction, times=TIMES, /, **options):
     decay = {"p.x": np.exp(-times / 10), "p.goal": 2.0}
-    return evaluate_metric(metric(expression, reduction, **options), times, {"time": times, **decay})
+    return evaluate(metric(expression, reduction, **options), times, {"time": times, **decay})
+
+
+def evaluate(requested, times, values):
+    """A metric of one flight."""
+    (number,) = evaluate_metric(requested, times, values, np.array([times.size]))
+    return number
 
 
 @pytest.mark.parametrize(
@@ -74,7 +80,7 @@ def test_a_record_of_one_row():
 def test_reductions_are_ordered(samples):
     times, record = np.arange(len(samples)) * 0.5, {"x": np.array(samples)}
     low, mean, rms, high = (
-        evaluate_metric(metric("x", reduction), times, record) for reduction in ("min", "mean", "rms", "max")
+        evaluate(metric("x", reduction), times, record) for reduction in ("min", "mean", "rms", "max")
     )
     margin = 1e-9 * max(1.0, abs(low), abs(high))
     assert low - margin <= mean <= high + margin
@@ -85,7 +91,7 @@ def test_names_are_looked_up_in_record_draws_and_parameters():
     metrics = [Metric("a", Expression("p.x + q.k + d + time"), "final"), Metric("b", Expression("p.x"), "min")]
     times = np.array([0.0, 1.0])
     values = {"time": times, "p.x": np.array([1.0, 2.0]), "q.k": 10, "d": 100}
-    assert [evaluate_metric(requested, times, values) for requested in metrics] == [113.0, 1.0]
+    assert [evaluate(requested, times, values) for requested in metrics] == [113.0, 1.0]
     assert names_needed(metrics, ["d"]) == {"p.x", "q.k"}
 
 

@@ -1,6 +1,7 @@
-"""The reductions settled and first, and what windows do to them.
+"""Reductions of rows to numbers, above all settled and first, and what windows do to them.
 
-Truth: their definitions in plain Python over exact rationals, on random rows; edge cases by hand.
+Truth: their definitions in plain Python over exact rationals, on random rows; edge cases by hand; sums of Python floats
+in order; flights together against each alone.
 """
 
 import math
@@ -14,6 +15,7 @@ from hypothesis import strategies as st
 from perilune.analysis.campaigns.spec.campaign import Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.metrics import evaluate_metric, names_needed
+from perilune.analysis.campaigns.spec.reductions import REDUCTIONS
 
 STEP = Fraction(1, 10)  # s; 0.1 * 3 exceeds 0.3 in doubles
 TRUTHS = st.sampled_from([0.0, 1.0, -2.5, math.nan])
@@ -33,7 +35,13 @@ def value(reduction, rows, window=None, **options):
     truths, values = (np.array(column) for column in zip(*rows, strict=True))
     ends = None if window is None else tuple(map(float, window))
     requested = metric(reduction, window=ends, **options)
-    return evaluate_metric(requested, times, {"time": times, "p.ok": truths, "p.x": values})
+    return evaluate(requested, times, {"time": times, "p.ok": truths, "p.x": values})
+
+
+def evaluate(requested, times, values):
+    """A metric of one flight."""
+    (number,) = evaluate_metric(requested, times, values, np.array([times.size]))
+    return number
 
 
 def inside(rows, window):
@@ -113,17 +121,38 @@ def test_first_by_hand(truths, delay, window, expected):
 def test_settled_of_a_flight_that_does_not_begin_at_zero():
     times = 100.0 + 0.5 * np.arange(10)
     record = {"time": times, "p.ok": times >= 102.0}
-    assert evaluate_metric(metric("settled"), times, record) == 2.0
-    assert evaluate_metric(metric("settled", window=(101.0, math.inf)), times, record) == 1.0
+    assert evaluate(metric("settled"), times, record) == 2.0
+    assert evaluate(metric("settled", window=(101.0, math.inf)), times, record) == 1.0
 
 
 def test_constants_are_conditions_and_values_too():
     times = np.arange(3.0)
     requested = Metric("m", Expression("time"), "first", condition=Expression("case == 2"))
-    actual = [evaluate_metric(requested, times, {"time": times, "case": case}) for case in (1.0, 2.0)]
+    actual = [evaluate(requested, times, {"time": times, "case": case}) for case in (1.0, 2.0)]
     assert actual == [pytest.approx(math.nan, nan_ok=True), 0.0]
 
 
 def test_the_conditions_names_are_needed_too():
     requested = Metric("m", Expression("p.x + time"), "first", condition=Expression("p.ok and case > 1"))
     assert names_needed([requested], ["case"]) == {"p.x", "p.ok"}
+
+
+@given(st.lists(st.lists(st.floats(-1e3, 1e3), max_size=12), min_size=1, max_size=6), st.sampled_from(REDUCTIONS))
+def test_flights_together_are_each_alone_to_the_bit(flights, reduction):
+    metric = Metric("m", Expression("p.x"), reduction, (-1.0, 1.0), (0.05, 0.85), condition=Expression("p.x > 0"))
+    times = [0.1 * np.arange(len(rows)) for rows in flights]
+    ends = np.cumsum([len(rows) for rows in flights])
+    joined, signal = np.concatenate(times), np.concatenate([np.array(rows) for rows in flights])
+    together = evaluate_metric(metric, joined, {"p.x": signal}, ends)
+    alone = [evaluate(metric, each, {"p.x": np.array(rows)}) for each, rows in zip(times, flights, strict=True)]
+    assert together.tobytes() == np.array(alone).tobytes()
+
+
+@given(st.lists(st.floats(-1e3, 1e3), min_size=1, max_size=200))
+def test_means_are_summed_from_the_first_row_to_the_last(rows):
+    times, values = np.arange(len(rows)), {"x": np.array(rows)}
+    total = squares = 0.0
+    for number in rows:
+        total, squares = total + number, squares + number * number
+    assert evaluate(Metric("m", Expression("x"), "mean"), times * 0.5, values) == total / len(rows)
+    assert evaluate(Metric("m", Expression("x"), "rms"), times * 0.5, values) == math.sqrt(squares / len(rows))

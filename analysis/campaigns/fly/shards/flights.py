@@ -10,7 +10,8 @@ from ..flyer import Flyer
 from ..workers import FlyerPool
 from .numbering import Numbering
 
-MOST_IN_THREAD, MOST_IN_PROCESS = 50, 10  # trials of a task: enough to send, few enough to share out or lose
+MOST_IN_THREAD, MOST_IN_PROCESS = 500, 10  # trials of a task: enough to send, few enough to share out or lose
+TASKS = 16  # for each worker, at least: few trials at the end, when some have nothing left to do
 
 
 def fly_shards(
@@ -43,7 +44,7 @@ def fly_shards(
 
 def task_size(trials: int, workers: int, threads: bool) -> int:
     """How many trials a worker flies at a time."""
-    return max(1, min(MOST_IN_THREAD if threads else MOST_IN_PROCESS, trials // (4 * workers)))
+    return max(1, min(MOST_IN_THREAD if threads else MOST_IN_PROCESS, trials // (TASKS * workers)))
 
 
 class Parts:

@@ -59,6 +59,21 @@ class Recording(NamedTuple):
     stride: int
     record: np.ndarray  # float64 [k, r], what is kept of a slot side by side, since it is looked at slot by slot
     times: np.ndarray  # float64 [r], s
+    offset: int  # the first row that is written
+
+
+class Group(NamedTuple):
+    """What n flights one behind another are given, and how they ended."""
+
+    rows: int  # that a flight may record
+    real: np.ndarray  # float64 [n, v], values of parameters
+    real_position: np.ndarray  # int64 [v], their places in `Settings`
+    whole: np.ndarray  # int32 [n, w]
+    whole_position: np.ndarray  # int64 [w]
+    fault_window: np.ndarray  # float64 [n, f, 2], of the first f faults, from and until (s)
+    fault_value: np.ndarray  # float64 [n, f]
+    ends: np.ndarray  # int64 [n], the rows in the record behind each flight
+    endings: np.ndarray  # int64 [n], first word of the outcome of each flight
 
 
 class Texts(NamedTuple):
@@ -164,7 +179,7 @@ def blank(*, with_fmi3: bool) -> tuple[Program, Buffers, Settings, Span, Recordi
         buffers,
         settings,
         span,
-        Recording(np.zeros(row, index), 0, np.zeros(rows), np.zeros(row)),
+        Recording(np.zeros(row, index), 0, np.zeros(rows), np.zeros(row), 0),
         np.zeros(rows),
         _blank_fmi3(texts) if with_fmi3 else (),
     )

@@ -11,7 +11,7 @@ others, since every name that is kept alive here is read from memory instead of 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache
 from types import FunctionType
 from typing import Any
@@ -71,7 +71,7 @@ WHOLE_MIN, WHOLE_MAX = -(2**31), 2**31 - 1  # of FMI's Integers
 
 
 def _fly(program, buffers, settings, span, recording, excitation, fmi3):  # type: ignore[no-untyped-def]
-    """Initialise and run; returns the number of rows recorded, buffers.outcome says how it ended.
+    """Initialise and run; returns the number of rows in the record, buffers.outcome says how it ended.
 
     The rows of ``excitation``, float64 [r, e], are added to the excited slots at the communication points behind
     ``span.first``. ``fmi3`` is used by FMUs of FMI 3.0 alone.
@@ -89,7 +89,7 @@ def _fly(program, buffers, settings, span, recording, excitation, fmi3):  # type
     recorded, stride, record, times = recording.slots, recording.stride, recording.record, recording.times
     halt = buffers.halt
     outcome[:] = 0
-    rows = 0
+    rows = recording.offset
     phases, parts = program.phases, program.phases.size - 1
     n = first_point  # -1: the initialisation
     phase = max(n, 0) % parts
@@ -276,9 +276,14 @@ def _fly(program, buffers, settings, span, recording, excitation, fmi3):  # type
         last_instruction = np.uint64(phases[phase + 1])
 
 
-def _under_another_name(function: Callable[..., int], name: str, **constants: bool) -> FunctionType:
-    """A copy for another compilation: numba's cache tells functions apart by name, not by options or constants."""
-    copy = FunctionType(function.__code__.replace(co_name=name, co_qualname=name), {**globals(), **constants}, name)
+def under_another_name(
+    function: Callable[..., int], names: Mapping[str, object], name: str, **constants: object
+) -> FunctionType:
+    """A copy for another compilation, with the ``names`` of its module and ``constants``.
+
+    numba's cache tells functions apart by name, not by options or constants.
+    """
+    copy = FunctionType(function.__code__.replace(co_name=name, co_qualname=name), {**names, **constants}, name)
     copy.__qualname__ = name
     return copy
 
@@ -287,7 +292,7 @@ def _under_another_name(function: Callable[..., int], name: str, **constants: bo
 def function(*, locked: bool, with_fmi3: bool) -> Any:
     """For Python FMUs, which need the interpreter lock at every call, or native ones; compiled when it is called."""
     name = f"_fly{'' if locked else '_unlocked'}{'_fmi3' if with_fmi3 else ''}"
-    return compile_cached(_under_another_name(_fly, name, WITH_FMI3=with_fmi3), nogil=not locked)
+    return compile_cached(under_another_name(_fly, globals(), name, WITH_FMI3=with_fmi3), nogil=not locked)
 
 
 def compile_for(arguments: tuple, *, locked: bool, with_fmi3: bool) -> Callable[..., int]:

@@ -1,0 +1,91 @@
+"""Flights one behind another: what the loop is given for them, and what they leave."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from ..system.passing.flight_table import FlightTable
+from .compiled import arrays
+from .orders.injections import NEVER
+from .parameters import Key, Parameters
+from .results import Flight
+
+RECORD_BYTES = 2**21  # of a group: few enough for the processor's cache, enough for hundreds of short flights
+
+
+def group_of(
+    table: FlightTable, keys: Mapping[str, Key], parameters: Parameters, rows: int, margin: float
+) -> arrays.Group:
+    """A table as arrays for the loop, whose times may lack ``margin`` (s). A flight may record ``rows``."""
+    real = [name for name in table.values if parameters.types[keys[name]] == "Real"]
+    whole = [name for name in table.values if name not in real]
+    window = np.empty((table.flights, len(table.faults), 2))
+    value = np.empty((table.flights, len(table.faults)))
+    for number, fault in enumerate(table.faults):
+        window[:, number, 0] = np.where(fault.flies, fault.start - margin, NEVER[0])
+        window[:, number, 1] = np.where(fault.flies, fault.end - margin, NEVER[1])
+        value[:, number] = fault.value
+    return arrays.Group(
+        rows=rows,
+        real=_columns(table, real, np.float64),
+        real_position=_positions(real, keys, parameters),
+        whole=_columns(table, whole, np.int32),
+        whole_position=_positions(whole, keys, parameters),
+        fault_window=window,
+        fault_value=value,
+        ends=np.zeros(table.flights, dtype=np.int64),
+        endings=np.zeros(table.flights, dtype=np.int64),
+    )
+
+
+def _columns(table: FlightTable, names: Sequence[str], dtype: type) -> np.ndarray:
+    columns: np.ndarray = np.empty((table.flights, len(names)), dtype=dtype)
+    for column, name in enumerate(names):
+        columns[:, column] = table.values[name]
+    return columns
+
+
+def most_flights(flights: int, signals: int, rows: int) -> int:
+    """How many of these flights have room in the record of a group, one at least."""
+    return max(1, min(flights, RECORD_BYTES // (8 * rows * (signals + 1))))
+
+
+def _positions(names: Sequence[str], keys: Mapping[str, Key], parameters: Parameters) -> np.ndarray:
+    return np.array([parameters.positions[keys[name]] for name in names], dtype=np.int64)
+
+
+@dataclass
+class FlightGroup:
+    """Flights as `Flight` has them, their rows one behind another: those of flight k end before row ``ends[k]``."""
+
+    time: np.ndarray
+    signals: Mapping[str, np.ndarray]
+    ends: np.ndarray
+    statuses: list[str]
+    complete: np.ndarray  # bool, whether each came to its end
+    messages: list[str]
+
+    @classmethod
+    def of(cls, flight: Flight) -> Self:
+        """One flight."""
+        ends, complete = np.array([flight.time.size]), np.array([flight.complete])
+        return cls(flight.time, flight.signals, ends, [flight.status], complete, [flight.message])
+
+    @property
+    def starts(self) -> np.ndarray:
+        """The first row of each flight."""
+        return np.concatenate([[0], self.ends[:-1]])
+
+    def last(self, values: np.ndarray) -> np.ndarray:
+        """The last entry of each flight of a column of rows, NaN of a flight without rows."""
+        if not values.size:
+            return np.full(self.ends.size, np.nan)
+        return np.where(self.ends > self.starts, values[self.ends - 1], np.nan)
+
+    def rows(self, flight: int) -> slice:
+        """The rows of a flight, by its place in the group."""
+        return slice(int(self.starts[flight]), int(self.ends[flight]))
