@@ -16,6 +16,7 @@ from ..campaigns.fly.results import BatchResult
 from ..campaigns.fly.runner import fly_campaign
 from ..campaigns.spec.plan import read_plan
 from ..common.errors import InputError
+from ..common.visible import first_ones
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.ssp.reading import read_description
 from ..runtime.system.options import SystemOptions
@@ -59,8 +60,7 @@ def compare_report(stored: bytes, system: Path, name: str, options: SystemOption
         for key in {**numbers, **now}
         if key != ".perilune" and not _same(numbers.get(key), now.get(key), relative)
     ]
-    more = [f"and {len(differences) - NAMED} more"] if len(differences) > NAMED else []
-    return [f"{name}: {line}" for line in [*differences[:NAMED], *more]]
+    return [f"{name}: {line}" for line in first_ones(differences, NAMED)]
 
 
 def _verdicts(system: Path, name: str, options: SystemOptions) -> dict[str, object]:

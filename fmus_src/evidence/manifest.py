@@ -9,6 +9,7 @@ import hashlib
 import posixpath
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from urllib.parse import quote
 
 from lxml import etree
 
@@ -60,7 +61,7 @@ def _write_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> b
             root,
             "Related",
             type=each.type,
-            source=posixpath.relpath(each.name, FOLDER),
+            source=quote(posixpath.relpath(each.name, FOLDER)),
             role=each.role,
             description=each.description,
             checksum=hashlib.sha3_256(files[each.name]).hexdigest(),
