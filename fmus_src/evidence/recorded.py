@@ -9,11 +9,22 @@ from collections.abc import Iterable, Sequence
 from ..block import Block
 from ..runtime import Component
 from ..variables import Input, Variable
-from .check import TIME, Check, elements_of
+from .check import TIME, Check, CheckError, elements_of
 
 
 def record_outputs(block_class: type[Block], check: Check) -> bytes:
-    """A CSV of time (s) and outputs for the inputs and parameters of a check. Raises what the block raises."""
+    """A CSV of time (s) and outputs for the inputs and parameters of a check.
+
+    Raises CheckError where the block raises anything.
+    """
+    try:
+        return _record(block_class, check)
+    except Exception as error:  # whatever a block of the user's raises is reported as one line
+        problem = f"the block raises {type(error).__name__}: {error}"
+        raise CheckError(f"{block_class.fmu_name}: check: {problem}; correct the block or the check") from error
+
+
+def _record(block_class: type[Block], check: Check) -> bytes:
     elements = elements_of(block_class)
     references = {name: index for index, name in enumerate(elements)}
     columns = check.columns()
