@@ -32,7 +32,7 @@ def _record(block_class: type[Block], check: Check) -> bytes:
     outputs = list(check.tolerances)
     component = Component(block_class)
     for name, number in check.parameters.items():
-        component.set([references[name]], [_of_type(elements[name], number)])
+        component.set([references[name]], [of_type(elements[name], number)])
     times = columns[TIME]
     component.start_time = times[0]
     rows = []
@@ -61,10 +61,11 @@ def _sample(variable: Variable, samples: list[float], row: int) -> float | int |
     """
     if variable.type_name == "Real" and row:
         return 0.0 * samples[row - 1] + 1.0 * samples[row]
-    return _of_type(variable, samples[row])
+    return of_type(variable, samples[row])
 
 
-def _of_type(variable: Variable, number: float | int | bool) -> float | int | bool:
+def of_type(variable: Variable, number: float | int | bool) -> float | int | bool:
+    """A number of a check as the Python type of its variable."""
     return {"Real": float, "Boolean": bool}.get(variable.type_name, int)(number)
 
 
