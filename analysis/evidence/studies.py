@@ -49,12 +49,11 @@ def make_report(system: Path, name: str, options: SystemOptions) -> bytes:
 def compare_report(stored: bytes, system: Path, name: str, options: SystemOptions, file: str) -> list[str]:
     """Where a study made anew differs from its stored report, a line each. Raises InputError."""
     try:
-        before = json.loads(stored)
+        numbers = dict(_leaves(json.loads(stored), ""))
     except (ValueError, RecursionError) as error:
         raise InputError(file, "", f"not JSON: {error}", "export the system again") from error
-    after = json.loads(make_report(system, name, options))
+    now = dict(_leaves(json.loads(make_report(system, name, options)), ""))
     relative = LAPACK if name == STABILITY else 0.0
-    numbers, now = dict(_leaves(before, "")), dict(_leaves(after, ""))
     differences = [
         f"{key}: {numbers.get(key, 'absent')} in the report, {now.get(key, 'absent')} now"
         for key in {**numbers, **now}
