@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 # C0 and C1 but for tab, line feed and carriage return; marks of the direction of writing.
 CONTROLS = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
@@ -24,6 +25,12 @@ def visible_line(text: str, longest: int) -> str:
     """At most so many characters of it, on one line: lines and columns become blanks."""
     line = visible(" ".join(text.split()))
     return line if len(line) <= longest else f"{line[:longest]} ..."
+
+
+def first_ones(lines: Sequence[str], limit: int, things: str = "") -> list[str]:
+    """At most so many lines, and one that counts the others, ``things``."""
+    more = f"and {len(lines) - limit} more {things}".rstrip()
+    return [*lines[:limit], more] if len(lines) > limit else list(lines)
 
 
 def _escape(match: re.Match[str]) -> str:

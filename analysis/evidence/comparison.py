@@ -34,9 +34,14 @@ class SignalCheck:
         return self.excess <= 1.0
 
 
+def time_margin(time: np.ndarray) -> np.ndarray:
+    """What times (s) may differ by, each, and be equal."""
+    return CLOSE * np.maximum(np.abs(time), 1.0)
+
+
 def match_rows(flown: np.ndarray, reference: np.ndarray) -> np.ndarray | None:
     """The rows of a flight at a reference's times (s), the last of equal ones; None where one lies between rows."""
-    margin = CLOSE * np.maximum(np.abs(reference), 1.0)
+    margin = time_margin(reference)
     rows = np.clip(np.searchsorted(flown, reference + margin, side="right") - 1, 0, None)
     return rows if np.all(np.abs(flown[rows] - reference) <= margin) else None
 

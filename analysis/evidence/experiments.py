@@ -71,8 +71,10 @@ def plan_experiments(manifest: Manifest, files: Mapping[str, bytes], label: str)
             experiments.append(made)
     used = {each.references for each in experiments} | {each.stimuli for each in experiments}
     for related in manifest.files:
-        if related.role == "result" and related.name is not None and related.name not in used:
-            if related.type != CSV:
+        if related.role == "result" and related.name not in used:
+            if related.name is None:
+                notes.append(f"{related.source}: no file of the archive: not compared")
+            elif related.type != CSV:
                 notes.append(f"{related.source}: {related.type} is not read, text/csv is: not compared")
             else:
                 experiments.append(PlannedExperiment("default experiment", None, None, None, related.name))
@@ -94,7 +96,7 @@ def _elements(manifest: Manifest, files: Mapping[str, bytes], label: str) -> Ite
 
 def _read(element: etree._Element, file: str, label: str) -> PlannedExperiment | str:
     """An experiment, or why it is not simulated."""
-    name = element.get("name", "")
+    name = element.get("name") or "experiment"
     kind = next((kind for kind in KINDS if element.find(kind) is not None), None)
     if kind is not None:
         return f"{name}: an experiment of kind {kind}, not simulated"
@@ -106,11 +108,14 @@ def _read(element: etree._Element, file: str, label: str) -> PlannedExperiment |
             return f"{name}: {tag} of type {child.get('type')} are not read, {expected} is: not simulated"
         sources[tag] = None if source is None else file_of(source, posixpath.dirname(file))
         if source is not None and sources[tag] is None:
-            return f"{name}: {source} lies outside the archive: not simulated"
+            return f"{name}: {source} is no file of the archive: not simulated"
     if sources["References"] is None:
         return f"{name}: without References: nothing to compare"
     transient = element.find(TRANSIENT)
-    start, stop, step = (_number(element if transient is None else transient, key, file, label) for key in TIMES)
+    times = element if transient is None else transient
+    start, stop, step = (_number(times, key, file, label) for key in TIMES)
+    if step is not None and step <= 0.0:
+        raise _error(times, "stepSize", "is not a positive number of seconds", file, label)
     return PlannedExperiment(
         name,
         start,
@@ -135,6 +140,8 @@ def _tolerances(element: etree._Element, file: str, label: str) -> Tolerances | 
 
 def _bound(element: etree._Element, key: str, file: str, label: str) -> float:
     bound = _number(element, key, file, label)
+    if bound is not None and bound < 0.0:
+        raise _error(element, key, "is less than 0", file, label)
     return 0.0 if bound is None else bound
 
 
@@ -147,6 +154,10 @@ def _number(element: etree._Element, key: str, file: str, label: str) -> float |
     except ValueError:
         number = math.nan
     if not math.isfinite(number):
-        where = f"{element.tag} (line {element.sourceline}), {key}"
-        raise InputError(f"{label}!{file}", where, f"{text!r} is not a finite number", "correct it")
+        raise _error(element, key, "is not a finite number", file, label)
     return number
+
+
+def _error(element: etree._Element, key: str, problem: str, file: str, label: str) -> InputError:
+    where = f"{element.tag} (line {element.sourceline}), {key}"
+    return InputError(f"{label}!{file}", where, f"{element.get(key)!r} {problem}", "correct it")

@@ -80,29 +80,35 @@ def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
         if element.get("checksumType", CHECKSUM) not in ALGORITHMS:
             flaws.append(f"{line}: checksumType {element.get('checksumType')!r} is none of the standard: not checked")
         related.append(_related(element))
-    return Manifest(root, tuple(related), tuple(flaws))
+    return Manifest(root, tuple(related), tuple(dict.fromkeys(flaws)))
 
 
 def file_of(source: str, base: str) -> str | None:
-    """The name in the archive that a URI means, relative to the folder ``base``; None for one that leads outside."""
-    if urlsplit(source).scheme or source.startswith("/"):
+    """The name in the archive that a URI means, relative to the folder ``base``; None for any other text."""
+    try:
+        uri = urlsplit(source)
+    except ValueError:
         return None
-    name = posixpath.normpath(posixpath.join(base, unquote(source)))
-    return None if name.startswith("../") else name
+    name = posixpath.normpath(posixpath.join(base, unquote(uri.path)))
+    return None if uri.scheme or uri.netloc or name.startswith(("/", "../")) else name
 
 
-def checksum_problem(related: RelatedFile, files: Mapping[str, bytes]) -> str | None:
-    """What is wrong with a listed file: it is missing, or not the one that was listed; None where nothing is."""
-    if related.name is None:
-        return None
-    if related.name not in files:
-        return f"{related.name}: missing, though the manifest lists it"
-    if related.checksum is None or related.algorithm not in ALGORITHMS:
-        return None
-    digest = hashlib.new(ALGORITHMS[related.algorithm], files[related.name]).hexdigest()
-    if digest != related.checksum.lower():
-        return f"{related.name}: changed: its {related.algorithm} is not the manifest's"
-    return None
+def check_listed(manifest: Manifest, files: Mapping[str, bytes]) -> dict[str, str]:
+    """What is wrong, by name, with listed files that are missing, or not those that were listed."""
+    digests: dict[tuple[str, str], str] = {}  # of a file that is listed often once
+    problems = {}
+    for related in manifest.files:
+        name, algorithm = related.name, related.algorithm
+        if name is None:
+            continue
+        if name not in files:
+            problems[name] = "missing, though the manifest lists it"
+        elif related.checksum is not None and algorithm in ALGORITHMS:
+            if (name, algorithm) not in digests:
+                digests[name, algorithm] = hashlib.new(ALGORITHMS[algorithm], files[name]).hexdigest()
+            if digests[name, algorithm] != related.checksum.strip().lower():
+                problems[name] = f"changed: its {algorithm} is not the manifest's"
+    return problems
 
 
 def _related(element: etree._Element) -> RelatedFile:

@@ -12,6 +12,7 @@ import numpy as np
 from lxml import etree
 
 from ..common.errors import InputError
+from ..common.visible import first_ones
 from ..runtime.apart.opening import open_simulation
 from ..runtime.flight.interruptible import fly
 from ..runtime.ssp.archive import SystemArchive, read_fmu
@@ -20,14 +21,15 @@ from ..runtime.system.alone import describe_alone, proposed_step
 from ..runtime.system.fmu import Fmu, load_fmu
 from ..runtime.system.options import SystemOptions
 from ..runtime.system.prepared import PreparedSystem, prepare_system
-from .comparison import CLOSE, SignalCheck, compare
+from .comparison import SignalCheck, compare, time_margin
 from .experiments import PlannedExperiment
 from .trajectory import Trajectory, read_trajectory
 
+TEXTS = ("String", "Binary")
 NAMED = 6  # columns without a variable
 RELATIVE = 1e-6  # of a signal's greatest magnitude, where no tolerance is declared
 WHOLE = 1e-6  # what a number of steps may lack of a whole one
-SET = "resources/experiment.ssv"  # the parameters of an experiment among the files of its archive
+SET = "resources/perilune-verify-experiment.ssv"  # an experiment's parameters among the files of its archive
 
 
 @dataclass(frozen=True)
@@ -71,14 +73,19 @@ def reproduce(
     if experiment.start is not None and experiment.start != prepared.start:
         problem = f"starts at {experiment.start:g} s, where the default experiment starts at {prepared.start:g} s"
         return replace(made, problems=(f"{problem}: not simulated",))
+    first, last = reference.time[[0, -1]]
+    if first < prepared.start - time_margin(first):
+        problem = f"its reference starts at {first:g} s, the simulation at {prepared.start:g} s: not simulated"
+        return replace(made, problems=(problem,))
     variables, problems = _variables(prepared, reference)
+    if not variables:
+        return replace(made, problems=tuple(problems) or ("its reference has no signal to compare",))
     more = [name for name in variables.values() if name not in prepared.network.nodes]
     with chdir(Path.cwd()), open_simulation(prepared, more=more) as simulation:
         flight = fly(simulation, timeout)
-    last = float(reference.time[-1])
     if not flight.complete:
         problems.append(f"{flight.ending}: {flight.message}")
-    elif flight.time[-1] < last - CLOSE * max(abs(last), 1.0):
+    elif flight.time[-1] < last - time_margin(last):
         problems.append(f"ends at t = {flight.time[-1]:g} s, the reference at {last:g} s")
     else:
         fraction = (0.0 if experiment.tolerances is not None else RELATIVE) if relative is None else relative
@@ -112,8 +119,7 @@ def _variables(prepared: PreparedSystem, reference: Trajectory) -> tuple[dict[st
             problems.append(f"column {name}: {problem}")
         elif full not in network.driven:
             variables[name] = full
-    more = [f"and {len(problems) - NAMED} more columns"] if len(problems) > NAMED else []
-    return variables, [*problems[:NAMED], *more]
+    return variables, first_ones(problems, NAMED, "columns")
 
 
 def _table(files: Mapping[str, bytes], name: str, label: str) -> Trajectory:
@@ -139,9 +145,13 @@ def _prepare(
     others: set[str] = set()
     component = ""
     if archive.is_fmu:
-        fmu = loaded.setdefault(archive.label, load_fmu(read_fmu(archive.path)(), archive.label))
+        if archive.label not in loaded:
+            loaded[archive.label] = load_fmu(read_fmu(archive.path)(), archive.label)
+        fmu = loaded[archive.label]
         component = describe_alone(fmu, options)[0].system.name
-        others = {name for name, variable in fmu.variables.items() if variable.causality != "input"}
+        others = {
+            name for name, variable in fmu.variables.items() if variable.causality != "input" or variable.type in TEXTS
+        }
         if options.step is None:
             options = replace(options, step=_step(reference.time, proposed_step(fmu)))
     if experiment.parameters is not None:

@@ -16,6 +16,7 @@ from ..campaigns.fly.results import BatchResult
 from ..campaigns.fly.runner import fly_campaign
 from ..campaigns.spec.plan import read_plan
 from ..common.errors import InputError
+from ..common.visible import first_ones
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.ssp.reading import read_description
 from ..runtime.system.options import SystemOptions
@@ -48,19 +49,17 @@ def make_report(system: Path, name: str, options: SystemOptions) -> bytes:
 def compare_report(stored: bytes, system: Path, name: str, options: SystemOptions, file: str) -> list[str]:
     """Where a study made anew differs from its stored report, a line each. Raises InputError."""
     try:
-        before = json.loads(stored)
+        numbers = dict(_leaves(json.loads(stored), ""))
     except (ValueError, RecursionError) as error:
         raise InputError(file, "", f"not JSON: {error}", "export the system again") from error
-    after = json.loads(make_report(system, name, options))
+    now = dict(_leaves(json.loads(make_report(system, name, options)), ""))
     relative = LAPACK if name == STABILITY else 0.0
-    numbers, now = dict(_leaves(before, "")), dict(_leaves(after, ""))
     differences = [
         f"{key}: {numbers.get(key, 'absent')} in the report, {now.get(key, 'absent')} now"
         for key in {**numbers, **now}
         if key != ".perilune" and not _same(numbers.get(key), now.get(key), relative)
     ]
-    more = [f"and {len(differences) - NAMED} more"] if len(differences) > NAMED else []
-    return [f"{name}: {line}" for line in [*differences[:NAMED], *more]]
+    return [f"{name}: {line}" for line in first_ones(differences, NAMED)]
 
 
 def _verdicts(system: Path, name: str, options: SystemOptions) -> dict[str, object]:

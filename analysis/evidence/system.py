@@ -19,9 +19,11 @@ from ...fmus_src.evidence.manifest import (
     STABILITY,
     Related,
     add_manifest,
+    mime_type,
 )
 from ...fmus_src.evidence.recorded import write_table
 from ...fmus_src.export.archive import read_zip
+from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 from ..common.errors import InputError, suggestion
 from ..runtime.apart.opening import open_simulation
 from ..runtime.flight.interruptible import fly
@@ -43,6 +45,9 @@ def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
     for name in studies:
         if name not in (*known, ALL):
             raise InputError("`studies`", name, f"no such study of {archive.label}", suggestion(name, [*known, ALL]))
+    for name in (STABILITY, ALL):
+        if (name in studies or ALL in studies) and name in archive.campaign_names():
+            raise InputError("`studies`", name, f"also a campaign of {archive.label}", "rename the campaign")
     return known if ALL in studies else list(dict.fromkeys(studies))
 
 
@@ -72,7 +77,7 @@ def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes
         report = f"{FOLDER}/reports/{name}.json"
         files[report] = make_report(packed, name, SystemOptions())
         what = "margins of the loops" if name == STABILITY else f"verdicts and statistics of the campaign {name}"
-        related.append(Related(report, "report", "application/json", what, study=name))
+        related.append(Related(report, "report", mime_type(report), what, study=name))
     return add_manifest(files, related)
 
 
@@ -83,11 +88,11 @@ def _listed(files: dict[str, bytes]) -> list[Related]:
         stem = PurePosixPath(name).stem
         if name.endswith(".ssv"):
             related.append(Related(name, "parameter", PARAMETERS, f"parameter set {stem}"))
-        elif name.endswith(".toml") and name.startswith("extra/org.perilune/campaigns/"):
+        elif name.endswith(".toml") and name.startswith(f"{CAMPAIGN_FOLDER}/"):
             role = "experiment/uncertainty-analysis"
-            related.append(Related(name, role, "application/toml", f"campaign {stem}"))
+            related.append(Related(name, role, mime_type(name), f"campaign {stem}"))
         elif name.startswith("documentation/"):
-            related.append(Related(name, "document", "text/markdown", "what the system is"))
+            related.append(Related(name, "document", mime_type(name), "what the system is"))
     return related
 
 

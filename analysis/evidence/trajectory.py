@@ -28,7 +28,13 @@ class Trajectory:
     texts: tuple[str, ...]
 
     def series(self, without: set[str]) -> InputSeries:
-        """Its columns but those ``without`` as inputs over time; samples that are not finite are as good as others."""
+        """Its columns but those ``without`` as inputs over time; samples that are not finite are as good as others.
+
+        Raises InputError for a column of texts among them.
+        """
+        for name in self.texts:
+            if name not in without:
+                raise InputError(self.file, f"column {name}", "not numbers, as an input has them", "write numbers")
         columns = {name: samples for name, samples in self.signals.items() if name not in without}
         return InputSeries(self.file, self.sha256, self.time, columns)
 
@@ -65,4 +71,4 @@ def _numbers(column: pyarrow.ChunkedArray) -> np.ndarray | None:
         column = column.cast(pyarrow.int8())
     if not (pyarrow.types.is_integer(column.type) or pyarrow.types.is_floating(column.type)):
         return None
-    return np.asarray(column.cast(pyarrow.float64()).to_numpy(), dtype=np.float64)
+    return np.asarray(column.cast(pyarrow.float64(), safe=False).to_numpy(), dtype=np.float64)

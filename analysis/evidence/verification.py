@@ -2,29 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..common.bounds import ARCHIVE_BYTES
 from ..common.errors import InputError
 from ..common.regular import read_input
+from ..common.visible import first_ones
 from ..common.zips import ZippedFiles
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.system.fmu import Fmu
 from ..runtime.system.options import SystemOptions
 from .experiments import plan_experiments
-from .manifest import checksum_problem, read_manifest
+from .manifest import Manifest, check_listed, read_manifest
 from .reproduction import Reproduction, reproduce
 from .studies import compare_report, known_studies
 from .sums import check_sums
 
+NAMED = 10  # files that were added, flaws of a manifest
+
 
 @dataclass(frozen=True)
 class Verification:
-    """What is known of one archive: its experiments reproduced, its ``studies`` made anew; ``problems``, ``notes``."""
+    """What is known of one archive: its experiments simulated, its ``studies`` repeated; ``problems``, ``notes``.
+
+    ``reproduced`` are those of ``studies`` that equal their reports.
+    """
 
     file: str
     reproductions: tuple[Reproduction, ...]
     studies: tuple[str, ...]
+    reproduced: tuple[str, ...]
     problems: tuple[str, ...]
     notes: tuple[str, ...]
 
@@ -39,29 +47,42 @@ def verify_archive(
     """
     files = ZippedFiles(read_input(archive.path, "give an .fmu or .ssp", ARCHIVE_BYTES), archive.label)
     manifest = read_manifest(files, archive.label)
-    problems, notes = check_sums(files, archive.label)
-    named = {problem.partition(":")[0] for problem in problems}
-    listed = filter(None, (checksum_problem(related, files) for related in manifest.files))
-    problems += [problem for problem in listed if problem.partition(":")[0] not in named]
-    notes += [f"manifest: {flaw}" for flaw in manifest.flaws]
+    changed, added = check_sums(files, archive.label)
+    problems = [f"{name}: {problem}" for name, problem in (check_listed(manifest, files) | changed).items()]
     plan = plan_experiments(manifest, files, archive.label)
-    notes += plan.notes
+    notes = [
+        *first_ones([f"{name}: not in SHA256SUMS, added later" for name in added], NAMED, "files"),
+        *first_ones([f"manifest: {flaw}" for flaw in manifest.flaws], NAMED, "flaws of the manifest"),
+        *plan.notes,
+    ]
     loaded: dict[str, Fmu] = {}
     reproductions = []
-    studies: list[str] = []
     for experiment in plan.experiments:
         try:
             reproductions.append(reproduce(archive, files, experiment, options, relative, timeout, loaded))
         except InputError as error:
             problems.append(f"{experiment.name}: {error.text}")
-    for related in manifest.files:
-        if related.study is not None and related.name is not None and related.name in files:
-            if related.study not in known_studies(archive):
-                problems.append(f"{related.name}: reports {related.study}, which is no study of the archive")
-                continue
-            where = f"{archive.label}!{related.name}"
-            problems += compare_report(files[related.name], archive.path, related.study, options, where)
-            studies.append(related.study)
+    studies, reproduced, differences = _repeat_studies(archive, manifest, files, options)
+    problems += differences
     if not plan.experiments and not studies:
         problems.append("holds no trajectory: nothing to reproduce")
-    return Verification(archive.label, tuple(reproductions), tuple(studies), tuple(problems), tuple(notes))
+    return Verification(archive.label, tuple(reproductions), studies, reproduced, tuple(problems), tuple(notes))
+
+
+def _repeat_studies(
+    archive: SystemArchive, manifest: Manifest, files: Mapping[str, bytes], options: SystemOptions
+) -> tuple[tuple[str, ...], tuple[str, ...], list[str]]:
+    """The studies that were repeated, those of them that equal their reports, and where others differ."""
+    studies, reproduced, problems = [], [], []
+    for related in manifest.files:
+        if related.study is None or related.name is None or related.name not in files:
+            continue
+        if related.study not in known_studies(archive):
+            problems.append(f"{related.name}: reports {related.study}, which is no study of the archive")
+            continue
+        where = f"{archive.label}!{related.name}"
+        differences = compare_report(files[related.name], archive.path, related.study, options, where)
+        problems += differences
+        studies.append(related.study)
+        reproduced += [] if differences else [related.study]
+    return tuple(studies), tuple(reproduced), problems

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from importlib.metadata import version
 from pathlib import Path
 
+from ...fmus_src.evidence.manifest import mime_type
 from ..campaigns.fly.manifest import CONTENTS, FILE, CampaignDocument, Manifest, SourceDocument, read_manifest
 from ..campaigns.fly.results import BatchResult
 from ..campaigns.fly.shards.files import DRAWS, FOLDER, SUMMARY
@@ -13,20 +14,8 @@ from ..campaigns.replay_command import campaign_command
 from ..common.atomic import write_atomically
 from .elements import Task
 
-TYPES = {
-    ".fmu": "application/x-fmu-sharedlibrary",
-    ".ssd": "application/x-ssp-definition",
-    ".ssv": "application/x-ssp-parameter-set",
-    ".ssm": "application/x-ssp-parameter-mapping",
-    ".ssb": "application/x-ssp-signal-dictionary",
-    ".toml": "application/toml",
-    ".json": "application/json",
-    ".csv": "text/csv",
-    ".md": "text/markdown",
-    ".parquet": "application/vnd.apache.parquet",
-}
+PARQUET, JSON = mime_type(DRAWS), mime_type(SUMMARY)
 KINDS = {".fmu": "model", ".ssd": "system", ".ssv": "parameter", ".ssm": "parameter", ".ssb": "parameter"}
-OTHER = "application/octet-stream"
 
 
 def write_task(made: BatchResult, path: Path) -> None:
@@ -39,33 +28,32 @@ def write_task(made: BatchResult, path: Path) -> None:
 
     requirements = task.step("RequirementsPhase", "DefineTestCaseRequirements")
     for label, content in _sources(manifest.campaign):
-        requirements.add_file("Output", folder / CONTENTS / content, "requirement", TYPES[".toml"], label)
+        requirements.add_file("Output", folder / CONTENTS / content, "requirement", "application/toml", label)
     requirements.classify("org.perilune.success", {"success": campaign.success.text})
     requirements.classify("org.perilune.requirements", {each.name: str(each) for each in campaign.requirements})
 
     parameters = task.step("ImplementationPhase", "ImplementParameter")
-    parameters.add_file("Output", folder / DRAWS, "parameter", TYPES[".parquet"], "draws, a row for each trial")
+    parameters.add_file("Output", folder / DRAWS, "parameter", PARQUET, "draws, a row for each trial")
     parameters.classify("org.perilune.draws", {"seed": str(campaign.seed), "trials": str(campaign.trials)})
 
     environment = task.step("ImplementationPhase", "IntegrateSimulation")
     for label, content in _system_files(manifest):
-        suffix = Path(label).suffix.lower()
-        kind, mime = KINDS.get(suffix, "document"), TYPES.get(suffix, OTHER)
-        environment.add_file("Output", folder / CONTENTS / content, kind, mime, label)
-    environment.add_file("Output", folder / FILE, "configuration", TYPES[".json"], "all that the numbers depend on")
+        kind = KINDS.get(Path(label).suffix.lower(), "document")
+        environment.add_file("Output", folder / CONTENTS / content, kind, mime_type(label), label)
+    environment.add_file("Output", folder / FILE, "configuration", JSON, "all that the numbers depend on")
 
     execution = task.step("ExecutionPhase", "ExecuteSimulation")
     for name in (DRAWS, FILE):
-        execution.add_file("Input", folder / name, "configuration", TYPES[Path(name).suffix], name)
+        execution.add_file("Input", folder / name, "configuration", mime_type(name), name)
     for variant in campaign.variants():
         execution.add_text("Procedure", campaign_command(made.plan, variant), "method", f"variant {variant.name}")
     for part, description in ((FOLDER, "trials"), ("traces", "recorded flights")):
         for file in sorted((folder / part).rglob("*.parquet")):
             label = f"{description}: {file.relative_to(folder).as_posix()}"
-            execution.add_file("Output", file, "result", TYPES[".parquet"], label)
+            execution.add_file("Output", file, "result", PARQUET, label)
 
     evaluation = task.step("EvaluationPhase", "EvaluateSimulationResults")
-    evaluation.add_file("Output", folder / SUMMARY, "report", TYPES[".json"], "rates, statistics and verdicts")
+    evaluation.add_file("Output", folder / SUMMARY, "report", JSON, "rates, statistics and verdicts")
     rates = {variant: f"{entry.success_rate:.10g} of {entry.trials} trials" for variant, entry in made.summary.items()}
     evaluation.classify("org.perilune.success_rate", rates)
 
@@ -75,7 +63,7 @@ def write_task(made: BatchResult, path: Path) -> None:
         for name, each in entry.requirements.items()
     }
     decision = task.step("FulfillmentPhase", "DecideSimulationObjectiveFulfillment")
-    decision.add_file("Input", folder / SUMMARY, "report", TYPES[".json"], SUMMARY)
+    decision.add_file("Input", folder / SUMMARY, "report", JSON, SUMMARY)
     decision.classify("org.perilune.verdicts", verdicts)
     write_atomically(path, task.write())
 

@@ -26,12 +26,9 @@ from .result import NoProblems
 
 
 @dataclass(frozen=True)
-class Exported(NoProblems):
-    """What was written, in which flavours, for which platforms: none where all of it is Python."""
+class Exported(Written, NoProblems):
+    """What was written, and its version of FMI."""
 
-    paths: tuple[Path, ...]
-    flavours: tuple[str, ...]
-    platforms: tuple[str, ...]
     fmi: int
 
     def lines(self) -> list[str]:

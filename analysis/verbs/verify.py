@@ -11,7 +11,7 @@ from ...fmus_src.export.available import fmu_file, fmu_flavours
 from ...fmus_src.paths import FLAVOURS, names_fmu
 from ..common.errors import InputError, suggestion
 from ..common.to_json import to_json
-from ..common.visible import on_one_line
+from ..common.visible import first_ones, on_one_line
 from ..evidence.comparison import SignalCheck
 from ..evidence.reproduction import Reproduction
 from ..evidence.verification import Verification, verify_archive
@@ -48,8 +48,7 @@ class Verifications(Sequence[Verification]):
         lines = []
         for each in self.files:
             lines += [f"{each.file}: {_summary(made)}" for made in each.reproductions]
-            different = {problem.partition(":")[0] for problem in each.problems}
-            lines += [f"{each.file}: {name}: report reproduced" for name in each.studies if name not in different]
+            lines += [f"{each.file}: {name}: report reproduced" for name in each.reproduced]
             lines += [line for note in each.notes for line in wrap(f"{each.file}: note: {note}", 4)]
             lines += [] if _problems(each) else [f"{each.file}: verified"]
         return [on_one_line(line) for line in lines]
@@ -86,7 +85,7 @@ def verify(*paths: FilePath | Sequence[FilePath], **options: Unpack[VerifyOption
 def _path(text: str, flavour: str | None) -> Path:
     """The file that a path or the name of an FMU means. Raises InputError for folders and other files."""
     path = Path(text)
-    if names_fmu(path) or path.suffix == ".ssp":
+    if names_fmu(path) or path.suffix.lower() == ".ssp":
         return path
     for candidate in FLAVOURS if flavour is None else (flavour,):
         file = fmu_file(text, candidate)
@@ -119,9 +118,8 @@ def _problems(verification: Verification) -> list[str]:
     for made in verification.reproductions:
         where = f"{verification.file}: {made.name}"
         problems += [f"{where}: {problem}" for problem in made.problems]
-        wrong = [each for each in made.signals if not each.met]
-        problems += [f"{where}: {_difference(each)}" for each in wrong[:NAMED]]
-        problems += [f"{where}: and {len(wrong) - NAMED} more signals"] if len(wrong) > NAMED else []
+        wrong = [_difference(each) for each in made.signals if not each.met]
+        problems += [f"{where}: {line}" for line in first_ones(wrong, NAMED, "signals")]
     return problems
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..block import Block
-from .check import Check, Tolerances, elements_of, read_check
+from .check import TIME, Check, Tolerances, elements_of, read_check
 from .experiments import Experiment, write_experiments
 from .manifest import CSV, EXPERIMENTS, FOLDER, PARAMETERS, Related, add_manifest
 from .page import block_page
 from .parameter_set import write_parameter_set
-from .recorded import record_outputs
+from .recorded import of_type, record_outputs
 
 CHECK, OUTPUTS, SET, EXPERIMENT = "check.csv", "outputs.csv", "check.ssv", "check.exp"
 PAGE = "documentation/index.html"
@@ -35,10 +35,10 @@ def add_evidence(block_class: type[Block], files: Mapping[str, bytes]) -> dict[s
 
 def _check_files(block_class: type[Block], check: Check) -> tuple[dict[str, bytes], list[Related]]:
     elements = elements_of(block_class)
-    types = {"Real": float, "Integer": int, "Boolean": bool}
-    parameters = {name: types[elements[name].type_name](number) for name, number in check.parameters.items()}
-    has_inputs = any(elements[name].causality == "input" for name in check.columns() if name in elements)
-    start = check.columns()["time"][0]
+    parameters = {name: of_type(elements[name], number) for name, number in check.parameters.items()}
+    columns = check.columns()
+    stimuli = CHECK if any(elements[name].causality == "input" for name in columns if name != TIME) else None
+    times = (columns[TIME][0], check.stop_time)
     files = {CHECK: check.table, SET: write_parameter_set("check", parameters)}
     related = [
         Related(CHECK, "result", CSV, f"inputs, and outputs computed without the block's code: {check.truth}"),
@@ -46,8 +46,6 @@ def _check_files(block_class: type[Block], check: Check) -> tuple[dict[str, byte
     ]
 
     def experiment(name: str, description: str, references: str, tolerances: Tolerances) -> Experiment:
-        stimuli = CHECK if has_inputs else None
-        times = (start, check.stop_time)
         return Experiment(name, description, times, check.step, references, SET, stimuli, tolerances)
 
     experiments = [experiment("check", "outputs against an independent computation", CHECK, check.tolerances)]

@@ -9,6 +9,7 @@ import sys
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ TIME = "time"
 TABLE, DECLARATIONS = ".csv", ".toml"
 KEYS = {"truth": str, "step_size": float, "stop_time": float, "parameters": dict, "tolerances": dict}
 BOUNDS = ("absolute", "relative")
+PARAMETER_TYPES = {"Real": (float, int), "Integer": (int,), "Boolean": (bool,)}
 Tolerances = Mapping[str, tuple[float, float]]  # of signals: absolute, relative
 
 
@@ -44,6 +46,8 @@ class Check:
     def columns(self) -> dict[str, list[float]]:
         """The table's numbers by column, ``time`` first."""
         names, *rows = csv.reader(io.StringIO(self.table.decode()))
+        if not rows:
+            raise ValueError("no rows")
         columns = zip(*([float(text) for text in row] for row in rows), strict=True)
         return dict(zip(names, map(list, columns), strict=True))
 
@@ -87,13 +91,21 @@ def _read_declarations(path: Path) -> dict[str, Any]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise CheckError(f"{path}: not TOML: {error}") from None
     for key, kind in KEYS.items():
-        number = kind is float and isinstance(declared.get(key), int | float) and math.isfinite(declared[key])
-        if not number and not isinstance(declared.get(key), kind):
+        value = declared.get(key)
+        if not (_is_number(value) if kind is float else isinstance(value, kind)):
             raise CheckError(f"{path}: {key}: missing, or of another type than {kind.__name__}; add it")
+    if declared["step_size"] <= 0.0:
+        raise CheckError(f"{path}: step_size: {declared['step_size']:g} s; give a positive step")
     for name, bounds in declared["tolerances"].items():
-        if not isinstance(bounds, dict) or any(not isinstance(bounds.get(key), int | float) for key in BOUNDS):
+        if not isinstance(bounds, dict) or any(not _is_number(bounds.get(key)) or bounds[key] < 0 for key in BOUNDS):
             raise CheckError(f"{path}: tolerances.{name}: write {{ absolute = 0.0, relative = 1e-9 }}")
+    if not declared["tolerances"]:
+        raise CheckError(f"{path}: tolerances: no output, so that nothing is compared; add one")
     return declared
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def _refuse_unknown(block_class: type[Block], check: Check, table: Path, declarations: Path) -> None:
@@ -103,8 +115,14 @@ def _refuse_unknown(block_class: type[Block], check: Check, table: Path, declara
         columns = check.columns()
     except ValueError as error:
         raise CheckError(f"{table}: not a table of numbers: {error}") from None
+    names = next(csv.reader(io.StringIO(check.table.decode())))
+    if len(columns) < len(names):
+        raise CheckError(f"{table}: line 1: two columns of one name; remove one")
     if next(iter(columns), None) != TIME:
         raise CheckError(f"{table}: line 1: the first column is not {TIME}; write time, inputs, outputs")
+    times = columns[TIME]
+    if not all(map(math.isfinite, times)) or any(later < earlier for earlier, later in pairwise(times)):
+        raise CheckError(f"{table}: column {TIME}: times that are not finite, or fall; sort the rows")
     for name in check.tolerances:
         if name not in columns:
             raise CheckError(f"{declarations}: tolerances.{name}: {table.name} has no such column; add it")
@@ -112,6 +130,11 @@ def _refuse_unknown(block_class: type[Block], check: Check, table: Path, declara
         is_output = isinstance(elements.get(name), Output) and name in check.tolerances
         if name != TIME and not isinstance(elements.get(name), Input) and not is_output:
             raise CheckError(f"{table}: column {name}: neither an input nor an output with a tolerance; remove it")
-    for name in check.parameters:
-        if not isinstance(elements.get(name), Parameter | Input):
+    for name, number in check.parameters.items():
+        variable = elements.get(name)
+        if not isinstance(variable, Parameter | Input):
             raise CheckError(f"{declarations}: parameters.{name}: no such parameter; correct the name")
+        types = PARAMETER_TYPES[variable.type_name]
+        if type(number) not in types or not math.isfinite(number):
+            kinds = " or ".join(each.__name__ for each in types)
+            raise CheckError(f"{declarations}: parameters.{name}: {number!r} is no finite {kinds}; correct it")

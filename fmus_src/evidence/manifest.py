@@ -9,6 +9,7 @@ import hashlib
 import posixpath
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from urllib.parse import quote
 
 from lxml import etree
 
@@ -28,6 +29,29 @@ STABILITY = "stability"
 CSV = "text/csv"
 PARAMETERS = "application/x-ssp-parameter-set"
 EXPERIMENTS = "application/x-ma-hs-experiments"
+MIME_TYPES = {
+    ".csv": CSV,
+    ".exp": EXPERIMENTS,
+    ".fmu": "application/x-fmu-sharedlibrary",
+    ".html": "text/html",
+    ".json": "application/json",
+    ".md": "text/markdown",
+    ".parquet": "application/vnd.apache.parquet",
+    ".pdf": "application/pdf",
+    ".png": "image/png",
+    ".ssb": "application/x-ssp-signal-dictionary",
+    ".ssd": "application/x-ssp-definition",
+    ".ssm": "application/x-ssp-parameter-mapping",
+    ".ssv": PARAMETERS,
+    ".svg": "image/svg+xml",
+    ".toml": "application/toml",
+    ".txt": "text/plain",
+}
+
+
+def mime_type(name: str) -> str:
+    """The type of a file by the suffix of its name."""
+    return MIME_TYPES.get(posixpath.splitext(name)[1].lower(), "application/octet-stream")
 
 
 @dataclass(frozen=True)
@@ -60,7 +84,7 @@ def _write_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> b
             root,
             "Related",
             type=each.type,
-            source=posixpath.relpath(each.name, FOLDER),
+            source=quote(posixpath.relpath(each.name, FOLDER)),
             role=each.role,
             description=each.description,
             checksum=hashlib.sha3_256(files[each.name]).hexdigest(),

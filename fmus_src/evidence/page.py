@@ -12,6 +12,7 @@ from lxml.html import builder
 
 from ..block import Block
 from ..variables import Input, Output, Parameter, Variable
+from .manifest import FOLDER
 from .variable_text import bounds_text, sized_name, start_text, unit_text
 
 STYLE = """body { font: 15px/1.5 system-ui, sans-serif; max-width: 64rem; margin: 2rem auto; padding: 0 1rem; }
@@ -33,8 +34,7 @@ def block_page(block_class: type[Block]) -> bytes:
         variables = [each for each in block_class.variables.values() if isinstance(each, kind)]
         if variables:
             body += [builder.H2(title), _table(variables)]
-    folder = "extra/org.fmi-standard.fmi-ls-ref"
-    body += [builder.H2("Verification"), builder.P(VERIFY, builder.CODE(folder), ", where there are any.")]
+    body += [builder.H2("Verification"), builder.P(VERIFY, builder.CODE(FOLDER), ", where there are any.")]
     head = builder.HEAD(builder.META(charset="utf-8"), builder.TITLE(block_class.fmu_name), builder.STYLE(STYLE))
     page = builder.HTML(head, builder.BODY(*body), lang="en")
     return html.tostring(page, doctype="<!DOCTYPE html>", encoding="utf-8", pretty_print=True)

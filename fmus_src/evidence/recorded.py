@@ -9,11 +9,22 @@ from collections.abc import Iterable, Sequence
 from ..block import Block
 from ..runtime import Component
 from ..variables import Input, Variable
-from .check import TIME, Check, elements_of
+from .check import TIME, Check, CheckError, elements_of
 
 
 def record_outputs(block_class: type[Block], check: Check) -> bytes:
-    """A CSV of time (s) and outputs for the inputs and parameters of a check. Raises what the block raises."""
+    """A CSV of time (s) and outputs for the inputs and parameters of a check.
+
+    Raises CheckError where the block raises anything.
+    """
+    try:
+        return _record(block_class, check)
+    except Exception as error:  # whatever a block of the user's raises is reported as one line
+        problem = f"the block raises {type(error).__name__}: {error}"
+        raise CheckError(f"{block_class.fmu_name}: check: {problem}; correct the block or the check") from error
+
+
+def _record(block_class: type[Block], check: Check) -> bytes:
     elements = elements_of(block_class)
     references = {name: index for index, name in enumerate(elements)}
     columns = check.columns()
@@ -21,7 +32,7 @@ def record_outputs(block_class: type[Block], check: Check) -> bytes:
     outputs = list(check.tolerances)
     component = Component(block_class)
     for name, number in check.parameters.items():
-        component.set([references[name]], [_of_type(elements[name], number)])
+        component.set([references[name]], [of_type(elements[name], number)])
     times = columns[TIME]
     component.start_time = times[0]
     rows = []
@@ -50,10 +61,11 @@ def _sample(variable: Variable, samples: list[float], row: int) -> float | int |
     """
     if variable.type_name == "Real" and row:
         return 0.0 * samples[row - 1] + 1.0 * samples[row]
-    return _of_type(variable, samples[row])
+    return of_type(variable, samples[row])
 
 
-def _of_type(variable: Variable, number: float | int | bool) -> float | int | bool:
+def of_type(variable: Variable, number: float | int | bool) -> float | int | bool:
+    """A number of a check as the Python type of its variable."""
     return {"Real": float, "Boolean": bool}.get(variable.type_name, int)(number)
 
 

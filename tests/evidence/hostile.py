@@ -14,6 +14,10 @@ VERIFY = ("verify x.fmu",)
 ATTRIBUTES = {"name": STANDARD, "version": "1.0.0-beta.1", "description": "d"}
 NAMES = " ".join(f'l:fmi-ls-{name}="{text}"' for name, text in ATTRIBUTES.items())
 OUT = f"{FOLDER}/out.csv"
+TOLERANT = (
+    '<Experiment name="e"><References source="out.csv"/><Annotations><Annotation type="org.perilune.tolerances">'
+    '<Tolerances><Signal name="y" absolute="-1"/></Tolerances></Annotation></Annotations></Experiment>'
+)
 LAUGHS = '<!DOCTYPE a [<!ENTITY b "ha"><!ENTITY c "&b;&b;">]><fmiReferences>&c;</fmiReferences>'
 
 
@@ -46,6 +50,12 @@ CASES = {
     "evidence: entities": Case(fmu({MANIFEST: LAUGHS}), VERIFY, ("fmi-ls-manifest.xml: DOCTYPE",)),
     "evidence: a time of nan": Case(
         fmu(experiment('stepSize="nan"')), VERIFY, ("Experiment (line 1), stepSize", "'nan' is not a finite number")
+    ),
+    "evidence: steps of 0 s": Case(
+        fmu(experiment('stepSize="0"')), VERIFY, ("stepSize: '0' is not a positive number of seconds",)
+    ),
+    "evidence: a tolerance below 0": Case(
+        fmu({MANIFEST: manifest(TOLERANT)[MANIFEST]}), VERIFY, ("Signal (line 1), absolute: '-1' is less than 0",)
     ),
     "evidence: 10^5 nested elements": Case(
         fmu({MANIFEST: "<fmiReferences>" * 100_000}), VERIFY, ("fmi-ls-manifest.xml",)

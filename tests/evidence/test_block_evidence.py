@@ -138,11 +138,25 @@ def test_the_page_of_a_block(adder, tmp_path):
         ("adder.toml", b"count =", b"z =", "adder.toml: tolerances.z: adder.csv has no such column"),
         ("adder.toml", b"absolute = 1e-12, ", b"", "adder.toml: tolerances.y: write"),
         ("adder.toml", b"step_size = 0.25", b"", "adder.toml: step_size: missing"),
+        ("adder.toml", b"step_size = 0.25", b"step_size = 0", "adder.toml: step_size: 0 s; give a positive step"),
+        ("adder.toml", b"stop_time = 0.5", b"stop_time = nan", "adder.toml: stop_time: missing, or of another type"),
+        ("adder.toml", b"absolute = 1e-12", b"absolute = nan", "adder.toml: tolerances.y: write"),
+        ("adder.toml", b"absolute = 1e-12", b"absolute = -1", "adder.toml: tolerances.y: write"),
+        ("adder.toml", b"absolute = 1e-12", b"absolute = true", "adder.toml: tolerances.y: write"),
+        ("adder.toml", TOML[TOML.index(b"y =") :], b"", "adder.toml: tolerances: no output"),
+        ("adder.toml", b"gain = 3", b"gain = true", "adder.toml: parameters.gain: True is no finite float or int"),
+        ("adder.toml", b"gain = 3", b"gain = inf", "adder.toml: parameters.gain: inf is no finite float or int"),
+        ("adder.toml", b"gain = 3", b"gain = {}", "adder.toml: parameters.gain: {} is no finite float or int"),
+        ("adder.csv", b"0.25,", b"0.75,", "adder.csv: column time: times that are not finite, or fall"),
+        ("adder.csv", b"u,flag", b"u,u", "adder.csv: line 1: two columns of one name"),
+        ("adder.csv", CSV[CSV.index(b"0.0") :], b"", "adder.csv: not a table of numbers: no rows"),
+        ("adder.csv", CSV, b"", "adder.csv: not a table of numbers"),
+        ("adder.py", b"self.gain * self.u", b"1.0 / 0.0", "adder: check: the block raises ZeroDivisionError: float"),
         ("adder.toml", b'truth = "by hand"', b"truth = ", "adder.toml: not TOML"),
     ],
 )
 def test_a_check_that_does_not_fit_is_refused(adder, tmp_path, monkeypatch, capsys, file, before, after, message):
-    path = tmp_path / "checks" / file
+    path = tmp_path / ("" if file.endswith(".py") else "checks") / file
     path.write_bytes(path.read_bytes().replace(before, after, 1))
     monkeypatch.chdir(tmp_path)
     assert main(["export", "adder.py", "--flavour", "python"]) == 2

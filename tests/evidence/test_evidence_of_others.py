@@ -3,13 +3,19 @@
 Truth: what each manifest says.
 """
 
+import hashlib
+import zipfile
+
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.fmus_src.evidence.manifest import STUDY
+from perilune.analysis.evidence.manifest import check_listed, read_manifest
+from perilune.fmus_src.evidence.manifest import STUDY, SUMS, Related, add_manifest
 from tests.evidence.hostile import OUT, experiment, fmu, manifest
 
 STUDIED = f"<Annotations><Annotation type='{STUDY}'><Study name='/etc/passwd'/></Annotation></Annotations>"
+IN = OUT.replace("out", "in")
+FED = manifest('<Experiment name="e"><Stimuli source="in.csv"/><References source="out.csv"/></Experiment>')
 WIDE = "time," + ",".join(f"c{n}" for n in range(20_000)) + "\n" + "0," * 20_000 + "0\n"
 
 
@@ -20,6 +26,13 @@ WIDE = "time," + ",".join(f"c{n}" for n in range(20_000)) + "\n" + "0," * 20_000
         (experiment('stepSize="0.1" startTime="5"'), "e: starts at 5 s, where the default experiment starts at 0 s"),
         (experiment("", "../../../etc/passwd"), "holds no trajectory: nothing to reproduce"),
         (experiment("", "file:///etc/passwd"), "holds no trajectory: nothing to reproduce"),
+        (experiment("", "//["), "holds no trajectory: nothing to reproduce"),
+        (manifest('<Related source="http://[x" role="result" type="text/csv"/>'), "holds no trajectory"),
+        (experiment("") | {OUT: "time\n0\n1\n"}, "e: its reference has no signal to compare"),
+        (experiment("") | {OUT: "time,y\n0,a\n1,b\n"}, "e: its reference has no signal to compare"),
+        (experiment("") | {OUT: "time,y\n-1,0\n1,0\n"}, "e: its reference starts at -1 s, the simulation at 0 s"),
+        (experiment("") | {OUT: "time,y\n0,9007199254740993\n"}, "reference 9007199254740992.0, simulated 0.0"),
+        (FED | {OUT: "time,y\n0,0\n", IN: "time,u\n0,a\n"}, "in.csv: column u: not numbers, as an input has them"),
         (experiment("", "gone.csv"), "gone.csv: file: missing, though an experiment names it"),
         (manifest(f'<Related source="out.csv" role="report">{STUDIED}</Related>'), "reports /etc/passwd, which is no"),
         (manifest('<Related source="/etc/passwd" role="result" type="text/csv"/>'), "holds no trajectory"),
@@ -40,6 +53,38 @@ def test_a_line_for_what_it_asks(tiny_folder, tmp_path, capsys, files, message):
     assert sorted(tmp_path.rglob("*")) == before
 
 
+def test_files_that_are_listed_often_are_digested_once(tiny_folder, tmp_path, capsys):
+    """20 000 times 50 MB, and as many flaws: a line each of the file and of the flaw."""
+    listed = '<Related source="../../x.bin" role="resutl" checksum="00"/>' * 20_000
+    fmu(manifest(listed) | {"x.bin": bytes(50_000_000)})(tmp_path, tiny_folder / "native")
+    assert main(["verify", str(tmp_path / "x.fmu")]) == 1
+    captured = capsys.readouterr()
+    assert captured.err.count("x.bin: changed: its SHA3-256 is not the manifest's") == 1
+    assert captured.out.count("role 'resutl' is none of the standard") == 1
+
+
+def test_names_are_those_of_uris(tiny_folder, tmp_path, capsys):
+    """By RFC 3986: percent-encoded, a fragment is no part of the path."""
+    files = experiment("", "a%20b%2520c.csv#rows") | {OUT.replace("out", "a b%20c"): "time,y\n0,0\n"}
+    fmu(files)(tmp_path, tiny_folder / "native")
+    assert main(["verify", str(tmp_path / "x.fmu")]) == 0
+    assert "e: a b%20c.csv: 1 samples of 1 signals: the same bits" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("line", ["{}  modelDescription.xml\r\n", "{} *modelDescription.xml\n"])
+def test_sums_of_windows_and_of_binary_mode(tiny_folder, tmp_path, capsys, line):
+    """As `sha256sum --binary` writes them, and with the ends of lines of Windows."""
+    files = experiment("") | {OUT: "time,y\n0,0\n"}
+    fmu(files)(tmp_path, tiny_folder / "native")
+    with zipfile.ZipFile(tmp_path / "x.fmu") as archive:
+        digest = hashlib.sha256(archive.read("modelDescription.xml")).hexdigest()
+    fmu(files | {SUMS: line.format(digest)})(tmp_path, tiny_folder / "native")
+    assert main(["verify", str(tmp_path / "x.fmu")]) == 0
+    fmu(files | {SUMS: line.format("0" * 64)})(tmp_path, tiny_folder / "native")
+    assert main(["verify", str(tmp_path / "x.fmu")]) == 1
+    assert "modelDescription.xml: changed: its SHA-256 is not that of SHA256SUMS" in capsys.readouterr().err
+
+
 def test_flaws_are_notes(tiny_folder, tmp_path, capsys):
     first, second = '<Related source="out.csv" role="resutl"/>', '<Related role="other"/>'
     third = '<Related source="out.csv" role="other" checksum="00" checksumType="MD5"/>'
@@ -49,3 +94,11 @@ def test_flaws_are_notes(tiny_folder, tmp_path, capsys):
     assert "note: manifest: Related (line 1): role 'resutl' is none of the standard" in out
     assert "note: manifest: Related (line 1): no attribute source" in out
     assert "note: manifest: Related (line 1): checksumType 'MD5' is none of the standard: not checked" in out
+
+
+@pytest.mark.parametrize("name", ["extra/x/a b%20c#d?.toml", "extra/x/ä:1.toml"])
+def test_any_name_is_listed_as_a_uri(name):
+    files = add_manifest({name: b""}, [Related(name, "other", "text/plain", "")])
+    listed = read_manifest(files, "x")
+    assert [related.name for related in listed.files] == [name, SUMS]
+    assert check_listed(listed, files) == {}

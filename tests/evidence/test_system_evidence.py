@@ -30,6 +30,8 @@ def exported(fmus, tmp_path_factory):
     folder = tmp_path_factory.mktemp("evidence")
     original = shutil.copytree(SYSTEMS / "lunar_terminal_guidance", folder / "lunar_terminal_guidance")
     (original / "campaigns" / "few.toml").write_text(FEW)
+    (original / "documentation").mkdir()
+    (original / "documentation" / "moon.svg").write_text("<svg/>")
     perilune.export(original, studies=["few"], output=folder / "landing.ssp")
     with zipfile.ZipFile(folder / "landing.ssp") as archive:
         return folder / "landing.ssp", {name: archive.read(name) for name in archive.namelist()}
@@ -45,6 +47,9 @@ def test_its_roles(exported):
     files = exported[1]
     manifest = read_manifest(files, "x")
     assert manifest.flaws == ()
+    types = {related.name: related.type for related in manifest.files}
+    assert types["documentation/README.md"] == "text/markdown"
+    assert types["documentation/moon.svg"] == "image/svg+xml"
     roles = {related.name: related.role for related in manifest.files}
     assert roles["resources/paper.ssv"] == "parameter"
     assert roles["extra/org.perilune/campaigns/few.toml"] == "experiment/uncertainty-analysis"
@@ -117,6 +122,15 @@ def test_no_such_study(fmus, tmp_path, monkeypatch, capsys):
     assert main(["export", "flat_moon_lander", "--study", "paper"]) == 2
     assert "flat_moon_lander is no system, which it is for" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("study", ["stability", "all"])
+def test_a_campaign_with_the_name_of_another_study(fmus, tmp_path, monkeypatch, capsys, study):
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(SYSTEMS / "satellite_pointing", "pointing")
+    shutil.copy("pointing/campaigns/agile.toml", "pointing/campaigns/stability.toml")
+    assert main(["export", "pointing", "--study", study]) == 2
+    assert "--study: stability: also a campaign of " in capsys.readouterr().err
 
 
 def test_a_system_that_cannot_be_simulated_as_it_stands(tiny_folder, tmp_path, monkeypatch):

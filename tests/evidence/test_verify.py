@@ -213,6 +213,13 @@ def test_evidence_that_cannot_be_read(tmp_path, files, capsys, name, content, st
     assert message in capsys.readouterr().err
 
 
+def test_a_suffix_in_capitals(tmp_path, files, capsys):
+    assert main(["verify", str(write_zip(tmp_path / "X.FMU", files))]) == 0
+    assert main(["verify", str(tmp_path / "X.SSP")]) == 2
+    assert "X.SSP: " in (message := capsys.readouterr().err)
+    assert "that is built" not in message
+
+
 def test_what_is_no_file_of_these(tmp_path, capsys):
     assert main(["verify", "lunar_terminal_guidance"]) == 2
     assert "perilune export lunar_terminal_guidance writes it with its evidence" in capsys.readouterr().err
