@@ -54,6 +54,7 @@ static fmi3Status do_a_step(fmi3Instance fmu, double point, double size)
 
 static void wrong_instantiation(void)
 {
+    messages = 0;
     check(instantiate(NULL, token, false, &failures) == NULL, "name NULL accepted");
     check(instantiate("", token, false, &failures) == NULL, "empty name accepted");
     check(instantiate("fmu", NULL, false, &failures) == NULL, "token NULL accepted");
@@ -63,6 +64,7 @@ static void wrong_instantiation(void)
     check(fmi3InstantiateModelExchange("fmu", token, NULL, false, true, &failures, logger) == NULL, "model exchange");
     check(fmi3InstantiateScheduledExecution("fmu", token, NULL, false, true, &failures, logger, NULL, NULL, NULL)
             == NULL, "scheduled execution");
+    check(messages == 7, "an instantiation is refused without a message");
 }
 
 /* Wrong in every state of the life cycle. */

@@ -49,7 +49,7 @@ typedef struct Component {
     Logger logger; /* NULL where nothing is logged */
     Logger importers_logger;
     Environment environment;
-    char instance_name[1]; /* as long as it needs, at the end of the allocation */
+    char instance_name[];
 } Component;
 
 /* Log an error and return it. */
@@ -93,6 +93,20 @@ static COLD Status end_with_fault(Component *component, const Fault *fault, cons
 {
     component->now.mode = MODE_ERROR;
     return fail(component, "File \"%s\", line %d: %s%s", fault->file, fault->line, fault->what, where);
+}
+
+/* An int of the block that FMI's type of 32 bits cannot hold. */
+static COLD Status refuse_wide(Component *component, uint32_t reference, int64_t wide, const char *type)
+{
+    component->now.mode = MODE_ERROR;
+    return fail(component, "OverflowError: %s = %" PRId64 " exceeds an FMI %s's 32 bits", NAMES[reference], wide, type);
+}
+
+/* Why a variable of the right type may not be set now. */
+static COLD Status refuse_set(const Component *component, const char *function, uint32_t reference, uint32_t traits)
+{
+    const char *why = traits & COMPUTED ? "computed and cannot be set" : "a parameter, fixed after initialisation";
+    return fail(component, "%s: %s is %s", function, NAMES[reference], why);
 }
 
 /* Back to the state right after instantiation. */

@@ -9,27 +9,27 @@
 static Component *create_instance(const char *function, const char *instance_name, const char *token,
     const char *token_name, Logger logger, Environment environment, const char *refusal)
 {
-    Component *component = calloc(1, sizeof(Component) + strlen(instance_name));
+    const char *name = instance_name == NULL ? "" : instance_name;
+    Component *component = calloc(1, sizeof(Component) + strlen(name) + 1);
     if (component == NULL) return NULL;
     component->logger = component->importers_logger = logger;
     component->environment = environment;
-    strcpy(component->instance_name, instance_name);
-    bool is_wrong = true;
-    if (token == NULL || strcmp(token, MODEL_GUID) != 0) {
+    strcpy(component->instance_name, name);
+    const bool is_ours = token != NULL && strcmp(token, MODEL_GUID) == 0;
+    if (name[0] == '\0') refusal = "the instance name is NULL or empty";
+    if (refusal == NULL) refusal = check_arithmetic();
+    if (is_ours && refusal == NULL) {
+        restart(component);
+        return component;
+    }
+    if (is_ours) {
+        fail(component, "%s: %s", function, refusal);
+    } else {
         fail(component, "%s: the %s is not that of this binary, " MODEL_GUID "; unpack the FMU again", function,
             token_name);
-    } else {
-        if (instance_name[0] == '\0') refusal = "the instance name is empty";
-        if (refusal == NULL) refusal = check_arithmetic();
-        is_wrong = refusal != NULL;
-        if (is_wrong) fail(component, "%s: %s", function, refusal);
     }
-    if (is_wrong) {
-        free(component);
-        return NULL;
-    }
-    restart(component);
-    return component;
+    free(component);
+    return NULL;
 }
 
 /* Note when the simulation starts, and check when it is to stop. */
@@ -85,7 +85,7 @@ static inline Status do_step(Component *component, const char *function, double 
 {
     const Status status = check_mode(component, function, MODE_STEP);
     if (status != STATUS_OK) return status;
-    if (!isfinite(communication_point) || !isfinite(step_size) || step_size <= 0.0) {
+    if (!isfinite(communication_point + step_size) || step_size <= 0.0) { /* the sum of two finite ones may overflow */
         return fail(component, "%s: communication point and step size must be finite, the latter positive", function);
     }
     const double here = component->now.time;
