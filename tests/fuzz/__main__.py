@@ -18,8 +18,9 @@ FOLDER = ROOT / "build" / "fuzz"
 RUNS = {
     "manifests": 1_000_000,
     "shards": 100_000,
-    **dict.fromkeys(("systems", "parameter_sets", "campaigns", "descriptions"), 500_000),
+    **dict.fromkeys(("systems", "parameter_sets", "campaigns"), 500_000),
     **dict.fromkeys(("systems_with_arrays", "parameter_sets_with_arrays"), 500_000),
+    **dict.fromkeys(("descriptions", "fmi3_descriptions"), 500_000),
     **dict.fromkeys(("mappings", "inputs", "draws", "expressions", "archives"), 500_000),
     **dict.fromkeys(("fmi2", "fmi3"), 2_000_000),
 }

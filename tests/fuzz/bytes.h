@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { INSTANCES = 2, STATES = 2, AT_ONCE = 6, LONGEST = 1 << 16, STEPS = 3 };
+enum { INSTANCES = 2, STATES = 2, AT_ONCE = 6, STEPS = 3 };
 
 static const uint8_t *next;
 static size_t left;

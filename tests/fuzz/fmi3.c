@@ -17,7 +17,6 @@ static void logger(fmi3InstanceEnvironment environment, fmi3Status status, fmi3S
 }
 
 static fmi3ValueReference references[AT_ONCE];
-static fmi3Byte bytes[LONGEST];
 
 /* So many value references, most of them of one type, which is returned, and of so many values together. */
 static char choose(size_t *count, size_t *value_count)
@@ -34,17 +33,21 @@ static char choose(size_t *count, size_t *value_count)
         }
         references[i] = reference;
     }
-    if (below(8) == 0) *value_count += below(5) - 2u;
-    if (*value_count > LONGEST) *value_count = 0;
+    if (below(8) == 0) *value_count = *value_count / 2 + below(5);
     return type;
 }
 
-/* The values are as many as is said, so that the sanitizer sees what is beyond. */
+/* As long as is said to the FMU, so that the sanitizer sees what is beyond. */
+static void *make_values(char type, size_t size)
+{
+    return calloc(size ? size : 1, type == 'b' ? sizeof(fmi3Boolean) : type == 'i' ? sizeof(fmi3Int32) : 8);
+}
+
 static void get(fmi3Instance fmu)
 {
     size_t count, size;
     const char type = choose(&count, &size);
-    void *values = calloc(size ? size : 1, type == 'b' ? sizeof(fmi3Boolean) : type == 'i' ? sizeof(fmi3Int32) : 8);
+    void *values = make_values(type, size);
     switch (type) {
     case 'f': fmi3GetFloat64(fmu, references, count, values, size); break;
     case 'i': fmi3GetInt32(fmu, references, count, values, size); break;
@@ -58,7 +61,7 @@ static void set(fmi3Instance fmu)
 {
     size_t count, size;
     const char type = choose(&count, &size);
-    void *values = calloc(size ? size : 1, type == 'b' ? sizeof(fmi3Boolean) : type == 'i' ? sizeof(fmi3Int32) : 8);
+    void *values = make_values(type, size);
     for (size_t k = 0; k < size; k++) {
         switch (type) {
         case 'f': ((fmi3Float64 *)values)[k] = number(); break;
@@ -81,7 +84,7 @@ static void call_absent(fmi3Instance fmu)
 {
     size_t length = 0;
     fmi3String text = "text";
-    fmi3Binary binary = bytes;
+    fmi3Binary binary = (fmi3Binary)"binary";
     fmi3Boolean flag = false;
     fmi3Float64 real = 0.0;
     references[0] = choose_reference();
@@ -106,9 +109,14 @@ static void set_logging(fmi3Instance fmu)
 static void mangle_state(fmi3Instance fmu, fmi3FMUState *state)
 {
     size_t size = 0;
-    if (fmi3SerializedFMUStateSize(fmu, *state, &size) != fmi3OK || size > LONGEST) return;
-    if (fmi3SerializeFMUState(fmu, *state, bytes, size) != fmi3OK) return;
-    fmi3DeserializeFMUState(fmu, bytes, mangle(bytes, size), state);
+    if (fmi3SerializedFMUStateSize(fmu, *state, &size) != fmi3OK) return;
+    fmi3Byte *bytes = malloc(size);
+    if (fmi3SerializeFMUState(fmu, *state, bytes, size) == fmi3OK) {
+        size = mangle(bytes, size);
+        bytes = realloc(bytes, size); /* so that the sanitizer sees what is beyond */
+        fmi3DeserializeFMUState(fmu, bytes, size, state);
+    }
+    free(bytes);
 }
 
 static void step(fmi3Instance fmu, double *time)
