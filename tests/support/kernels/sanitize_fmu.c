@@ -204,6 +204,11 @@ static void wrong_moments(void)
     EXPECT(fmi2OK, get(fmu, 0, kinds[0], &value));
     EXPECT(fmi2Error, fmi2DoStep(fmu, 0.0, step, fmi2True));
     EXPECT(fmi2OK, fmi2Reset(fmu));
+    EXPECT(fmi2OK, fmi2SetupExperiment(fmu, fmi2False, 0.0, 0.0, fmi2True, 0.5 * step));
+    EXPECT(fmi2OK, fmi2EnterInitializationMode(fmu));
+    EXPECT(fmi2OK, fmi2ExitInitializationMode(fmu));
+    EXPECT(fmi2Error, fmi2DoStep(fmu, 0.0, step, fmi2True)); /* past the stop time */
+    EXPECT(fmi2OK, fmi2Reset(fmu));
     EXPECT(fmi2OK, initialise(fmu));
     fmi2FreeInstance(fmu);
     fmi2FreeInstance(NULL);

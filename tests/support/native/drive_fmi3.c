@@ -176,6 +176,10 @@ static void wrong_moments(void)
     wrong_arguments(fmu);
     EXPECT(fmi3Error, do_a_step(fmu, 0.0, step));
     EXPECT(fmi3OK, fmi3Reset(fmu));
+    EXPECT(fmi3OK, fmi3EnterInitializationMode(fmu, false, 0.0, 0.0, true, 0.5 * step));
+    EXPECT(fmi3OK, fmi3ExitInitializationMode(fmu));
+    EXPECT(fmi3Error, do_a_step(fmu, 0.0, step)); /* past the stop time */
+    EXPECT(fmi3OK, fmi3Reset(fmu));
     EXPECT(fmi3OK, initialise(fmu));
     fmi3FreeInstance(fmu);
     fmi3FreeInstance(NULL);

@@ -46,6 +46,7 @@ typedef struct Snapshot {
 typedef struct Component {
     Snapshot now;
     Status last_step;
+    double stop_time; /* INFINITY where the importer has not said when it stops */
     Logger logger; /* NULL where nothing is logged */
     Logger importers_logger;
     Environment environment;
@@ -117,6 +118,7 @@ static void restart(Component *component)
     component->now.mode = MODE_INSTANTIATED;
     component->now.unsettled = true;
     component->last_step = STATUS_OK;
+    component->stop_time = INFINITY;
 }
 
 /* An element from one block to another. */
@@ -164,6 +166,14 @@ static COLD Status refuse_point(Component *component, double point)
     return fail(component,
         "StepError: the step begins at %s s, and the FMU is at %s s; go on from there, or restore its state of then",
         python_repr(point, point_text), python_repr(component->now.time, here_text));
+}
+
+static COLD Status refuse_end(Component *component, double end)
+{
+    char end_text[REPR_SIZE];
+    char stop_text[REPR_SIZE];
+    return fail(component, "StepError: the step ends at %s s, after the stop time of %s s",
+        python_repr(end, end_text), python_repr(component->stop_time, stop_text));
 }
 
 static COLD Status end_step_with_fault(Component *component, const Fault *fault, double t, double h)

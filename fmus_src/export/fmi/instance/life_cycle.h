@@ -16,7 +16,7 @@ static Component *create_instance(const char *function, const char *instance_nam
     component->environment = environment;
     strcpy(component->instance_name, name);
     const bool is_ours = token != NULL && strcmp(token, MODEL_GUID) == 0;
-    if (name[0] == '\0') refusal = "the instance name is NULL or empty";
+    if (name[strspn(name, " \t\r\n")] == '\0') refusal = "the instance name is NULL or blank";
     if (refusal == NULL) refusal = check_arithmetic();
     if (is_ours && refusal == NULL) {
         restart(component);
@@ -32,7 +32,7 @@ static Component *create_instance(const char *function, const char *instance_nam
     return NULL;
 }
 
-/* Note when the simulation starts, and check when it is to stop. */
+/* Note when the simulation starts, and when it stops. */
 static Status set_start(
     Component *component, const char *function, double start_time, bool stop_time_defined, double stop_time)
 {
@@ -40,6 +40,7 @@ static Status set_start(
     if (stop_time_defined && !(stop_time >= start_time)) {
         return fail(component, "%s: the stop time is before the start time", function);
     }
+    component->stop_time = stop_time_defined ? stop_time : INFINITY;
     component->now.start_time = start_time;
     component->now.time = start_time;
     return STATUS_OK;
@@ -80,7 +81,8 @@ static Status check_logging(
     return STATUS_OK;
 }
 
-/* One communication step from where the last one ended. */
+/* One communication step from where the last one ended; past the stop time it has to be an error (FMI 2.0,
+ * fmi2SetupExperiment; FMI 3.0, fmi3EnterInitializationMode). */
 static inline Status do_step(Component *component, const char *function, double communication_point, double step_size)
 {
     const Status status = check_mode(component, function, MODE_STEP);
@@ -92,8 +94,12 @@ static inline Status do_step(Component *component, const char *function, double 
     if (fabs(communication_point - here) > POINT_TOLERANCE * step_size + TIME_TOLERANCE * fabs(here)) {
         return refuse_point(component, communication_point);
     }
+    const double end = communication_point + step_size;
+    if (end > component->stop_time + POINT_TOLERANCE * step_size + TIME_TOLERANCE * fabs(end)) {
+        return refuse_end(component, end);
+    }
     component->last_step = advance(component, communication_point, step_size);
-    if (component->last_step == STATUS_OK) component->now.time = communication_point + step_size;
+    if (component->last_step == STATUS_OK) component->now.time = end;
     return component->last_step;
 }
 
