@@ -13,7 +13,8 @@ from lxml import etree
 
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.export.description.fmi2 import literal, model_description
+from perilune.fmus_src.export.description.common import literal
+from perilune.fmus_src.export.description.fmi2 import model_description
 from perilune.fmus_src.units import unit_definition
 
 BLOCKS = catalogue()

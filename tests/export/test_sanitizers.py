@@ -22,17 +22,11 @@ BLOCKS = [block for block in catalogue().values() if not block.python_only and (
 STEPS = lengths.size(200)
 
 
-@pytest.fixture(scope="session")
-def compiler(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
-    """The command that compiles with sanitizers."""
-    return find_compiler(tmp_path_factory.mktemp("probe"))
-
-
 @pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.fmu_name)
-def test_no_sanitizer_objects(block: type[Block], compiler: list[str], tmp_path: Path) -> None:
+def test_no_sanitizer_objects(block: type[Block], tmp_path: Path) -> None:
     for name, text in native_sources(block, GUID).items():
         (tmp_path / name).write_bytes(text)
-    command = [*compiler, "-I", ".", "-o", "driver", str(DRIVER), f"{block.fmu_name}.c", "-lm"]
+    command = [*find_compiler(), "-I", ".", "-o", "driver", str(DRIVER), f"{block.fmu_name}.c", "-lm"]
     compiled = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert compiled.returncode == 0, compiled.stderr
     variables = block.variables.values()

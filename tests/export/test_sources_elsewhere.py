@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import importlib.util
+import re
 import shutil
 import subprocess
 import sys
@@ -16,7 +17,7 @@ import pytest
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
-from perilune.fmus_src.export.native_fmu import build_native_fmu
+from perilune.fmus_src.export.native_fmu import build_native_fmu, native_sources
 from tests.support import lengths
 from tests.support.kernels.comparison import Pair, fly
 from tests.support.kernels.native_instance import CACHE, LOGGER, Callbacks, NativeInstance, opened
@@ -94,3 +95,17 @@ def test_with_prefixes_two_fmus_go_into_one_program(unpacked: Path, tmp_path: Pa
             handle = instantiate(b"one", 1, guid, None, ctypes.byref(callbacks), 0, 0)
             assert bool(handle) == (name == other)
             both[f"{name}_fmi2FreeInstance"](ctypes.c_void_p(handle))
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="no system cc")
+def test_with_a_prefix_no_function_of_fmi_3_keeps_its_name(tmp_path: Path) -> None:
+    """Truth: the functions that the standard's header declares."""
+    sources = native_sources(catalogue()[TWO[0]], "by hand", 3)
+    for name, text in sources.items():
+        (tmp_path / name).write_bytes(text)
+    command = ["cc", *FLAGS, "-DFMI3_FUNCTION_PREFIX=one_", "-o", "one.so", f"{TWO[0]}.c", "-lm"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    declared = re.findall(r"^FMI3_Export fmi3\w+TYPE\s+(\w+);", sources["fmi3Functions.h"].decode(), re.MULTILINE)
+    library = ctypes.CDLL(str(tmp_path / "one.so"))
+    assert len(declared) == len(set(declared)) > 70
+    assert all(hasattr(library, f"one_{name}") and not hasattr(library, name) for name in declared)

@@ -18,11 +18,13 @@ FOLDER = ROOT / "build" / "fuzz"
 RUNS = {
     "manifests": 1_000_000,
     "shards": 100_000,
-    **dict.fromkeys(("systems", "parameter_sets", "campaigns", "descriptions"), 500_000),
+    **dict.fromkeys(("systems", "parameter_sets", "campaigns"), 500_000),
     **dict.fromkeys(("systems_with_arrays", "parameter_sets_with_arrays"), 500_000),
+    **dict.fromkeys(("descriptions", "fmi3_descriptions"), 500_000),
     **dict.fromkeys(("mappings", "inputs", "draws", "expressions", "archives"), 500_000),
-    "fmi": 2_000_000,
+    **dict.fromkeys(("fmi2", "fmi3"), 2_000_000),
 }
+VERSIONS = {"fmi2": 2, "fmi3": 3}  # of FMI, by the names of targets in C
 
 
 def main() -> int:
@@ -33,13 +35,13 @@ def main() -> int:
     parser.add_argument("--unguided", action="store_true", help="one target of Python with random inputs")
     parser.add_argument("--first", type=int, default=0, metavar="N", help="number of the first random input")
     given = parser.parse_args()
-    if given.unguided and given.name in (None, "fmi"):
+    if given.unguided and given.name in (None, *VERSIONS):
         parser.error("--unguided: needs the name of a target of Python")
     if given.name is None:
         return max(_run(name, given.runs or runs) for name, runs in RUNS.items())
     runs = given.runs or RUNS[given.name]
-    if given.name == "fmi":
-        return _fuzz_fmus(runs)
+    if given.name in VERSIONS:
+        return _fuzz_fmus(given.name, runs)
     if given.unguided:
         unguided.fuzz(given.name, FOLDER / given.name, runs, given.first)
     else:
@@ -62,10 +64,10 @@ def _run(name: str, runs: int) -> int:
     return int(status != 0)
 
 
-def _fuzz_fmus(runs: int) -> int:
+def _fuzz_fmus(name: str, runs: int) -> int:
     blocks = [block for block in catalogue().values() if not block.python_only]
     each = -(-runs // len(blocks))
-    return int(not all([fmi.fuzz(block, FOLDER / "fmi" / block.fmu_name, each) for block in blocks]))
+    return int(not all([fmi.fuzz(block, VERSIONS[name], FOLDER / name / block.fmu_name, each) for block in blocks]))
 
 
 if __name__ == "__main__":

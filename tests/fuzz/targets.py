@@ -28,6 +28,7 @@ TARGETS: dict[str, Callable[[Path], Target]] = {
     "parameter_sets_with_arrays": _of_document(documents.any_parameter_set_with_arrays),
     "campaigns": _of_document(documents.any_campaign),
     "descriptions": _of_document(documents.any_description),
+    "fmi3_descriptions": _of_document(documents.any_fmi3_description),
     "mappings": _of_document(tables.any_mapping),
     "inputs": _of_document(tables.any_series),
     "draws": _of_document(tables.any_draws),

@@ -1,14 +1,16 @@
-"""What the documents of all versions of FMI share: units, log categories, numbers as text."""
+"""What the documents of all versions of FMI share: units, log categories, roles of variables, numbers as text."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+import re
+from collections.abc import Iterable, Sequence
 
 from lxml import etree
 
 from ...block import Block
 from ...units import unit_definition
-from ...variables import Variable
+from ...variables import Output, Parameter, State, Variable
 
 STATE_ANNOTATION = "org.perilune.state"
 LOG_CATEGORIES = {
@@ -41,10 +43,48 @@ def add_log_categories(root: etree._Element) -> None:
         etree.SubElement(categories, "Category", name=name, description=description)
 
 
-def is_continuous(block_class: type[Block], variable: Variable) -> bool:
-    """Whether a variable changes between communication points as well: Reals, but not what a sampled block computes."""
+def role(block_class: type[Block], variable: Variable) -> dict[str, str]:
+    """The attributes causality, variability and, where it is not FMI's default, initial.
+
+    Continuous, which may change between communication points, are Reals, but not what a sampled block computes.
+    """
+    attributes = {"causality": variable.causality}
+    if isinstance(variable, Parameter):
+        return attributes | {"variability": "fixed", "initial": "exact"}
     sampled = "sample_period" in block_class.variables
-    return variable.type_name == "Real" and not (sampled and variable.causality != "input")
+    continuous = variable.type_name == "Real" and not (sampled and variable.causality != "input")
+    attributes["variability"] = "continuous" if continuous else "discrete"
+    return attributes | ({"initial": "calculated"} if isinstance(variable, Output | State) else {})
+
+
+def start_text(variable: Variable, elements: Sequence[float | int | bool]) -> str:
+    """The attribute start; raises ValueError for an int beyond the 32 bits of FMI 2.0's Integer and 3.0's Int32."""
+    for number in elements:
+        if isinstance(number, int) and not _is_32_bit(number):
+            raise ValueError(f"{variable.name}: starts at {number}, beyond the 32 bits of FMI; give a smaller start")
+    return " ".join(map(literal, elements))
+
+
+def limits(variable: Variable) -> dict[str, str]:
+    """The attributes min, max and nominal, those that are declared; an Integer's without bounds beyond its 32 bits."""
+    attributes = {}
+    for key, bound, whole in (("min", variable.minimum, math.ceil), ("max", variable.maximum, math.floor)):
+        if bound is not None and variable.type_name == "Real":
+            attributes[key] = literal(bound)
+        elif bound is not None and math.isfinite(bound) and _is_32_bit(whole(bound)):
+            attributes[key] = literal(whole(bound))
+    if variable.nominal is not None and variable.type_name == "Real":
+        attributes["nominal"] = literal(variable.nominal)
+    return attributes
+
+
+def _is_32_bit(number: int) -> bool:
+    return -(2**31) <= number < 2**31
+
+
+def one_line(text: str) -> str:
+    """A text without line breaks, as descriptions are."""
+    return re.sub(r"\s+", " ", text)
 
 
 def boolean(flag: bool) -> str:
@@ -53,5 +93,9 @@ def boolean(flag: bool) -> str:
 
 
 def literal(number: float | int | bool) -> str:
-    """A start value as XML text that reads back to the same bits."""
-    return boolean(number) if isinstance(number, bool) else repr(number)
+    """A number as XML text that reads back to the same bits."""
+    if isinstance(number, bool):
+        return boolean(number)
+    if math.isinf(number):
+        return "INF" if number > 0 else "-INF"  # xs:double of XML Schema, which has NaN, too
+    return "NaN" if math.isnan(number) else repr(number)

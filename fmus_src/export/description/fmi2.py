@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 from lxml import etree
 
 from ...block import Block
 from ...variables import Output, Parameter, State, Variable
-from .common import STATE_ANNOTATION, add_log_categories, add_units, boolean, is_continuous, literal
+from .common import STATE_ANNOTATION, add_log_categories, add_units, boolean, limits, one_line, role, start_text
 
 
 def model_description(
@@ -61,7 +60,7 @@ def model_description(
     for variable in variables:
         indices[variable.name] = []
         for position, name in enumerate(variable.element_names()):
-            _scalar_variable(model_variables, variable, name, position, reference, is_continuous(block_class, variable))
+            _scalar_variable(model_variables, variable, name, position, reference, role(block_class, variable))
             reference += 1
             indices[variable.name].append(reference)  # ScalarVariable indices count from 1
     _structure(root, block_class, indices)
@@ -69,32 +68,18 @@ def model_description(
 
 
 def _scalar_variable(
-    parent: etree._Element, variable: Variable, name: str, position: int, reference: int, continuous: bool
+    parent: etree._Element, variable: Variable, name: str, position: int, reference: int, attributes: dict[str, str]
 ) -> None:
-    attributes = {
-        "name": name,
-        "valueReference": str(reference),
-        "description": re.sub(r"\s+", " ", variable.descriptions()[position]),
-        "causality": variable.causality,
-        "variability": "continuous" if continuous else "discrete",
-    }
-    if isinstance(variable, Parameter):
-        attributes |= {"variability": "fixed", "initial": "exact"}
-    elif isinstance(variable, Output | State):
-        attributes["initial"] = "calculated"
-    element = etree.SubElement(parent, "ScalarVariable", attributes)
+    description = one_line(variable.descriptions()[position])
+    named = {"name": name, "valueReference": str(reference), "description": description}
+    element = etree.SubElement(parent, "ScalarVariable", named | attributes)
     details: dict[str, str] = {}
     if not isinstance(variable, Output | State):
-        details["start"] = literal(variable.elements[position])
+        details["start"] = start_text(variable, [variable.elements[position]])
     unit = variable.units()[position]
     if variable.type_name == "Real" and unit:
         details["unit"] = unit
-    for key, bound in (("min", variable.minimum), ("max", variable.maximum)):
-        if bound is not None:
-            details[key] = literal(bound)
-    if variable.nominal is not None and variable.type_name == "Real":
-        details["nominal"] = literal(variable.nominal)
-    etree.SubElement(element, variable.type_name, details)
+    etree.SubElement(element, variable.type_name, details | limits(variable))
 
 
 def _state_layout(root: etree._Element, block_class: type[Block], encoding: str) -> None:

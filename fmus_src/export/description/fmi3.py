@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import re
-
 from lxml import etree
 
 from ...block import Block
 from ...kernel.enumerations import Enumeration
 from ...variables import Output, Parameter, State
-from .common import STATE_ANNOTATION, add_log_categories, add_units, is_continuous, literal
+from .common import STATE_ANNOTATION, add_log_categories, add_units, limits, one_line, role, start_text
 from .variables import TIME, ArrayVariable, list_variables
 
 FMI_VERSION = "3.0"  # of all of 3.0.x, as fmi3GetVersion has it
@@ -46,7 +44,7 @@ def model_description(block_class: type[Block], *, token: str, generation_tool: 
     etree.SubElement(root, "DefaultExperiment", startTime="0.0", stepSize=repr(block_class.default_step))
     model_variables = etree.SubElement(root, "ModelVariables")
     for variable in variables:
-        _add_variable(model_variables, variable, is_continuous(block_class, variable.declared))
+        _add_variable(model_variables, variable, role(block_class, variable.declared))
     etree.SubElement(
         model_variables,
         "Float64",
@@ -71,38 +69,25 @@ def _add_types(root: etree._Element, variables: list[ArrayVariable]) -> None:
     if enumerations:
         definitions = etree.SubElement(root, "TypeDefinitions")
         for name, enumeration in sorted(enumerations.items()):
-            attributes = {"name": name, "description": _one_line((enumeration.__doc__ or "").strip())}
+            attributes = {"name": name, "description": one_line((enumeration.__doc__ or "").strip())}
             kind = etree.SubElement(definitions, "EnumerationType", attributes)
             for number, label in enumeration.names.items():
                 meaning = enumeration.meanings[number]
                 etree.SubElement(kind, "Item", name=label, value=str(number), description=meaning)
 
 
-def _add_variable(parent: etree._Element, variable: ArrayVariable, continuous: bool) -> None:
+def _add_variable(parent: etree._Element, variable: ArrayVariable, attributes: dict[str, str]) -> None:
     declared = variable.declared
-    attributes = {
-        "name": variable.name,
-        "valueReference": str(variable.reference),
-        "description": _one_line(variable.description),
-        "causality": declared.causality,
-        "variability": "continuous" if continuous else "discrete",
-    }
-    if isinstance(declared, Parameter):
-        attributes |= {"variability": "fixed", "initial": "exact"}
-    elif isinstance(declared, Output | State):
-        attributes["initial"] = "calculated"
+    description = one_line(variable.description)
+    named = {"name": variable.name, "valueReference": str(variable.reference), "description": description}
+    attributes = named | attributes
     if variable.enumeration:
         attributes["declaredType"] = variable.enumeration.__name__
     elif variable.type_name == "Float64" and variable.unit:
         attributes["unit"] = variable.unit
     if not isinstance(declared, Output | State):
-        attributes["start"] = " ".join(map(literal, variable.starts))
-    for key, bound in (("min", declared.minimum), ("max", declared.maximum)):
-        if bound is not None:
-            attributes[key] = literal(bound)
-    if declared.nominal is not None and variable.type_name == "Float64":
-        attributes["nominal"] = literal(declared.nominal)
-    element = etree.SubElement(parent, variable.type_name, attributes)
+        attributes["start"] = start_text(declared, variable.starts)
+    element = etree.SubElement(parent, variable.type_name, attributes | limits(declared))
     for length in variable.dimensions:
         etree.SubElement(element, "Dimension", start=str(length))
 
@@ -143,7 +128,3 @@ def _add_state_layout(root: etree._Element, variables: list[ArrayVariable]) -> N
     annotation = etree.SubElement(annotations, "Annotation", type=STATE_ANNOTATION)
     frozen = " ".join(str(variable.reference) for variable in variables if variable.frozen)
     etree.SubElement(annotation, "SerializedState", encoding="words", frozen=frozen)
-
-
-def _one_line(text: str) -> str:
-    return re.sub(r"\s+", " ", text)

@@ -50,7 +50,7 @@ _WRAPPER_NAMES_TEXT = """
     int_at int_floor_divide int_modulo is_header is_mode kind_name leave_initialisation lie_alike log_error
     mode_name model_hash model_initialize model_sample_period model_set_start_time model_step no_strings
     no_variables not_provided perilune_place power_of_two prepare_get prepare_set put_double put_int python_repr
-    refuse refuse_interface refuse_null refuse_point refuse_reference refuse_set refuse_sizes refuse_step
+    refuse refuse_end refuse_interface refuse_null refuse_point refuse_reference refuse_set refuse_sizes refuse_step
     refuse_type refuse_wide reset restart restore_state save_state serialise serialised_size set_fault
     set_start settle state_space terminate type_name whole_ceil whole_floor whole_trunc
 """

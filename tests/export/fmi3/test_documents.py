@@ -192,6 +192,36 @@ def test_the_build_description_has_the_options_that_keep_bits(tmp_path: Path) ->
     assert {"-ffp-contract=off", "-fno-tree-vectorize"} <= set(options.split())
 
 
+class Extremes(Block):
+    """Numbers at the edge of what XML Schema's double and int hold."""
+
+    limit = Parameter([float("inf"), -float("inf"), 1e308], maximum=float("inf"), description="limit")
+    count = Parameter(2**31 - 1, minimum=-0.5, maximum=2**40, description="count")
+    y = Output(0.0, description="y")
+
+    def step(self, t: float, h: float) -> None:
+        self.y = t
+
+
+def test_infinite_and_wide_numbers_are_written_as_the_schema_has_them(tmp_path: Path) -> None:
+    """FMPy validates both versions against the schema, and Python reads the starts back."""
+    for description in describe(Extremes, tmp_path):
+        starts = " ".join(each.start for each in description.modelVariables if each.name.startswith("limit"))
+        assert list(map(float, starts.split())) == [float("inf"), -float("inf"), 1e308]
+        (count,) = (each for each in description.modelVariables if each.name == "count")
+        assert (count.start, count.min, count.max) == ("2147483647", "0", None)
+
+
+@pytest.mark.parametrize("number", [2**31, -(2**31) - 1])
+def test_a_start_beyond_32_bits_is_refused(number: int) -> None:
+    wide = type("Wide", (Extremes,), {"__doc__": "Too wide.", "count": Parameter(number, description="count")})
+    message = f"count: starts at {number}, beyond the 32 bits of FMI"
+    with pytest.raises(ValueError, match=message):
+        fmi3.model_description(wide, token="", generation_tool="")
+    with pytest.raises(ValueError, match=message):
+        fmi2.model_description(wide, guid="", generation_tool="", needs_execution_tool=False)
+
+
 def test_a_variable_time_is_refused() -> None:
     class Clock(Block):
         """Has a variable that FMI 3.0 has, too."""

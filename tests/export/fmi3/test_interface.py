@@ -221,6 +221,27 @@ def test_calls_at_a_wrong_moment_are_refused(walk: Walk) -> None:
     refuse(walk, "fmi3EnterEventMode: this FMU does not provide it", walk.slave.enterEventMode)
 
 
+def test_a_step_past_the_stop_time_is_refused(walk: Walk) -> None:
+    """Rounded sums of steps, which end a little after it, are not; after a reset there is none."""
+    walk.slave.enterInitializationMode(startTime=0.0, stopTime=0.3)
+    walk.slave.exitInitializationMode()
+    walk.slave.doStep(0.0, 0.1)
+    refuse(walk, "StepError: the step ends at 0.4 s, after the stop time of 0.3 s", walk.slave.doStep, 0.1, 0.3)
+    walk.slave.doStep(0.1, 0.1)
+    assert walk.slave.doStep(0.2, 0.1)[3] == 0.2 + 0.1 > 0.3
+    refuse(walk, "after the stop time of 0.3 s", walk.slave.doStep, 0.2 + 0.1, 0.1)
+    walk.slave.reset()
+    walk.start()
+    walk.slave.doStep(0.0, 0.5)
+
+
+def test_a_step_beyond_the_largest_double_is_refused(walk: Walk) -> None:
+    """Its end would be infinite, from where a step could begin at any point."""
+    walk.start(time=1e308)
+    refuse(walk, "communication point and step size must be finite", walk.slave.doStep, 1e308, 1e308)
+    assert walk.get("time") == 1e308
+
+
 def test_an_error_ends_the_run_until_reset_or_state(walk: Walk) -> None:
     walk.start()
     state = walk.slave.getFMUState()
@@ -267,7 +288,8 @@ def test_a_state_goes_to_another_instance_as_bytes(walk: Walk, built: tuple[Path
     ("wrong", "message"),
     [
         ({"guid": "{1}"}, "the instantiation token is not that of this binary"),
-        ({"instanceName": ""}, "the instance name is empty"),
+        ({"instanceName": ""}, "the instance name is NULL or blank"),
+        ({"instanceName": " \t"}, "the instance name is NULL or blank"),
         ({"events": True}, "this FMU has no event mode"),
     ],
 )

@@ -22,15 +22,9 @@ BLOCKS = [
 STEPS = lengths.size(200)
 
 
-@pytest.fixture(scope="session")
-def compiler(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
-    """The command that compiles with sanitizers."""
-    return find_compiler(tmp_path_factory.mktemp("probe"))
-
-
 @pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.fmu_name)
-def test_no_sanitizer_objects(block: type[Block], compiler: list[str], tmp_path: Path) -> None:
+def test_no_sanitizer_objects(block: type[Block], tmp_path: Path) -> None:
     for name, text in native_sources(block, GUID, 3).items():
         (tmp_path / name).write_bytes(text)
-    link(compiler, [f"{block.fmu_name}.c"], tmp_path / "driver")
+    link(find_compiler(), [f"{block.fmu_name}.c"], tmp_path / "driver")
     drive(block, [str(tmp_path / "driver")], GUID, STEPS)

@@ -1,21 +1,10 @@
-/* What programs that drive an FMU share: random numbers, and a variable by its reference and kind: r, i or b (Real,
- * Integer, Boolean).
+/* What programs that drive an FMU of FMI 2.0 share: a variable by its reference and kind: r, i or b (Real, Integer,
+ * Boolean).
  */
-#include <inttypes.h>
 #include <string.h>
 
+#include "../native/random.h"
 #include "fmi2Functions.h"
-
-/* Marsaglia's xorshift64*, 2003, with Vigna's factor. */
-static uint64_t generator = UINT64_C(88172645463325252);
-
-static uint64_t draw(uint64_t below)
-{
-    generator ^= generator >> 12;
-    generator ^= generator << 25;
-    generator ^= generator >> 27;
-    return (generator * UINT64_C(2685821657736338717) >> 16) % below;
-}
 
 typedef union Value {
     fmi2Real real;

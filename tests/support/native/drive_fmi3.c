@@ -7,38 +7,11 @@
  * them infinite or NaN. The sanitizers watch memory and arithmetic; this program watches the answers, and prints a
  * checksum of all values.
  */
-#include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
+#include "checks.h"
+#include "drive_fmi3_values.h"
 
-#include "fmi3Functions.h"
-
-#define HEADER_SIZE 48 /* of a serialised state: six words before the variables */
-
-static const char *token, *types, *causalities;
-static size_t count;      /* of variables */
-static size_t *sizes;     /* of each */
-static size_t most, all;  /* elements of the largest variable, and of all together */
+static const char *token, *causalities;
 static double step;
-static int failures;
-
-#define EXPECT(wanted, call) expect(wanted, call, #call, __LINE__)
-
-static void expect(fmi3Status wanted, fmi3Status actual, const char *call, int line)
-{
-    if (actual == wanted) return;
-    printf("line %d: %s gave status %d instead of %d\n", line, call, (int)actual, (int)wanted);
-    failures++;
-}
-
-static void check(int holds, const char *what)
-{
-    if (holds) return;
-    printf("%s\n", what);
-    failures++;
-}
-
 static size_t messages;
 
 static void logger(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message)
@@ -46,113 +19,6 @@ static void logger(fmi3InstanceEnvironment environment, fmi3Status status, fmi3S
     check(environment == &failures && status == fmi3Error && category[0] != '\0' && message[0] != '\0',
         "a message is incomplete");
     messages++;
-}
-
-/* ---- random values: Marsaglia's xorshift64*, 2003, with Vigna's factor ---- */
-
-static uint64_t generator = UINT64_C(88172645463325252);
-
-static uint64_t draw(uint64_t below)
-{
-    generator ^= generator >> 12;
-    generator ^= generator << 25;
-    generator ^= generator >> 27;
-    return (generator * UINT64_C(2685821657736338717) >> 16) % below;
-}
-
-static double number(void)
-{
-    const double odd[] = {0.0, -0.0, 1.0, -1.0, 1e-310, 1e300, -1e308, INFINITY, -INFINITY, NAN};
-    if (draw(200) == 0) return odd[draw(sizeof odd / sizeof odd[0])];
-    return ldexp((double)draw(1 << 30) / (1 << 29) - 1.0, (int)draw(20) - 6);
-}
-
-/* ---- a variable by its type ---- */
-
-typedef union Value {
-    fmi3Float64 real;
-    fmi3Int32 integer;
-    fmi3Int64 wide;
-    fmi3Boolean boolean;
-    uint64_t word;
-} Value;
-
-typedef union Buffer {
-    fmi3Float64 reals[1];
-    fmi3Int32 integers[1];
-    fmi3Int64 wides[1];
-    fmi3Boolean booleans[1];
-} Buffer;
-
-static Buffer *buffer; /* exactly as long as the values of one call, so that the sanitizer sees what is beyond */
-
-static size_t width(char type)
-{
-    return type == 'f' ? sizeof(fmi3Float64) : type == 'i' ? sizeof(fmi3Int32)
-        : type == 'e' ? sizeof(fmi3Int64)    : sizeof(fmi3Boolean);
-}
-
-static void resize(char type, size_t size)
-{
-    free(buffer);
-    buffer = calloc(size ? size : 1, width(type));
-    if (buffer == NULL) exit(2);
-}
-
-static fmi3Status get(fmi3Instance fmu, fmi3ValueReference reference, char type, size_t size)
-{
-    resize(type, size);
-    if (type == 'f') return fmi3GetFloat64(fmu, &reference, 1, buffer->reals, size);
-    if (type == 'i') return fmi3GetInt32(fmu, &reference, 1, buffer->integers, size);
-    if (type == 'e') return fmi3GetInt64(fmu, &reference, 1, buffer->wides, size);
-    return fmi3GetBoolean(fmu, &reference, 1, buffer->booleans, size);
-}
-
-static fmi3Status set(fmi3Instance fmu, fmi3ValueReference reference, char type, size_t size)
-{
-    if (type == 'f') return fmi3SetFloat64(fmu, &reference, 1, buffer->reals, size);
-    if (type == 'i') return fmi3SetInt32(fmu, &reference, 1, buffer->integers, size);
-    if (type == 'e') return fmi3SetInt64(fmu, &reference, 1, buffer->wides, size);
-    return fmi3SetBoolean(fmu, &reference, 1, buffer->booleans, size);
-}
-
-static void draw_values(char type, size_t size)
-{
-    resize(type, size);
-    for (size_t k = 0; k < size; k++) {
-        if (type == 'f') buffer->reals[k] = number();
-        if (type == 'i') buffer->integers[k] = (fmi3Int32)draw(5);
-        if (type == 'e') buffer->wides[k] = (fmi3Int64)draw(5);
-        if (type == 'b') buffer->booleans[k] = draw(2) == 1;
-    }
-}
-
-static uint64_t checksum = UINT64_C(14695981039346656037); /* FNV-1a of all that was read; one NaN is as another */
-
-static void add_to_checksum(char type, size_t size)
-{
-    for (size_t k = 0; k < size; k++) {
-        Value value = {.word = 0};
-        if (type == 'f') value.real = buffer->reals[k];
-        if (type == 'f' && isnan(value.real)) value.word = 1;
-        if (type == 'i') value.integer = buffer->integers[k];
-        if (type == 'e') value.wide = buffer->wides[k];
-        if (type == 'b') value.boolean = buffer->booleans[k];
-        checksum = (checksum ^ value.word) * UINT64_C(1099511628211);
-    }
-}
-
-/* All bytes of all variables; what cannot be read, after an overflow of 32 bits, is 0. */
-static void read_all(fmi3Instance fmu, unsigned char *bytes)
-{
-    memset(bytes, 0, all * sizeof(Value));
-    for (size_t i = 0; i < count; i++) {
-        if (get(fmu, (fmi3ValueReference)i, types[i], sizes[i]) == fmi3OK) {
-            memcpy(bytes, buffer, sizes[i] * width(types[i]));
-            add_to_checksum(types[i], sizes[i]);
-        }
-        bytes += sizes[i] * sizeof(Value);
-    }
 }
 
 /* ---- life cycle ---- */
@@ -188,6 +54,7 @@ static fmi3Status do_a_step(fmi3Instance fmu, double point, double size)
 
 static void wrong_instantiation(void)
 {
+    messages = 0;
     check(instantiate(NULL, token, false, &failures) == NULL, "name NULL accepted");
     check(instantiate("", token, false, &failures) == NULL, "empty name accepted");
     check(instantiate("fmu", NULL, false, &failures) == NULL, "token NULL accepted");
@@ -197,6 +64,7 @@ static void wrong_instantiation(void)
     check(fmi3InstantiateModelExchange("fmu", token, NULL, false, true, &failures, logger) == NULL, "model exchange");
     check(fmi3InstantiateScheduledExecution("fmu", token, NULL, false, true, &failures, logger, NULL, NULL, NULL)
             == NULL, "scheduled execution");
+    check(messages == 7, "an instantiation is refused without a message");
 }
 
 /* Wrong in every state of the life cycle. */
@@ -212,7 +80,7 @@ static void wrong_arguments(fmi3Instance fmu)
     fmi3Float64 real = 0.0;
     for (int k = 0; k < 4; k++) {
         const char type = all_types[k];
-        draw_values(type, most);
+        draw_values(type, largest);
         EXPECT(fmi3Error, set(NULL, 0, type, 1));
         EXPECT(fmi3Error, set(fmu, time, type, 1));
         if (type != 'f') EXPECT(fmi3Error, get(fmu, time, type, 1));
@@ -308,6 +176,10 @@ static void wrong_moments(void)
     wrong_arguments(fmu);
     EXPECT(fmi3Error, do_a_step(fmu, 0.0, step));
     EXPECT(fmi3OK, fmi3Reset(fmu));
+    EXPECT(fmi3OK, fmi3EnterInitializationMode(fmu, false, 0.0, 0.0, true, 0.5 * step));
+    EXPECT(fmi3OK, fmi3ExitInitializationMode(fmu));
+    EXPECT(fmi3Error, do_a_step(fmu, 0.0, step)); /* past the stop time */
+    EXPECT(fmi3OK, fmi3Reset(fmu));
     EXPECT(fmi3OK, initialise(fmu));
     fmi3FreeInstance(fmu);
     fmi3FreeInstance(NULL);
@@ -318,7 +190,6 @@ static void wrong_moments(void)
 /* A state as bytes and back; bytes cut off, foreign or spoilt. */
 static void states(fmi3Instance fmu, unsigned char *before, unsigned char *after)
 {
-    const int64_t extremes[] = {0, -1, INT64_MAX, INT64_MIN, INT64_C(1) << 53, INT64_C(0x7FF0000000000000), 1000};
     fmi3FMUState state = NULL, copy = NULL, spoilt = NULL;
     size_t length = 0;
     read_all(fmu, before);
@@ -335,8 +206,7 @@ static void states(fmi3Instance fmu, unsigned char *before, unsigned char *after
     check(memcmp(before, after, all * sizeof(Value)) == 0, "a serialised state differs");
     for (int n = 0; n < 20; n++) { /* whatever the bytes are, nothing undefined may follow */
         EXPECT(fmi3OK, fmi3SerializeFMUState(fmu, state, bytes, length));
-        const size_t word = 1 + draw((draw(2) ? length : HEADER_SIZE) / 8 - 1);
-        memcpy(bytes + 8 * word, &extremes[draw(sizeof extremes / sizeof extremes[0])], 8);
+        spoil(bytes, length);
         if (fmi3DeserializeFMUState(fmu, bytes, length, &spoilt) != fmi3OK) continue;
         EXPECT(fmi3OK, fmi3SetFMUState(fmu, spoilt));
         read_all(fmu, after);
@@ -405,7 +275,7 @@ int main(int argument_count, char **arguments)
     for (size_t i = 0; i < count; i++) {
         sizes[i] = strtoul(next, &next, 10);
         next += *next == ',';
-        most = sizes[i] > most ? sizes[i] : most;
+        largest = sizes[i] > largest ? sizes[i] : largest;
         all += sizes[i];
     }
     step = atof(arguments[5]);

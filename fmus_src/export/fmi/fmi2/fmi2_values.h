@@ -17,12 +17,10 @@ static COLD fmi2Status refuse(
         return fail(component, "%s: there is no variable with value reference %u", function, reference);
     }
     const Element element = ELEMENTS[reference];
-    const char *name = NAMES[reference];
     if ((element.traits & traits & KIND_ANY) == 0) {
-        return fail(component, "%s: %s is of type %s", function, name, kind_name(element.traits & KIND_ANY));
+        return fail(component, "%s: %s is of type %s", function, NAMES[reference], kind_name(element.traits & KIND_ANY));
     }
-    if (element.traits & COMPUTED) return fail(component, "%s: %s is computed and cannot be set", function, name);
-    return fail(component, "%s: %s is a parameter, fixed after initialisation", function, name);
+    return refuse_set(component, function, reference, element.traits);
 }
 
 static COLD fmi2Status refuse_null(const Component *component, const char *function, const void *references)
@@ -93,13 +91,6 @@ fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
     return fmi2OK;
 }
 
-/* A block's ints are wider than FMI's. */
-static COLD fmi2Status refuse_wide(Component *component, fmi2ValueReference reference, int64_t wide)
-{
-    component->now.mode = MODE_ERROR;
-    return fail(component, "OverflowError: %s = %" PRId64 " exceeds an FMI Integer's 32 bits", NAMES[reference], wide);
-}
-
 fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[])
 {
     const fmi2Status status = prepare_get(c, "fmi2GetInteger", vr, nvr, value);
@@ -107,7 +98,7 @@ fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
     for (size_t i = 0; i < nvr; i++) {
         if (!has_traits(vr[i], KIND_INTEGER)) return refuse(c, "fmi2GetInteger", KIND_INTEGER, vr[i]);
         const int64_t wide = *(const int64_t *)element_of(c, vr[i]);
-        if (wide < INT32_MIN || wide > INT32_MAX) return refuse_wide(c, vr[i], wide);
+        if (wide < INT32_MIN || wide > INT32_MAX) return refuse_wide(c, vr[i], wide, "Integer");
         value[i] = (fmi2Integer)wide;
     }
     return fmi2OK;

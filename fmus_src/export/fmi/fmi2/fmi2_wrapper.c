@@ -37,7 +37,7 @@ fmi2Component fmi2Instantiate(fmi2String instance_name, fmi2Type fmu_type, fmi2S
     (void)resource_location;
     (void)visible;
     (void)logging_on;
-    if (functions == NULL || instance_name == NULL) return NULL;
+    if (functions == NULL) return NULL; /* without a logger nobody can be told why */
     return create_instance("fmi2Instantiate", instance_name, guid, "GUID", functions->logger,
         functions->componentEnvironment,
         fmu_type == fmi2CoSimulation ? NULL : "this FMU is for co-simulation only");

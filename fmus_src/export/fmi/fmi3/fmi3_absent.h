@@ -48,7 +48,7 @@ static Status no_variables(
         fmi3##Type values[], size_t value_count)                                                                      \
     {                                                                                                                 \
         (void)references, (void)values, (void)value_count;                                                            \
-        return no_variables(instance, "fmi3Get" #Type, #Type, MODE_ANY, count);                                  \
+        return no_variables(instance, "fmi3Get" #Type, #Type, MODE_ANY, count);                                       \
     }                                                                                                                 \
     fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference references[], size_t count,              \
         const fmi3##Type values[], size_t value_count)                                                                \

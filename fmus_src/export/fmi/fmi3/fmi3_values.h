@@ -60,17 +60,6 @@ static inline Status prepare_get(Component *component, const char *function, Var
     return STATUS_OK;
 }
 
-/* Log why a variable of the right type may not be set now. */
-static COLD Status refuse_set(const Component *component, const char *function, fmi3ValueReference reference)
-{
-    if (reference == TIME_REFERENCE) return fail(component, "%s: time is the independent variable", function);
-    const char *name = NAMES[reference];
-    if (ELEMENTS[VARIABLES[reference].first].traits & COMPUTED) {
-        return fail(component, "%s: %s is computed and cannot be set", function, name);
-    }
-    return fail(component, "%s: %s is a parameter, fixed after initialisation", function, name);
-}
-
 /* STATUS_OK where all the variables may be set now: a wrong one leaves the others as they are. */
 static inline Status prepare_set(Component *component, const char *function, VariableType type,
     const fmi3ValueReference references[], size_t count, const void *values, size_t value_count)
@@ -84,11 +73,10 @@ static inline Status prepare_set(Component *component, const char *function, Var
     for (size_t i = 0; i < count; i++) {
         const fmi3ValueReference reference = references[i];
         if (reference > TIME_REFERENCE) return refuse_reference(component, function, reference);
-        if (reference == TIME_REFERENCE) return refuse_set(component, function, reference);
+        if (reference == TIME_REFERENCE) return fail(component, "%s: time is the independent variable", function);
         if (VARIABLES[reference].type != type) return refuse_type(component, function, reference);
-        if ((ELEMENTS[VARIABLES[reference].first].traits & trait) == 0) {
-            return refuse_set(component, function, reference);
-        }
+        const uint32_t traits = ELEMENTS[VARIABLES[reference].first].traits;
+        if ((traits & trait) == 0) return refuse_set(component, function, reference, traits);
         elements += VARIABLES[reference].size;
     }
     if (elements != value_count) return refuse_sizes(component, function, elements, value_count);
@@ -129,10 +117,8 @@ fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference referenc
     for (size_t i = 0; i < count; i++) {
         const int64_t *from = elements_of(component, references[i]);
         for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) {
-            if (from[k] < INT32_MIN || from[k] > INT32_MAX) { /* a block's ints are wider */
-                component->now.mode = MODE_ERROR;
-                return fail(component, "OverflowError: %s = %" PRId64 " exceeds an FMI Int32's 32 bits",
-                    NAMES[references[i]], from[k]);
+            if (from[k] < INT32_MIN || from[k] > INT32_MAX) {
+                return refuse_wide(component, references[i], from[k], "Int32");
             }
             *values++ = (fmi3Int32)from[k];
         }
@@ -140,81 +126,41 @@ fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference referenc
     return STATUS_OK;
 }
 
-fmi3Status fmi3GetInt64(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
-    fmi3Int64 values[], size_t value_count)
-{
-    const Status status =
-        prepare_get(instance, "fmi3GetInt64", TYPE_ENUMERATION, references, count, values, value_count);
-    if (status != STATUS_OK) return status;
-    for (size_t i = 0; i < count; i++) {
-        const int64_t *from = elements_of(instance, references[i]);
-        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) *values++ = from[k];
+/* The getter of a type whose values C makes of the block's elements, which are of the type `Stored`. */
+#define GETTER(Type, TYPE, Stored)                                                                                    \
+    fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference references[], size_t count,              \
+        fmi3##Type values[], size_t value_count)                                                                      \
+    {                                                                                                                 \
+        const Status status =                                                                                         \
+            prepare_get(instance, "fmi3Get" #Type, TYPE, references, count, values, value_count);                     \
+        if (status != STATUS_OK) return status;                                                                       \
+        for (size_t i = 0; i < count; i++) {                                                                          \
+            const Stored *from = elements_of(instance, references[i]);                                                \
+            for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) *values++ = from[k];                         \
+        }                                                                                                             \
+        return STATUS_OK;                                                                                             \
     }
-    return STATUS_OK;
-}
 
-fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
-    fmi3Boolean values[], size_t value_count)
-{
-    const Status status =
-        prepare_get(instance, "fmi3GetBoolean", TYPE_BOOLEAN, references, count, values, value_count);
-    if (status != STATUS_OK) return status;
-    for (size_t i = 0; i < count; i++) {
-        const bool *from = elements_of(instance, references[i]);
-        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) *values++ = from[k];
-    }
-    return STATUS_OK;
-}
+GETTER(Int64, TYPE_ENUMERATION, int64_t)
+GETTER(Boolean, TYPE_BOOLEAN, bool)
 
-fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
-    const fmi3Float64 values[], size_t value_count)
-{
-    const Status status =
-        prepare_set(instance, "fmi3SetFloat64", TYPE_FLOAT64, references, count, values, value_count);
-    if (status != STATUS_OK) return status;
-    for (size_t i = 0; i < count; i++) {
-        double *to = elements_of(instance, references[i]);
-        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) to[k] = *values++;
+#define SETTER(Type, TYPE, Stored)                                                                                    \
+    fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference references[], size_t count,              \
+        const fmi3##Type values[], size_t value_count)                                                                \
+    {                                                                                                                 \
+        const Status status =                                                                                         \
+            prepare_set(instance, "fmi3Set" #Type, TYPE, references, count, values, value_count);                     \
+        if (status != STATUS_OK) return status;                                                                       \
+        for (size_t i = 0; i < count; i++) {                                                                          \
+            Stored *to = elements_of(instance, references[i]);                                                        \
+            for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) to[k] = *values++;                           \
+        }                                                                                                             \
+        return STATUS_OK;                                                                                             \
     }
-    return STATUS_OK;
-}
 
-fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
-    const fmi3Int32 values[], size_t value_count)
-{
-    const Status status = prepare_set(instance, "fmi3SetInt32", TYPE_INT32, references, count, values, value_count);
-    if (status != STATUS_OK) return status;
-    for (size_t i = 0; i < count; i++) {
-        int64_t *to = elements_of(instance, references[i]);
-        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) to[k] = *values++;
-    }
-    return STATUS_OK;
-}
-
-fmi3Status fmi3SetInt64(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
-    const fmi3Int64 values[], size_t value_count)
-{
-    const Status status =
-        prepare_set(instance, "fmi3SetInt64", TYPE_ENUMERATION, references, count, values, value_count);
-    if (status != STATUS_OK) return status;
-    for (size_t i = 0; i < count; i++) {
-        int64_t *to = elements_of(instance, references[i]);
-        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) to[k] = *values++;
-    }
-    return STATUS_OK;
-}
-
-fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
-    const fmi3Boolean values[], size_t value_count)
-{
-    const Status status =
-        prepare_set(instance, "fmi3SetBoolean", TYPE_BOOLEAN, references, count, values, value_count);
-    if (status != STATUS_OK) return status;
-    for (size_t i = 0; i < count; i++) {
-        bool *to = elements_of(instance, references[i]);
-        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) to[k] = *values++;
-    }
-    return STATUS_OK;
-}
+SETTER(Float64, TYPE_FLOAT64, double)
+SETTER(Int32, TYPE_INT32, int64_t)
+SETTER(Int64, TYPE_ENUMERATION, int64_t)
+SETTER(Boolean, TYPE_BOOLEAN, bool)
 
 #endif

@@ -44,7 +44,6 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String instance_name, fmi3String to
 {
     (void)resource_path, (void)visible, (void)early_return_allowed;
     (void)required_intermediate_variables, (void)required_count, (void)intermediate_update;
-    if (instance_name == NULL) return NULL;
     Component *component = create_instance("fmi3InstantiateCoSimulation", instance_name, token, "instantiation token",
         log_message, environment, event_mode_used ? "this FMU has no event mode" : NULL);
     if (component != NULL && !logging_on) component->logger = NULL;

@@ -46,10 +46,11 @@ typedef struct Snapshot {
 typedef struct Component {
     Snapshot now;
     Status last_step;
+    double stop_time; /* INFINITY where the importer has not said when it stops */
     Logger logger; /* NULL where nothing is logged */
     Logger importers_logger;
     Environment environment;
-    char instance_name[1]; /* as long as it needs, at the end of the allocation */
+    char instance_name[];
 } Component;
 
 /* Log an error and return it. */
@@ -95,6 +96,20 @@ static COLD Status end_with_fault(Component *component, const Fault *fault, cons
     return fail(component, "File \"%s\", line %d: %s%s", fault->file, fault->line, fault->what, where);
 }
 
+/* An int of the block that FMI's type of 32 bits cannot hold. */
+static COLD Status refuse_wide(Component *component, uint32_t reference, int64_t wide, const char *type)
+{
+    component->now.mode = MODE_ERROR;
+    return fail(component, "OverflowError: %s = %" PRId64 " exceeds an FMI %s's 32 bits", NAMES[reference], wide, type);
+}
+
+/* Why a variable of the right type may not be set now. */
+static COLD Status refuse_set(const Component *component, const char *function, uint32_t reference, uint32_t traits)
+{
+    const char *why = traits & COMPUTED ? "computed and cannot be set" : "a parameter, fixed after initialisation";
+    return fail(component, "%s: %s is %s", function, NAMES[reference], why);
+}
+
 /* Back to the state right after instantiation. */
 static void restart(Component *component)
 {
@@ -103,6 +118,7 @@ static void restart(Component *component)
     component->now.mode = MODE_INSTANTIATED;
     component->now.unsettled = true;
     component->last_step = STATUS_OK;
+    component->stop_time = INFINITY;
 }
 
 /* An element from one block to another. */
@@ -150,6 +166,14 @@ static COLD Status refuse_point(Component *component, double point)
     return fail(component,
         "StepError: the step begins at %s s, and the FMU is at %s s; go on from there, or restore its state of then",
         python_repr(point, point_text), python_repr(component->now.time, here_text));
+}
+
+static COLD Status refuse_end(Component *component, double end)
+{
+    char end_text[REPR_SIZE];
+    char stop_text[REPR_SIZE];
+    return fail(component, "StepError: the step ends at %s s, after the stop time of %s s",
+        python_repr(end, end_text), python_repr(component->stop_time, stop_text));
 }
 
 static COLD Status end_step_with_fault(Component *component, const Fault *fault, double t, double h)

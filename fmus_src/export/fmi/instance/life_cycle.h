@@ -9,30 +9,30 @@
 static Component *create_instance(const char *function, const char *instance_name, const char *token,
     const char *token_name, Logger logger, Environment environment, const char *refusal)
 {
-    Component *component = calloc(1, sizeof(Component) + strlen(instance_name));
+    const char *name = instance_name == NULL ? "" : instance_name;
+    Component *component = calloc(1, sizeof(Component) + strlen(name) + 1);
     if (component == NULL) return NULL;
     component->logger = component->importers_logger = logger;
     component->environment = environment;
-    strcpy(component->instance_name, instance_name);
-    bool is_wrong = true;
-    if (token == NULL || strcmp(token, MODEL_GUID) != 0) {
+    strcpy(component->instance_name, name);
+    const bool is_ours = token != NULL && strcmp(token, MODEL_GUID) == 0;
+    if (name[strspn(name, " \t\r\n")] == '\0') refusal = "the instance name is NULL or blank";
+    if (refusal == NULL) refusal = check_arithmetic();
+    if (is_ours && refusal == NULL) {
+        restart(component);
+        return component;
+    }
+    if (is_ours) {
+        fail(component, "%s: %s", function, refusal);
+    } else {
         fail(component, "%s: the %s is not that of this binary, " MODEL_GUID "; unpack the FMU again", function,
             token_name);
-    } else {
-        if (instance_name[0] == '\0') refusal = "the instance name is empty";
-        if (refusal == NULL) refusal = check_arithmetic();
-        is_wrong = refusal != NULL;
-        if (is_wrong) fail(component, "%s: %s", function, refusal);
     }
-    if (is_wrong) {
-        free(component);
-        return NULL;
-    }
-    restart(component);
-    return component;
+    free(component);
+    return NULL;
 }
 
-/* Note when the simulation starts, and check when it is to stop. */
+/* Note when the simulation starts, and when it stops. */
 static Status set_start(
     Component *component, const char *function, double start_time, bool stop_time_defined, double stop_time)
 {
@@ -40,6 +40,7 @@ static Status set_start(
     if (stop_time_defined && !(stop_time >= start_time)) {
         return fail(component, "%s: the stop time is before the start time", function);
     }
+    component->stop_time = stop_time_defined ? stop_time : INFINITY;
     component->now.start_time = start_time;
     component->now.time = start_time;
     return STATUS_OK;
@@ -80,20 +81,25 @@ static Status check_logging(
     return STATUS_OK;
 }
 
-/* One communication step from where the last one ended. */
+/* One communication step from where the last one ended; past the stop time it has to be an error (FMI 2.0,
+ * fmi2SetupExperiment; FMI 3.0, fmi3EnterInitializationMode). */
 static inline Status do_step(Component *component, const char *function, double communication_point, double step_size)
 {
     const Status status = check_mode(component, function, MODE_STEP);
     if (status != STATUS_OK) return status;
-    if (!isfinite(communication_point) || !isfinite(step_size) || step_size <= 0.0) {
+    if (!isfinite(communication_point + step_size) || step_size <= 0.0) { /* the sum of two finite ones may overflow */
         return fail(component, "%s: communication point and step size must be finite, the latter positive", function);
     }
     const double here = component->now.time;
     if (fabs(communication_point - here) > POINT_TOLERANCE * step_size + TIME_TOLERANCE * fabs(here)) {
         return refuse_point(component, communication_point);
     }
+    const double end = communication_point + step_size;
+    if (end > component->stop_time + POINT_TOLERANCE * step_size + TIME_TOLERANCE * fabs(end)) {
+        return refuse_end(component, end);
+    }
     component->last_step = advance(component, communication_point, step_size);
-    if (component->last_step == STATUS_OK) component->now.time = communication_point + step_size;
+    if (component->last_step == STATUS_OK) component->now.time = end;
     return component->last_step;
 }
 

@@ -1,46 +1,9 @@
-/* Calls of a native FMU's functions in any order, with any values: bytes say which.
- *
- * Compiled together with the FMU's source under sanitizers, by clang with libFuzzer, which looks for bytes that come
- * to other code, or with STANDALONE and random bytes:
- *
- *     fmi RUNS SEED
- *
- * GUID, STEP (s, the FMU's own) and VARIABLES (their number) are macros. The FMU may refuse whatever it likes; it
- * may not touch memory of others, divide by zero or convert what no integer holds.
- */
-#include <math.h>
+/* Calls of the functions of a native FMU of FMI 2.0 in any order, with any values: `bytes.h` says how. */
 #include <stdarg.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "fmi2Functions.h"
 
-enum { INSTANCES = 2, STATES = 2, AT_ONCE = 6, LONGEST = 1 << 16, STEPS = 3 };
-
-static const uint8_t *next;
-static size_t left;
-
-static unsigned below(unsigned limit)
-{
-    if (left == 0) return 0;
-    left--;
-    return *next++ % limit;
-}
-
-static double number(void)
-{
-    const double odd[] = {0.0, -0.0, 1.0, -1.0, 5e-324, 1e-310, 1e300, -1.7e308, INFINITY, -INFINITY, NAN, 2147483648.0};
-    const unsigned kind = below(3);
-    double value = 0.0;
-    if (kind == 0) return odd[below(sizeof odd / sizeof odd[0])];
-    if (kind == 1 || left < sizeof value) return (double)below(256) / 64.0 - 2.0;
-    memcpy(&value, next, sizeof value);
-    next += sizeof value;
-    left -= sizeof value;
-    return value;
-}
+#include "bytes.h"
 
 static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category,
     fmi2String message, ...)
@@ -58,40 +21,36 @@ static fmi2ValueReference references[AT_ONCE];
 static fmi2Real reals[AT_ONCE];
 static fmi2Integer whole[AT_ONCE];
 static fmi2String texts[AT_ONCE];
-static fmi2Byte bytes[LONGEST];
 
 /* So many value references, most of them of the FMU. */
 static size_t choose(void)
 {
     const size_t count = below(AT_ONCE + 1);
     for (size_t i = 0; i < count; i++) {
-        references[i] = below(16) == 0 ? 0xfffffff0u + below(16) : (below(256) * 256u + below(256)) % (VARIABLES + 1);
+        references[i] = choose_reference();
         reals[i] = number();
-        whole[i] = below(4) == 0 ? INT32_MIN + (int)below(2) : (fmi2Integer)below(256) - 8;
+        whole[i] = whole_number();
         texts[i] = below(2) ? "" : "text";
     }
     return count;
 }
 
-static void mangle(fmi2Component fmu, fmi2FMUstate *state)
+static void mangle_state(fmi2Component fmu, fmi2FMUstate *state)
 {
     size_t size = 0;
-    if (fmi2SerializedFMUstateSize(fmu, *state, &size) != fmi2OK || size > LONGEST) return;
-    if (fmi2SerializeFMUstate(fmu, *state, bytes, size) != fmi2OK) return;
-    for (unsigned i = below(4); i > 0; i--) {
-        const double value = number();
-        const size_t word = (below(256) * 256u + below(256)) % (size / 8);
-        if (below(2)) memcpy(bytes + 8 * word, &value, 8);
-        else bytes[8 * word + below(8)] ^= (fmi2Byte)(1u << below(8));
+    if (fmi2SerializedFMUstateSize(fmu, *state, &size) != fmi2OK) return;
+    fmi2Byte *bytes = malloc(size);
+    if (fmi2SerializeFMUstate(fmu, *state, bytes, size) == fmi2OK) {
+        size = mangle(bytes, size);
+        bytes = realloc(bytes, size); /* so that the sanitizer sees what is beyond */
+        fmi2DeSerializeFMUstate(fmu, bytes, size, state);
     }
-    fmi2DeSerializeFMUstate(fmu, bytes, below(8) ? size : size - below(9), state);
+    free(bytes);
 }
 
 static void step(fmi2Component fmu, double *time)
 {
-    const double size = below(4) ? STEP * (1 + below(STEPS)) : below(4) ? number() : 1e300;
-    const double point = below(8) ? *time : number();
-    if (size > 1000.0 * STEP && isfinite(size) && size < 1e30) return; /* takes as long as it says */
+    const double size = step_size(), point = below(8) ? *time : number();
     if (fmi2DoStep(fmu, point, size, fmi2True) == fmi2OK) *time = point + size;
 }
 
@@ -135,7 +94,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         }
         case 12: fmi2GetFMUstate(*fmu, &states[state]); break;
         case 13: if (states[state] != NULL) fmi2SetFMUstate(*fmu, states[state]); break;
-        case 14: if (states[state] != NULL) mangle(*fmu, &states[state]); break;
+        case 14: if (states[state] != NULL) mangle_state(*fmu, &states[state]); break;
         case 15: fmi2Reset(*fmu); times[which] = 0.0; break;
         case 16: fmi2Terminate(*fmu); break;
         case 17: fmi2FreeInstance(*fmu); *fmu = NULL; break;
@@ -147,19 +106,3 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (size_t i = 0; i < INSTANCES; i++) if (fmus[i] != NULL) fmi2FreeInstance(fmus[i]);
     return 0;
 }
-
-#ifdef STANDALONE
-int main(int count, char **arguments)
-{
-    static uint8_t random[600];
-    uint64_t state = count > 2 ? strtoull(arguments[2], NULL, 10) * 2 + 1 : 1;
-    for (long run = count > 1 ? atol(arguments[1]) : 1; run > 0; run--) {
-        for (size_t i = 0; i < sizeof random; i++) {
-            state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-            random[i] = (uint8_t)(state >> 56);
-        }
-        LLVMFuzzerTestOneInput(random, sizeof random);
-    }
-    return 0;
-}
-#endif
