@@ -127,15 +127,22 @@ def _identity(command: tuple[str, ...]) -> str:
 def build_library(
     sources: Mapping[str, bytes], main: str, platform: str, cache: Path, *, portable: bool = False
 ) -> bytes:
-    """The shared library of the source file ``main``, compiled or taken from the folder ``cache``.
+    """The shared library of the source file ``main``, as `library_files`; one for several processors in one."""
+    libraries = [path.read_bytes() for path in library_files(sources, main, platform, cache, portable=portable)]
+    return libraries[0] if len(libraries) == 1 else fat_binary(libraries)
 
-    ``sources`` holds all files by name. The result depends on sources, flags and compiler only,
+
+def library_files(
+    sources: Mapping[str, bytes], main: str, platform: str, cache: Path, *, portable: bool = False
+) -> list[Path]:
+    """The shared libraries of the source file ``main`` for each processor of a platform, in the folder ``cache``.
+
+    ``sources`` holds all files by name. The libraries depend on sources, flags and compiler only,
     not on time or place. Raises `CompilerMissing` and `CompilationFailed`.
     """
-    commands = compilers_for(platform, portable)
     extension = PLATFORMS[platform].extension
-    libraries = []
-    for command in commands:
+    files = []
+    for command in compilers_for(platform, portable):
         digest = hashlib.sha256("\0".join([_identity(tuple(command)), *FLAGS, main]).encode())
         for name in sorted(sources):
             digest.update(b"\0" + name.encode() + b"\0" + hashlib.sha256(sources[name]).digest())
@@ -146,8 +153,8 @@ def build_library(
             partial = cached.with_name(f".{cached.name}.{os.getpid()}.{threading.get_ident()}.part")
             partial.write_bytes(library)
             partial.replace(cached)
-        libraries.append(cached.read_bytes())
-    return libraries[0] if len(libraries) == 1 else fat_binary(libraries)
+        files.append(cached)
+    return files
 
 
 def _compile(command: list[str], sources: Mapping[str, bytes], main: str, output: str) -> bytes:

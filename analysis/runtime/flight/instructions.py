@@ -14,7 +14,7 @@ from .orders.connections import Term
 from .orders.fmi2 import Fmi2Orders
 from .orders.fmi3 import Fmi3Orders
 from .orders.rows import Rows
-from .texts import Texts
+from .orders.texts import Texts
 
 Orders = Fmi2Orders | Fmi3Orders
 

@@ -28,9 +28,9 @@ from .orders.injections import Injection
 from .orders.placing_fmi2 import ComponentSlots, place_component
 from .orders.placing_fmi3 import TransferPlacing
 from .orders.slots import Slots
+from .orders.texts import Texts
 from .orders.transfers import ComponentTransfers, TransferTable
 from .parameters import Parameters
-from .texts import Texts
 
 
 @dataclass

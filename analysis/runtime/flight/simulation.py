@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Unpack
 
 import numpy as np
 
 from ...common.collection import no_collection
+from ..fused.fuse import fuse
 from ..instances.instance import Instance, instantiate
 from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
+from ..system.options import FUSED
 from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem
 from .base_simulation import NOTHING, BaseSimulation, Choices
-from .compiled import arrays, codes, loop
-from .compiled.group import compile_for as compile_group
+from .compiled import arrays, codes
 from .endings import STATUS, TERMINATED, Outcome, end_request, in_words
 from .group import FlightGroup, group_of, most_flights
 from .instructions import write_ending
 from .life_cycle import LifeCycle
+from .loops import Loops
 from .memory import Memory
 from .orders.injections import NEVER, of_fault
 from .orders.transfers import needs_events
@@ -70,10 +71,11 @@ class Simulation(BaseSimulation):
             outcome=self.recorder.outcome,
             halt=self.recorder.halt,
         )
-        self._loop: Callable[..., int] | None = None
-        self._group_loop: Callable[..., int] | None = None
+        self.fused: arrays.Fused | None = None
+        if prepared.options.flavour == FUSED:
+            self.fused = fuse(self.instances, self.program, self._recorded.tolist())
+        self._loops = Loops(locked=not prepared.is_native, with_fmi3=prepared.has_fmi3)
         self.life_cycle = LifeCycle(self.instances, self.program, self.fmi3, self._instructions, self._note_subject)
-        self._under_way = threading.Lock()
         self.recorder.enter(Phase.IDLE)
 
     def announce(self, _values: Mapping[str, ParameterValue], _faults: Sequence[Fault | None]) -> None:
@@ -89,8 +91,7 @@ class Simulation(BaseSimulation):
         So that other threads run whatever a step does, and a clock measures flights alone.
         """
         span, recording, excitation = self._request(-1, 0, 1, False, NOTHING)
-        arguments = self._arguments(self.program, span, recording, excitation)
-        self._loop = loop.compile_for(arguments, locked=False, with_fmi3=self.prepared.has_fmi3)
+        self._loops.unlock(self._arguments(self.program, span, recording, excitation))
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
         """See `BaseSimulation.set`; an element of an array that is partly connected is given with each step, too."""
@@ -141,7 +142,8 @@ class Simulation(BaseSimulation):
         recorder.enter(Phase.FLIGHT)
         for instance in self.instances.values():
             instance.said.clear()
-        count = self._call(self.program, *self._request(first, last, every, reset, excitation))
+        request = self._request(first, last, every, reset, excitation)
+        count = self._loops.fly(self._arguments(self.program, *request))
         outcome = Outcome(*self.buffers.outcome.tolist())
         if self._has_learned(outcome):
             self._replace_instances()
@@ -165,10 +167,7 @@ class Simulation(BaseSimulation):
             instance.said.clear()  # what comes to its end says nothing
         group = group_of(table, self._varied, self.layout.parameters, rows, TIME_MARGIN * prepared.step)
         arguments = self._arguments(self.program, *self._request(-1, prepared.steps, 1, reset, NOTHING))
-        with self._under_way:
-            if self._group_loop is None:
-                self._group_loop = compile_group((*arguments, group), locked=not prepared.is_native, with_fmi3=False)
-            flown = self._group_loop(*arguments, group)
+        flown = self._loops.fly_group(arguments, group)
         ends = group.ends[:flown]
         start = int(ends[-2]) if flown > 1 else 0
         last = self._conclude(Outcome(*self.buffers.outcome.tolist()), start, int(ends[-1]))
@@ -246,22 +245,17 @@ class Simulation(BaseSimulation):
         return True
 
     def _arguments(
-        self, program: arrays.Program, span: arrays.Span, recording: arrays.Recording, excitation: np.ndarray
+        self,
+        program: arrays.Program,
+        span: arrays.Span,
+        recording: arrays.Recording,
+        excitation: np.ndarray,
+        *,
+        is_fused: bool = True,
     ) -> tuple[object, ...]:
         fmi3 = () if self.fmi3 is None else self.fmi3
-        return program, self.buffers, self.layout.parameters.values, span, recording, excitation, fmi3
-
-    def _call(
-        self, program: arrays.Program, span: arrays.Span, recording: arrays.Recording, excitation: np.ndarray
-    ) -> int:
-        """The compiled loop; returns the number of rows that it recorded."""
-        arguments = self._arguments(program, span, recording, excitation)
-        with self._under_way:
-            if self._loop is None:
-                self._loop = loop.compile_for(
-                    arguments, locked=not self.prepared.is_native, with_fmi3=self.prepared.has_fmi3
-                )
-            return self._loop(*arguments)
+        fused = () if self.fused is None or not is_fused else self.fused
+        return program, self.buffers, self.layout.parameters.values, span, recording, excitation, fmi3, fused
 
     def _fly_last_row(self, component: int, end: float, row: int) -> None:
         """Record what there is at the time ``end`` (s) at which a component has ended the simulation."""
@@ -272,7 +266,8 @@ class Simulation(BaseSimulation):
         recording = arrays.Recording(
             self._recorded, 1, np.empty((self._recorded.size, 1)), self.recorder.times[row:], 0
         )
-        self._call(program, span, recording, np.zeros((0, len(self._selection.excited))))
+        excitation = np.zeros((0, len(self._selection.excited)))
+        self._loops.fly(self._arguments(program, span, recording, excitation, is_fused=False))
         self.recorder.record[:, row] = recording.record[:, 0]
 
     def _replace_instances(self, fatal: str | None = None) -> None:
@@ -290,10 +285,10 @@ class Simulation(BaseSimulation):
 
     def close(self) -> None:
         """Free the instances; those of a flight that still goes on in a thread, given up, end with the process."""
-        if self._under_way.acquire(blocking=False):
+        if self._loops.under_way.acquire(blocking=False):
             self.recorder.enter(Phase.END)
             if self._log is not None:
                 self._log.close()
             self.life_cycle.close()
             self.instances = {}
-            self._under_way.release()
+            self._loops.under_way.release()

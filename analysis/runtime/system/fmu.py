@@ -29,6 +29,7 @@ from ..ssp.fmu_description import DESCRIPTION, check_description, check_rules, e
 
 MOST_FLAWS = 3  # named in one line
 MOST_DESCRIPTIONS = 32  # kept at once
+SOURCES = "sources/"
 STRUCTURAL = "structuralParameter"
 NOT_VARIED = ("a structural parameter, which sizes arrays, does not vary from trial to trial", "give it to `set`")
 
@@ -48,6 +49,7 @@ class Fmu:
     flaws: list[str] = field(default_factory=list)  # rules of FMI that its description breaks, though it is readable
     sizes: Mapping[str, int] = field(default_factory=dict)  # structural parameters that are not as declared
     origin: Fmu | None = None  # as it was loaded, of one with other sizes
+    content: bytes = field(default=b"", repr=False, compare=False)  # the file, of one built by Perilune
 
     @property
     def name(self) -> str:
@@ -91,6 +93,12 @@ class Fmu:
         fmi3.check_sizes(self.description, by_reference, self.label)
         variables = elements_of(self.description.modelVariables, by_reference)
         return replace(loaded, variables=variables, sizes=dict(sizes), origin=loaded)
+
+    def read_sources(self) -> dict[str, str]:
+        """The C of one built by Perilune, by file name. Raises InputError where it is damaged."""
+        archive = open_zip(self.content, self.label)
+        files = [name for name in archive.namelist() if name.startswith(SOURCES) and name.endswith((".c", ".h"))]
+        return {name.removeprefix(SOURCES): read_entry(archive, name, self.label).decode() for name in files}
 
     def read_dependencies(self) -> dict[str, set[str] | None]:
         """Output -> inputs that it depends on directly, as ModelStructure declares it; None where it does not."""
@@ -144,6 +152,8 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     digest = hashlib.sha256(data).hexdigest()
     external = external_state_of(xml)
     fmu = Fmu(label, digest, description, folder, is_own=is_own(digest), external_state=external, flaws=list(flaws))
+    if fmu.is_own:
+        fmu.content = data
     # Others' may reach for any of their files: FMPy's remoting starts a server of binaries/win32 from binaries/win64.
     read_here = (DESCRIPTION, f"{Path(binary).parent.as_posix()}/", "resources/")
     names = [name for name in archive.namelist() if name.startswith(read_here) or not fmu.is_own]

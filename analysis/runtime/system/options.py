@@ -12,6 +12,7 @@ from ...common.errors import InputError, suggestion
 from ..ssp.parameter_sets import SetValue
 
 ALGORITHMS = ("sequential", "jacobi")
+FUSED = "fused"  # a flavour of flights, of native FMUs
 OPEN_INPUTS = ("refuse", "start")
 
 
@@ -80,7 +81,8 @@ class SystemOptions(Trust, Layer):
     """What the command line calls system options; see `perilune run --help`.
 
     Times in s. ``algorithm`` None is what the system's description says, else the first of `ALGORITHMS`. ``flavour``
-    None takes native FMUs where they are built. ``open_inputs``: what becomes of inputs that the SSD declares and
+    None takes native FMUs where they are built, `FUSED` compiles the steps of the system as one function, too.
+    ``open_inputs``: what becomes of inputs that the SSD declares and
     nothing drives, ``start`` keeps the FMU's start values. ``strict``: FMUs whose descriptions break rules of FMI are
     refused and not only remarked upon. ``feedthrough`` are components whose outputs depend directly on all inputs,
     ``no_feedthrough`` those whose outputs depend directly on none. ``call_timeout`` (s), of one call of an FMU, and
@@ -101,6 +103,11 @@ class SystemOptions(Trust, Layer):
     call_timeout: float = field(default=300.0, compare=False)
     memory: float = field(default=4.0, compare=False)
     folder: str = field(default_factory=os.getcwd, compare=False, repr=False)
+
+    @property
+    def build(self) -> str | None:
+        """Which build of Perilune's FMUs is taken; None: native where built."""
+        return None if self.flavour == FUSED else self.flavour
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -28,7 +28,7 @@ from .flattening import build_network
 from .fmu import Fmu, load_fmu
 from .inputs import Drive, check_signals, drive_inputs, find_driven, settle_open_inputs
 from .network import Network
-from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
+from .options import ALGORITHMS, FUSED, OPEN_INPUTS, SystemOptions
 from .passing.settings import Settings
 from .schedule import Schedule, make_schedule
 from .series import InputSeries
@@ -116,7 +116,7 @@ def _prepare(
 ) -> PreparedSystem:
     for name, value, known in (
         ("`algorithm`", options.algorithm, ALGORITHMS),
-        ("`flavour`", options.flavour, FLAVOURS),
+        ("`flavour`", options.flavour, (*FLAVOURS, FUSED)),
         ("`open_inputs`", options.open_inputs, OPEN_INPUTS),
     ):
         if value is not None and value not in known:
@@ -128,7 +128,7 @@ def _prepare(
 
     @cache
     def flavour_of(block: str) -> str:
-        return options.flavour or ("native" if fmu_file(block, "native", archive.path) is not None else "python")
+        return options.build or ("native" if fmu_file(block, "native", archive.path) is not None else "python")
 
     replaced: dict[str, tuple[str, Retired]] = {}  # by component: the name asked for, and what replaces it
 
@@ -148,7 +148,7 @@ def _prepare(
                 read, label = read_fmu(archive.elsewhere[key]), options.use[name]
             else:
                 archive.refuse_elsewhere(options.use[name], f"`use` {name}")
-                read, label = locate_fmu(block, options.flavour, system=archive.path)
+                read, label = locate_fmu(block, options.build, system=archive.path)
             elsewhere[key] = read
         else:
             source = component.source

@@ -82,7 +82,7 @@ def report_fmus(system: str | Path, options: SystemOptions, compare: Mapping[str
     lines = [replacement.note(name, block) for name, block, replacement in retired if replacement is not None]
     changed: dict[tuple[Path, Path], set[str]] = {}
     for name in dict.fromkeys(block for _, block in pairs):
-        fmu = _file(name, options.flavour, archive.path)
+        fmu = _file(name, options.build, archive.path)
         files = None if fmu is None else find_changed_source(fmu)
         if files is not None:
             changed.setdefault(files, set()).add(Path(name).stem)

@@ -52,7 +52,11 @@ class SystemOptions(TrustOptions, total=False):
     ]
     variant: Annotated[str | None, Option("another SSD of the archive", metavar="NAME")]
     flavour: Annotated[
-        Literal["native", "python"] | None, Option("which build of Perilune's FMUs; default: native where built")
+        Literal["native", "python", "fused"] | None,
+        Option(
+            "which build of Perilune's FMUs; fused: native ones, the steps of the system compiled as one function; "
+            "default: native where built"
+        ),
     ]
     open_inputs: Annotated[
         Literal["refuse", "start"],

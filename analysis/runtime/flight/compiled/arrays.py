@@ -116,6 +116,14 @@ class Fmi3(NamedTuple):
     initial_sizes: np.ndarray  # uint64 [t]
 
 
+class Fused(NamedTuple):
+    """The steps of a system in C; the loop of others is given an empty tuple instead."""
+
+    address: int  # of the function
+    frame: np.ndarray  # int64 [frame.WORDS], what it is given
+    reals: np.ndarray  # float64 [frame.REALS], likewise
+
+
 class Buffers(NamedTuple):
     """Memory of one run in flight."""
 
@@ -135,7 +143,9 @@ def stored(slots: int) -> StoredValues:
     return StoredValues(whole[0], whole[1], np.zeros(8, dtype=np.uint8), np.zeros(2))
 
 
-def blank(*, with_fmi3: bool) -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray, Fmi3 | tuple[()]]:
+def blank(
+    *, with_fmi3: bool
+) -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray, Fmi3 | tuple[()], tuple[()]]:
     """Arguments of the loop, without a system: their types are those of all systems, or all with FMI 3.0."""
     real, whole, text, index, byte = np.float64, np.int32, np.uint64, np.int64, np.uint8
     row, rows = 0, (0, 0)
@@ -182,6 +192,7 @@ def blank(*, with_fmi3: bool) -> tuple[Program, Buffers, Settings, Span, Recordi
         Recording(np.zeros(row, index), 0, np.zeros(rows), np.zeros(row), 0),
         np.zeros(rows),
         _blank_fmi3(texts) if with_fmi3 else (),
+        (),
     )
 
 

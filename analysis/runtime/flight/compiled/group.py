@@ -15,7 +15,7 @@ from .codes import FINISHED, STOP_TIME
 from .loop import under_another_name
 
 
-def _fly_group(program, buffers, settings, span, recording, excitation, fmi3, group):  # type: ignore[no-untyped-def]
+def _fly_group(program, buffers, settings, span, recording, excitation, fmi3, fused, group):  # type: ignore[no-untyped-def]
     """Fly the flights of ``group`` from their start; returns how many have flown.
 
     Ends early behind a flight that did not come to its end, and where the record may have no room for another.
@@ -41,6 +41,7 @@ def _fly_group(program, buffers, settings, span, recording, excitation, fmi3, gr
             Recording(recording.slots, recording.stride, recording.record, recording.times, end),
             excitation,
             fmi3,
+            fused,
         )
         group.ends[flight] = end
         group.endings[flight] = buffers.outcome[0]
@@ -51,12 +52,12 @@ def _fly_group(program, buffers, settings, span, recording, excitation, fmi3, gr
 
 
 @cache
-def _function(*, locked: bool, with_fmi3: bool) -> Any:
-    fly = loop.function(locked=locked, with_fmi3=with_fmi3)
-    name = f"_fly_group{'' if locked else '_unlocked'}{'_fmi3' if with_fmi3 else ''}"
+def _function(*, locked: bool, with_fused: bool) -> Any:
+    fly = loop.function(locked=locked, with_fmi3=False, with_fused=with_fused)
+    name = f"_fly_group{'' if locked else '_unlocked'}{'_fused' if with_fused else ''}"
     return compile_cached(under_another_name(_fly_group, globals(), name, fly=fly), nogil=not locked)
 
 
-def compile_for(arguments: tuple, *, locked: bool, with_fmi3: bool) -> Callable[..., int]:
-    """The function for arguments of these types; choices as in `loop.compile_for`."""
-    return _function(locked=locked, with_fmi3=with_fmi3).compile(tuple(typeof(part) for part in arguments))
+def compile_for(arguments: tuple, *, locked: bool, with_fused: bool) -> Callable[..., int]:
+    """The function for arguments of these types, of systems without FMI 3.0; choices as in `loop.compile_for`."""
+    return _function(locked=locked, with_fused=with_fused).compile(tuple(typeof(part) for part in arguments))

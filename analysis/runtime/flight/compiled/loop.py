@@ -63,18 +63,20 @@ from .codes import (
 )
 from .fmi3 import begin_fmi3, exchange_in_steps
 from .fmi_calls import boolean_at, do_step, exchange, exchange_texts, put_real, real_at, whole_at
+from .fused import fly_steps
 from .text_transfers import exchange_with_texts
 
 ONE = np.uint64(1)
-WITH_FMI3 = False  # a constant of each compilation
+WITH_FMI3 = WITH_FUSED = False  # constants of each compilation
 WHOLE_MIN, WHOLE_MAX = -(2**31), 2**31 - 1  # of FMI's Integers
 
 
-def _fly(program, buffers, settings, span, recording, excitation, fmi3):  # type: ignore[no-untyped-def]
+def _fly(program, buffers, settings, span, recording, excitation, fmi3, fused):  # type: ignore[no-untyped-def]
     """Initialise and run; returns the number of rows in the record, buffers.outcome says how it ended.
 
     The rows of ``excitation``, float64 [r, e], are added to the excited slots at the communication points behind
-    ``span.first``. ``fmi3`` is used by FMUs of FMI 3.0 alone.
+    ``span.first``. ``fmi3`` is used by FMUs of FMI 3.0 alone, ``fused`` where the steps
+    are compiled for the system.
     """
     instructions = program.instructions
     reference = program.reference
@@ -110,6 +112,8 @@ def _fly(program, buffers, settings, span, recording, excitation, fmi3):  # type
         last_instruction = np.uint64(phases[phase + 1])
         after = start + n * step
     while True:
+        if WITH_FUSED and n >= 0:
+            return fly_steps(program, buffers, span, recording, excitation, fused, n, rows, to_record)
         time = after
         after = start + (n + 1) * step
         outcome[4] = n + 1
@@ -289,19 +293,20 @@ def under_another_name(
 
 
 @cache
-def function(*, locked: bool, with_fmi3: bool) -> Any:
+def function(*, locked: bool, with_fmi3: bool, with_fused: bool) -> Any:
     """For Python FMUs, which need the interpreter lock at every call, or native ones; compiled when it is called."""
-    name = f"_fly{'' if locked else '_unlocked'}{'_fmi3' if with_fmi3 else ''}"
-    return compile_cached(under_another_name(_fly, globals(), name, WITH_FMI3=with_fmi3), nogil=not locked)
+    name = f"_fly{'' if locked else '_unlocked'}{'_fmi3' if with_fmi3 else ''}{'_fused' if with_fused else ''}"
+    copy = under_another_name(_fly, globals(), name, WITH_FMI3=with_fmi3, WITH_FUSED=with_fused)
+    return compile_cached(copy, nogil=not locked)
 
 
-def compile_for(arguments: tuple, *, locked: bool, with_fmi3: bool) -> Callable[..., int]:
+def compile_for(arguments: tuple, *, locked: bool, with_fmi3: bool, with_fused: bool = False) -> Callable[..., int]:
     """The loop for arguments of these types, as all flights of a simulation have them; ``locked`` for Python FMUs.
 
     One that is not ``with_fmi3`` has no instructions of FMI 3.0, which take twice as long to compile as all others.
     Called by itself numba's dispatcher would look at the type of every array in every flight.
     """
-    chosen = function(locked=locked, with_fmi3=with_fmi3)
+    chosen = function(locked=locked, with_fmi3=with_fmi3, with_fused=with_fused)
     return chosen.compile(tuple(typeof(part) for part in arguments))
 
 

@@ -1,0 +1,112 @@
+"""The C of a component's FMU as part of a larger unit: its headers included, its names with a prefix."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ...common.errors import InputError
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*("([^"]+)"|<[^>]+>)[ \t]*$', re.MULTILINE)
+TOKEN = re.compile(
+    r"""(?P<comment>/\*.*?\*/|//[^\n]*)"""
+    r"""|(?P<text>"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*')"""
+    r"""|(?P<number>\.?\d(?:[eEpP][+-]|[\w.])*)"""
+    r"""|(?P<name>[A-Za-z_]\w*)""",
+    re.DOTALL,
+)
+MACRO = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
+JOINED = re.compile(r"(\w+)##")  # the first part of a name that a macro joins
+USE = re.compile(r"^[A-Z_]+\((\w+)", re.MULTILINE)  # of a macro that defines something, its argument behind that part
+RESERVED = re.compile(r"_[_A-Z]")
+WRAPPER = '#include "fmi2_wrapper.c"'
+INSTEAD = {"fmi2Functions.h": "fmi2FunctionTypes.h"}  # its types alone: the functions are not in the unit
+NEEDED = '#include "fmi2_types.h"\n#include "life_cycle.h"'  # of the wrapper: an instance and its steps
+
+OFFSETS = """
+/* The offset of a variable in an instance, by its value reference. */
+UNIT_EXPORT uint32_t offset_of(uint32_t reference)
+{
+    return (uint32_t)offsetof(Component, now.block) + ELEMENTS[reference].offset;
+}
+"""
+
+# What C and its library call themselves, and the unit has once; the compiler refuses what is missing here.
+STANDARD = frozenset(
+    re.findall(
+        r"\w+",
+        """
+        auto break case char const continue default do double else enum extern float for goto if inline int long
+        register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
+        define undef ifdef ifndef elif endif defined error pragma
+        size_t ptrdiff_t bool true false NULL int8_t uint8_t int16_t uint16_t int32_t uint32_t int64_t uint64_t
+        uintptr_t INT32_MIN INT32_MAX INT64_MIN INT64_MAX UINT32_MAX UINT64_MAX UINT64_C INT64_C SIZE_MAX
+        INFINITY NAN HUGE_VAL offsetof PRId64 va_list va_start va_arg va_end snprintf vsnprintf sprintf
+        abs atoi strtod calloc malloc free memcpy memmove memset memcmp strchr strcmp strcpy strlen strspn strstr
+        fmod fabs sqrt floor ceil trunc isfinite isnan isinf signbit copysign
+        UNIT_EXPORT pack push pop cold noinline always_inline visibility dllexport
+        """,
+    )
+)
+
+
+@dataclass(frozen=True)
+class ComponentCode:
+    """``text`` whose names begin with ``prefix`` once it is compiled, and the standard ``headers`` that it needs."""
+
+    prefix: str
+    text: str
+    headers: frozenset[str]
+
+
+def component_code(sources: Mapping[str, str], model: str, prefix: str, label: str) -> ComponentCode:
+    """The C of one of our native FMUs, whose ``sources`` are given by file name, without the functions of FMI.
+
+    ``model`` is the FMU's model identifier. Raises InputError, which names ``label``, for C of another build than this
+    Perilune's.
+    """
+    main = sources.get(f"{model}.c", "")
+    if WRAPPER not in main:
+        problem = "its C is not of the interface that is fused here"
+        raise InputError(label, "sources", problem, "export it again with this Perilune, or fly it `native`")
+    headers: set[str] = set()
+    text = _include(main.replace(WRAPPER, NEEDED) + OFFSETS, sources, label, headers, set())
+    return ComponentCode(prefix, _rename(text, prefix), frozenset(headers))
+
+
+def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str], seen: set[str]) -> str:
+    """The text with its headers where they are included first, without the standard ones."""
+
+    def put(include: re.Match[str]) -> str:
+        file = INSTEAD.get(include[2], include[2])
+        if file is None:
+            headers.add(include[1])
+            return ""
+        if file in seen:
+            return ""
+        seen.add(file)
+        if file not in sources:
+            raise InputError(label, f"sources/{file}", "is missing", "export the FMU again")
+        return _include(sources[file], sources, label, headers, seen)
+
+    return INCLUDE.sub(put, text)
+
+
+def _rename(text: str, prefix: str) -> str:
+    """The text between lines that give all of its names a prefix and take it from them again.
+
+    The preprocessor does it, since it joins names itself (``py_##name``). Names of macros are those of the text alone.
+    """
+    names = {token["name"] for token in TOKEN.finditer(text) if token["name"]}
+    names |= {first + second for first in JOINED.findall(text) for second in USE.findall(text)}
+    macros = set(MACRO.findall(text))
+    ours = sorted(name for name in names - macros - STANDARD if not RESERVED.match(name))
+    return "\n".join(
+        [
+            *(f"#define {name} {prefix}{name}" for name in ours),
+            text,
+            *(f"#undef {name}" for name in sorted({*ours, *macros})),
+            "",
+        ]
+    )

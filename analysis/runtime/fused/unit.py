@@ -1,0 +1,119 @@
+"""The C of a system's steps: the code of its FMUs and, between them, a statement for each instruction of the loop."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Mapping
+from importlib.resources import files
+
+from ..flight.compiled import arrays, codes
+from ..flight.compiled.frame import COUNTS, POINTERS, REALS, WORDS
+from .component_code import ComponentCode
+from .statements import INSTANCE_POINTER, Instruction, Statements
+
+ENTRY = "perilune_fly"
+OUTCOMES = ("FAILED", "NONFINITE", "UNMAPPED", "TOO_LONG", "FMI_WARNING", "STOP_TIME", "FINISHED", "INTERRUPTED")
+EXPORT = """\
+#if defined(_WIN32)
+#define UNIT_EXPORT __declspec(dllexport)
+#else
+#define UNIT_EXPORT __attribute__((visibility("default")))
+#endif
+"""
+FLY = """\
+/* Fly from communication point to communication point; returns the number of rows in the record. */
+UNIT_EXPORT int64_t {entry}(const int64_t *frame, const double *reals)
+{{
+{unpack}
+{instances}
+    int status = 0;
+    for (;;) {{
+        const double time = start + (double)point * step;
+        const double after = start + (double)(point + 1) * step;
+        outcome[4] = point + 1;
+        switch (point % {phases}) {{
+{cases}
+        }}
+        point += 1;
+        const int has_finished = {finished};
+        const int has_halted = halt[0] != 0;
+        const int is_last = has_finished || has_halted || point == last_point;
+        if (is_last || to_record == 0) {{
+            to_record = stride;
+            times[rows] = after;
+{recorded}
+            rows += 1;
+        }}
+        to_record -= 1;
+        if (is_last) {{
+            outcome[0] = has_finished ? FINISHED : point == last_point ? STOP_TIME : INTERRUPTED;
+            return rows;
+        }}
+        (void)time, (void)status;
+    }}
+}}
+"""
+
+
+def write_unit(program: arrays.Program, recorded: Iterable[int], components: Mapping[int, ComponentCode]) -> str:
+    """The unit of a ``program`` of which these slots are recorded, with the code of components by their number."""
+    kinds = {code.prefix: code for code in components.values()}
+    headers = {"<math.h>", "<stdint.h>", "<string.h>", *(header for kind in kinds.values() for header in kind.headers)}
+    statements = Statements(program, {component: code.prefix for component, code in components.items()})
+    phases = program.phases.tolist()
+    cases = []
+    for phase, (first, end) in enumerate(itertools.pairwise(phases)):
+        rows = [Instruction(number, *row) for number, row in enumerate(program.instructions[first:end].tolist(), first)]
+        lines = [line for row in rows for line in statements.of(row)]
+        cases.append(
+            "\n".join([f"        case {phase}:", *(f"            {line}" for line in lines), "            break;"])
+        )
+    fly = FLY.format(
+        entry=ENTRY,
+        unpack="\n".join(_unpack()),
+        instances="\n".join(_instances(program, components)),
+        phases=len(phases) - 1,
+        cases="\n".join(cases),
+        finished=f"values[{program.finished_slot}] != 0.0" if program.finished_slot >= 0 else "0",
+        recorded="\n".join(
+            f"            record[{column} * capacity + rows] = values[{slot}];" for column, slot in enumerate(recorded)
+        ),
+    )
+    numbers = [f"#define {name} {getattr(codes, name)}" for name in OUTCOMES]
+    return "\n".join(
+        [
+            *(f"#include {header}" for header in sorted(headers)),
+            EXPORT,
+            *(kind.text for kind in kinds.values()),
+            *numbers,
+            files(__package__).joinpath("outcomes.h").read_text(),
+            fly,
+        ]
+    )
+
+
+def _unpack() -> list[str]:
+    """Declarations that take the words of a frame apart."""
+    words = {name: f"frame[{index}]" for index, name in enumerate(WORDS)}
+    names = [*POINTERS, *COUNTS, *REALS]
+    return [
+        *(f"    {kind} *const {name} = ({kind} *)(uintptr_t){words[name]};" for name, kind in POINTERS.items()),
+        *(f"    int64_t {name} = {words[name]};" for name in COUNTS),
+        *(f"    const double {name} = reals[{index}];" for index, name in enumerate(REALS)),
+        *(f"    (void){name};" for name in names),
+    ]
+
+
+def _instances(program: arrays.Program, components: Mapping[int, ComponentCode]) -> list[str]:
+    """The instances that instructions name: of a component whose code is here with its type."""
+    first: dict[int, int] = {}
+    for number, row in enumerate(program.instructions.tolist()):
+        if row[codes.INSTANCE]:
+            first.setdefault(row[codes.COMPONENT], number * codes.COLUMNS + codes.INSTANCE)
+    lines = []
+    for component, index in first.items():
+        kind = f"{components[component].prefix}Component" if component in components else "void"
+        pointer = INSTANCE_POINTER.format(component)
+        lines.append(f"    {kind} *const {pointer} = ({kind} *)(uintptr_t)instructions[{index}];")
+        lines.append(f"    (void){pointer};")
+    return lines
