@@ -27,7 +27,8 @@ class Choices(TypedDict, total=False):
     """``varied`` names the parameters (``component.variable``) that flights may be given anew; ``wanted`` the signals
     to record (None: all outputs, connected inputs and system connectors), ``more`` other variables to record;
     ``faults`` those that fly unless `set_faults` says otherwise; ``excited`` the connectors that `advance` may add
-    signals to; ``log`` receives the FMUs' messages.
+    signals to; ``open_end`` whether it may pass the stop time, of which FMUs are then not told; ``log`` receives the
+    FMUs' messages.
     """
 
     varied: Collection[str]
@@ -35,6 +36,7 @@ class Choices(TypedDict, total=False):
     more: Sequence[str]
     faults: Sequence[Fault]
     excited: Sequence[str]
+    open_end: bool
     log: Log | None
 
 
@@ -58,6 +60,7 @@ class BaseSimulation(ABC):
             tuple(choices.get("more", ())),
             faults,
             tuple(choices.get("excited", ())),
+            choices.get("open_end", False),
         )
         self._selection.check_faults(prepared.network)
         self._varied = self._selection.keys(prepared.network)
@@ -119,7 +122,8 @@ class BaseSimulation(ABC):
         """Fly on from communication point ``first`` to ``last``, as FMUs and buffers are; rows first + 1 to last.
 
         -1 starts anew, which adds row 0. ``excitation`` [r, e] is added to the excited connectors at the r
-        communication points behind ``first``. ``last`` may lie behind the stop time; every n-th row is kept. Arrays as
+        communication points behind ``first``. ``last`` may lie behind the stop time where the simulation has an open
+        end; every n-th row is kept. Arrays as
         in `fly`.
         """
 

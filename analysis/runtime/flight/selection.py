@@ -26,7 +26,7 @@ TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry roundi
 class Selection:
     """Parameters that flights may be given anew (``varied``, by ``component.variable``), signals to record (``wanted``,
     None: all outputs, connected inputs and system connectors), other variables to record (``more``), ``faults``, and
-    connectors that `advance` may add signals to (``excited``).
+    connectors that `advance` may add signals to (``excited``), and whether it may pass the stop time (``open_end``).
     """
 
     varied: tuple[str, ...] = ()
@@ -34,6 +34,7 @@ class Selection:
     more: tuple[str, ...] = ()
     faults: tuple[Fault, ...] = ()
     excited: tuple[str, ...] = ()
+    open_end: bool = False
 
     def check_faults(self, network: Network) -> None:
         """Raises InputError for a fault on what is no connector."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Unpack
 
@@ -221,7 +222,7 @@ class Simulation(BaseSimulation):
             reset=reset,
             start=prepared.start,
             step=prepared.step,
-            stop=prepared.start + max(prepared.steps, last) * prepared.step,
+            stop=math.inf if self._selection.open_end else prepared.start + prepared.steps * prepared.step,
             first=first,
             last=last,
         )

@@ -50,7 +50,9 @@ class Bench:
                 known = suggestion(point.signal, prepared.network.nodes)
                 raise InputError(prepared.network.file, f"point {point.name}", f"no signal {point.signal}", known)
             wanted.add(point.signal)
-        self.simulation = open_simulation(prepared, varied=varied, wanted=wanted, excited=self.connectors)
+        self.simulation = open_simulation(
+            prepared, varied=varied, wanted=wanted, excited=self.connectors, open_end=True
+        )
         self.period = self._hyperperiod()
         self.origin = self._origin()
 

@@ -69,6 +69,7 @@ class _Pilot:
             more=selection.more,
             faults=selection.faults,
             excited=selection.excited,
+            open_end=selection.open_end,
             log=None if task.log is None else Log(task.log, self._write),
             recorder=recorder,
         )

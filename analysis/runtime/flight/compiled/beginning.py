@@ -31,7 +31,9 @@ def _begin(instruction, program, given, read_back, span, outcome):  # type: igno
     if code == codes.SETUP:
         allowed = program.tolerance[instruction[codes.COMPONENT]]
         known = not np.isnan(allowed)
-        return setup_experiment(address, instance, np.int32(known), allowed if known else 0.0, span.start, span.stop)
+        tolerance, ends = allowed if known else 0.0, np.isfinite(span.stop)
+        stop = span.stop if ends else 0.0
+        return setup_experiment(address, instance, np.int32(known), tolerance, span.start, np.int32(ends), stop)
     if code == codes.MODE:
         return change_mode(address, instance)
     if code == codes.READ_BACK:

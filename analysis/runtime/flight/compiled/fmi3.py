@@ -8,8 +8,8 @@ from ....common.compiler import compile_cached
 from . import codes
 from .beginning import LOSS
 from .events import settle, step_to
-from .fmi3_calls import enter_initialization_mode, exchange_transfer
-from .fmi_calls import compare_texts
+from .fmi3_calls import exchange_transfer
+from .fmi_calls import compare_texts, setup_experiment
 from .transfers import get_transfer, set_transfer, to_stored
 
 
@@ -98,8 +98,9 @@ def _begin(instruction, program, given, read_back, span, outcome, fmi3):  # type
     if code == codes.ENTER_INITIALIZATION:
         allowed = program.tolerance[instruction[codes.COMPONENT]]
         known = not np.isnan(allowed)
-        tolerance = allowed if known else 0.0
-        return enter_initialization_mode(address, instance, np.int32(known), tolerance, span.start, span.stop)
+        tolerance, ends = allowed if known else 0.0, np.isfinite(span.stop)
+        stop = span.stop if ends else 0.0
+        return setup_experiment(address, instance, np.int32(known), tolerance, span.start, np.int32(ends), stop)
     transfer = fmi3.transfers.rows[instruction[codes.FIRST]]
     start, size = transfer[codes.REFERENCE], transfer[codes.REFERENCES]
     first, count, kind = transfer[codes.FIRST_VALUE], transfer[codes.VALUES], transfer[codes.KIND]

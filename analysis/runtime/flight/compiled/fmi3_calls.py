@@ -70,15 +70,6 @@ def update_discrete_states(
     return call(builder, address, [instance, *returned, element(context, builder, signature.args[3], times, INT64(0))])
 
 
-@in_compiled_code(types.int32, types.int64, types.int64, types.int32, types.float64, types.float64, types.float64)
-def enter_initialization_mode(
-    _: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]
-) -> ir.Value:
-    """fmi3EnterInitializationMode (address, instance, known, tolerance, start, stop), as `setup_experiment`."""
-    address, instance, known, tolerance, start, stop = arguments
-    return call(builder, address, [instance, known, tolerance, start, INT32(1), stop])
-
-
 @in_compiled_code(types.void, ARRAY, types.int64, types.int64, types.int64)
 def copy_bytes(
     context: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]

@@ -117,13 +117,17 @@ def change_mode(_: BaseContext, builder: ir.IRBuilder, signature: Signature, arg
     return call(builder, arguments[0], [arguments[1]])
 
 
-@in_compiled_code(types.int32, types.int64, types.int64, types.int32, types.float64, types.float64, types.float64)
+@in_compiled_code(
+    types.int32, types.int64, types.int64, types.int32, types.float64, types.float64, types.int32, types.float64
+)
 def setup_experiment(
     _: BaseContext, builder: ir.IRBuilder, signature: Signature, arguments: Sequence[ir.Value]
 ) -> ir.Value:
-    """fmi2SetupExperiment (address, instance, known, tolerance, start, stop); ``known`` 1 with a tolerance, else 0."""
-    address, instance, known, tolerance, start, stop = arguments
-    return call(builder, address, [instance, known, tolerance, start, INT32(1), stop])
+    """fmi2SetupExperiment or fmi3EnterInitializationMode (address, instance, known, tolerance, start, ends, stop).
+
+    ``known`` is 1 with a tolerance, ``ends`` with a stop time, else 0.
+    """
+    return call(builder, arguments[0], arguments[1:])
 
 
 @in_compiled_code(types.int32, types.int64, types.int64)
