@@ -105,12 +105,12 @@ class Flyer:
         """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
         simulation, names = self.simulation(variant)
         judge = Judge(self.plan.campaign, names)
-        in_groups = simulation.flies_groups and self.plan.watch.timeout is None
+        size = simulation.group_size if self.plan.watch.timeout is None else 0
         flown = trials.start
         while flown < trials.stop:
             sampled = self.values_for(flown)
-            if in_groups:
-                following = range(flown, min(trials.stop, sampled.numbers.stop))
+            if size:
+                following = range(flown, min(flown + size, trials.stop, sampled.numbers.stop))
                 group = simulation.fly_group(sampled.flights(simulation.prepared, following))
             else:
                 group = self._fly_next(variant, flown, trials)

@@ -86,14 +86,14 @@ class BaseSimulation(ABC):
         return self.advance(-1, self.prepared.steps, every=every)
 
     @property
-    def flies_groups(self) -> bool:
-        """Whether `fly_group` may be called, which takes less time a flight than `run`."""
-        return False
+    def group_size(self) -> int:
+        """How many flights `fly_group` may be given, which takes less time for each than `run`; 0: none."""
+        return 0
 
     def fly_group(self, table: FlightTable) -> FlightGroup:
         """Fly the first flights of a table, each from its start, at least one of them.
 
-        None flies behind one that has not come to its end, or for which there is no room. Arrays as in `fly`.
+        None flies behind one that has not come to its end. Arrays as in `fly`.
         """
         raise NotImplementedError(f"{type(self).__name__} has flights one at a time")
 

@@ -14,13 +14,11 @@ from .orders.injections import NEVER
 from .parameters import Key, Parameters
 from .results import Flight
 
-RECORD_BYTES = 2**21  # of a group: few enough for the processor's cache, enough for hundreds of short flights
+RECORD_BYTES = 2**23  # of a group: dozens of long flights, thousands of short ones
 
 
-def group_of(
-    table: FlightTable, keys: Mapping[str, Key], parameters: Parameters, rows: int, margin: float
-) -> arrays.Group:
-    """A table as arrays for the loop, whose times may lack ``margin`` (s). A flight may record ``rows``."""
+def group_of(table: FlightTable, keys: Mapping[str, Key], parameters: Parameters, margin: float) -> arrays.Group:
+    """A table as arrays for the loop, whose times may lack ``margin`` (s)."""
     real = [name for name in table.values if parameters.types[keys[name]] == "Real"]
     whole = [name for name in table.values if name not in real]
     window = np.empty((table.flights, len(table.faults), 2))
@@ -30,7 +28,6 @@ def group_of(
         window[:, number, 1] = np.where(fault.flies, fault.end - margin, NEVER[1])
         value[:, number] = fault.value
     return arrays.Group(
-        rows=rows,
         real=_columns(table, real, np.float64),
         real_position=_positions(real, keys, parameters),
         whole=_columns(table, whole, np.int32),
@@ -49,9 +46,9 @@ def _columns(table: FlightTable, names: Sequence[str], dtype: type) -> np.ndarra
     return columns
 
 
-def most_flights(flights: int, signals: int, rows: int) -> int:
-    """How many of these flights have room in the record of a group, one at least."""
-    return max(1, min(flights, RECORD_BYTES // (8 * rows * (signals + 1))))
+def flights_in_group(signals: int, rows: int) -> int:
+    """How many flights of so many rows have room in the record of a group, one at least."""
+    return max(1, RECORD_BYTES // (8 * rows * (signals + 1)))
 
 
 def _positions(names: Sequence[str], keys: Mapping[str, Key], parameters: Parameters) -> np.ndarray:

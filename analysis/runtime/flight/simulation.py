@@ -19,7 +19,7 @@ from ..system.prepared import PreparedSystem
 from .base_simulation import NOTHING, BaseSimulation, Choices
 from .compiled import arrays, codes
 from .endings import STATUS, TERMINATED, Outcome, end_request, in_words
-from .group import FlightGroup, group_of, most_flights
+from .group import FlightGroup, flights_in_group, group_of
 from .instructions import write_ending
 from .life_cycle import LifeCycle
 from .loops import Loops
@@ -152,9 +152,10 @@ class Simulation(BaseSimulation):
         return self._conclude(outcome, 0, count)
 
     @property
-    def flies_groups(self) -> bool:
+    def group_size(self) -> int:
         """Of FMUs of our own, which can be trusted to reset, and write no log. Systems with FMI 3.0 have no groups."""
-        return self.fmi3 is None and self._log is None and self.life_cycle.are_self_contained
+        flies_groups = self.fmi3 is None and self._log is None and self.life_cycle.are_self_contained
+        return flights_in_group(self._recorded.size, rows_between(-1, self.prepared.steps)) if flies_groups else 0
 
     def fly_group(self, table: FlightTable) -> FlightGroup:
         """See `BaseSimulation.fly_group`."""
@@ -162,11 +163,11 @@ class Simulation(BaseSimulation):
         recorder.enter(Phase.RENEWAL)
         reset = self.life_cycle.make_ready()
         rows, signals = rows_between(-1, prepared.steps), self._recorded.size
-        recorder.reserve(signals, rows * most_flights(table.flights, signals, rows), prepared.step)
+        recorder.reserve(signals, rows * table.flights, prepared.step)
         recorder.enter(Phase.FLIGHT)
         for instance in self.instances.values():
             instance.said.clear()  # what comes to its end says nothing
-        group = group_of(table, self._varied, self.layout.parameters, rows, TIME_MARGIN * prepared.step)
+        group = group_of(table, self._varied, self.layout.parameters, TIME_MARGIN * prepared.step)
         arguments = self._arguments(self.program, *self._request(-1, prepared.steps, 1, reset, NOTHING))
         flown = self._loops.fly_group(arguments, group)
         ends = group.ends[:flown]

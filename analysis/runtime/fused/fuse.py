@@ -33,7 +33,7 @@ def fuse(instances: Mapping[str, Instance], program: arrays.Program, recorded: I
     components = _component_codes(instances)
     if not components:
         problem = "the system has no native FMU of Perilune, whose C could be fused"
-        raise InputError("`flavour`", "fused", problem, "fly it as it is")
+        raise InputError("`flavour`", "fused", problem, "leave `flavour` out")
     library = _load(_compile(write_unit(program, recorded, components)))
     for number, instance in enumerate(instances.values()):
         if number in components:

@@ -69,7 +69,8 @@ def test_the_next_flight_of_a_simulation_is_whole(hanging):
     with Simulation(prepared, varied=["Hanging.pause"]) as simulation:
         assert run(simulation, {"Hanging.pause": 0.8}, 0.5).status == "timed_out"
         assert run(simulation, {"Hanging.pause": 0.0}, 60.0).status == "stop_time"
-    assert len(loop.function(locked=False, with_fmi3=False, with_fused=False).signatures) == 1  # compiled ahead for the types that fly
+    compiled = loop.function(locked=False, with_fmi3=False, with_fused=False)
+    assert len(compiled.signatures) == 1  # ahead, for the types that fly
 
 
 def test_a_flight_that_ends_late_does_not_end_the_next(hanging):

@@ -65,7 +65,6 @@ class Recording(NamedTuple):
 class Group(NamedTuple):
     """What n flights one behind another are given, and how they ended."""
 
-    rows: int  # that a flight may record
     real: np.ndarray  # float64 [n, v], values of parameters
     real_position: np.ndarray  # int64 [v], their places in `Settings`
     whole: np.ndarray  # int32 [n, w]

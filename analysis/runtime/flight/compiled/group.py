@@ -18,13 +18,11 @@ from .loop import under_another_name
 def _fly_group(program, buffers, settings, span, recording, excitation, fmi3, fused, group):  # type: ignore[no-untyped-def]
     """Fly the flights of ``group`` from their start; returns how many have flown.
 
-    Ends early behind a flight that did not come to its end, and where the record may have no room for another.
+    Ends early behind a flight that did not come to its end. The record has room for all.
     """
     end = recording.offset
     reset = span.reset
     for flight in range(group.ends.size):
-        if recording.times.size - end < group.rows:
-            return flight
         for column in range(group.real_position.size):
             settings.real[group.real_position[column]] = group.real[flight, column]
         for column in range(group.whole_position.size):

@@ -95,7 +95,8 @@ static inline Status do_step(Component *component, const char *function, double 
         return refuse_point(component, communication_point);
     }
     const double end = communication_point + step_size;
-    if (end > component->stop_time + POINT_TOLERANCE * step_size + TIME_TOLERANCE * fabs(end)) {
+    const double stop = component->stop_time;
+    if (end > stop && end > stop + POINT_TOLERANCE * step_size + TIME_TOLERANCE * fabs(end)) {
         return refuse_end(component, end);
     }
     component->last_step = advance(component, communication_point, step_size);

@@ -1,0 +1,59 @@
+"""What cannot be fused is refused in one line.
+
+Truth: the lines, and the exit status 2.
+"""
+
+import subprocess
+import sys
+
+import pytest
+
+from perilune.analysis.cli import main
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.flight.simulation import Simulation
+from perilune.analysis.runtime.fused.component_code import component_code
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
+from tests.support.builders import component, document, pack, system
+
+RAMP = document(system(component("ramp", "ramp", "output y Real m")))
+
+
+def test_without_a_compiler(fmus, tmp_path):
+    """Everything else flies: the same command without the option."""
+    nothing = "import shutil, importlib.util as u, sys; shutil.which = u.find_spec = lambda *_: None;"
+    call = "from perilune.analysis.cli import main; sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-c", f"{nothing} {call}", "run", "robot_rendezvous", "--stop-time", "1"]
+    ended = subprocess.run([*command, "--flavour", "fused"], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stderr.count("\n")) == (2, 1)
+    assert "--flavour: fused: needs a C compiler, and there is none; install cc, or pip install ziglang" in ended.stderr
+    assert subprocess.run(command, capture_output=True, check=False).returncode == 0
+
+
+def test_a_system_of_python_fmus(tiny_folder, tmp_path, capsys):
+    path = pack(tmp_path / "s.ssp", tiny_folder / "python", RAMP)
+    assert main(["run", str(path), "--flavour", "fused"]) == 2
+    refusal = "the system has no native FMU of Perilune, whose C could be fused; leave --flavour out"
+    assert refusal in capsys.readouterr().err
+
+
+def test_c_of_another_build():
+    with pytest.raises(InputError, match=r"^x\.fmu: sources: its C is not of the interface .*; export it again"):
+        component_code({"ramp.c": "int main(void) { return 0; }"}, "ramp", "k0_", "x.fmu")
+    with pytest.raises(InputError, match=r"^x\.fmu: sources/fmi2_types\.h: is missing"):
+        component_code({"ramp.c": '#include "fmi2_wrapper.c"\n'}, "ramp", "k0_", "x.fmu")
+
+
+def test_c_that_has_an_instance_otherwise_than_the_binary(tiny_folder, tmp_path, monkeypatch):
+    """As of an FMU whose sources are of one build, and its binary of another."""
+    prepared = prepare_system(pack(tmp_path / "s.ssp", tiny_folder / "native", RAMP), SystemOptions(flavour="fused"))
+    fmu = prepared.network.fmus["ramp"]
+    sources = fmu.read_sources()
+    wider = {name: text.replace("Logger logger;", "double more; Logger logger;") for name, text in sources.items()}
+    wider = {
+        name: text.replace("    Block block;\n", "    double more;\n    Block block;\n") for name, text in wider.items()
+    }
+    monkeypatch.setattr(type(fmu), "read_sources", lambda _: wider)
+    monkeypatch.setattr("perilune.analysis.runtime.fused.fuse._CODES._known", {})
+    with pytest.raises(InputError, match=r"ramp\.fmu: sources: its C has \w+ at another address than its binary"):
+        Simulation(prepared)
