@@ -134,6 +134,7 @@ def open_campaign(
     with lock_folder(folder, alone=not resume):
         manifest = (resume_folder if resume else begin)(folder, manifest, contents, plan)
     flown = restore(folder, manifest, plan.watch.log, trust=plan.options)
+    flown = replace(flown, options=replace(flown.options, flavour=plan.options.flavour))
     plan = replace(plan, known_draws=flown.draws)  # read from the folder, and not in memory
     return Campaign(plan, flown, systems, manifest, folder, output)
 

@@ -138,3 +138,26 @@ def test_foreign_fmus_are_called_beside(tiny_folder, tmp_path):
     native, fused = (flown(path, each, {}, in_process=True) for each in ("native", "fused"))
     assert fused == native
     assert np.isfinite(np.frombuffer(fused[0][1]["gain.y"])).all()
+
+
+@pytest.mark.usefixtures("fmus")
+def test_a_campaign_begun_native_and_gone_on_fused(tmp_path):
+    """The folder is that of a campaign simulated as a whole, file by file."""
+    options = {"configuration": "analytic_guidance", "stop_time": 20.0, "trials": 80}
+    campaign = ("lunar_terminal_guidance", "noisy")
+    for flavour in ("native", "fused"):
+        perilune.batch(
+            *campaign, output=tmp_path / flavour, flavour=None if flavour == "native" else flavour, **options
+        )
+    perilune.batch(*campaign, output=tmp_path / "both", **options | {"trials": 40})
+    perilune.batch(*campaign, output=tmp_path / "both", flavour="fused", resume=True, **options)
+    native, fused, both = (contents(tmp_path / name) for name in ("native", "fused", "both"))
+    assert fused == native
+    assert {name: native[name] for name in native if name.startswith("trials")} == {
+        name: both[name] for name in both if name.startswith("trials")
+    }
+
+
+def contents(folder):
+    """Every file of a folder by its path in it."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
