@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from fmpy.fmi2 import FMU2Slave
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import Parameter, ParameterSet
 
+from ..common.errors import InputError
 from ..runtime.flight.simulation import Simulation
 from ..runtime.system.fmu import Fmu
-from .contestant import Contestant, Course, Fly, Values, both_flavours
+from ..runtime.system.options import FUSED
+from .contestant import Contestant, Course, Fly, Unavailable, Values, both_flavours
 
 
-def prepare_loop(course: Course, algorithm: str = "sequential") -> Fly:
+def prepare_loop(course: Course, algorithm: str = "sequential", flavour: str | None = None) -> Fly:
     """`Simulation`, its instances reset and reused; flies on after ``finished``, as the others do."""
-    simulation = Simulation(course.flight(1, algorithm), wanted=course.names)
-    simulation.program = simulation.program._replace(finished_slot=-1)
+    prepared = course.flight(1, algorithm)
+    prepared = replace(prepared, options=replace(prepared.options, flavour=flavour))
+    try:
+        simulation = Simulation(prepared, wanted=course.names)
+    except InputError as error:
+        raise Unavailable(str(error)) from error
+    simulation.ignore_finished()
 
     def fly(steps: int) -> Values:
         simulation.prepared = course.flight(steps, algorithm)
@@ -176,7 +183,15 @@ LOOPS = (
         prepare_loop,
     ),
 )
-CONTESTANTS = both_flavours(FMPY_SSP, FMPY_CALLS, *LOOPS)
+FUSED_STEPS = Contestant(
+    "perilune_fused",
+    "native",
+    "the steps compiled as one function (--flavour fused)",
+    "sequential",
+    partial(prepare_loop, flavour=FUSED),
+    exact=True,
+)
+CONTESTANTS = (*both_flavours(FMPY_SSP, FMPY_CALLS, *LOOPS), FUSED_STEPS)
 MODULE = __name__
 # What the others are compared with, by flavour.
 OURS = {"python": "perilune_python", "native": "perilune_native"}

@@ -3,7 +3,7 @@
 from functools import partial
 
 from perilune.analysis.benchmark.contestant import Contestant, both_flavours
-from perilune.analysis.benchmark.importers import FMPY_CALLS, FMPY_SSP, LOOPS
+from perilune.analysis.benchmark.importers import FMPY_CALLS, FMPY_SSP, FUSED_STEPS, LOOPS
 
 from . import fmucontainer, fused_limit, libcosim
 
@@ -40,7 +40,7 @@ WAYS = (
     FMPY_CALLS,
     *LOOPS,
 )
-FUSED = Contestant(
+FUSED_LIMIT = Contestant(
     "fused_limit",
     "native",
     "the blocks of the native FMUs fused into one compiled function without FMI: what the loop could cost at best",
@@ -48,4 +48,4 @@ FUSED = Contestant(
     fused_limit.prepare,
     exact=True,
 )
-CONTESTANTS = (*both_flavours(*WAYS), FUSED)
+CONTESTANTS = (*both_flavours(*WAYS), FUSED_STEPS, FUSED_LIMIT)

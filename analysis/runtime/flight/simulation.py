@@ -72,12 +72,20 @@ class Simulation(BaseSimulation):
             outcome=self.recorder.outcome,
             halt=self.recorder.halt,
         )
-        self.fused: arrays.Fused | None = None
-        if prepared.options.flavour == FUSED:
-            self.fused = fuse(self.instances, self.program, self._recorded.tolist())
-        self._loops = Loops(locked=not prepared.is_native, with_fmi3=prepared.has_fmi3)
+        self.loops = self._make_loops()
         self.life_cycle = LifeCycle(self.instances, self.program, self.fmi3, self._instructions, self._note_subject)
         self.recorder.enter(Phase.IDLE)
+
+    def _make_loops(self) -> Loops:
+        prepared, fused = self.prepared, None
+        if prepared.options.flavour == FUSED:
+            fused = fuse(self.instances, self.program, self._recorded.tolist())
+        return Loops(locked=not prepared.is_native, with_fmi3=prepared.has_fmi3, fused=fused)
+
+    def ignore_finished(self) -> None:
+        """Let the flights that follow go on behind the system's own end."""
+        self.program = self.program._replace(finished_slot=-1)
+        self.loops = self._make_loops()
 
     def announce(self, _values: Mapping[str, ParameterValue], _faults: Sequence[Fault | None]) -> None:
         """Nothing: a flight here takes the thread that looks at the last one."""
@@ -92,7 +100,7 @@ class Simulation(BaseSimulation):
         So that other threads run whatever a step does, and a clock measures flights alone.
         """
         span, recording, excitation = self._request(-1, 0, 1, False, NOTHING)
-        self._loops.unlock(self._arguments(self.program, span, recording, excitation))
+        self.loops.unlock(self._arguments(self.program, span, recording, excitation))
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
         """See `BaseSimulation.set`; an element of an array that is partly connected is given with each step, too."""
@@ -144,7 +152,7 @@ class Simulation(BaseSimulation):
         for instance in self.instances.values():
             instance.said.clear()
         request = self._request(first, last, every, reset, excitation)
-        count = self._loops.fly(self._arguments(self.program, *request))
+        count = self.loops.fly(self._arguments(self.program, *request))
         outcome = Outcome(*self.buffers.outcome.tolist())
         if self._has_learned(outcome):
             self._replace_instances()
@@ -169,7 +177,7 @@ class Simulation(BaseSimulation):
             instance.said.clear()  # what comes to its end says nothing
         group = group_of(table, self._varied, self.layout.parameters, TIME_MARGIN * prepared.step)
         arguments = self._arguments(self.program, *self._request(-1, prepared.steps, 1, reset, NOTHING))
-        flown = self._loops.fly_group(arguments, group)
+        flown = self.loops.fly_group(arguments, group)
         ends = group.ends[:flown]
         start = int(ends[-2]) if flown > 1 else 0
         last = self._conclude(Outcome(*self.buffers.outcome.tolist()), start, int(ends[-1]))
@@ -247,17 +255,10 @@ class Simulation(BaseSimulation):
         return True
 
     def _arguments(
-        self,
-        program: arrays.Program,
-        span: arrays.Span,
-        recording: arrays.Recording,
-        excitation: np.ndarray,
-        *,
-        is_fused: bool = True,
+        self, program: arrays.Program, span: arrays.Span, recording: arrays.Recording, excitation: np.ndarray
     ) -> tuple[object, ...]:
         fmi3 = () if self.fmi3 is None else self.fmi3
-        fused = () if self.fused is None or not is_fused else self.fused
-        return program, self.buffers, self.layout.parameters.values, span, recording, excitation, fmi3, fused
+        return program, self.buffers, self.layout.parameters.values, span, recording, excitation, fmi3
 
     def _fly_last_row(self, component: int, end: float, row: int) -> None:
         """Record what there is at the time ``end`` (s) at which a component has ended the simulation."""
@@ -269,7 +270,7 @@ class Simulation(BaseSimulation):
             self._recorded, 1, np.empty((self._recorded.size, 1)), self.recorder.times[row:], 0
         )
         excitation = np.zeros((0, len(self._selection.excited)))
-        self._loops.fly(self._arguments(program, span, recording, excitation, is_fused=False))
+        self.loops.interpret(self._arguments(program, span, recording, excitation))
         self.recorder.record[:, row] = recording.record[:, 0]
 
     def _replace_instances(self, fatal: str | None = None) -> None:
@@ -287,10 +288,10 @@ class Simulation(BaseSimulation):
 
     def close(self) -> None:
         """Free the instances; those of a flight that still goes on in a thread, given up, end with the process."""
-        if self._loops.under_way.acquire(blocking=False):
+        if self.loops.under_way.acquire(blocking=False):
             self.recorder.enter(Phase.END)
             if self._log is not None:
                 self._log.close()
             self.life_cycle.close()
             self.instances = {}
-            self._loops.under_way.release()
+            self.loops.under_way.release()
