@@ -40,9 +40,7 @@ assert repr(fused.table().to_pydict()) == repr(native.table().to_pydict())
 def find_file(name):
     """A library of gcc."""
     command = ["gcc", f"-print-file-name={name}"]
-    return subprocess.run(
-        ["gcc", f"-print-file-name={name}"], capture_output=True, text=True, check=True
-    ).stdout.strip()
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 
 
 @pytest.mark.skipif(not LONG, reason="half a minute for each system: make sanitize")
