@@ -75,8 +75,9 @@ def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[
         if options.step is None:
             remarks.append(f"the FMU proposes no step: {step:g} s taken")
     selected = step if options.step is None else options.step
-    steps = math.floor((stop - start) / selected + WHOLE) if 0.0 < (stop - start) / selected < math.inf else 0
-    if options.stop_time is None and steps and (stop - start) / selected - steps > WHOLE:
+    ratio = (stop - start) / selected if selected else math.nan  # 0 is refused with the times of all systems
+    steps = math.floor(ratio + WHOLE) if 0.0 < ratio < math.inf else 0
+    if options.stop_time is None and steps and ratio - steps > WHOLE:
         whole = start + steps * selected
         remarks.append(f"{stop - start:g} s are not whole steps of {selected:g} s: the end is {whole:g} s")
         stop = whole

@@ -94,3 +94,9 @@ def test_a_file_that_is_not_there_and_one_that_is_none(tmp_path):
 def test_others_take_its_place(tiny):
     flight = perilune.simulate(tiny / "gain.fmu", use={"gain": tiny / "kilometre_gain.fmu"}, set={"gain.u": 2.0})
     assert set(flight["gain.y"]) == {6.0}
+
+
+@pytest.mark.parametrize("step", [0, -1.0])
+def test_a_step_that_is_not_positive_is_refused(tiny_folder, step):
+    with pytest.raises(InputError, match=rf"^step: {step}: not a positive number of seconds; give a positive step"):
+        perilune.simulate(tiny_folder / "native" / "ramp.fmu", step=step)
