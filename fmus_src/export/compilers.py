@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -133,22 +133,29 @@ def build_library(
 
 
 def library_files(
-    sources: Mapping[str, bytes], main: str, platform: str, cache: Path, *, portable: bool = False
+    sources: Mapping[str, bytes],
+    main: str,
+    platform: str,
+    cache: Path,
+    *,
+    portable: bool = False,
+    flags: Sequence[str] = FLAGS,
 ) -> list[Path]:
     """The shared libraries of the source file ``main`` for each processor of a platform, in the folder ``cache``.
 
-    ``sources`` holds all files by name. The libraries depend on sources, flags and compiler only,
-    not on time or place. Raises `CompilerMissing` and `CompilationFailed`.
+    ``sources`` holds all files by name, ``flags`` are the compiler's. The libraries depend on these and the compiler
+    only, not on time or place. Raises `CompilerMissing` and `CompilationFailed`.
     """
+    commands = compilers_for(platform, portable)
     extension = PLATFORMS[platform].extension
     files = []
-    for command in compilers_for(platform, portable):
-        digest = hashlib.sha256("\0".join([_identity(tuple(command)), *FLAGS, main]).encode())
+    for command in commands:
+        digest = hashlib.sha256("\0".join([_identity(tuple(command)), *flags, main]).encode())
         for name in sorted(sources):
             digest.update(b"\0" + name.encode() + b"\0" + hashlib.sha256(sources[name]).digest())
         cached = cache / f"{digest.hexdigest()[:32]}{extension}"
         if not cached.is_file():
-            library = _compile(command, sources, main, Path(main).stem + extension)
+            library = _compile([*command, *flags], sources, main, Path(main).stem + extension)
             cache.mkdir(parents=True, exist_ok=True)
             partial = cached.with_name(f".{cached.name}.{os.getpid()}.{threading.get_ident()}.part")
             partial.write_bytes(library)
@@ -163,7 +170,7 @@ def _compile(command: list[str], sources: Mapping[str, bytes], main: str, output
         for source, text in sources.items():
             (folder / source).write_bytes(text)
         finished = subprocess.run(
-            [*command, *FLAGS, "-o", output, main, "-lm"], cwd=folder, capture_output=True, text=True, check=False
+            [*command, "-o", output, main, "-lm"], cwd=folder, capture_output=True, text=True, check=False
         )
         if finished.returncode != 0:
             raise CompilationFailed(f"{' '.join(command)} on {main}:\n{finished.stderr}")

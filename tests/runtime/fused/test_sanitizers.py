@@ -28,10 +28,10 @@ CAMPAIGNS = {
 FLIGHTS = """
 import sys
 import perilune
-from perilune.fmus_src.export import compilers
+from perilune.analysis.runtime.fused import fuse
 system, campaign, trials = sys.argv[1], sys.argv[2], int(sys.argv[3])
 native = perilune.batch(system, campaign, trials=trials, workers=2, flavour="native")
-compilers.FLAGS = (*compilers.FLAGS, "-O1", "-fno-sanitize-recover=all", "-fsanitize=address," + sys.argv[4])
+fuse.FLAGS = (*fuse.FLAGS, "-O1", "-fno-sanitize-recover=all", "-fsanitize=address," + sys.argv[4])
 fused = perilune.batch(system, campaign, trials=trials, workers=2, flavour="fused")
 assert repr(fused.table().to_pydict()) == repr(native.table().to_pydict())
 """
