@@ -3,8 +3,7 @@
 Truth: the folders before and after; a folder that cannot be.
 """
 
-from __future__ import annotations
-
+import itertools
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -22,7 +21,8 @@ def doubled(x):
 
 
 def test_the_loop_is_kept_in_the_cache_folder():
-    for loop in (function(locked=locked, with_fmi3=fmi3) for locked in (False, True) for fmi3 in (False, True)):
+    for locked, fmi3, fused in itertools.product((False, True), repeat=3):
+        loop = function(locked=locked, with_fmi3=fmi3, with_fused=fused)
         assert Path(loop.stats.cache_path).is_relative_to(config.CACHE_DIR or CACHE / "numba")
 
 
@@ -56,7 +56,7 @@ def test_threads_keep_functions_in_the_folders_of_their_rooms(tmp_path, monkeypa
 
         return folders_of
 
-    functions = [doubled, function(locked=True, with_fmi3=False).py_func] * 20
+    functions = [doubled, function(locked=True, with_fmi3=False, with_fused=False).py_func] * 20
     with ThreadPoolExecutor(8) as threads:
         folders = list(threads.map(lambda function: compiler.compile_cached(function, compile_slowly), functions))
     assert all(before == after for before, after in folders)

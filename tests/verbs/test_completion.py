@@ -75,7 +75,7 @@ def test_verbs(offered):
 def test_options_of_a_verb(offered):
     options, flavours, of_a_plan = offered(f"{RUN} --", f"{RUN} --flavour ", "perilune design transfer --")
     assert {"--use", "--report", "--require", "--fault"} <= options
-    assert flavours == {"native", "python"}
+    assert flavours == {"native", "python", "fused"}
     assert {"--t7", "--optimum"} <= of_a_plan
 
 
