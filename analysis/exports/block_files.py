@@ -21,9 +21,11 @@ def check_there(file: Path) -> None:
     """Refuse a Python file that is not there, with the names of those that are."""
     if file.is_file():
         return
-    beside = [path.name for path in file.parent.glob("*.py")] if file.parent.is_dir() else []
+    siblings = [path.name for path in file.parent.glob("*.py")] if file.parent.is_dir() else []
     remedy = "give the .py file that defines the blocks"
-    raise InputError(str(file), "", "no such file", f"{remedy}: {suggestion(file.name, beside)}" if beside else remedy)
+    if siblings:
+        remedy += f": {suggestion(file.name, siblings)}"
+    raise InputError(str(file), "", "no such file", remedy)
 
 
 def find_block_file(name: str) -> Path | None:

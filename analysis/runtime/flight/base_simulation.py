@@ -27,7 +27,7 @@ class Choices(TypedDict, total=False):
     """``varied`` names the parameters (``component.variable``) that flights may be given anew; ``wanted`` the signals
     to record (None: all outputs, connected inputs and system connectors), ``more`` other variables to record;
     ``faults`` those that fly unless `set_faults` says otherwise; ``excited`` the connectors that `advance` may add
-    signals to; ``open_end`` whether it may pass the stop time, of which FMUs are then not told; ``log`` receives the
+    signals to; ``open_end`` whether it may pass the stop time, of which FMUs are then given none; ``log`` receives the
     FMUs' messages.
     """
 

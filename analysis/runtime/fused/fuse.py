@@ -24,6 +24,7 @@ FILE = "fused.c"
 # -O2 is as fast here as -O3, in less time. Without errno a square root is one instruction, with the same bits.
 FLAGS = ("-O2", "-fno-math-errno", *(flag for flag in FMU_FLAGS if flag != "-O3"))
 MOST_CODES = 64  # of FMUs, that are kept
+MOST_INSTRUCTIONS = 20_000  # a minute of compilation
 
 
 def fuse(instances: Mapping[str, Instance], program: arrays.Program, recorded: Iterable[int]) -> arrays.Fused:
@@ -31,12 +32,17 @@ def fuse(instances: Mapping[str, Instance], program: arrays.Program, recorded: I
 
     The C is that inside the native FMUs of the ``instances``; other FMUs are called as ever. The library is kept in
     the cache folder by its content. Raises InputError where there is no compiler, and for FMUs whose C is of another
-    build.
+    build,
+    or whose periods come round together too late.
     """
     components = _component_codes(instances)
     if not components:
         problem = "the system has no native FMU of Perilune, whose C could be fused"
         raise InputError("`flavour`", "fused", problem, "leave `flavour` out")
+    phases = program.phases.tolist()
+    if phases[-1] - phases[0] > MOST_INSTRUCTIONS:
+        problem = f"the steps repeat after {len(phases) - 1} communication steps only, too many to be one function"
+        raise InputError("`flavour`", "fused", problem, "fly it `native`")
     library = _load(_compile(write_unit(program, recorded, components)))
     for number, instance in enumerate(instances.values()):
         if number in components:
@@ -86,7 +92,9 @@ def _compile(text: str) -> Path:
         remedy = "install cc, or pip install ziglang; or fly it `native`"
         raise InputError("`flavour`", "fused", "needs a C compiler, and there is none", remedy) from error
     except CompilationFailed as error:
-        raise InputError("`flavour`", "fused", f"cannot be compiled: {error}", "fly it `native`") from error
+        lines = str(error).splitlines()
+        problem = f"the compiler refuses its C: {next((line for line in lines if 'error' in line), lines[0])}"
+        raise InputError("`flavour`", "fused", problem, "fly it `native`") from error
     return file
 
 

@@ -11,6 +11,7 @@ import pytest
 from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.flight.simulation import Simulation
+from perilune.analysis.runtime.fused import fuse
 from perilune.analysis.runtime.fused.component_code import component_code
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
@@ -57,3 +58,21 @@ def test_c_that_has_an_instance_otherwise_than_the_binary(tiny_folder, tmp_path,
     monkeypatch.setattr("perilune.analysis.runtime.fused.fuse._CODES._known", {})
     with pytest.raises(InputError, match=r"ramp\.fmu: sources: its C has \w+ at another address than its binary"):
         Simulation(prepared)
+
+
+@pytest.mark.parametrize(
+    ("change", "refusal"),
+    [
+        ({"MOST_INSTRUCTIONS": 1}, "the steps repeat after 1 communication steps only, too many to be one function"),
+        ({"FLAGS": ("--no-such-flag",)}, r"the compiler refuses its C: .*error.*no-such-flag.*; fly it native$"),
+    ],
+)
+def test_what_would_not_be_compiled(tiny_folder, tmp_path, monkeypatch, change, refusal):
+    """One line of what the compiler says."""
+    fuse._compile.cache_clear()
+    for name, bound in change.items():
+        monkeypatch.setattr(fuse, name, bound)
+    prepared = prepare_system(pack(tmp_path / "s.ssp", tiny_folder / "native", RAMP), SystemOptions(flavour="fused"))
+    with pytest.raises(InputError, match=refusal) as refused:
+        Simulation(prepared)
+    assert "\n" not in str(refused.value)

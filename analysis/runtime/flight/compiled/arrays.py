@@ -47,7 +47,7 @@ class Span(NamedTuple):
     reset: bool  # whether the FMUs have flown before
     start: float
     step: float
-    stop: float  # what FMUs are told of the end, inf where they are told of none
+    stop: float  # the stop time that FMUs are given; inf: none
     first: int  # communication point to go on from, with buffers and FMUs as they are; -1 initialises
     last: int  # communication point to fly to
 
