@@ -12,9 +12,9 @@ from perilune.analysis.runtime.system.fmu import Fmu
 from perilune.fmus_src.block import Block, Output, State
 from perilune.fmus_src.export.native_fmu import native_guid
 from perilune.fmus_src.export.write.names import literal, member
-from perilune.fmus_src.export.write.translate import translate
+from perilune.fmus_src.export.write.translate import FOOTER, translate
 
-WRAPPER = '#include "fmi2_wrapper.c"\n'
+WRAPPER = FOOTER.format(fmi=2)
 STRUCT = re.compile(r"^typedef struct (\w+) \{\n.*?^\} \1;\n", re.DOTALL | re.MULTILINE)
 
 # What instance.h does, for one instance and without what an importer may do wrong.
@@ -37,7 +37,7 @@ const char *{instance}_settle(void)
 {{
 {starts}    tick = 0;
     model_set_start_time(&{instance}, start);
-    Fault fault = {{NULL, NULL, 0}};
+    Fault fault = NO_FAULT;
     model_initialize(&{instance}, &fault);
     return fault.what;
 }}
@@ -53,7 +53,7 @@ const char *{instance}_step(double t, double h)
         if (t + h >= due + period - margin) return "StepError: communication step holds more than one sample";
         tick += 1;
     }}
-    Fault fault = {{NULL, NULL, 0}};
+    Fault fault = NO_FAULT;
     model_step(&{instance}, &fault, t, h);
     return fault.what;
 }}

@@ -43,10 +43,10 @@ RESERVED = frozenset(_RESERVED_TEXT.split())
 
 # What the wrappers of fmi/ call their own; block types and functions stay clear of these.
 _WRAPPER_NAMES_TEXT = """
-    Block Byte Component DoubleInt64 Element Environment Fault Logger Mode SavedState Snapshot Status Trait
+    Block Byte Component DoubleInt64 Element Environment Fault Logger Mode Samples SavedState Snapshot Status Trait
     Variable VariableType add_and_subtract advance check_arithmetic check_logging check_mode check_state checked_result
-    copy_element create_instance deserialise do_step double_at element_of elements_of end_step_with_fault
-    end_with_fault exact_frexp exact_ldexp fail float_floor_divide float_modulo free_state has_traits int_abs
+    copy_element count_samples create_instance deserialise do_step double_at element_of elements_of end_step_with_fault
+    end_with_fault exact_frexp exact_ldexp fail float_floor_divide float_modulo free_state get_starts has_traits int_abs
     int_at int_floor_divide int_modulo is_header is_mode kind_name leave_initialisation lie_alike log_error
     mode_name model_hash model_initialize model_sample_period model_set_start_time model_step no_strings
     no_variables not_provided perilune_place power_of_two prepare_get prepare_set put_double put_int python_repr

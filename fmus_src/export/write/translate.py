@@ -38,6 +38,11 @@ HEADER = """\
 #include "{include}"
 """
 
+FOOTER = """\
+#include "fmi{fmi}_wrapper.c"
+#include "single_block.h"
+"""
+
 
 def translate(block_class: type[Block], guid: str, fmi: int = 2) -> str:
     """The C source of a block for an FMU with the given GUID; it includes the wrapper of FMI 2.0 or 3.0.
@@ -53,7 +58,7 @@ def translate(block_class: type[Block], guid: str, fmi: int = 2) -> str:
     )
     kernel, entry_points = _around_tables(block_class)  # type: ignore[arg-type]
     tables = write_tables(block_class, block_type_name(block_class.__name__), guid, fmi)
-    return "\n".join((header, *kernel, tables, entry_points, f'#include "fmi{fmi}_wrapper.c"\n'))
+    return "\n".join((header, *kernel, tables, entry_points, FOOTER.format(fmi=fmi)))
 
 
 @cache  # an FMU is translated twice, without its GUID, which is a hash of that, and with it

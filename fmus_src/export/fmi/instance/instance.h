@@ -53,6 +53,10 @@ typedef struct Component {
     char instance_name[];
 } Component;
 
+/* What the file around the wrapper provides: a block with `single_block.h`, a system of blocks with `system_steps.h`. */
+static void get_starts(Block *block); /* declared starts of all variables */
+static Status advance(Component *component, double t, double h);
+
 /* Log an error and return it. */
 static COLD Status fail(const Component *component, const char *format, ...)
 {
@@ -89,11 +93,14 @@ static inline Status check_mode(const Component *component, const char *function
     return STATUS_OK;
 }
 
-/* End the run with the Python line that raises in the Python flavour. */
+/* End the run with the Python line that raises in the Python flavour, if the fault is of one. */
 static COLD Status end_with_fault(Component *component, const Fault *fault, const char *where)
 {
+    const char *subject = fault->subject == NULL ? "" : fault->subject;
+    const char *colon = fault->subject == NULL ? "" : ": ";
     component->now.mode = MODE_ERROR;
-    return fail(component, "File \"%s\", line %d: %s%s", fault->file, fault->line, fault->what, where);
+    if (fault->file == NULL) return fail(component, "%s%s%s%s", subject, colon, fault->what, where);
+    return fail(component, "%s%sFile \"%s\", line %d: %s%s", subject, colon, fault->file, fault->line, fault->what, where);
 }
 
 /* An int of the block that FMI's type of 32 bits cannot hold. */
@@ -114,7 +121,7 @@ static COLD Status refuse_set(const Component *component, const char *function, 
 static void restart(Component *component)
 {
     memset(&component->now, 0, sizeof component->now);
-    component->now.block = STARTS;
+    get_starts(&component->now.block);
     component->now.mode = MODE_INSTANTIATED;
     component->now.unsettled = true;
     component->last_step = STATUS_OK;
@@ -136,27 +143,18 @@ static void copy_element(Block *to, const Block *from, const Element *element)
 /* Run the block's initialize from the declared starts of states and outputs. */
 static Status settle(Component *component)
 {
+    Block starts;
+    get_starts(&starts);
     for (size_t i = 0; i < ELEMENT_COUNT; i++) {
-        if (ELEMENTS[i].traits & COMPUTED) copy_element(&component->now.block, &STARTS, &ELEMENTS[i]);
+        if (ELEMENTS[i].traits & COMPUTED) copy_element(&component->now.block, &starts, &ELEMENTS[i]);
     }
     component->now.tick = 0;
     model_set_start_time(&component->now.block, component->now.start_time);
-    Fault fault = {NULL, NULL, 0};
+    Fault fault = NO_FAULT;
     model_initialize(&component->now.block, &fault);
     if (fault.what != NULL) return end_with_fault(component, &fault, ", during initialisation");
     component->now.unsettled = false;
     return STATUS_OK;
-}
-
-static COLD Status refuse_step(Component *component, double h, double period)
-{
-    char h_text[REPR_SIZE];
-    char period_text[REPR_SIZE];
-    component->now.mode = MODE_ERROR;
-    return fail(component,
-        "StepError: communication step %s s holds more than one sample of sample_period %s s; "
-        "use a communication step no longer than the period, or a longer period",
-        python_repr(h, h_text), python_repr(period, period_text));
 }
 
 static COLD Status refuse_point(Component *component, double point)
@@ -184,23 +182,6 @@ static COLD Status end_step_with_fault(Component *component, const Fault *fault,
     snprintf(where, sizeof where, ", in the step from t = %s s over h = %s s", python_repr(t, t_text),
         python_repr(h, h_text));
     return end_with_fault(component, fault, where);
-}
-
-/* Advance from t to t + h; a sampled block steps at its sample instants only. */
-static Status advance(Component *component, double t, double h)
-{
-    Snapshot *now = &component->now;
-    const double period = model_sample_period(&now->block);
-    if (period > 0.0) {
-        const double margin = SAMPLE_TOLERANCE * period + TIME_TOLERANCE * fabs(t + h);
-        const double due = now->start_time + (double)(now->tick + 1) * period;
-        if (t + h < due - margin) return STATUS_OK;
-        if (t + h >= due + period - margin) return refuse_step(component, h, period);
-        now->tick += 1;
-    }
-    Fault fault = {NULL, NULL, 0};
-    model_step(&now->block, &fault, t, h);
-    return fault.what == NULL ? STATUS_OK : end_step_with_fault(component, &fault, t, h);
 }
 
 #endif

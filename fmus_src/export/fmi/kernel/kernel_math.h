@@ -20,9 +20,12 @@
 /* What ended a call, and the Python line that raises in the Python flavour. */
 typedef struct Fault {
     const char *what; /* NULL: nothing happened; else exception and message as Python has them */
-    const char *file;
+    const char *file; /* NULL: it is not of a Python line */
     int line;
+    const char *subject; /* the component or variable of a system; NULL in a block */
 } Fault;
+
+#define NO_FAULT {NULL, NULL, 0, NULL}
 
 #define ZERO_DIVISION "ZeroDivisionError: division by zero"
 #define DOMAIN_ERROR "ValueError: math domain error"
