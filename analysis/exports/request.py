@@ -39,6 +39,17 @@ class ExportRequest:
                 raise InputError("`platforms`", platform, f"a name of FMI {PLATFORMS[platform].fmi}.0", remedy)
         check_file("`output`", self.output)
 
+    def check_one_fmu(self) -> None:
+        """Refuse what a system as one FMU cannot be."""
+        for option, given in (("flavour", self.flavour == "python"), ("fmi", self.fmi == 3), ("ssp", self.ssp)):
+            if given:
+                value = str(getattr(self, option))
+                problem = "a system as one FMU is of native FMUs, and of FMI 2.0"
+                raise InputError(f"`{option}`", value, problem, "leave it out, or leave out `as_fmu`")
+        if self.studies:
+            problem = "a system as one FMU has no reports inside"
+            raise InputError("`studies`", self.studies[0], problem, "leave it out, or leave out `as_fmu`")
+
     def find_platforms(self, *, prebuilt: bool) -> list[str]:
         """The requested platforms; else those that an installed package has, or a compiler is here for."""
         if self.platforms:

@@ -4,23 +4,28 @@ from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Unpack
 
 from ...fmus_src.catalogue import catalogue
-from ...fmus_src.export.compilers import CompilationFailed, CompilerMissing, available_platforms
+from ...fmus_src.export.compilers import CompilationFailed, CompilerMissing, available_platforms, platforms_of
 from ...fmus_src.export.judge.subset import SubsetError
 from ...fmus_src.export.own_blocks import defines
 from ..common.errors import InputError, SeveralProblemsError, suggestion
 from ..common.targets import check_file
 from ..exports.block_files import check_there, export_file, find_block_file
-from ..exports.fmus import build_fmu
+from ..exports.fmus import build_fmu, no_compiler, zig_is_here
 from ..exports.request import ExportRequest, Written
+from ..exports.system_fmu.build import build_system_fmu
+from ..exports.system_fmu.request import OneFmu
 from ..exports.systems import export_system
 from ..runtime.ssp.archive import open_system, system_names
+from ..runtime.system.options import system_options
 from .options.library import EXPORT, ExportOptions
-from .options.option import FilePath
+from .options.option import FilePath, defaults_of, options_of
+from .options.system import AssemblyOptions
 from .options.verb import verb
 from .result import NoProblems
 
@@ -51,16 +56,22 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
     that are prebuilt, or for which a compiler is installed; ``flavour`` is native by default, of a file both where one
     is installed; ``ssp`` is the version of a system's documents, 2 with FMUs of FMI 3.0, which have arrays, and
     ``studies`` are its campaigns, stability or all, whose reports the .ssp has as evidence; ``output`` is NAME.fmu or
-    NAME.ssp in the working folder, of a file its build/fmus. Raises InputError, with a line for each thing that is
-    wrong with a block.
+    NAME.ssp in the working folder, of a file its build/fmus.
+
+    ``as_fmu`` makes one FMU of a system, for all platforms for which a compiler is installed. ``slots`` maps a
+    component to FMUs (names or paths, with commas between), of which the FMU's parameter SLOT.use chooses one;
+    ``expose`` are signals that become local variables, ``faults`` connectors for whose faults it has inputs. ``use``,
+    ``parameters``, ``set``, ``step``, ``stop_time``, ``algorithm`` and ``variant`` are those of `simulate`. Raises
+    InputError, with a line for each thing that is wrong with a block.
     """
     text, flavour = os.fspath(name), options["flavour"]
     target = None if options["output"] is None else Path(options["output"])
     request = ExportRequest(
         text, options["platforms"], flavour, target, options["fmi"], options["ssp"], options["studies"]
     )
+    one_fmu = _read_one_fmu(options)
     try:
-        written = _export(request)
+        written = _export(request) if one_fmu is None else _export_as_fmu(request, one_fmu)
     except CompilerMissing as error:
         raise InputError("export", text, "cannot be compiled here", str(error)) from error
     except CompilationFailed as error:
@@ -74,6 +85,39 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
     if flavour is None and "native" not in written.flavours and not available_platforms():
         warnings.warn("no C compiler here: the Python flavour only; pip install ziglang for both", stacklevel=2)
     return Exported(written.paths, written.flavours, written.platforms, request.fmi)
+
+
+def _read_one_fmu(options: ExportOptions) -> OneFmu | None:
+    """What is asked of a system as one FMU. Raises InputError where something is, and no such FMU."""
+    if options["as_fmu"]:
+        assembly = {name: value for name, value in options.items() if name in options_of(AssemblyOptions)}
+        slots = {slot: [each.strip() for each in fmus.split(",")] for slot, fmus in options["slots"].items()}
+        system = system_options({**assembly, "flavour": "native"})
+        return OneFmu(slots, options["expose"], options["faults"], system)
+    defaults = defaults_of(ExportOptions)
+    for name in (*options_of(AssemblyOptions), "slots", "expose", "faults"):
+        given = options[name]  # type: ignore[literal-required]
+        if given != defaults[name]:
+            text = ", ".join(map(str, given)) if isinstance(given, Mapping | list | tuple) else str(given)
+            raise InputError(f"`{name}`", text, "is of a system as one FMU", "give `as_fmu`, or leave it out")
+    return None
+
+
+def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
+    """A system as one FMU, of a name, a folder or an .ssp."""
+    request.check_one_fmu()
+    name = request.name
+    if name not in system_names() and not Path(name).is_dir() and not name.endswith(".ssp"):
+        problem = "not a system, which alone can be one FMU"
+        raise InputError("`as_fmu`", name, problem, suggestion(name, system_names()))
+    archive = open_system(name)
+    path = request.output or Path(f"{archive.path.resolve().stem}.fmu")
+    check_file("`output`", path, (".fmu",))
+    platforms = request.platforms or (platforms_of(2) if zig_is_here() else available_platforms())
+    if not platforms:
+        raise no_compiler(name, 2)
+    build_system_fmu(archive, path, one_fmu, platforms, portable=zig_is_here())
+    return Written((path,), ("native",), tuple(platforms))
 
 
 def _export(request: ExportRequest) -> Written:

@@ -28,9 +28,16 @@ STANDARD_HEADERS = {
 }
 
 
-def wrapper_files(fmi: int) -> list[Path]:
-    """The C around every block for a version of FMI: that of all versions, and the version's."""
-    return [path for folder in ("instance", "kernel", f"fmi{fmi}") for path in sorted((C_FILES / folder).iterdir())]
+def wrapper_files(fmi: int, model: str = "block") -> list[Path]:
+    """The C around a model, a block or a ``system``, for a version of FMI: that of all versions, and the version's."""
+    folders = ("instance", "kernel", model, f"fmi{fmi}")
+    return [path for folder in folders for path in sorted((C_FILES / folder).iterdir())]
+
+
+def read_wrapper(fmi: int, model: str = "block") -> dict[str, bytes]:
+    """The same by file name, with the headers of the standard."""
+    files = {path.name: path.read_bytes() for path in wrapper_files(fmi, model)}
+    return files | {name: (STANDARD / name).read_bytes() for name in STANDARD_HEADERS[fmi]}
 
 
 def native_sources(block_class: type[Block], guid: str, fmi: int = 2) -> dict[str, bytes]:
@@ -38,8 +45,7 @@ def native_sources(block_class: type[Block], guid: str, fmi: int = 2) -> dict[st
 
     Raises `SubsetError` where the block is outside the subset of Python.
     """
-    files = {path.name: path.read_bytes() for path in wrapper_files(fmi)}
-    files |= {name: (STANDARD / name).read_bytes() for name in STANDARD_HEADERS[fmi]}
+    files = read_wrapper(fmi)
     files[f"{block_class.fmu_name}.c"] = translate(block_class, guid, fmi).encode()
     return files
 

@@ -7,13 +7,12 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
-from ..instances.instance import Instance
 from ..system.schedule import Schedule
 from .compiled import codes
 from .orders.connections import Term
 from .orders.fmi2 import Fmi2Orders
 from .orders.fmi3 import Fmi3Orders
-from .orders.rows import Rows
+from .orders.rows import Callee, Rows
 from .orders.texts import Texts
 
 Orders = Fmi2Orders | Fmi3Orders
@@ -30,7 +29,7 @@ class InstructionList(Rows):
 
     def __init__(
         self,
-        instances: Sequence[Instance],
+        instances: Sequence[Callee],
         connections: Sequence[Sequence[Term]],
         fault_slots: Sequence[int],
         drives: Sequence[tuple[int, int]],
@@ -164,8 +163,7 @@ def write_instructions(
     index = {name: position for position, name in enumerate(names)}
     instructions.reset()
     reset_end = len(instructions.rows)
-    sources = [index[name] for name in schedule.sources_first]
-    ahead = range(len(names)) if algorithm == "jacobi" else sources
+    ahead = _ahead(names, schedule, algorithm)
     behind = [] if algorithm == "jacobi" else [index[name] for name in schedule.followers]
     instructions.initialise([index[name] for name in schedule.initial_order])
     instructions.drive(-1, started=True)
@@ -182,6 +180,34 @@ def write_instructions(
         ends.append(len(instructions.rows))
     instructions.between_steps = False
     return instructions.array(), reset_end, np.array(ends, dtype=np.int64)
+
+
+def write_renewal(
+    instructions: InstructionList,
+    names: Sequence[str],
+    schedule: Schedule,
+    algorithm: str,
+    periods: Mapping[str, int],
+    part: int,
+) -> dict[int, np.ndarray]:
+    """What hands a system's inputs that have changed between two steps over again, by component.
+
+    These are the components that step in the ``part`` that follows with the inputs of its start. Arguments as of
+    `write_instructions`.
+    """
+    renewed = {}
+    for component in _ahead(names, schedule, algorithm):
+        instructions.rows = []
+        if part % periods.get(names[component], 1) == 0:
+            instructions.connect(component, {-1})
+        if instructions.rows:
+            renewed[component] = instructions.array()
+    return renewed
+
+
+def _ahead(names: Sequence[str], schedule: Schedule, algorithm: str) -> Sequence[int]:
+    """The components that step with the inputs of the step's start."""
+    return range(len(names)) if algorithm == "jacobi" else [names.index(name) for name in schedule.sources_first]
 
 
 def write_ending(instructions: InstructionList, component: int) -> np.ndarray:

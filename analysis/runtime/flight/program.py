@@ -9,7 +9,6 @@ import numpy as np
 
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable
-from ..instances.instance import Instance
 from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
 from ..system.checks import changeable
@@ -27,6 +26,7 @@ from .orders.fmi3 import Fmi3Orders
 from .orders.injections import Injection
 from .orders.placing_fmi2 import ComponentSlots, place_component
 from .orders.placing_fmi3 import TransferPlacing
+from .orders.rows import Callee
 from .orders.slots import Slots
 from .orders.texts import Texts
 from .orders.transfers import ComponentTransfers, TransferTable
@@ -52,7 +52,7 @@ class Layout:
 def build_program(
     prepared: PreparedSystem,
     settings: Settings,
-    instances: Mapping[str, Instance],
+    instances: Mapping[str, Callee],
     wanted: Collection[str] | None,
     injections: Sequence[Injection],
     more: Collection[str] = (),
@@ -131,7 +131,7 @@ class _Builder:
         return [name for group in groups.values() for name in group], ranges
 
     def program(
-        self, prepared: PreparedSystem, instances: Mapping[str, Instance]
+        self, prepared: PreparedSystem, instances: Mapping[str, Callee]
     ) -> tuple[arrays.Program, InstructionList]:
         driven, drives = self._drives()
         connections = Connections(self.network, self.exchanged, self.signals)
@@ -172,7 +172,7 @@ class _Builder:
         )
         return program, collected
 
-    def _orders(self, collected: InstructionList, index: int, instance: Instance, references: np.ndarray) -> Orders:
+    def _orders(self, collected: InstructionList, index: int, instance: Callee, references: np.ndarray) -> Orders:
         if index in self.transfers:
             return Fmi3Orders(collected, index, self.transfers[index], self.table)
         slots = self.component_slots[index]
@@ -188,7 +188,7 @@ class _Builder:
             one_by_one=self.parameters.is_one_by_one(self.names[index]),
         )
 
-    def fmi3(self, instances: Mapping[str, Instance]) -> arrays.Fmi3 | None:
+    def fmi3(self, instances: Mapping[str, Callee]) -> arrays.Fmi3 | None:
         """What the loop has in addition of a system with FMUs of FMI 3.0."""
         if not self.transfers:
             return None

@@ -111,6 +111,6 @@ def _check_layout(library: ctypes.CDLL, code: ComponentCode, instance: Instance)
         if variable.type not in PLACED:
             continue
         references = np.array([variable.reference], dtype=np.uint32)
-        if instance.place(references, variable.type) != instance.address + offset_of(variable.reference):
+        if instance.locate(references, variable.type) != instance.address + offset_of(variable.reference):
             problem = f"its C has {variable.name} at another address than its binary"
             raise InputError(instance.fmu.label, "sources", problem, "export it again, or fly it `native`")

@@ -153,19 +153,20 @@ def _add(to: Statements, row: Instruction) -> list[str]:
     return _transform(to, row, "+=")
 
 
+def table_entries(program: arrays.Program, number: int) -> list[tuple[float, float]]:
+    """The mapping of a connection, from and to; an entry from NaN leaves other values as they are."""
+    first, count = program.table[number].tolist()
+    entries = slice(first, first + count)
+    return list(zip(program.table_from[entries].tolist(), program.table_to[entries].tolist(), strict=True))
+
+
 def _map(to: Statements, row: Instruction) -> list[str]:
     program, lines = to.program, []
     for number in range(row.first, row.first + row.size):
         source, target = int(program.source[number]), int(program.target[number])
-        first, count = program.table[number].tolist()
-        entries = zip(
-            program.table_from[first : first + count].tolist(),
-            program.table_to[first : first + count].tolist(),
-            strict=True,
-        )
         otherwise = f"END(UNMAPPED, {source}, {row.number});"
         tests = []
-        for given, becomes in entries:
+        for given, becomes in table_entries(program, number):
             if np.isnan(given):
                 otherwise = f"values[{target}] = values[{source}];"
             else:

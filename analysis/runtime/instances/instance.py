@@ -107,7 +107,7 @@ class Instance:
         """Addresses of the C functions in the order of library.FUNCTION_NAMES."""
         return self.library.addresses
 
-    def place(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
+    def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
         """The address of values that lie side by side in this instance's memory, in order.
 
         ``references`` are uint32 value references, ``kind`` their type, one of PLACED. They may be read or, if they are

@@ -104,9 +104,11 @@ class DictionaryReference(Element):
 
 @dataclass
 class System(Element):
-    """``step`` (s) is that of an inner system whose components exchange values more or less often."""
+    """``step`` (s) is that of an inner system whose components exchange values more or less often; ``about`` is what it
+    says of itself."""
 
     step: float | None = None
+    about: str = ""
     elements: dict[str, Element] = field(default_factory=dict)
     connections: list[Connection] = field(default_factory=list)
     dictionaries: dict[str, dict[str, Connector]] = field(default_factory=dict)

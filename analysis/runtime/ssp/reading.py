@@ -95,7 +95,8 @@ class Reader:
         )
 
     def system(self, element: etree._Element) -> System:
-        system = System(**self.common(element), step=pace_of_system(element, self.file).step)
+        about = element.get("description", "")
+        system = System(**self.common(element), step=pace_of_system(element, self.file).step, about=about)
         for dictionary in children(child(element, "ssd:SignalDictionaries"), "ssd:SignalDictionary"):
             system.dictionaries[dictionary.get("name", "")] = self.dictionary(dictionary)
         elements = child(element, "ssd:Elements")

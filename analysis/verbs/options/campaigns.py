@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, TypedDict
 
-from .option import NONE, FilePath, Option
+from .option import EMPTY, FilePath, Option
 from .system import (
     Overwrite,
     ReportFiles,
@@ -81,7 +81,7 @@ class CampaignOptions(SystemOptions, SimulationOptions, total=False):
     seed: Seed
     compare: Annotated[
         Mapping[str, FilePath | Sequence[FilePath]],
-        Option("compare these FMUs in a slot on the same samples", NONE, metavar="SLOT=A,B,C", comma=True),
+        Option("compare these FMUs in a slot on the same samples", EMPTY, metavar="SLOT=A,B,C", comma=True),
     ]
     configuration: Annotated[
         str | None,

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, TypedDict
 
-from .option import FilePath, Option
-from .system import ReportFiles, SystemOptions, TrustOptions
+from .option import EMPTY, FilePath, Option
+from .system import AssemblyOptions, ReportFiles, SystemOptions, TrustOptions
 from .verb import Argument, Verb
 
 PATHS = Argument(
@@ -200,8 +200,41 @@ FmuPlatform = Literal[
 ]
 
 
-class ExportOptions(TypedDict, total=False):
+class ExportOptions(AssemblyOptions, total=False):
     """Options of export"""
+
+    as_fmu: Annotated[
+        bool,
+        Option(
+            "of a system: one FMU of FMI 2.0 for co-simulation, with its components' C compiled into one library", False
+        ),
+    ]
+    slots: Annotated[
+        Mapping[str, str],
+        Option(
+            "with --as-fmu: FMUs for a component, of which the parameter SLOT.use chooses one",
+            EMPTY,
+            metavar="SLOT=FMU,FMU...",
+            flag="slot",
+            completer="slots_with_fmus",
+        ),
+    ]
+    expose: Annotated[
+        Sequence[str],
+        Option(
+            "with --as-fmu: a signal of a component as a local variable; the name of a vector is all its elements",
+            (),
+            metavar="COMPONENT.VARIABLE",
+        ),
+    ]
+    faults: Annotated[
+        Sequence[str],
+        Option(
+            "with --as-fmu: inputs for an override, a bias or a freeze of a connector",
+            (),
+            metavar="COMPONENT.CONNECTOR",
+        ),
+    ]
 
     fmi: Annotated[
         int,
@@ -252,5 +285,7 @@ EXPORT = Verb(
         "perilune export lunar_terminal_guidance --flavour python "
         "--output landing.ssp": "a system with its FMUs inside",
         "perilune export lunar_terminal_guidance --ssp 2": "the same as SSP 2.0",
+        "perilune export lunar_terminal_guidance --as-fmu --slot guidance=analytic_guidance,astar_guidance "
+        "--expose plant.position": "the system as one FMU, with two guidances",
     },
 )

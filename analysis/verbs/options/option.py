@@ -14,7 +14,7 @@ from enum import Enum
 from functools import cache
 from typing import Annotated, Literal, Protocol, Union, get_args, get_origin, get_type_hints
 
-NONE: Mapping[str, object] = types.MappingProxyType({})  # the empty default of an option with pairs
+EMPTY: Mapping[str, object] = types.MappingProxyType({})  # the empty default of an option with pairs
 FilePath = str | os.PathLike[str]
 ParameterValue = float | int | bool | str
 SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, TypedDict
 
 from .campaigns import CAMPAIGN, SYSTEM, CampaignOptions, TrialsOptions
-from .option import NONE, FilePath, Option
+from .option import EMPTY, FilePath, Option
 from .system import Overwrite, ReportFiles, RequireOptions, Seed, SystemOptions, Workers
 from .verb import Argument, Verb
 
@@ -80,7 +80,7 @@ class ConditionOptions(TypedDict, total=False):
     """What a study keeps constant, and where it writes"""
 
     hold: Annotated[
-        Mapping[str, float], Option("fix a dispersed input (required for discrete inputs)", NONE, metavar="NAME=VALUE")
+        Mapping[str, float], Option("fix a dispersed input (required for discrete inputs)", EMPTY, metavar="NAME=VALUE")
     ]
     noise_trial: Annotated[
         int | None,

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, TypedDict
 
 from ...runtime.system.fault import Fault
-from .option import NONE, FilePath, Option, SetValue, StructuredArray
+from .option import EMPTY, FilePath, Option, SetValue, StructuredArray
 
 
 class TrustOptions(TypedDict, total=False):
@@ -25,12 +25,12 @@ class TrustOptions(TypedDict, total=False):
     ]
 
 
-class SystemOptions(TrustOptions, total=False):
-    """System options"""
+class AssemblyOptions(TypedDict, total=False):
+    """What a system is made of, and how it is stepped"""
 
     use: Annotated[
         Mapping[str, FilePath],
-        Option("replace the FMU of a component", NONE, metavar="SLOT=FMU", completer="slots_with_fmus"),
+        Option("replace the FMU of a component", EMPTY, metavar="SLOT=FMU", completer="slots_with_fmus"),
     ]
     parameters: Annotated[
         Sequence[FilePath],
@@ -40,7 +40,7 @@ class SystemOptions(TrustOptions, total=False):
         Mapping[str, SetValue],
         Option(
             "set a parameter or an unconnected input, in SI units; in a batch LOW:HIGH:STEP sweeps it",
-            NONE,
+            EMPTY,
             metavar="COMPONENT.VARIABLE=VALUE",
         ),
     ]
@@ -51,6 +51,11 @@ class SystemOptions(TrustOptions, total=False):
         Option("master algorithm (Gauss-Seidel or Jacobi); default: the system's, else sequential"),
     ]
     variant: Annotated[str | None, Option("another SSD of the archive", metavar="NAME")]
+
+
+class SystemOptions(TrustOptions, AssemblyOptions, total=False):
+    """System options"""
+
     flavour: Annotated[
         Literal["native", "python", "fused"] | None,
         Option(

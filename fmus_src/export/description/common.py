@@ -19,15 +19,34 @@ LOG_CATEGORIES = {
 }
 
 
+def start_description(name: str, guid: str, description: str, generation_tool: str) -> etree._Element:
+    """The root of a modelDescription.xml of FMI 2.0."""
+    return etree.Element(
+        "fmiModelDescription",
+        fmiVersion="2.0",
+        modelName=name,
+        guid=guid,
+        description=description,
+        generationTool=generation_tool,
+        variableNamingConvention="structured",
+    )
+
+
 def add_units(root: etree._Element, variables: Iterable[Variable]) -> None:
     """UnitDefinitions with the units of the variables, none where these have no units."""
-    used = sorted({unit for variable in variables for unit in variable.units() if unit})
+    define_units(root, (unit for variable in variables for unit in variable.units() if unit))
+
+
+def define_units(root: etree._Element, names: Iterable[str]) -> None:
+    """UnitDefinitions of the units with these names; those that are no products of known units are names alone."""
+    used = sorted(set(names))
     if used:
         definitions = etree.SubElement(root, "UnitDefinitions")
         for name in used:
             unit = etree.SubElement(definitions, "Unit", name=name)
             meaning = unit_definition(name)
-            assert meaning is not None  # the declaration refuses what has none
+            if meaning is None:
+                continue
             numbers = {base: str(power) for base, power in meaning.exponents.items()}
             if meaning.factor != 1.0:
                 numbers["factor"] = repr(meaning.factor)

@@ -8,7 +8,17 @@ from lxml import etree
 
 from ...block import Block
 from ...variables import Output, Parameter, State, Variable
-from .common import STATE_ANNOTATION, add_log_categories, add_units, boolean, limits, one_line, role, start_text
+from .common import (
+    STATE_ANNOTATION,
+    add_log_categories,
+    add_units,
+    boolean,
+    limits,
+    one_line,
+    role,
+    start_description,
+    start_text,
+)
 
 
 def model_description(
@@ -26,15 +36,7 @@ def model_description(
     says that the FMU uses the importer's memory functions. Value references number the elements
     of all variables in order of declaration.
     """
-    root = etree.Element(
-        "fmiModelDescription",
-        fmiVersion="2.0",
-        modelName=block_class.fmu_name,
-        guid=guid,
-        description=block_class.summary(),
-        generationTool=generation_tool,
-        variableNamingConvention="structured",
-    )
+    root = start_description(block_class.fmu_name, guid, block_class.summary(), generation_tool)
     simulation = etree.SubElement(
         root,
         "CoSimulation",

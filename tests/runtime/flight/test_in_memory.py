@@ -82,18 +82,18 @@ def test_what_is_not_side_by_side_is_not_in_one_place():
         plant = simulation.instances["plant"]
         variables = plant.fmu.variables
 
-        def place(*names, **options):
+        def locate(*names, **options):
             references = np.array([variables[name].reference for name in names], dtype=np.uint32)
-            return plant.place(references, **{"kind": "Real", **options})
+            return plant.locate(references, **{"kind": "Real", **options})
 
-        first = place("position[1]")
-        assert place("position[1]", "position[2]", "position[3]") == first
-        assert place("position[2]") == first + 8
-        assert place("position[2]", "position[1]") == 0
-        assert place("position[1]", "position[3]") == 0
-        assert place("position[1]", to_set=True) == 0
-        assert place("position[1]", kind="Boolean") == 0
-        assert place("position[1]", kind="Integer") == 0
+        first = locate("position[1]")
+        assert locate("position[1]", "position[2]", "position[3]") == first
+        assert locate("position[2]") == first + 8
+        assert locate("position[2]", "position[1]") == 0
+        assert locate("position[1]", "position[3]") == 0
+        assert locate("position[1]", to_set=True) == 0
+        assert locate("position[1]", kind="Boolean") == 0
+        assert locate("position[1]", kind="Integer") == 0
 
 
 def test_an_integer_beyond_32_bits_fails_as_by_fmis_call(monkeypatch, tiny_folder):

@@ -8,69 +8,14 @@ import re
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 import perilune
 from perilune.analysis.runtime.flight.simulation import Simulation
-from perilune.analysis.runtime.system.fault import Fault
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import component, connection, document, pack, system
+from tests.support.graphs.small_blocks import graphs
 from tests.support.lengths import either
-
-# Blocks of tests/support/builders.py: connectors by type, and the inputs that an output follows at once.
-REAL_INPUTS = {"gain": ["u"], "delay": ["u"], "cross": ["a", "b"], "careful": ["u"]}
-REAL_OUTPUTS = {"ramp": ["y"], "gain": ["y"], "delay": ["y"], "cross": ["ya", "yb"], "careful": ["y"], "trouble": ["y"]}
-KINDS = ["ramp", "gain", "delay", "cross", "careful", "whole", "trouble"]
-FACTORS = st.sampled_from([1.0, -2.5, 1e-3])
-BENT = '<ssc:LinearTransformation factor="{}" offset="{}"/>'
-MAPPED = (
-    '<ssc:IntegerMappingTransformation><ssc:MapEntry source="{}" target="7"/><ssc:MapEntry source="1" target="-2"/>'
-    '<ssc:MapEntry source="2" target="0"/></ssc:IntegerMappingTransformation>'
-)
-NEGATED = (
-    '<ssc:BooleanMappingTransformation><ssc:MapEntry source="true" target="false"/>'
-    '<ssc:MapEntry source="false" target="true"/></ssc:BooleanMappingTransformation>'
-)
-
-
-@st.composite
-def graphs(draw):
-    """Components with connections from those before them: an SSD, faults, what is recorded, the algorithm."""
-    kinds = ["ramp", *draw(st.lists(st.sampled_from(KINDS), min_size=1, max_size=7))]
-    reals, elements, wires, connectors = [], [], [], []
-    for number, kind in enumerate(kinds):
-        name = f"{kind}{number}"
-        declared = []
-        for port in REAL_INPUTS.get(kind, ()):
-            declared.append(f"input {port} Real m")
-            bent = BENT.format(draw(FACTORS), draw(FACTORS)) if draw(st.booleans()) else ""
-            wires.append(connection(draw(st.sampled_from(reals)), f"{name}.{port}", bent))
-            connectors.append(f"{name}.{port}")
-        if kind == "whole":
-            declared += ["input n Integer", "input b Boolean", "output m Integer", "output c Boolean"]
-            mapped = MAPPED.format(draw(st.integers(3, 9))) if draw(st.booleans()) else ""
-            wires.append(connection("ramp0.count", f"{name}.n", mapped))
-            wires.append(connection("ramp0.flag", f"{name}.b", NEGATED if draw(st.booleans()) else ""))
-        if kind == "ramp":
-            declared += ["output count Integer", "output flag Boolean"]
-        declared += [f"output {port} Real m" for port in REAL_OUTPUTS.get(kind, ())]
-        reals += [f"{name}.{port}" for port in REAL_OUTPUTS.get(kind, ())]
-        elements.append(component(name, kind, "; ".join(declared)))
-    values = {f"{kind}{n}.kind": draw(st.integers(0, 3)) for n, kind in enumerate(kinds) if kind == "trouble"}
-    connectors += reals
-    faults = [
-        Fault(draw(st.sampled_from(connectors)), kind, 0.0 if kind == "freeze" else draw(FACTORS), start, start + 0.7)
-        for kind, start in draw(
-            st.lists(
-                st.tuples(st.sampled_from(["override", "bias", "freeze"]), st.sampled_from([0.0, 0.25, 0.5])),
-                max_size=3,
-            )
-        )
-    ]
-    wanted = draw(st.none() | st.lists(st.sampled_from(reals), unique=True, max_size=3))
-    ssd = document(system(*elements, connections="".join(wires)), stop=2.0)
-    return ssd, values, faults, wanted, draw(st.sampled_from(["sequential", "jacobi"]))
 
 
 def flown(path, flavour, values, faults=(), wanted=None, **options):

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...instances.instance import Instance
 from ...instances.library import FUNCTION_NAMES
 from ..compiled import codes
 from .in_memory import Run, runs_in_memory, with_moves
-from .rows import Rows, Stretch
+from .rows import Callee, Rows, Stretch
 
 TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}
 FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES) if name.startswith("fmi2")}
@@ -36,7 +35,7 @@ class Fmi2Orders:
         self,
         rows: Rows,
         component: int,
-        instance: Instance,
+        instance: Callee,
         references: np.ndarray,
         ranges: Sequence[Stretch],
         parameter_ranges: Sequence[Sequence[int]],

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...instances.instance import Instance
 from ..compiled import codes
+from .rows import Callee
 
 REAL_SIZE = 8  # bytes
 
@@ -23,7 +23,7 @@ class Run(NamedTuple):
 
 
 def runs_in_memory(
-    instance: Instance, references: np.ndarray, first: int, kind: str, *, to_set: bool = False
+    instance: Callee, references: np.ndarray, first: int, kind: str, *, to_set: bool = False
 ) -> list[Run]:
     """The runs of values of an FMI type, with these value references (uint32) and slots from ``first`` on.
 
@@ -32,7 +32,7 @@ def runs_in_memory(
     ends = [0, *(np.flatnonzero(np.diff(references.astype(np.int64)) != 1) + 1).tolist(), references.size]
     runs = []
     for start, end in itertools.pairwise(ends):
-        address = instance.place(references[start:end], kind, to_set=to_set)
+        address = instance.locate(references[start:end], kind, to_set=to_set)
         if not address:
             return []
         runs.append(Run(address, first + start, end - start))

@@ -3,19 +3,48 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 
-from ...instances.instance import Instance
+from ...instances.library import FUNCTION_NAMES
 from ..compiled import codes
 
 Stretch = tuple[int, int]  # first, and how many
 
 
+class Callee(Protocol):
+    """What instructions have to know of an instance."""
+
+    @property
+    def address(self) -> int:
+        """Of the instance, which calls are given."""
+
+    def function_addresses(self) -> list[int]:
+        """Of its functions, in the order of `FUNCTION_NAMES`."""
+
+    def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
+        """Where these variables lie side by side in its memory; 0 where it does not say."""
+
+
+class Unloaded:
+    """Stands for an instance in instructions that are read and not worked off."""
+
+    address = 0
+
+    def function_addresses(self) -> list[int]:
+        """None has an address."""
+        return [0] * len(FUNCTION_NAMES)
+
+    def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
+        """Nowhere."""
+        return 0
+
+
 class Rows:
     """Collects ``rows`` of instructions. ``fault_slots`` are numbered as in the program's arrays."""
 
-    def __init__(self, instances: Sequence[Instance], fault_slots: Sequence[int]) -> None:
+    def __init__(self, instances: Sequence[Callee], fault_slots: Sequence[int]) -> None:
         self.addresses = [(instance.address, instance.function_addresses()) for instance in instances]
         self.between_steps = False  # all FMUs: what they give and take then may be in their memory
         self.fault_slots = fault_slots

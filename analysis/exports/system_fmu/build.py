@@ -1,0 +1,124 @@
+"""The FMU of a system, written: description, sources, libraries for platforms, parameter sets, pages."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+
+from ....fmus_src.evidence.manifest import Related, add_manifest
+from ....fmus_src.export.archive import content_guid, write_zip
+from ....fmus_src.export.compilers import PLATFORMS, build_library
+from ....fmus_src.export.description.system import SystemVariable, system_description
+from ....fmus_src.export.native_fmu import read_wrapper
+from ....fmus_src.own_digests import note_own
+from ....fmus_src.paths import CACHE
+from ...common.errors import InputError
+from ...runtime.ssp.archive import SystemArchive
+from .choices import Preparation, check_slots, find_default
+from .dependence import find_dependencies
+from .kind_in_c import file_name, write_kind
+from .model import SystemModel
+from .page import PAGE, README, system_page, system_readme
+from .parameter_sets import OtherSets, other_parameter_sets
+from .request import OneFmu
+from .system_in_c import write_system
+from .variables import FmuVariable, Variables
+
+
+def build_system_fmu(
+    archive: SystemArchive,
+    path: Path,
+    request: OneFmu,
+    platforms: Sequence[str],
+    *,
+    portable: bool,
+) -> None:
+    """Build one FMU of a system at ``path``; two builds are byte-identical.
+
+    ``portable`` compiles with zig even where the system has a compiler. Raises InputError for what cannot be in one
+    FMU, `CompilerMissing` and `CompilationFailed`.
+    """
+    slots, options = request.slots, request.options
+    preparation = Preparation(archive, options, slots)
+    original = preparation.choice({}).prepared
+    check_slots(slots, original.network)
+    defaults = {slot: find_default(slot, candidates, original, options) for slot, candidates in slots.items()}
+    model = SystemModel(preparation.choices(), request.exposed, request.faulty)
+    named = {slot: [choice.candidates[slot] for choice in model.choices] for slot in slots}
+    variables = Variables(model, defaults, {slot: list(dict.fromkeys(each)) for slot, each in named.items()})
+    _check_names(variables.declared, model.network.file)
+    name = _model_identifier(archive.name, model)
+    others = other_parameter_sets(preparation, variables.declared)
+    files = _files(name, model, variables, others, content_guid(_files(name, model, variables, others, "")))
+    sources = {file.removeprefix("sources/"): text for file, text in files.items() if file.startswith("sources/")}
+    for platform in platforms:
+        library = build_library(sources, f"{name}.c", platform, CACHE, portable=portable)
+        files[f"binaries/{platform}/{name}{PLATFORMS[platform].extension}"] = library
+    page = Related(PAGE, "document", "text/html", "what the system is, its variables, how to fly it")
+    write_zip(path, add_manifest(files, [page]))
+    note_own(path)
+
+
+def _files(name: str, model: SystemModel, variables: Variables, others: OtherSets, guid: str) -> dict[str, bytes]:
+    """The FMU without its binaries and its manifest."""
+    about = model.network.description.system.about or f"the system {name}"
+    sources = read_wrapper(2, "system")
+    sources |= {file_name(source): write_kind(source).encode() for source in model.sources}
+    sources[f"{name}.c"] = write_system(name, about, guid, model, variables).encode()
+    dependencies = find_dependencies([choice.prepared for choice in model.choices], model.inputs)
+    first = model.first
+    description = system_description(
+        name,
+        about,
+        [_declared(each) for each in variables.declared],
+        dependencies,
+        guid=guid,
+        generation_tool=f"Perilune {version('perilune')}",
+        experiment={
+            "startTime": first.start,
+            "stopTime": first.start + first.steps * first.step,
+            "stepSize": first.step,
+        },
+        sources=[f"{name}.c"],
+    )
+    return {
+        "modelDescription.xml": description,
+        **{f"sources/{file}": text for file, text in sources.items()},
+        **others.files,
+        PAGE: system_page(name, about, model, variables.declared, dependencies, others),
+        README: system_readme(name, about).encode(),
+    }
+
+
+def _declared(variable: FmuVariable) -> SystemVariable:
+    start = variable.start
+    assert start is None or isinstance(start, float | int)
+    items = {item: number for number, item in enumerate(variable.items, variable.first_item)}
+    return SystemVariable(
+        variable.name,
+        variable.causality,
+        variable.type,
+        variable.description,
+        start,
+        variable.unit,
+        variable.minimum,
+        variable.maximum,
+        items,
+        variable.items_name,
+    )
+
+
+def _check_names(declared: Sequence[FmuVariable], file: str) -> None:
+    names = [each.name for each in declared]
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(file, name, "would be the name of two variables of the FMU", "rename one in the system")
+
+
+def _model_identifier(system: str, model: SystemModel) -> str:
+    """The name of a system's FMU, one of C that no component has."""
+    name = re.sub(r"\W", "_", system, flags=re.ASCII)
+    name = name if not name[:1].isdigit() else f"fmu_{name}"
+    return f"{name}_system" if f"{name}_" in {source.prefix for source in model.sources} else name

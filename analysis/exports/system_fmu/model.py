@@ -1,0 +1,198 @@
+"""What is inside a system's FMU, whichever candidates fly: components with their C, signals, names in C."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from ....fmus_src.export.write.names import RESERVED
+from ...common.errors import InputError, suggestion
+from ...runtime.flight.compiled import arrays, codes
+from ...runtime.flight.instructions import InstructionList
+from ...runtime.flight.orders.injections import Injection
+from ...runtime.flight.orders.rows import Unloaded
+from ...runtime.flight.program import Layout, build_program
+from ...runtime.flight.selection import find_variables
+from ...runtime.system.checks import changeable
+from ...runtime.system.fmu import Fmu
+from ...runtime.system.network import Network
+from ...runtime.system.prepared import PreparedSystem
+from .choices import Choice, system_inputs
+from .component_source import ComponentSource, Member, read_component_source
+
+ALWAYS = (float("-inf"), float("inf"))
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A component, or a candidate of a slot: ``identifier`` in C, ``label`` before its variables' names."""
+
+    component: str
+    fmu: Fmu
+    source: ComponentSource
+    identifier: str
+    label: str
+
+    def member(self, variable: str) -> Member:
+        """The member of the block's struct that is a variable."""
+        return self.source.members[self.fmu.variables[variable].reference]
+
+    def path_of(self, variable: str) -> str:
+        """Where a variable lies in the system's struct."""
+        return f"{self.identifier}.block.{self.member(variable).path}"
+
+
+@dataclass
+class Identifiers:
+    """Names of C, each given away once; ``used`` are those that are gone."""
+
+    used: set[str] = field(default_factory=set)
+
+    def new(self, text: str) -> str:
+        """The text as a name, with a number behind it where that is not enough."""
+        name = base = re.sub(r"\W+", "_", text).strip("_")
+        number = 2
+        while name in self.used:
+            name, number = f"{base}_{number}", number + 1
+        self.used.add(name)
+        return name
+
+
+@dataclass(frozen=True)
+class ChoiceProgram:
+    """The instructions of one choice, and what wrote them; ``candidates`` by number of the component."""
+
+    choice: Choice
+    program: arrays.Program
+    instructions: InstructionList
+    layout: Layout
+    candidates: Sequence[Candidate]
+
+    @property
+    def prepared(self) -> PreparedSystem:
+        return self.choice.prepared
+
+    @cached_property
+    def names(self) -> list[str]:
+        """The signal of each slot."""
+        return list(self.layout.slots)
+
+
+class SystemModel:
+    """``exposed`` are the signals that the FMU gives as local variables, ``faulty`` the connectors whose faults are its
+    inputs. Raises InputError for unknown names, and for C of another build."""
+
+    def __init__(self, choices: Sequence[Choice], exposed: Sequence[str], faulty: Sequence[str]) -> None:
+        self.choices = choices
+        self.first = choices[0].prepared
+        self.members = Identifiers({*RESERVED, "point", "start_time", "has_finished", "signal", "frozen", "use"})
+        self._candidates: dict[tuple[str, str], Candidate] = {}
+        self._sources: dict[str, ComponentSource] = {}
+        self._prefixes = Identifiers()
+        self.exposed = self._find_exposed(exposed)
+        self.faulty = _find_faulty(choices, faulty)
+        self.programs = [self._program(choice) for choice in choices]
+        signals = dict.fromkeys(name for program in self.programs for name in program.layout.slots)
+        self._constants = Identifiers()
+        self.signals = {name: self._constants.new(f"S_{name}").upper() for name in signals}
+        self.types = {name: kind for program in self.programs for name, kind in program.layout.types.items()}
+        self.units = {name: unit for program in self.programs for name, unit in program.layout.units.items()}
+
+    @property
+    def candidates(self) -> list[Candidate]:
+        return list(self._candidates.values())
+
+    @property
+    def sources(self) -> list[ComponentSource]:
+        return list(self._sources.values())
+
+    @property
+    def network(self) -> Network:
+        return self.first.network
+
+    @cached_property
+    def inputs(self) -> list[str]:
+        """The inputs of the system itself."""
+        return system_inputs(self.network)
+
+    @cached_property
+    def outputs(self) -> list[str]:
+        """The outputs of the system itself that have a source."""
+        nodes = self.network.nodes.values()
+        return [
+            node.name
+            for node in nodes
+            if node.component is None and "." not in node.name and node.kind == "output" and node.name in self.signals
+        ]
+
+    def _program(self, choice: Choice) -> ChoiceProgram:
+        prepared = choice.prepared
+        instances = dict.fromkeys(prepared.network.fmus, Unloaded())
+        injections = [Injection(name, codes.OVERRIDE, 0.0, ALWAYS) for name in self.faulty]
+        known = [name for name in self.exposed if _is_known(prepared.network, name)]
+        program, _, instructions, layout = build_program(prepared, prepared.settings, instances, known, injections)
+        candidates = [self._candidate(choice, name, fmu) for name, fmu in prepared.network.fmus.items()]
+        return ChoiceProgram(choice, program, instructions, layout, candidates)
+
+    def _candidate(self, choice: Choice, component: str, fmu: Fmu) -> Candidate:
+        candidate = choice.candidates.get(component, "")
+        if (component, candidate) not in self._candidates:
+            path = f"{component}.{candidate}" if candidate else component
+            if fmu.digest not in self._sources:
+                self._sources[fmu.digest] = read_component_source(fmu, self._prefixes.new(fmu.name))
+            source = self._sources[fmu.digest]
+            self._candidates[component, candidate] = Candidate(component, fmu, source, self.members.new(path), path)
+        return self._candidates[component, candidate]
+
+    def _find_exposed(self, names: Sequence[str]) -> list[str]:
+        """The variables that names mean, of whichever candidate has them."""
+        exposed: dict[str, None] = {}
+        for name in names:
+            error = None
+            for choice in self.choices:
+                try:
+                    exposed |= dict.fromkeys(find_variables(choice.prepared.network, [name], is_alone=False))
+                except InputError as problem:
+                    error = error or problem
+            if error is not None and not any(each == name or each.startswith(f"{name}[") for each in exposed):
+                raise InputError("`expose`", name, error.problem, error.remedy)
+        for name in exposed:
+            if self._is_parameter(name):
+                raise InputError("`expose`", name, "a parameter, which is one of the FMU anyway", "leave it out")
+        return list(exposed)
+
+    def _is_parameter(self, name: str) -> bool:
+        return any(
+            name == f"{component}.{variable.name}" and variable.causality == "parameter"
+            for component, fmu in self.network.fmus.items()
+            for variable in fmu.variables.values()
+        )
+
+
+def _is_known(network: Network, name: str) -> bool:
+    return any(
+        name.startswith(f"{component}.") and name.removeprefix(f"{component}.") in fmu.variables
+        for component, fmu in network.fmus.items()
+    )
+
+
+def _find_faulty(choices: Sequence[Choice], names: Sequence[str]) -> list[str]:
+    """The connectors that faults are asked for: of all candidates. Raises InputError."""
+    for name in names:
+        for choice in choices:
+            changeable(choice.prepared.network, name, ("`faults`", name))
+    if len(set(names)) < len(names):
+        raise InputError("`faults`", ", ".join(names), "a connector is named twice", suggestion("", names))
+    return list(names)
+
+
+def starts_of(programs: Sequence[ChoiceProgram]) -> Mapping[str, float]:
+    """The values that signals begin with, where they have one before anything is exchanged."""
+    starts: dict[str, float] = {}
+    for each in programs:
+        initial = zip(each.names, each.program.initial.tolist(), strict=True)
+        starts |= {name: start for name, start in initial if not math.isnan(start)}
+    return starts

@@ -1,0 +1,95 @@
+"""What a system's FMU says of itself to readers: documentation/index.html, and the README beside its sources."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from lxml import etree, html
+from lxml.html import builder
+
+from ....fmus_src.evidence.page import STYLE
+from .model import SystemModel
+from .parameter_sets import OtherSets
+from .variables import FmuVariable
+
+PAGE = "documentation/index.html"
+README = "sources/README.md"
+TITLES = (("input", "Inputs"), ("output", "Outputs"), ("local", "Exposed signals"), ("parameter", "Parameters"))
+TEXT = """\
+# {name}
+
+{about}
+
+Compile the library of this FMU for another platform in this folder with
+
+    gcc -std=c99 -O2 -ffp-contract=off -fno-tree-vectorize -fPIC -shared -o {name}.so {name}.c -lm
+
+and put it into `binaries/PLATFORM/`. With these flags results have the same bits everywhere; others are noticed when
+the FMU is instantiated. `{name}.c` has the steps of the system and includes the other files: a header for each kind of
+component, with the C that its block was translated into, and the wrapper of FMI 2.0.
+"""
+
+
+def system_readme(name: str, about: str) -> str:
+    """How to compile the sources."""
+    return TEXT.format(name=name, about=about)
+
+
+def system_page(
+    name: str,
+    about: str,
+    model: SystemModel,
+    declared: Sequence[FmuVariable],
+    dependencies: Mapping[str, Sequence[str]],
+    others: OtherSets,
+) -> bytes:
+    """The page: components, how to fly it, its variables."""
+    body = [builder.H1(name), builder.P(about), builder.H2("Components")]
+    body.append(
+        _table(["component", "block"], [[candidate.label, candidate.fmu.name] for candidate in model.candidates])
+    )
+    body += [builder.H2("How to fly it"), *map(builder.P, _conditions(model, dependencies))]
+    if others.files:
+        sets = ", ".join(file.removeprefix("resources/") for file in others.files)
+        body.append(builder.P(f"resources/ has parameter sets of the system that are not applied: {sets}."))
+    if others.unfit:
+        body.append(builder.P(f"Left out, since they do not fit: {'; '.join(others.unfit)}."))
+    for causality, title in TITLES:
+        variables = [each for each in declared if each.causality == causality]
+        if variables:
+            body += [builder.H2(title), _table(["name", "type", "start", "unit", "description"], map(_row, variables))]
+    head = builder.HEAD(builder.META(charset="utf-8"), builder.TITLE(name), builder.STYLE(STYLE))
+    page = builder.HTML(head, builder.BODY(*body), lang="en")
+    return html.tostring(page, doctype="<!DOCTYPE html>", encoding="utf-8", pretty_print=True)
+
+
+def _conditions(model: SystemModel, dependencies: Mapping[str, Sequence[str]]) -> list[str]:
+    step = model.first.step
+    texts = [
+        f"A communication step is {step:g} s or a multiple of it, of as many whole steps of the system, during which "
+        "inputs are held; other steps are refused.",
+        "Once the system has come to its end all values stay as they are, and fmi2GetBooleanStatus(fmi2Terminated) is "
+        "true.",
+        "States are saved, restored and serialised whole. Instances are independent of one another.",
+    ]
+    if dependencies:
+        pairs = "; ".join(f"{output} on {', '.join(inputs)}" for output, inputs in dependencies.items())
+        texts.append(
+            f"Outputs depend directly on inputs: {pairs}. As a component of another system the FMU is therefore "
+            "stepped with the inputs of the step's end, all of it. Nested in that system as it stands, its components "
+            "without direct dependence would be given those of the step's start: there the results differ by one "
+            "step's change of these inputs."
+        )
+    return texts
+
+
+def _row(variable: FmuVariable) -> list[str]:
+    start = "" if variable.start is None else str(variable.start)
+    if variable.items and variable.start is not None:
+        start = variable.items[int(variable.start) - variable.first_item]
+    return [variable.name, variable.type, start, variable.unit or "", variable.description]
+
+
+def _table(header: Sequence[str], rows: object) -> etree._Element:
+    lines = [builder.TR(*map(builder.TH, header)), *(builder.TR(*map(builder.TD, row)) for row in rows)]  # type: ignore[attr-defined]
+    return builder.TABLE(*lines)

@@ -1,0 +1,29 @@
+"""How a system becomes one FMU."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from ...common.errors import InputError
+from ...runtime.system.options import SystemOptions
+
+
+@dataclass(frozen=True)
+class OneFmu:
+    """How a system becomes one FMU: ``slots`` have candidates by component, ``exposed`` are signals that it shows,
+    ``faulty`` connectors with inputs for faults; ``options`` are those of the system. Raises InputError."""
+
+    slots: Mapping[str, Sequence[str]]
+    exposed: Sequence[str]
+    faulty: Sequence[str]
+    options: SystemOptions
+
+    def __post_init__(self) -> None:
+        for slot, candidates in self.slots.items():
+            if not all(candidates) or not candidates:
+                problem = "an empty name among the candidates"
+                raise InputError("`slots`", f"{slot}={','.join(candidates)}", problem, "give SLOT=FMU,FMU")
+            if slot in self.options.use and self.options.use[slot] not in candidates:
+                problem = f"`use` gives {self.options.use[slot]}, which is not among the candidates"
+                raise InputError("`slots`", slot, problem, "add it, or leave `use` out")

@@ -1,0 +1,224 @@
+"""C statements for the instructions of a system's steps, on the blocks inside its struct.
+
+They do what `flight.compiled.loop` does with FMUs, in the same order of operations, so that results have the same bits.
+`self` is the system, `s` its signals; a failure leaves its words in `fault` and returns.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ....fmus_src.export.write.layout import NO_BREAK
+from ....fmus_src.export.write.names import literal
+from ...runtime.flight.compiled import codes
+from ...runtime.flight.orders.fmi2 import FUNCTION
+from ...runtime.fused.statements import Instruction, table_entries
+from .model import Candidate, ChoiceProgram
+
+GET_REAL = FUNCTION["GetReal"]
+SKIPPED = (codes.SETUP, codes.PARAMETERS, codes.WHOLE_PARAMETERS, codes.READ_BACK, codes.WHOLE_READ_BACK)
+
+
+@dataclass
+class Statements:
+    """Writes the statements of one choice; ``constants`` are the signals' numbers in C by name.
+
+    ``unsettled`` are the components that have been given something in the initialisation, which is under way where
+    ``is_starting``, and have not computed since.
+    """
+
+    choice: ChoiceProgram
+    constants: Mapping[str, str]
+    unsettled: set[int] = field(default_factory=set)
+    is_starting: bool = False
+
+    def initialisation(self) -> list[str]:
+        """From parameters and inputs to the outputs at the start."""
+        program = self.choice.program
+        self.unsettled, self.is_starting = set(range(len(self.choice.candidates))), True
+        lines = self._of(range(program.reset_end, int(program.phases[0])))
+        self.is_starting = False
+        return lines
+
+    def step(self, phase: int) -> list[str]:
+        """One of the steps that are repeated."""
+        first, end = self.choice.program.phases[phase : phase + 2].tolist()
+        return self._of(range(first, end))
+
+    def renewal(self, component: int, rows: np.ndarray) -> list[str]:
+        """The connections of a component from the system's inputs, which these rows carry, carried on into it."""
+        candidate = self.choice.candidates[component]
+        lines: list[str] = []
+        targets: list[int] = []
+        for row in (Instruction(0, *each) for each in rows.tolist()):
+            lines += self._write(row)
+            slots = range(row.first, row.first + row.size)
+            targets += (
+                slots if row.code == codes.COPY else self.choice.program.target[slots.start : slots.stop].tolist()
+            )
+        for slot in dict.fromkeys(targets):
+            variable = self.choice.names[slot].removeprefix(f"{candidate.component}.")
+            if variable in candidate.fmu.variables:
+                lines += [self.injection(number) for number in self._faults_on(slot)]
+                lines += self.give(candidate, slot)
+        return lines
+
+    def _faults_on(self, slot: int) -> list[int]:
+        return np.flatnonzero(self.choice.program.fault_slot == slot).tolist()
+
+    def injection(self, number: int) -> str:
+        """A fault applied to its signal."""
+        return f"inject(&{self.signal(int(self.choice.program.fault_slot[number]))}, &self->fault[{number}]);"
+
+    def give(self, candidate: Candidate, slot: int) -> list[str]:
+        """A signal to the variable of a component at its slot."""
+        member = candidate.source.members[int(self.choice.program.reference[slot])]
+        path, signal = f"self->{candidate.identifier}.block.{member.path}", self.signal(slot)
+        if member.kind == "KIND_REAL":
+            return [f"{path} = {signal};"]
+        whole = f"(int32_t){signal}"
+        assign = f"{path} = {whole} != 0;" if member.kind == "KIND_BOOLEAN" else f"{path} = {whole};"
+        return [f"CHECK_WHOLE({signal}, {quoted(self.choice.names[slot])})", assign]
+
+    def _of(self, numbers: Iterable[int]) -> list[str]:
+        rows = self.choice.program.instructions
+        return [line for number in numbers for line in self._write(Instruction(number, *rows[number].tolist()))]
+
+    def _write(self, row: Instruction) -> list[str]:
+        return [] if row.code in SKIPPED else WRITERS[row.code](self, row)
+
+    def signal(self, slot: int) -> str:
+        return f"s[{self.constants[self.choice.names[slot]]}]"
+
+    def slots(self, row: Instruction) -> list[tuple[int, str]]:
+        """The slots of an instruction, each with its signal."""
+        return [(slot, self.signal(slot)) for slot in range(row.first, row.first + row.size)]
+
+    def variable(self, row: Instruction, slot: int) -> tuple[str, str]:
+        """The variable of the component at a slot: where it lies, and its kind."""
+        candidate = self.candidate(row)
+        member = candidate.source.members[int(self.choice.program.reference[slot])]
+        return f"self->{candidate.identifier}.block.{member.path}", member.kind
+
+    def candidate(self, row: Instruction) -> Candidate:
+        return self.choice.candidates[row.component]
+
+    def settle(self, component: int) -> list[str]:
+        """Have a component initialised where it has not been with what it is given now."""
+        if not self.is_starting or component not in self.unsettled:
+            return []
+        self.unsettled.discard(component)
+        candidate = self.choice.candidates[component]
+        call = f"{candidate.source.prefix}initialize(&self->{candidate.identifier}, fault, self->start_time);"
+        return [call, check(candidate.component)]
+
+
+def check(subject: str) -> str:
+    """Return where the statement before has failed."""
+    return f"FAILED_IN({quoted(subject)})"
+
+
+def quoted(text: str) -> str:
+    """A text as C has it, on one line."""
+    escaped = text.replace("\\", r"\\").replace('"', r"\"").replace(" ", NO_BREAK)
+    return f'"{escaped}"'
+
+
+def _mode(to: Statements, row: Instruction) -> list[str]:
+    return to.settle(row.component) if row.function == FUNCTION["ExitInitializationMode"] else []
+
+
+def _copy(to: Statements, row: Instruction) -> list[str]:
+    return [f"{to.signal(row.first + i)} = {to.signal(row.address + i)};" for i in range(row.size)]
+
+
+def _transform(to: Statements, row: Instruction, assign: str = "=") -> list[str]:
+    program, lines = to.choice.program, []
+    for number in range(row.first, row.first + row.size):
+        target, source = to.signal(int(program.target[number])), to.signal(int(program.source[number]))
+        factor, offset = literal(float(program.factor[number])), literal(float(program.offset[number]))
+        lines.append(f"{target} {assign} {source} * {factor} + {offset};")
+    return lines
+
+
+def _add(to: Statements, row: Instruction) -> list[str]:
+    return _transform(to, row, "+=")
+
+
+def _map(to: Statements, row: Instruction) -> list[str]:
+    program, lines = to.choice.program, []
+    for number in range(row.first, row.first + row.size):
+        slot = int(program.source[number])
+        source, target = to.signal(slot), to.signal(int(program.target[number]))
+        lines += map_value(source, target, table_entries(program, number), to.choice.names[slot])
+    return lines
+
+
+def map_value(source: str, target: str, entries: Iterable[tuple[float, float]], subject: str) -> list[str]:
+    """A mapping by a table: an entry from NaN leaves other values as they are, without it they are a failure."""
+    tests, otherwise = [], f"FAIL({quoted(subject)}, {quoted('a mapping has no entry for its value')})"
+    for given, becomes in entries:
+        if math.isnan(given):
+            otherwise = f"{target} = {source};"
+        else:
+            tests.append(f"if ({source} == {literal(given)}) {target} = {literal(becomes)};")
+    return [" else ".join([*tests, f"{{ {otherwise} }}"])]
+
+
+def _set_real(to: Statements, row: Instruction) -> list[str]:
+    if row.function == GET_REAL:  # a READ_REAL, whose values may be anything
+        return [*to.settle(row.component), *(f"{s} = {to.variable(row, slot)[0]};" for slot, s in to.slots(row))]
+    return _give(to, row)
+
+
+def _give(to: Statements, row: Instruction) -> list[str]:
+    to.unsettled.add(row.component)
+    return [line for slot, _ in to.slots(row) for line in to.give(to.candidate(row), slot)]
+
+
+def _get_real(to: Statements, row: Instruction) -> list[str]:
+    reads = [f"{signal} = {to.variable(row, slot)[0]};" for slot, signal in to.slots(row)]
+    checks = [f"CHECK_FINITE({signal}, {quoted(to.choice.names[slot])})" for slot, signal in to.slots(row)]
+    return [*to.settle(row.component), *reads, *checks]
+
+
+def _get_whole(to: Statements, row: Instruction) -> list[str]:
+    lines = to.settle(row.component)
+    for slot, signal in to.slots(row):
+        path, kind = to.variable(row, slot)
+        if kind == "KIND_INTEGER":
+            lines.append(f"CHECK_32_BITS({path}, {quoted(to.choice.names[slot])})")
+        lines.append(f"{signal} = (double){path};")
+    return lines
+
+
+def _step(to: Statements, row: Instruction) -> list[str]:
+    candidate = to.candidate(row)
+    times = "time, SYSTEM_STEP"
+    if row.size:
+        times = f"self->start_time + (double)(self->point + 1 - {row.size}) * SYSTEM_STEP, {row.size}.0 * SYSTEM_STEP"
+    call = f"{candidate.source.prefix}advance(&self->{candidate.identifier}, fault, self->start_time, {times});"
+    return [call, check(candidate.component)]
+
+
+def _inject(to: Statements, row: Instruction) -> list[str]:
+    return [to.injection(number) for number in range(row.first, row.first + row.size)]
+
+
+WRITERS: dict[int, Callable[[Statements, Instruction], list[str]]] = {
+    codes.MODE: _mode,
+    codes.COPY: _copy,
+    codes.TRANSFORM: _transform,
+    codes.ADD: _add,
+    codes.MAP: _map,
+    codes.INJECT: _inject,
+    codes.SET_REAL: _set_real,
+    codes.SET_WHOLE: _give,
+    codes.GET_REAL: _get_real,
+    codes.GET_WHOLE: _get_whole,
+    codes.STEP: _step,
+}

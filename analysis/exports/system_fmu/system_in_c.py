@@ -1,0 +1,181 @@
+"""The C of a system: a struct of its components, its variables, and its steps for each choice of candidates."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+from ....fmus_src.export.write.layout import Lines
+from ....fmus_src.export.write.names import comment, literal
+from ....fmus_src.runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
+from ...runtime.flight.instructions import write_renewal
+from .kind_in_c import file_name
+from .model import ChoiceProgram, SystemModel, starts_of
+from .statements import Statements, quoted
+from .variables import FmuVariable, Variables
+from .variables_in_c import write_parameters, write_signals, write_starts, write_struct, write_tables
+
+HEADER = """\
+/* {name}: {about}
+ *
+ * A system of {count} components as one FMU, written by Perilune from its description and the C of their FMUs.
+ * Nothing is global: instances are independent of one another and may run in different threads.
+ *
+ * Compile with -std=c99 -O2 -ffp-contract=off -fno-tree-vectorize and link with -lm: then every result has the bits
+ * of the system flown by Perilune. To link several FMUs into one program, define FMI2_FUNCTION_PREFIX={name}_.
+ */
+#include "block_elements.h"
+
+#define SAMPLE_TOLERANCE {sample!r} /* of a sample period */
+#define TIME_TOLERANCE {time!r} /* of the time */
+#define POINT_TOLERANCE {point!r} /* of a step */
+#define SYSTEM_STEP {step} /* s */
+
+#include "sampling.h"
+#include "system_statements.h"
+
+{includes}
+"""
+FOOTER = """\
+#define HAS_FINISHED(component) ((component)->now.block.has_finished)
+
+#include "fmi2_wrapper.c"
+#include "system_steps.h"
+"""
+
+
+def write_system(name: str, about: str, guid: str, model: SystemModel, variables: Variables) -> str:
+    """The file that is compiled, of an FMU with this GUID; it includes the others."""
+    header = HEADER.format(
+        name=name,
+        about=comment(about),
+        count=len(model.network.fmus),
+        sample=SAMPLE_TOLERANCE,
+        time=TIME_TOLERANCE,
+        point=POINT_TOLERANCE,
+        step=literal(model.first.step),
+        includes="\n".join(f'#include "{file_name(source)}"' for source in model.sources),
+    )
+    return "\n".join(
+        [
+            header,
+            write_signals(model),
+            write_struct(model, variables),
+            write_tables(guid, model, variables),
+            write_starts(model, variables),
+            write_parameters(model, variables),
+            *(text for program in model.programs for text in _functions(program, model, variables)),
+            _entry_points(model, variables),
+            FOOTER,
+        ]
+    )
+
+
+def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables) -> list[str]:
+    """The initialisation and the step of one choice."""
+    statements = Statements(program, model.signals)
+    initialise = Lines()
+    initialise.open(f"static void initialize{program.choice.name}(Block *self, Fault *fault)\n{{")
+    initialise.add("double *const s = self->signal;")
+    known = {*variables.parameter_paths, *model.inputs}
+    for name, start in starts_of([program]).items():
+        if name not in known:
+            initialise.add(f"s[{model.signals[name]}] = {literal(start)};")
+    for name, path in variables.parameter_paths.items():
+        if name in program.layout.slots:
+            initialise.add(f"s[{model.signals[name]}] = (double)self->{path};")
+    for line in [
+        *_take_inputs(model, variables),
+        *statements.initialisation(),
+        *_give_outputs(program, model, variables),
+    ]:
+        initialise.add(line)
+    initialise.close("}")
+    step = Lines()
+    step.comment("From one communication point to the next.")
+    step.open(f"static void step{program.choice.name}(Block *self, Fault *fault)\n{{")
+    step.add("double *const s = self->signal;")
+    step.add("const double time = self->start_time + (double)self->point * SYSTEM_STEP;")
+    for line in _take_inputs(model, variables):
+        step.add(line)
+    phases = len(program.program.phases) - 1
+    if phases > 1:
+        step.open(f"switch (self->point % {phases}) {{")
+    for phase in range(phases):
+        if phases > 1:
+            step.open(f"case {phase}:")
+        for line in [*_renewal(statements, phase), *statements.step(phase)]:
+            step.add(line)
+        if phases > 1:
+            step.add("break;")
+            step.depth -= 1
+    if phases > 1:
+        step.close("}")
+    step.add("self->point += 1;")
+    finished = program.program.finished_slot
+    if finished >= 0:
+        step.add(f"self->has_finished = {statements.signal(finished)} != 0.0;")
+    for line in _give_outputs(program, model, variables):
+        step.add(line)
+    step.add("(void)time, (void)fault;")
+    step.close("}")
+    return ["\n".join([*initialise.text, ""]), "\n".join([*step.text, ""])]
+
+
+def _take_inputs(model: SystemModel, variables: Variables) -> list[str]:
+    paths = {each.name: each.path for each in variables.declared}
+    return [
+        f"s[{model.signals[name]}] = (double)self->{paths[name]};" for name in model.inputs if name in model.signals
+    ]
+
+
+def _renewal(statements: Statements, phase: int) -> list[str]:
+    """The system's inputs to the components that step with the inputs of the step's start."""
+    program = statements.choice
+    prepared = program.prepared
+    names = list(prepared.network.fmus)
+    rows = write_renewal(program.instructions, names, prepared.schedule, prepared.algorithm, prepared.periods, phase)
+    return [line for component, each in rows.items() for line in statements.renewal(component, each)]
+
+
+def _give_outputs(program: ChoiceProgram, model: SystemModel, variables: Variables) -> list[str]:
+    lines = []
+    for each in variables.declared:
+        if each.causality in ("output", "local") and each.name in program.layout.slots:
+            signal = f"s[{model.signals[each.name]}]"
+            convert = {"KIND_REAL": signal, "KIND_INTEGER": f"(int64_t){signal}", "KIND_BOOLEAN": f"{signal} != 0.0"}
+            lines.append(f"self->{each.path} = {convert[each.kind]};")
+    return lines
+
+
+def _entry_points(model: SystemModel, variables: Variables) -> str:
+    """What the wrapper calls, for the choice that the slots' parameters make."""
+    slots = [each for each in variables.declared if each.name.endswith(".use") and each.items and each.first_item == 1]
+    lines = Lines()
+    lines.open("static void model_set_start_time(Block *self, double start_time)\n{")
+    lines.add("self->start_time = start_time;")
+    lines.close("}")
+    lines.text.append("")
+    for function, before in (("initialize", True), ("step", False)):
+        lines.open(f"static void model_{function}(Block *self, Fault *fault)\n{{")
+        if before:
+            for slot in slots:
+                why = quoted(f"there is no such candidate; give 1 to {len(slot.items)}")
+                lines.open(f"if (self->{slot.path} < 1 || self->{slot.path} > {len(slot.items)}) {{")
+                lines.add(f"FAIL({quoted(slot.name)}, {why})")
+                lines.close("}")
+            lines.add("pass_parameters(self, fault);")
+            lines.add("if (fault->what != NULL) return;")
+        _dispatch(lines, function, model.programs, slots)
+        lines.close("}")
+        lines.text.append("")
+    return "\n".join(lines.text)
+
+
+def _dispatch(lines: Lines, function: str, programs: Sequence[ChoiceProgram], slots: Sequence[FmuVariable]) -> None:
+    """Call the function of the choice: the last slot's candidates change fastest among the programs."""
+    numbers_of = itertools.product(*(range(1, len(slot.items) + 1) for slot in slots))
+    for program, chosen in zip(programs, numbers_of, strict=True):
+        tests = " && ".join(f"self->{slot.path} == {number}" for slot, number in zip(slots, chosen, strict=True))
+        call = f"{function}{program.choice.name}(self, fault);"
+        lines.add(f"if ({tests}) {call}" if tests else call)

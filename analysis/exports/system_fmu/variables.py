@@ -1,0 +1,205 @@
+"""The variables of a system's FMU: what it declares, and what only its state has."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from ...runtime.fmi.variable import Variable
+from ...runtime.ssp.given_values import ParameterValue, parse_value
+from ...runtime.ssp.kinds import PARAMETERS
+from ...runtime.system.network import Node
+from .choices import parameter_chain
+from .model import Candidate, ChoiceProgram, SystemModel
+
+KINDS = {"Real": "KIND_REAL", "Integer": "KIND_INTEGER", "Enumeration": "KIND_INTEGER", "Boolean": "KIND_BOOLEAN"}
+C_TYPES = {"KIND_REAL": "double", "KIND_INTEGER": "int64_t", "KIND_BOOLEAN": "bool"}
+FAULT_KINDS = ("none", "override", "bias", "freeze")
+
+
+@dataclass(frozen=True)
+class FmuVariable:
+    """A variable as modelDescription.xml declares it; it lies at ``path`` in the system's struct.
+
+    ``causality`` is input, output, parameter or local, ``items`` are those of the Enumeration
+    ``items_name``, counted from ``first_item``. An input of a component that nothing is connected to is a parameter.
+    """
+
+    name: str
+    causality: str
+    type: str
+    path: str
+    description: str
+    start: ParameterValue | None = None
+    unit: str | None = None
+    minimum: str | None = None
+    maximum: str | None = None
+    items: Sequence[str] = ()
+    first_item: int = 1
+    items_name: str = ""
+
+    @property
+    def kind(self) -> str:
+        """KIND_REAL, KIND_INTEGER or KIND_BOOLEAN."""
+        return KINDS[self.type]
+
+    @property
+    def role(self) -> str:
+        """What the wrapper lets be done with it."""
+        return {"input": "ROLE_INPUT", "parameter": "ROLE_PARAMETER"}.get(self.causality, "ROLE_OUTPUT")
+
+    @property
+    def is_member(self) -> bool:
+        """Whether it is a member of the system's struct itself."""
+        return "." not in self.path and "[" not in self.path
+
+
+@dataclass(frozen=True)
+class Passed:
+    """A parameter of a component that connections bring the value of a system's: its path, and the chain of names."""
+
+    path: str
+    kind: str
+    chain: tuple[str, ...]
+
+
+class Variables:
+    """``declared`` are the variables of the FMU, ``passed`` the parameters inside that follow from those of systems,
+    ``parameter_paths`` where these lie, by connector; ``starts`` the values that differ from the blocks' own."""
+
+    def __init__(self, model: SystemModel, defaults: Mapping[str, int], slots: Mapping[str, Sequence[str]]) -> None:
+        self.model = model
+        self.passed: list[Passed] = []
+        self.parameter_paths: dict[str, str] = {}
+        self.starts: dict[str, ParameterValue] = {}
+        self._nodes = {name: node for choice in model.choices for name, node in choice.prepared.network.nodes.items()}
+        self._values = {name: value for each in model.choices for name, value in each.prepared.settings.nodes.items()}
+        system = [*self._inputs(), *self._outputs(), *self._system_parameters()]
+        chosen = [self._slot(name, slots[name], default) for name, default in defaults.items()]
+        inside = [each for program in _by_candidate(model) for each in self._component_parameters(*program)]
+        exposed = [self._exposed(name) for name in model.exposed]
+        self.declared = [*system, *chosen, *inside, *exposed, *self._faults()]
+
+    def _inputs(self) -> Iterator[FmuVariable]:
+        for name in self.model.inputs:
+            node = self._nodes[name]
+            start = _typed(node, self._values.get(name, 0.0))
+            yield self._of_node(node, "input", "input", "input of the system", start)
+
+    def _outputs(self) -> Iterator[FmuVariable]:
+        for name in self.model.outputs:
+            yield self._of_node(self._nodes[name], "output", "output", "output of the system")
+
+    def _system_parameters(self) -> Iterator[FmuVariable]:
+        for name, value in self._values.items():
+            node = self._nodes[name]
+            if node.component is None and node.kind in PARAMETERS and node.type_name != "String":
+                if parameter_chain(self.model.network, self._values, name):
+                    continue  # an outer one has a value
+                variable = self._of_node(node, "parameter", "parameter", "parameter of the system", _typed(node, value))
+                self.parameter_paths[name] = variable.path
+                yield variable
+
+    def _of_node(
+        self, node: Node, causality: str, prefix: str, description: str, start: ParameterValue | None = None
+    ) -> FmuVariable:
+        type_name = _type_of(node)
+        unit = node.unit.name if node.unit and type_name == "Real" else None
+        path = self.model.members.new(f"{prefix}_{node.name}")
+        return FmuVariable(node.name, causality, type_name, path, description, start, unit)
+
+    def _slot(self, name: str, candidates: Sequence[str], default: int) -> FmuVariable:
+        path = self.model.members.new(f"use_{name}")
+        about = f"which candidate is {name}; read at the initialisation"
+        return FmuVariable(
+            f"{name}.use",
+            "parameter",
+            "Enumeration",
+            path,
+            about,
+            default,
+            items=tuple(candidates),
+            items_name=f"{name}.use",
+        )
+
+    def _component_parameters(self, program: ChoiceProgram, candidate: Candidate) -> Iterator[FmuVariable]:
+        network, settings = program.prepared.network, program.prepared.settings
+        for variable in candidate.fmu.variables.values():
+            full, path = f"{candidate.component}.{variable.name}", candidate.path_of(variable.name)
+            given = settings.variables.get((candidate.component, variable.name))
+            if given is not None:
+                self.starts[path] = given
+            if variable.causality == "parameter":
+                chain = parameter_chain(network, settings.nodes, full)
+                if chain:
+                    self.passed.append(Passed(path, candidate.member(variable.name).kind, tuple(chain)))
+                    continue
+            elif variable.causality != "input" or full in network.driver:
+                continue
+            yield FmuVariable(
+                f"{candidate.label}.{variable.name}",
+                "parameter",
+                variable.type,
+                path,
+                variable.description or "",
+                given if given is not None else _start(variable, candidate),
+                variable.unit if variable.type == "Real" else None,
+                variable.minimum,
+                variable.maximum,
+            )
+
+    def _exposed(self, name: str) -> FmuVariable:
+        type_name = self.model.types[name]
+        unit = self.model.units[name] if type_name == "Real" else None
+        path = self.model.members.new(f"local_{name}")
+        return FmuVariable(name, "local", type_name, path, self._describe(name), unit=unit)
+
+    def _describe(self, name: str) -> str:
+        for candidate in self.model.candidates:
+            variable = candidate.fmu.variables.get(name.removeprefix(f"{candidate.component}."))
+            if name.startswith(f"{candidate.component}.") and variable is not None:
+                return variable.description or ""
+        return ""
+
+    def _faults(self) -> Iterator[FmuVariable]:
+        for number, name in enumerate(self.model.faulty):
+            path, unit = f"fault[{number}]", self.model.units[name]
+            about = f"what happens to {name} from here on: none, override by the value, bias by it, or freeze"
+            yield FmuVariable(
+                f"fault.{name}.kind",
+                "input",
+                "Enumeration",
+                f"{path}.kind",
+                about,
+                0,
+                items=FAULT_KINDS,
+                first_item=0,
+                items_name="fault",
+            )
+            is_real = self.model.types[name] == "Real"
+            about = f"of an override or a bias of {name}"
+            yield FmuVariable(
+                f"fault.{name}.value", "input", "Real", f"{path}.value", about, 0.0, unit if is_real else None
+            )
+
+
+def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, Candidate]]:
+    """Each candidate once, with the first choice that has it."""
+    seen: set[str] = set()
+    for program in model.programs:
+        for candidate in program.candidates:
+            if candidate.identifier not in seen:
+                seen.add(candidate.identifier)
+                yield program, candidate
+
+
+def _type_of(node: Node) -> str:
+    return "Integer" if node.type_name == "Enumeration" else node.type_name or "Real"
+
+
+def _typed(node: Node, value: float | str) -> ParameterValue:
+    return {"Real": float, "Integer": int, "Boolean": bool}[_type_of(node)](value)
+
+
+def _start(variable: Variable, candidate: Candidate) -> ParameterValue:
+    return parse_value(variable.start_text, variable.type, candidate.fmu.label, variable.name)

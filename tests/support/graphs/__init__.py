@@ -1,0 +1,1 @@
+"""Systems drawn at random from small blocks."""
