@@ -19,10 +19,11 @@ from pathlib import Path
 from .fat_binary import fat_binary
 
 # -O3 for what it does to calls and branches. -fno-tree-vectorize for bits: GCC's vectoriser fuses a difference next to
-# a sum with their products even under -ffp-contract=off (`kernel_self_test.h`). It costs no speed: vectors of
-# doubles of our loops, of three or nine passes, cost more than they save.
+# a sum with their products even under -ffp-contract=off (`kernel_self_test.h`). It costs no speed: vectors of doubles
+# of our loops, of three or nine passes, cost more than they save. Without errno a square root is one instruction.
 SOURCE_OPTIONS = ("-std=c99", "-O2", "-ffp-contract=off", "-fno-tree-vectorize")  # for whoever compiles sources/
-FLAGS = ("-O3", "-fno-tree-vectorize", "-std=c99", "-ffp-contract=off", "-fPIC", "-shared", "-s")
+FLAGS = ("-O3", "-fno-tree-vectorize", "-fno-math-errno", "-std=c99", "-ffp-contract=off", "-fPIC", "-shared", "-s")
+FOR_THIS_PROCESSOR = "-march=native"  # its libraries run nowhere else
 
 
 class CompilerMissing(RuntimeError):  # noqa: N818
@@ -124,6 +125,15 @@ def _identity(command: tuple[str, ...]) -> str:
     return " ".join(command[1:] if command[0] == sys.executable else command) + version
 
 
+@cache
+def _processor(command: tuple[str, ...]) -> str:
+    """What a compiler takes this processor for, as part of the cache's key: the cache may be shared."""
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "empty.c").touch()
+        macros = [*command, FOR_THIS_PROCESSOR, "-dM", "-E", "empty.c"]
+        return subprocess.run(macros, capture_output=True, text=True, check=False, cwd=folder).stdout
+
+
 def build_library(
     sources: Mapping[str, bytes], main: str, platform: str, cache: Path, *, portable: bool = False
 ) -> bytes:
@@ -150,7 +160,8 @@ def library_files(
     extension = PLATFORMS[platform].extension
     files = []
     for command in commands:
-        digest = hashlib.sha256("\0".join([_identity(tuple(command)), *flags, main]).encode())
+        identity = _identity(tuple(command)) + (_processor(tuple(command)) if FOR_THIS_PROCESSOR in flags else "")
+        digest = hashlib.sha256("\0".join([identity, *flags, main]).encode())
         for name in sorted(sources):
             digest.update(b"\0" + name.encode() + b"\0" + hashlib.sha256(sources[name]).digest())
         cached = cache / f"{digest.hexdigest()[:32]}{extension}"

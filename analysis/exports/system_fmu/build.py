@@ -22,6 +22,7 @@ from .kind_in_c import file_name, write_kind
 from .model import SystemModel
 from .page import PAGE, README, system_page, system_readme
 from .parameter_sets import OtherSets, other_parameter_sets
+from .reference import find_choice, record_reference
 from .request import OneFmu
 from .system_in_c import write_system
 from .variables import FmuVariable, Variables
@@ -57,7 +58,8 @@ def build_system_fmu(
         library = build_library(sources, f"{name}.c", platform, CACHE, portable=portable)
         files[f"binaries/{platform}/{name}{PLATFORMS[platform].extension}"] = library
     page = Related(PAGE, "document", "text/html", "what the system is, its variables, how to fly it")
-    write_zip(path, add_manifest(files, [page]))
+    reference, related = record_reference(name, find_choice(model, defaults), variables.declared)
+    write_zip(path, add_manifest({**files, **reference}, [page, *related]))
     note_own(path)
 
 

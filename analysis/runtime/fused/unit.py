@@ -12,6 +12,7 @@ from .component_code import ComponentCode
 from .statements import INSTANCE_POINTER, Instruction, Statements
 
 ENTRY = "perilune_fly"
+SELF_TEST = "perilune_check_arithmetic"
 OUTCOMES = ("FAILED", "NONFINITE", "UNMAPPED", "TOO_LONG", "FMI_WARNING", "STOP_TIME", "FINISHED", "INTERRUPTED")
 EXPORT = """\
 #if defined(_WIN32)
@@ -19,6 +20,13 @@ EXPORT = """\
 #else
 #define UNIT_EXPORT __attribute__((visibility("default")))
 #endif
+"""
+CHECK = """\
+/* What is wrong with the arithmetic of the compiled unit; NULL: nothing. */
+UNIT_EXPORT const char *{name}(void)
+{{
+    return {prefix}check_arithmetic();
+}}
 """
 FLY = """\
 /* Fly from communication point to communication point; returns the number of rows in the record. */
@@ -87,6 +95,7 @@ def write_unit(program: arrays.Program, recorded: Iterable[int], components: Map
             *(kind.text for kind in kinds.values()),
             *numbers,
             files(__package__).joinpath("outcomes.h").read_text(),
+            CHECK.format(name=SELF_TEST, prefix=next(iter(kinds))),
             fly,
         ]
     )

@@ -202,14 +202,24 @@ def _text(message: bytes) -> str:
 
 def _make_callbacks() -> fmi2.fmi2CallbackFunctions:
     callbacks = fmi2.fmi2CallbackFunctions()
-    callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(_log)
+    callbacks.logger = _logger
     callbacks.allocateMemory = fmi2.defaultCallbacks.allocateMemory
     callbacks.freeMemory = fmi2.defaultCallbacks.freeMemory
     return callbacks
 
 
-_callbacks = _make_callbacks()
-addLoggerProxy(ctypes.byref(_callbacks))  # messages are formats of printf (FMI 2.0), whose arguments may be missing
+def _make_formatting_callbacks() -> fmi2.fmi2CallbackFunctions:
+    """Messages are formats of printf (FMI 2.0), whose arguments may be missing.
+
+    FMPy's library that fills them in has one logger in a process, the last one that it was given: FMPy's own is given
+    to it wherever FMPy simulates.
+    """
+    callbacks = _make_callbacks()
+    addLoggerProxy(ctypes.byref(callbacks))
+    return callbacks
+
+
+_logger = fmi2.fmi2CallbackLoggerTYPE(_log)
 _plain_callbacks = _make_callbacks()
 _fmi3_callback = fmi3.fmi3LogMessageCallback(_log_of_fmi3)  # whose messages are plain
 _formats = True
@@ -247,7 +257,8 @@ def instantiate(fmu: Fmu, name: str, log: Log | None = None, *, uses_events: boo
             _environments[number] = _logs[unique]
             slave.begin(number, _fmi3_callback, uses_events=uses_events)
         else:
-            slave.instantiate(callbacks=_callbacks if _formats else _plain_callbacks, loggingOn=True)
+            callbacks = _make_formatting_callbacks() if _formats else _plain_callbacks
+            slave.instantiate(callbacks=callbacks, loggingOn=True)
         if log is not None and log.everything:
             slave.setDebugLogging(True, [])  # no categories named: all of them
     except Exception as error:  # fmpy raises bare Exception when the library does not load or instantiate

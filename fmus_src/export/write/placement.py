@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 
 from ..judge.kernel import Function, body_of, targets_of
+from ..judge.statements import UNUSED
 
 Path = tuple[tuple[int, int], ...]  # (block, position in it) from the function's body inwards
 
@@ -20,6 +21,7 @@ class Placement:
         self.with_value: dict[ast.stmt, set[str]] = {}
         self.before: dict[ast.stmt, list[str]] = {}
         self.plain_loops: set[ast.For] = set()
+        self._unused: set[str] = set()  # locals that no statement reads
         self._function = function
         self._blocks: dict[int, list[ast.stmt]] = {}
         self._uses: dict[str, list[Path]] = {}
@@ -27,7 +29,7 @@ class Placement:
         self._plain_loops(function.source.node)
         self._collect(body, ())
         for name in function.locals:
-            if name in self._uses:
+            if name in self._uses and name not in self._unused:
                 self._place(name, self._uses[name])
 
     def declares(self, node: ast.stmt, name: str) -> bool:
@@ -46,7 +48,10 @@ class Placement:
             reads = {part for part in ast.walk(root) if _is_use(part, name, ast.Load)}
             stores = {part for part in ast.walk(root) if _is_use(part, name, ast.Store)}
             nested = any(_is_use(part, name, ast.Store) for part in inside)
-            if reads <= set(inside) and stores == {loop.target for loop in same_target} and not nested:
+            if name == UNUSED and not reads:
+                self.plain_loops |= set(same_target)
+                self._unused.add(name)
+            elif reads <= set(inside) and stores == {loop.target for loop in same_target} and not nested:
                 self.plain_loops |= set(same_target)
 
     def _collect(self, statements: list[ast.stmt], outer: Path) -> None:

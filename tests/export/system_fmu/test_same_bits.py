@@ -24,7 +24,7 @@ from tests.support.lengths import either
 STEP = 0.25  # s, of the small systems
 
 
-@settings(max_examples=either(1000, 12), deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=either(200, 12), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(graph=graphs())
 def test_random_graphs(tiny_folder, tmp_path_factory, graph):
     """Faults are inputs: set before the step that ends in their window, they hold for what is exchanged at its end."""

@@ -52,7 +52,7 @@ def test_a_flight_is_that_of_fmis_calls(monkeypatch, system, options, faults):
         simulation.set_faults(faults)
         assert in_memory(simulation) > 0
         by_memory = simulation.fly({})
-        monkeypatch.setattr(Instance, "place", lambda *_, **__: 0)
+        monkeypatch.setattr(Instance, "locate", lambda *_, **__: 0)
         with Simulation(ready, faults=faults) as plain:
             plain.set_faults(faults)
             assert in_memory(plain) == 0
@@ -107,7 +107,7 @@ def test_an_integer_beyond_32_bits_fails_as_by_fmis_call(monkeypatch, tiny_folde
         assert by_memory.signals["ramp.count"].tolist() == [first, first + 1, first + 2, 2**31 - 1]
         assert (by_memory.status, by_memory.time[-1]) == ("failed", 1.5)
         assert f"count = {2**31} exceeds an FMI Integer's 32 bits" in by_memory.message
-        monkeypatch.setattr(Instance, "place", lambda *_, **__: 0)
+        monkeypatch.setattr(Instance, "locate", lambda *_, **__: 0)
         with Simulation(ready) as plain:
             actual = plain.fly({})
             assert actual.message == by_memory.message

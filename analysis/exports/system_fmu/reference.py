@@ -1,0 +1,62 @@
+"""The reference trajectory inside a system's FMU: the system flown from the FMUs of its components, all bits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from ....fmus_src.evidence.check import TIME
+from ....fmus_src.evidence.experiments import Experiment, write_experiments
+from ....fmus_src.evidence.manifest import CSV, EXPERIMENTS, FOLDER, Related
+from ....fmus_src.evidence.recorded import write_table
+from ...runtime.flight.simulation import Simulation
+from .choices import Choice
+from .model import SystemModel
+from .variables import FmuVariable
+
+MOST_ROWS = 500
+OUTPUTS, EXPERIMENT = "outputs.csv", "outputs.exp"
+
+
+def find_choice(model: SystemModel, defaults: Mapping[str, int]) -> Choice:
+    """The choice that flies where nobody chooses; ``defaults`` are candidates by slot, counted from 1."""
+    names = {slot: list(dict.fromkeys(each.candidates[slot] for each in model.choices)) for slot in defaults}
+    wanted = {slot: names[slot][number - 1] for slot, number in defaults.items()}
+    return next(choice for choice in model.choices if choice.candidates == wanted)
+
+
+def record_reference(name: str, choice: Choice, declared: list[FmuVariable]) -> tuple[dict[str, bytes], list[Related]]:
+    """Outputs and exposed signals with all parameters and inputs at their starts; nothing of a system without any."""
+    visible = [each.name for each in declared if each.causality in ("output", "local")]
+    prepared = choice.prepared
+    every = max(1, math.ceil(prepared.steps / MOST_ROWS))
+    with Simulation(prepared, wanted=visible) as simulation:
+        flight = simulation.advance(-1, prepared.steps, every=every)
+        signals = [each for each in visible if each in flight.signals]
+        columns = [flight.time.tolist(), *(flight.signals[each].tolist() for each in signals)]
+    if not signals or not columns[0]:
+        return {}, []
+    types = {each.name: each.type for each in declared}
+    texts = [[_text(number, "Real") for number in columns[0]]]
+    texts += [
+        [_text(number, types[each]) for number in column] for each, column in zip(signals, columns[1:], strict=True)
+    ]
+    experiment = Experiment(
+        "outputs",
+        "outputs and exposed signals of the system flown from the FMUs of its components, bit by bit",
+        (columns[0][0], columns[0][-1]),
+        prepared.step,
+        OUTPUTS,
+    )
+    files = {
+        f"{FOLDER}/{OUTPUTS}": write_table([TIME, *signals], zip(*texts, strict=True)),
+        f"{FOLDER}/{EXPERIMENT}": write_experiments(name, [experiment]),
+    }
+    return files, [
+        Related(f"{FOLDER}/{OUTPUTS}", "result", CSV, experiment.description),
+        Related(f"{FOLDER}/{EXPERIMENT}", "experiment/validation", EXPERIMENTS, "how to reproduce the trajectory"),
+    ]
+
+
+def _text(number: float, type_name: str) -> str:
+    return repr(number) if type_name == "Real" else str(int(number))
