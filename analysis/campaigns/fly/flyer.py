@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 import warnings
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -18,6 +19,7 @@ from ..spec.checks import VariantNames, variant_names
 from ..spec.plan import BatchPlan, DrawnTrials
 from ..trials import Trials
 from .evaluation import Judge
+from .fusing import Fusing
 
 AROUND = 4096  # trials whose draws are read together
 
@@ -46,6 +48,7 @@ class Flyer:
         self._ready: dict[str, tuple[BaseSimulation, VariantNames]] = {}
         self._logs: dict[str, Log] = {}
         self._warned: set[str] = set()  # variants
+        self._fusing = Fusing(plan)
         self.halted = False
 
     def simulation(self, variant: str) -> tuple[BaseSimulation, VariantNames]:
@@ -111,7 +114,11 @@ class Flyer:
             sampled = self.values_for(flown)
             if size:
                 following = range(flown, min(flown + size, trials.stop, sampled.numbers.stop))
-                group = simulation.fly_group(sampled.flights(simulation.prepared, following))
+                table = sampled.flights(simulation.prepared, following)
+                begun = time.perf_counter()
+                group = simulation.fly_group(table)
+                seconds = time.perf_counter() - begun
+                self._fusing.consider(variant, simulation, following[: len(group.statuses)], seconds)
             else:
                 group = self._fly_next(variant, flown, trials)
             numbers = range(flown, flown + len(group.statuses))

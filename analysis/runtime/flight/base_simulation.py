@@ -97,6 +97,10 @@ class BaseSimulation(ABC):
         """
         raise NotImplementedError(f"{type(self).__name__} has flights one at a time")
 
+    def fuse(self) -> None:
+        """Fly from now on with steps compiled as one function, as `FUSED` does, where the system allows it."""
+        return
+
     @abstractmethod
     def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
         """Say what flies behind what was announced before, two flights at most: `run` takes as long as ever, or less.

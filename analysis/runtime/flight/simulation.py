@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Unpack
 
 import numpy as np
 
 from ...common.collection import no_collection
-from ..fused.fuse import fuse
+from ..fused.fuse import can_fuse, fuse
 from ..instances.instance import Instance, instantiate
 from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
@@ -81,6 +82,12 @@ class Simulation(BaseSimulation):
         if prepared.options.flavour == FUSED:
             fused = fuse(self.instances, self.program, self._recorded.tolist())
         return Loops(locked=not prepared.is_native, with_fmi3=prepared.has_fmi3, fused=fused)
+
+    def fuse(self) -> None:
+        """See `BaseSimulation.fuse`. Raises InputError where the compiler refuses the steps, or changes results."""
+        if self.loops.fused is None and can_fuse(self.prepared, self.program):
+            self.prepared = replace(self.prepared, options=replace(self.prepared.options, flavour=FUSED))
+            self.loops = self._make_loops()
 
     def ignore_finished(self) -> None:
         """Let the flights that follow go on behind the system's own end."""

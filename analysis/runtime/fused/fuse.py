@@ -14,6 +14,7 @@ from ....fmus_src.export.compilers import (
     FOR_THIS_PROCESSOR,
     CompilationFailed,
     CompilerMissing,
+    available_platforms,
     library_files,
     local_platform,
 )
@@ -23,6 +24,7 @@ from ..flight.compiled import arrays
 from ..flight.compiled.frame import REALS, WORDS
 from ..instances.instance import PLACED, Instance
 from ..system.fmu import Fmu
+from ..system.prepared import PreparedSystem
 from .component_code import ComponentCode, component_code
 from .unit import ENTRY, SELF_TEST, write_unit
 
@@ -31,6 +33,16 @@ FILE = "fused.c"
 FLAGS = (*FMU_FLAGS, FOR_THIS_PROCESSOR)
 MOST_CODES = 64  # of FMUs, that are kept
 MOST_INSTRUCTIONS = 20_000  # a minute of compilation
+
+
+def can_fuse(prepared: PreparedSystem, program: arrays.Program) -> bool:
+    """Whether the FMUs are all ours, native and of FMI 2.0, the steps compile in a minute, and a compiler is here."""
+    ours = all(fmu.is_own and fmu.is_native and fmu.version == 2 for fmu in prepared.network.fmus.values())
+    return ours and _instructions_in(program) <= MOST_INSTRUCTIONS and local_platform() in available_platforms()
+
+
+def _instructions_in(program: arrays.Program) -> int:
+    return int(program.phases[-1] - program.phases[0])
 
 
 def fuse(instances: Mapping[str, Instance], program: arrays.Program, recorded: Iterable[int]) -> arrays.Fused:
@@ -44,9 +56,10 @@ def fuse(instances: Mapping[str, Instance], program: arrays.Program, recorded: I
     if not components:
         problem = "the system has no native FMU of Perilune, whose C could be fused"
         raise InputError("`flavour`", "fused", problem, "leave `flavour` out")
-    phases = program.phases.tolist()
-    if phases[-1] - phases[0] > MOST_INSTRUCTIONS:
-        problem = f"the steps repeat after {len(phases) - 1} communication steps only, too many to be one function"
+    if _instructions_in(program) > MOST_INSTRUCTIONS:
+        problem = (
+            f"the steps repeat after {len(program.phases) - 1} communication steps only, too many to be one function"
+        )
         raise InputError("`flavour`", "fused", problem, "fly it `native`")
     library = _load(_compile(write_unit(program, recorded, components)))
     _check_arithmetic(library)
