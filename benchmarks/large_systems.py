@@ -2,9 +2,10 @@
 
     python -m benchmarks.large_systems [COMPONENTS ...]
 
-Three tables: ten FMUs of ours, each size in a process that reads, checks and orders the system, instantiates its FMUs
-and flies one step; one foreign FMU, with the whole command `perilune run` and what a component adds to the smallest
-ring; a foreign FMU of 10^5 variables, with the whole commands `run` and `validate`.
+Four tables: a step of rings of ten FMUs of ours, interpreted and fused; the same FMUs, each size in a process that
+reads, checks and orders the system, instantiates its FMUs and flies one step; one foreign FMU, with the whole command
+`perilune run` and what a component adds to the smallest ring; a foreign FMU of 10^5 variables, with the whole commands
+`run` and `validate`.
 """
 
 from __future__ import annotations
@@ -16,9 +17,14 @@ import tempfile
 import time
 from pathlib import Path
 
+from perilune.analysis.runtime.flight.simulation import Simulation
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.large_systems import WIDTH, build_mixers, foreign_mixer, large_system, wide_fmu
 
 SIZES = (1250, 2500, 5000, 10_000)
+STEPPED_SIZES = (11, 30, 100, 300)
+STEPS, ROUNDS = 1000, 7
 FOREIGN_SIZES = (1000, 3000, 10_000)
 VARIABLES = 100_000
 MEASURED = """
@@ -45,6 +51,7 @@ def main(sizes: list[int], foreign_sizes: list[int]) -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         build_mixers(folder)
+        _print_steps(folder)
         _print_foreign(folder, foreign_sizes)
         _print_wide(folder)
         print("| components | connections | read and checked, s | instantiated, s | whole process, s | MB |")
@@ -59,6 +66,31 @@ def main(sizes: list[int], foreign_sizes: list[int]) -> None:
             _, checked, started, memory = json.loads(done.stdout.splitlines()[-1])
             row = f"| {count} | {count * WIDTH} | {checked:.2f} | {started:.2f} | {whole:.2f} | {memory:.0f} |"
             print(row, flush=True)
+
+
+def _print_steps(folder: Path) -> None:
+    """Time of a step (us), and of compiling it (s)."""
+    print("| components | native, us a step | fused, us a step | compiled in, s |")
+    print("|---|---|---|---|")
+    for count in STEPPED_SIZES:
+        system = large_system(folder / f"stepped_{count}", folder / "native", count)
+        row = []
+        for flavour in ("native", "fused"):
+            prepared = prepare_system(system, SystemOptions(step=0.1, stop_time=0.1 * ROUNDS * STEPS, flavour=flavour))
+            begin = time.perf_counter()
+            with Simulation(prepared, wanted=()) as simulation:
+                compiled = time.perf_counter() - begin
+                simulation.advance(-1, 0)
+                row.append(1e6 * min(_seconds(simulation, first) for first in range(0, ROUNDS * STEPS, STEPS)) / STEPS)
+        print(f"| {count} | {row[0]:.2f} | {row[1]:.2f} | {compiled:.1f} |", flush=True)
+    print()
+
+
+def _seconds(simulation: Simulation, first: int) -> float:
+    begin = time.perf_counter()
+    flight = simulation.advance(first, first + STEPS, every=STEPS)
+    assert flight.complete, flight.message
+    return time.perf_counter() - begin
 
 
 def _print_foreign(folder: Path, sizes: list[int]) -> None:

@@ -2,7 +2,8 @@
 
 The same loop flies them all, in this process: the system from its FMUs (native), with steps compiled as one function
 (fused), as the one FMU of `perilune export --as-fmu`, and as the container FMU that the FMU Manipulation Toolbox makes
-of its .ssp. They take turns; the shortest flight counts.
+of its .ssp. They take turns; the shortest flight counts. The toolbox takes no parameter sets, so that its
+systems fly otherwise.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import perilune
 from perilune.analysis.exports.system_fmu.build import build_system_fmu
 from perilune.analysis.exports.system_fmu.request import OneFmu
 from perilune.analysis.runtime.flight.simulation import Simulation
@@ -63,11 +65,9 @@ def _with_system(folder: Path, name: str) -> Path:
     return folder
 
 
-def timed(prepared: PreparedSystem) -> Callable[[], float]:
-    """What flies once and returns the time of a step (us)."""
+def timed(prepared: PreparedSystem, steps: int) -> Callable[[], float]:
+    """What flies so many steps once, and returns the time of one (us)."""
     simulation = Simulation(prepared, wanted=())
-    simulation.ignore_finished()
-    steps = min(STEPS, prepared.steps) if prepared.steps > 1 else STEPS
 
     def fly() -> float:
         simulation.advance(-1, 0, every=steps)
@@ -91,7 +91,10 @@ def main() -> None:
                 "one FMU": one_fmu(name, folder),
                 "container": container(name, folder),
             }
-            flights = {form: timed(prepared) for form, prepared in forms.items() if prepared is not None}
+            steps = min(
+                STEPS, perilune.simulate(name).time.size - 2
+            )  # until its end, behind which one FMU does nothing
+            flights = {form: timed(prepared, steps) for form, prepared in forms.items() if prepared is not None}
             best = dict.fromkeys(flights, float("inf"))
             for _ in range(REPEATS):
                 for form, fly in flights.items():

@@ -15,6 +15,7 @@ from perilune.fmus_src.export.write.names import literal, member
 from perilune.fmus_src.export.write.translate import FOOTER, translate
 
 WRAPPER = FOOTER.format(fmi=2)
+BLOCK = re.compile(r"^typedef (\w+) Block;", re.MULTILINE)
 STRUCT = re.compile(r"^typedef struct (\w+) \{\n.*?^\} \1;\n", re.DOTALL | re.MULTILINE)
 
 # What instance.h does, for one instance and without what an importer may do wrong.
@@ -62,12 +63,13 @@ const char *{instance}_step(double t, double h)
 
 @dataclass(frozen=True)
 class Part:
-    """A component in C: ``instance`` names its struct, ``members`` the place of each variable in it."""
+    """A component in C: ``instance`` names its struct, ``members`` the place of each variable in it, ``structs`` those
+    that its type is made of, by name."""
 
     component: str
     instance: str
     type_name: str
-    struct: str
+    structs: Mapping[str, str]
     members: Mapping[str, str]
     unit: str
 
@@ -85,13 +87,15 @@ def write_part(
     block_class = blocks[fmu.name]
     _check_sources(component, fmu, block_class)
     text = translate(block_class, fmu.description.guid)
-    struct = STRUCT.search(text)
-    assert struct is not None
+    block = BLOCK.search(text)
+    assert block is not None
+    structs = {struct[1]: struct[0] for struct in STRUCT.finditer(text)}
+    needed = list(structs)[: list(structs).index(block[1]) + 1]  # matrices and records come first
     assert text.endswith(WRAPPER)
     instance = f"c{number}_{re.sub(r'[^0-9A-Za-z_]', '_', component)}"
     members = {element: member for elements in _members(block_class).values() for element, member in elements.items()}
     life_cycle = LIFE_CYCLE.format(
-        type=struct[1],
+        type=block[1],
         instance=instance,
         parameters="".join(
             f"    {instance}.{members[name]} = {literal(value)};\n"  # type: ignore[arg-type]
@@ -104,7 +108,14 @@ def write_part(
             if isinstance(block_class.variables[variable], State | Output)
         ),
     )
-    return Part(component, instance, struct[1], struct[0], members, text.removesuffix(WRAPPER) + life_cycle)
+    return Part(
+        component,
+        instance,
+        block[1],
+        {each: structs[each] for each in needed},
+        members,
+        text.removesuffix(WRAPPER) + life_cycle,
+    )
 
 
 def _check_sources(component: str, fmu: Fmu, block_class: type[Block]) -> None:

@@ -82,7 +82,8 @@ def _parts(course: Course, blocks: Mapping[str, type[Block]]) -> list[Part]:
     for number, (component, fmu) in enumerate(course.prepared.network.fmus.items()):
         mine = {name: value for (owner, name), value in course.settings().items() if owner == component}
         part = write_part(component, number, fmu, blocks, mine)
-        if types.setdefault(part.type_name, part.struct) != part.struct:
-            raise Unavailable(f"{component}: another block's class is called {part.type_name}, too")
+        for name, struct in part.structs.items():
+            if types.setdefault(name, struct) != struct:
+                raise Unavailable(f"{component}: another block has a struct {name}, too")
         parts.append(part)
     return parts

@@ -63,7 +63,8 @@ class _Writer:
         )
 
     def _declarations(self) -> list[str]:
-        lines = [f"{struct}\n" for struct in dict.fromkeys(part.struct for part in self.parts.values())]
+        structs = [struct for part in self.parts.values() for struct in part.structs.values()]
+        lines = [f"{struct}\n" for struct in dict.fromkeys(structs)]
         for part in self.parts.values():
             lines.append(f"extern {part.type_name} {part.instance};\n")
             lines.append(f"void {part.instance}_restart(double start_time);\n")
