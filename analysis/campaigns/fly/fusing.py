@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import threading
+import warnings
 
+from ...common.errors import InputError
 from ...runtime.flight.base_simulation import BaseSimulation
 from ..spec.plan import BatchPlan
 
@@ -27,7 +29,7 @@ class Fusing:
     def consider(self, variant: str, simulation: BaseSimulation, last: range, seconds: float) -> None:
         """Compile the steps of a variant whose trials ``last`` have taken so long (s), if those left save enough.
 
-        Raises InputError where the compiler refuses them.
+        Warns where the compiler refuses them; then trials are simulated as before.
         """
         if not self._is_open or variant in self._decided:
             return
@@ -38,5 +40,7 @@ class Fusing:
             try:
                 self._decided.add(variant)
                 simulation.fuse()
+            except InputError as error:
+                warnings.warn(f"{variant}: steps are not compiled: {error.problem}", stacklevel=2)
             finally:
                 _compiling.release()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from importlib.metadata import version
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from ....fmus_src.evidence.manifest import Related, add_manifest
 from ....fmus_src.export.archive import content_guid, write_zip
@@ -120,7 +120,10 @@ def _check_names(declared: Sequence[FmuVariable], file: str) -> None:
 
 
 def _model_identifier(system: str, model: SystemModel) -> str:
-    """The name of a system's FMU, one of C that no component has."""
+    """The name of a system's FMU, one of C that no component and no file beside it has."""
     name = re.sub(r"\W", "_", system, flags=re.ASCII)
     name = name if not name[:1].isdigit() else f"fmu_{name}"
-    return f"{name}_system" if f"{name}_" in {source.prefix for source in model.sources} else name
+    used = {source.prefix.removesuffix("_") for source in model.sources} | {
+        PurePath(file).stem for file in read_wrapper(2, "system")
+    }
+    return f"{name}_system" if name in used else name

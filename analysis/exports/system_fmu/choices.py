@@ -66,15 +66,15 @@ class Preparation:
         options = self.options
         changed = replace(options, use={**options.use, **use}, parameters=(*options.parameters, *more))
         prepared = prepare_system(self.archive, replace(changed, open_inputs="start"), self._loaded)
-        open_inputs = [
-            node.name for node in _system_inputs(prepared.network) if node.name not in prepared.settings.nodes
-        ]
-        if open_inputs:  # with a value they are connectors whose value is known, and remain connected
-            starts = {"Boolean": False, "Integer": 0, "Enumeration": 0}
-            kinds = {name: prepared.network.nodes[name].type_name or "Real" for name in open_inputs}
-            values = {**{name: starts.get(kind, 0.0) for name, kind in kinds.items()}, **changed.set}
-            changed = replace(changed, set=values)
-        prepared = prepare_system(self.archive, changed, self._loaded)
+        inputs = system_connectors(prepared.network, "input")
+        starts = {"Boolean": False, "Integer": 0, "Enumeration": 0}
+        values = {
+            name: starts.get(prepared.network.nodes[name].type_name or "", 0.0)
+            for name in inputs
+            if name not in prepared.settings.nodes
+        }
+        # With a value inputs are connectors whose value is known, and remain connected.
+        prepared = prepare_system(self.archive, replace(changed, set={**values, **changed.set}), self._loaded)
         return Choice({slot: candidate_name(fmu) for slot, fmu in use.items()}, prepared)
 
 
@@ -83,17 +83,9 @@ def candidate_name(use: str) -> str:
     return Path(use).stem if names_fmu(use) else use
 
 
-def system_inputs(network: Network) -> list[str]:
-    """The inputs of the system itself."""
-    return [node.name for node in _system_inputs(network)]
-
-
-def _system_inputs(network: Network) -> list:
-    return [
-        node
-        for node in network.nodes.values()
-        if node.component is None and node.kind == "input" and node.name not in network.driver
-    ]
+def system_connectors(network: Network, kind: str) -> list[str]:
+    """The connectors of the system itself that are of this kind."""
+    return [name for name, connector in network.description.system.connectors.items() if connector.kind == kind]
 
 
 def _check(prepared: PreparedSystem) -> None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...runtime.system.network import Network
 from ...runtime.system.prepared import PreparedSystem
+from .choices import system_connectors
 
 
 def find_dependencies(systems: Sequence[PreparedSystem], inputs: Sequence[str]) -> dict[str, list[str]]:
@@ -41,9 +41,4 @@ def _reached(prepared: PreparedSystem, start: str) -> list[str]:
             successors += [f"{node.component}.{output}" for output, given in outputs if node.variable in given]
         queue += [each for each in successors if each not in seen]
         seen.update(successors)
-    return sorted(name for name in seen if _is_output(network, name))
-
-
-def _is_output(network: Network, name: str) -> bool:
-    node = network.nodes.get(name)
-    return node is not None and node.component is None and node.kind == "output" and "." not in name
+    return [name for name in system_connectors(network, "output") if name in seen]

@@ -7,7 +7,9 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import PurePath
 
+from ....fmus_src.export.native_fmu import read_wrapper
 from ....fmus_src.export.write.names import RESERVED
 from ...common.errors import InputError, suggestion
 from ...runtime.flight.compiled import arrays, codes
@@ -20,7 +22,7 @@ from ...runtime.system.checks import changeable
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.network import Network
 from ...runtime.system.prepared import PreparedSystem
-from .choices import Choice, system_inputs
+from .choices import Choice, system_connectors
 from .component_source import ComponentSource, Member, read_component_source
 
 ALWAYS = (float("-inf"), float("inf"))
@@ -91,13 +93,13 @@ class SystemModel:
         self.members = Identifiers({*RESERVED, "point", "start_time", "has_finished", "signal", "frozen", "use"})
         self._candidates: dict[tuple[str, str], Candidate] = {}
         self._sources: dict[str, ComponentSource] = {}
-        self._prefixes = Identifiers()
+        self._prefixes = Identifiers({PurePath(file).stem for file in read_wrapper(2, "system")})
         self.exposed = self._find_exposed(exposed)
         self.faulty = _find_faulty(choices, faulty)
         self.programs = [self._program(choice) for choice in choices]
         signals = dict.fromkeys(name for program in self.programs for name in program.layout.slots)
         self._constants = Identifiers()
-        self.signals = {name: self._constants.new(f"S_{name}").upper() for name in signals}
+        self.signals = {name: self._constants.new(f"S_{name}".upper()) for name in signals}
         self.types = {name: kind for program in self.programs for name, kind in program.layout.types.items()}
         self.units = {name: unit for program in self.programs for name, unit in program.layout.units.items()}
 
@@ -116,17 +118,12 @@ class SystemModel:
     @cached_property
     def inputs(self) -> list[str]:
         """The inputs of the system itself."""
-        return system_inputs(self.network)
+        return system_connectors(self.network, "input")
 
     @cached_property
     def outputs(self) -> list[str]:
         """The outputs of the system itself that have a source."""
-        nodes = self.network.nodes.values()
-        return [
-            node.name
-            for node in nodes
-            if node.component is None and "." not in node.name and node.kind == "output" and node.name in self.signals
-        ]
+        return [name for name in system_connectors(self.network, "output") if name in self.signals]
 
     def _program(self, choice: Choice) -> ChoiceProgram:
         prepared = choice.prepared

@@ -60,7 +60,7 @@ class SystemOptions(TrustOptions, AssemblyOptions, total=False):
         Literal["native", "python", "fused"] | None,
         Option(
             "which build of Perilune's FMUs; fused: native ones, the steps of the system compiled as one function; "
-            "default: native where built"
+            "default: native where built, fused under way in a batch where that pays"
         ),
     ]
     open_inputs: Annotated[

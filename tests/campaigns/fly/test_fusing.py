@@ -59,3 +59,17 @@ def test_nor_without_a_compiler(fused, monkeypatch):
     monkeypatch.setattr(fuse, "available_platforms", list)
     perilune.batch(SYSTEM, CAMPAIGN, **OPTIONS)
     assert not any(fused)
+
+
+def test_a_compiler_that_fails_is_said_once(fused, monkeypatch):
+    """The trials are those without it."""
+    monkeypatch.setattr(fusing, "COMPILATION", 0.0)
+    monkeypatch.setattr(fuse, "FLAGS", (*fuse.FLAGS, "-fno-such-flag"))
+    fuse._compile.cache_clear()
+    options = OPTIONS | {"workers": 1}
+    with pytest.warns(UserWarning, match="steps are not compiled: the compiler refuses its C") as noted:
+        result = perilune.batch(SYSTEM, CAMPAIGN, **options)
+    assert len(noted) == 1
+    assert not any(fused)
+    expected = perilune.batch(SYSTEM, CAMPAIGN, flavour="native", **options)
+    assert repr(result.table().to_pydict()) == repr(expected.table().to_pydict())

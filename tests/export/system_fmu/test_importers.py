@@ -18,8 +18,8 @@ import perilune
 from perilune.fmus_src.export.native_fmu import STANDARD
 from tests.support.builders import component, document, pack, system
 from tests.support.foreign.osp import HEAD, libcosim, simulator
-from tests.support.graphs.system_fmus import build_one, fly_one
 from tests.support.lengths import either
+from tests.support.native.system_fmus import build_one, fly_one
 
 SYSTEM = either("landing_mission", "lunar_landing")
 EXPOSED = ("plant.position", "plant.velocity")

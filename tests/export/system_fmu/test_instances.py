@@ -15,7 +15,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2LastSuccessfulTime, fmi2Terminated
 
 from tests.support.builders import component, connection, document, pack, system
-from tests.support.graphs.system_fmus import Slave, build_one, fly_one
+from tests.support.native.system_fmus import Slave, build_one, fly_one
 
 ROOT = Path(__file__).parents[3]
 STEP = 0.1  # s, of lunar_terminal_guidance
@@ -47,7 +47,7 @@ def test_a_state_goes_on_in_another_process(fmu, tmp_path):
     whole = fly(slave, 200)
     program = (
         "import pickle, sys; from pathlib import Path\n"
-        "from tests.support.graphs.system_fmus import Slave\n"
+        "from tests.support.native.system_fmus import Slave\n"
         "from tests.export.system_fmu.test_instances import fly\n"
         "path, folder, time, state = pickle.load(sys.stdin.buffer)\n"
         "slave = Slave(path, folder)\n"

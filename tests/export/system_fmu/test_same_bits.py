@@ -16,10 +16,12 @@ import perilune
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.fmus_src.export.compilers import local_platform
+from perilune.fmus_src.export.own_blocks import build_own_blocks
 from tests.support.builders import component, connection, document, pack, system
 from tests.support.graphs.small_blocks import graphs
-from tests.support.graphs.system_fmus import Slave, build_one, fly_one
 from tests.support.lengths import either
+from tests.support.native.system_fmus import Slave, build_one, fly_one
 
 STEP = 0.25  # s, of the small systems
 
@@ -165,3 +167,78 @@ def test_direct_dependence_is_declared(one_with_inputs):
     outputs = {each.variable.name: each for each in one_with_inputs.description.outputs}
     named = {name: {each.name for each in unknown.dependencies} for name, unknown in outputs.items()}
     assert named == {"direct": {"u"}, "late": set(), "m": {"n", "b"}, "c": {"n", "b"}}
+
+
+def test_inputs_of_nested_systems(tiny_folder, tmp_path):
+    """Closed form: 3 u, through a system inside."""
+    inner = system(
+        component("gain", "gain", "input u Real m; output y Real m"),
+        connections=connection("u", "gain.u") + connection("gain.y", "y"),
+        declared="input u Real m; output y Real m",
+        name="inner",
+    )
+    ssd = document(
+        system(
+            inner,
+            connections=connection("u", "inner.u") + connection("inner.y", "y"),
+            declared="input u Real m; output y Real m",
+        )
+    )
+    path = pack(tmp_path / "s.ssp", tiny_folder / "native", ssd)
+    slave = Slave(build_one(tmp_path / "one.fmu", path), tmp_path / "one", u=2.0)
+    assert {name for name, each in slave.variables.items() if each.causality == "input"} == {"u"}
+    assert slave.get("y") == 6.0
+    slave.set({"u": -1.5})
+    slave.step(STEP)
+    assert slave.get("y") == -4.5
+
+
+def test_names_that_the_wrapper_has(tmp_path):
+    """Blocks called as files of C beside them, and as words of C."""
+    file = tmp_path / "blocks.py"
+    file.write_text(BLOCKS)
+    build_own_blocks(file, tmp_path / "fmus", ["native"], [local_platform()])
+    ssd = document(
+        system(
+            component("switch", "instance", "output y Real"),
+            component("signal", "sampling", "input u Real; output y Real"),
+            connections=connection("switch.y", "signal.u") + connection("signal.y", "out"),
+            declared="output out Real",
+        )
+    )
+    path = pack(tmp_path / "s.ssp", tmp_path / "fmus" / "native", ssd)
+    slave = Slave(build_one(tmp_path / "one.fmu", path), tmp_path / "one")
+    slave.step(STEP)
+    assert slave.get("out") == 6.0
+
+
+BLOCKS = '''
+"""Blocks with names of the wrapper."""
+
+from perilune import Block, Input, Output
+
+
+class Instance(Block):
+    """y = 3."""
+
+    y = Output(3.0, description="three")
+
+    def initialize(self) -> None:
+        self.y = 3.0
+
+    def step(self, t: float, h: float) -> None:
+        self.y = 3.0
+
+
+class Sampling(Block):
+    """y = 2 u."""
+
+    u = Input(0.0, description="input")
+    y = Output(0.0, direct=True, description="output")
+
+    def initialize(self) -> None:
+        self.y = 2.0 * self.u
+
+    def step(self, t: float, h: float) -> None:
+        self.y = 2.0 * self.u
+'''

@@ -14,16 +14,16 @@ import fmpy
 import pytest
 
 from tests.runtime.fused.test_sanitizers import CAMPAIGNS, find_file
-from tests.support.graphs.system_fmus import build_one
 from tests.support.lengths import LONG
 from tests.support.native.sanitizers import find_compiler
+from tests.support.native.system_fmus import build_one
 
 ROOT = Path(__file__).parents[3]
 FLIGHTS = """
 import sys
 from concurrent.futures import ThreadPoolExecutor
 import numpy as np
-from tests.support.graphs.system_fmus import Slave
+from tests.support.native.system_fmus import Slave
 
 def fly(path, folder):
     slave = Slave(path, folder)
