@@ -49,6 +49,9 @@ def build_system_fmu(
     model = SystemModel(preparation.choices(), request.exposed, request.faulty)
     named = {slot: [choice.candidates[slot] for choice in model.choices] for slot in slots}
     variables = Variables(model, defaults, {slot: list(dict.fromkeys(each)) for slot, each in named.items()})
+    if not variables.declared:
+        problem = "has neither connectors nor parameters, so that its FMU would have no variable"
+        raise InputError(model.network.file, "system", problem, "give `expose` with a signal")
     _check_names(variables.declared, model.network.file)
     name = _model_identifier(archive.name, model)
     others = other_parameter_sets(preparation, variables.declared)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError, suggestion
+from ...runtime.fmi.representations import TEXTS
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.ssp.kinds import PARAMETERS
 from ...runtime.system.fmu import Fmu
@@ -17,19 +18,21 @@ from ...runtime.system.options import SystemOptions
 from ...runtime.system.prepared import PreparedSystem, prepare_system
 
 MOST_CHOICES = 64
+NOT_ONE = "export the system as .ssp"
 
 
 @dataclass(frozen=True)
 class Choice:
-    """A system with one candidate in each slot: ``candidates`` by slot."""
+    """A system with one candidate in each slot: ``candidates`` by slot, ``numbers`` of them among all, from 1."""
 
     candidates: Mapping[str, str]
+    numbers: tuple[int, ...]
     prepared: PreparedSystem
 
     @property
     def name(self) -> str:
         """For functions of C; empty where there is nothing to choose."""
-        return "".join(f"_{candidate}" for candidate in self.candidates.values())
+        return "".join(f"_{number}" for number in self.numbers)
 
 
 class Preparation:
@@ -55,6 +58,10 @@ class Preparation:
         choices = [self.choice(use) for use in self.combinations()]
         for choice in choices:
             _check(choice.prepared)
+        if len({(each.prepared.start, each.prepared.step, each.prepared.steps) for each in choices}) > 1:
+            steps = ", ".join(dict.fromkeys(f"{each.prepared.step:g} s" for each in choices))
+            problem = f"their systems differ in times, with steps of {steps}"
+            raise InputError("`slots`", ", ".join(self.slots), problem, "give `step` and `stop_time`")
         return choices
 
     def combinations(self) -> list[dict[str, str]]:
@@ -64,23 +71,31 @@ class Preparation:
     def choice(self, use: Mapping[str, str], *more: str) -> Choice:
         """The system with these candidates and, behind the chosen ones, ``more`` parameter sets. Raises InputError."""
         options = self.options
-        changed = replace(options, use={**options.use, **use}, parameters=(*options.parameters, *more))
-        prepared = prepare_system(self.archive, replace(changed, open_inputs="start"), self._loaded)
-        inputs = system_connectors(prepared.network, "input")
-        starts = {"Boolean": False, "Integer": 0, "Enumeration": 0}
-        values = {
-            name: starts.get(prepared.network.nodes[name].type_name or "", 0.0)
-            for name in inputs
-            if name not in prepared.settings.nodes
-        }
+        parameters = (*options.parameters, *more)
+        changed = replace(options, use={**options.use, **use}, parameters=parameters, open_inputs="start")
+        prepared = prepare_system(self.archive, changed, self._loaded)
+        network = prepared.network
+        inputs = system_connectors(network, "input")
+        values = {name: _start_of(network, name) for name in inputs if name not in prepared.settings.nodes}
         # With a value inputs are connectors whose value is known, and remain connected.
         prepared = prepare_system(self.archive, replace(changed, set={**values, **changed.set}), self._loaded)
-        return Choice({slot: candidate_name(fmu) for slot, fmu in use.items()}, prepared)
+        numbers = tuple(self.slots[slot].index(fmu) + 1 for slot, fmu in use.items())
+        return Choice({slot: candidate_name(fmu) for slot, fmu in use.items()}, numbers, prepared)
 
 
 def candidate_name(use: str) -> str:
     """The name of a candidate, of a block or of a file."""
     return Path(use).stem if names_fmu(use) else use
+
+
+def _start_of(network: Network, name: str) -> float | bool | str:
+    """The start of an input of the system: nothing, false, or the first item of an enumeration."""
+    node = network.nodes[name]
+    if node.type_name in TEXTS:
+        raise InputError(network.file, node.where, f"a {node.type_name}, which no block has", NOT_ONE)
+    if node.enumeration:
+        return next(iter(node.enumeration))
+    return {"Boolean": False, "Integer": 0}.get(node.type_name or "", 0.0)
 
 
 def system_connectors(network: Network, kind: str) -> list[str]:
@@ -92,7 +107,7 @@ def _check(prepared: PreparedSystem) -> None:
     for component, fmu in prepared.network.fmus.items():
         if not (fmu.is_own and fmu.is_native and fmu.version == 2):
             problem = f"its FMU {fmu.label} is not a native one of Perilune for FMI 2.0, whose C would be needed"
-            raise InputError(prepared.network.file, component, problem, "export the system as .ssp")
+            raise InputError(prepared.network.file, component, problem, NOT_ONE)
 
 
 def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem, options: SystemOptions) -> int:

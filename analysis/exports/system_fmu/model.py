@@ -18,13 +18,15 @@ from ...runtime.flight.orders.injections import Injection
 from ...runtime.flight.orders.rows import Unloaded
 from ...runtime.flight.program import Layout, build_program
 from ...runtime.flight.selection import find_variables
+from ...runtime.fmi.representations import TEXTS
 from ...runtime.system.checks import changeable
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.network import Network
 from ...runtime.system.prepared import PreparedSystem
-from .choices import Choice, system_connectors
+from .choices import NOT_ONE, Choice, system_connectors
 from .component_source import ComponentSource, Member, read_component_source
 
+DEFINE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
 ALWAYS = (float("-inf"), float("inf"))
 
 
@@ -55,7 +57,8 @@ class Identifiers:
 
     def new(self, text: str) -> str:
         """The text as a name, with a number behind it where that is not enough."""
-        name = base = re.sub(r"\W+", "_", text).strip("_")
+        base = re.sub(r"\W+", "_", text, flags=re.ASCII).strip("_") or "x"
+        name = base = f"n_{base}" if base[0].isdigit() else base
         number = 2
         while name in self.used:
             name, number = f"{base}_{number}", number + 1
@@ -90,16 +93,19 @@ class SystemModel:
     def __init__(self, choices: Sequence[Choice], exposed: Sequence[str], faulty: Sequence[str]) -> None:
         self.choices = choices
         self.first = choices[0].prepared
-        self.members = Identifiers({*RESERVED, "point", "start_time", "has_finished", "signal", "frozen", "use"})
+        self.members = Identifiers({*RESERVED, *_macros(), "point", "start_time", "has_finished", "signal", "fault"})
         self._candidates: dict[tuple[str, str], Candidate] = {}
         self._sources: dict[str, ComponentSource] = {}
-        self._prefixes = Identifiers({PurePath(file).stem for file in read_wrapper(2, "system")})
+        self._prefixes = Identifiers({"model", *(PurePath(file).stem for file in read_wrapper(2, "system"))})
         self.exposed = self._find_exposed(exposed)
         self.faulty = _find_faulty(choices, faulty)
         self.programs = [self._program(choice) for choice in choices]
         signals = dict.fromkeys(name for program in self.programs for name in program.layout.slots)
         self._constants = Identifiers()
         self.signals = {name: self._constants.new(f"S_{name}".upper()) for name in signals}
+        for name in self.exposed:
+            if name not in signals:
+                raise InputError("`expose`", name, "no signal of the system", "name a variable as component.variable")
         self.types = {name: kind for program in self.programs for name, kind in program.layout.types.items()}
         self.units = {name: unit for program in self.programs for name, unit in program.layout.units.items()}
 
@@ -123,7 +129,12 @@ class SystemModel:
     @cached_property
     def outputs(self) -> list[str]:
         """The outputs of the system itself that have a source."""
-        return [name for name in system_connectors(self.network, "output") if name in self.signals]
+        names = system_connectors(self.network, "output")
+        for name in names:
+            if self.network.nodes[name].type_name in TEXTS:
+                problem = f"a {self.network.nodes[name].type_name}, which no block has"
+                raise InputError(self.network.file, self.network.nodes[name].where, problem, NOT_ONE)
+        return [name for name in names if name in self.signals]
 
     def _program(self, choice: Choice) -> ChoiceProgram:
         prepared = choice.prepared
@@ -139,7 +150,7 @@ class SystemModel:
         if (component, candidate) not in self._candidates:
             path = f"{component}.{candidate}" if candidate else component
             if fmu.digest not in self._sources:
-                self._sources[fmu.digest] = read_component_source(fmu, self._prefixes.new(fmu.name))
+                self._sources[fmu.digest] = read_component_source(fmu, self._prefixes.new(fmu.name.lower()))
             source = self._sources[fmu.digest]
             self._candidates[component, candidate] = Candidate(component, fmu, source, self.members.new(path), path)
         return self._candidates[component, candidate]
@@ -149,6 +160,10 @@ class SystemModel:
         exposed: dict[str, None] = {}
         for name in names:
             error = None
+            nodes = [choice.prepared.network.nodes.get(name) for choice in self.choices]
+            if any(node is not None and node.component is None and "." in name for node in nodes):
+                exposed[name] = None  # a connector of a system inside
+                continue
             for choice in self.choices:
                 try:
                     exposed |= dict.fromkeys(find_variables(choice.prepared.network, [name], is_alone=False))
@@ -163,10 +178,20 @@ class SystemModel:
 
     def _is_parameter(self, name: str) -> bool:
         return any(
-            name == f"{component}.{variable.name}" and variable.causality == "parameter"
+            name == f"{component}.{variable.name}"
+            and (
+                variable.causality == "parameter" or (variable.causality == "input" and name not in self.network.driver)
+            )
             for component, fmu in self.network.fmus.items()
             for variable in fmu.variables.values()
         )
+
+
+def _macros() -> set[str]:
+    """Names that mean something else to the preprocessor, wherever they stand."""
+    texts = [text.decode() for text in read_wrapper(2, "system").values()]
+    ours = {"SAMPLE_TOLERANCE", "TIME_TOLERANCE", "POINT_TOLERANCE", "SYSTEM_STEP", "MODEL_GUID", "HAS_FINISHED"}
+    return {*ours, *(name for text in texts for name in DEFINE.findall(text))}
 
 
 def _is_known(network: Network, name: str) -> bool:

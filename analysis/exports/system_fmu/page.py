@@ -48,7 +48,7 @@ def system_page(
     body.append(
         _table(["component", "block"], [[candidate.label, candidate.fmu.name] for candidate in model.candidates])
     )
-    body += [builder.H2("How to fly it"), *map(builder.P, _conditions(model, dependencies))]
+    body += [builder.H2("Simulation"), *map(builder.P, _conditions(model, dependencies))]
     if others.files:
         sets = ", ".join(file.removeprefix("resources/") for file in others.files)
         body.append(builder.P(f"resources/ has parameter sets of the system that are not applied: {sets}."))

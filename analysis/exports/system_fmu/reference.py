@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping
 
 from ....fmus_src.evidence.check import TIME
 from ....fmus_src.evidence.experiments import Experiment, write_experiments
 from ....fmus_src.evidence.manifest import CSV, EXPERIMENTS, FOLDER, Related
 from ....fmus_src.evidence.recorded import write_table
-from ...runtime.flight.simulation import Simulation
+from ...runtime.apart.opening import open_simulation
 from .choices import Choice
 from .model import SystemModel
 from .variables import FmuVariable
@@ -30,10 +31,12 @@ def record_reference(name: str, choice: Choice, declared: list[FmuVariable]) -> 
     visible = [each.name for each in declared if each.causality in ("output", "local")]
     prepared = choice.prepared
     every = max(1, math.ceil(prepared.steps / MOST_ROWS))
-    with Simulation(prepared, wanted=visible) as simulation:
+    with open_simulation(prepared, wanted=visible) as simulation:
         flight = simulation.advance(-1, prepared.steps, every=every)
         signals = [each for each in visible if each in flight.signals]
         columns = [flight.time.tolist(), *(flight.signals[each].tolist() for each in signals)]
+    if signals and not columns[0]:
+        warnings.warn(f"no reference trajectory: the system fails at its start: {flight.message}", stacklevel=2)
     if not signals or not columns[0]:
         return {}, []
     types = {each.name: each.type for each in declared}

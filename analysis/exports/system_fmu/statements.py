@@ -63,16 +63,16 @@ class Statements:
         for slot in dict.fromkeys(targets):
             variable = self.choice.names[slot].removeprefix(f"{candidate.component}.")
             if variable in candidate.fmu.variables:
-                lines += [self.injection(number) for number in self._faults_on(slot)]
+                lines += [self.injection(number, "inject_again") for number in self._faults_on(slot)]
                 lines += self.give(candidate, slot)
         return lines
 
     def _faults_on(self, slot: int) -> list[int]:
         return np.flatnonzero(self.choice.program.fault_slot == slot).tolist()
 
-    def injection(self, number: int) -> str:
+    def injection(self, number: int, function: str = "inject") -> str:
         """A fault applied to its signal."""
-        return f"inject(&{self.signal(int(self.choice.program.fault_slot[number]))}, &self->fault[{number}]);"
+        return f"{function}(&{self.signal(int(self.choice.program.fault_slot[number]))}, &self->fault[{number}]);"
 
     def give(self, candidate: Candidate, slot: int) -> list[str]:
         """A signal to the variable of a component at its slot."""

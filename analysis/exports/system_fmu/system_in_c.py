@@ -9,11 +9,13 @@ from ....fmus_src.export.write.layout import Lines
 from ....fmus_src.export.write.names import comment, literal
 from ....fmus_src.runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
 from ...runtime.flight.instructions import write_renewal
+from ...runtime.ssp.kinds import PARAMETERS
+from .choices import parameter_chain
 from .kind_in_c import file_name
 from .model import ChoiceProgram, SystemModel, starts_of
 from .statements import Statements, quoted
 from .variables import FmuVariable, Variables
-from .variables_in_c import write_parameters, write_signals, write_starts, write_struct, write_tables
+from .variables_in_c import pass_along, write_parameters, write_signals, write_starts, write_struct, write_tables
 
 HEADER = """\
 /* {name}: {about}
@@ -77,17 +79,22 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     initialise = Lines()
     initialise.open(f"static void initialize{program.choice.name}(Block *self, Fault *fault)\n{{")
     initialise.add("double *const s = self->signal;")
-    known = {*variables.parameter_paths, *model.inputs}
+    passed = _passed_signals(program, variables)
     for name, start in starts_of([program]).items():
-        if name not in known:
+        if name not in passed and name not in model.inputs:
             initialise.add(f"s[{model.signals[name]}] = {literal(start)};")
-    for name, path in variables.parameter_paths.items():
-        if name in program.layout.slots:
-            initialise.add(f"s[{model.signals[name]}] = (double)self->{path};")
+    for name, chain in passed.items():
+        initialise.open("{")
+        initialise.add(f"double value = (double)self->{variables.parameter_paths[chain[0]]};")
+        for line in pass_along(model, chain):
+            initialise.add(line)
+        initialise.add(f"s[{model.signals[name]}] = value;")
+        initialise.close("}")
     for line in [
+        *_check_faults(model),
         *_take_inputs(model, variables),
         *statements.initialisation(),
-        *_give_outputs(program, model, variables),
+        *_end_step(statements, model, variables),
     ]:
         initialise.add(line)
     initialise.close("}")
@@ -96,7 +103,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     step.open(f"static void step{program.choice.name}(Block *self, Fault *fault)\n{{")
     step.add("double *const s = self->signal;")
     step.add("const double time = self->start_time + (double)self->point * SYSTEM_STEP;")
-    for line in _take_inputs(model, variables):
+    for line in [*_check_faults(model), *_take_inputs(model, variables)]:
         step.add(line)
     phases = len(program.program.phases) - 1
     if phases > 1:
@@ -112,10 +119,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     if phases > 1:
         step.close("}")
     step.add("self->point += 1;")
-    finished = program.program.finished_slot
-    if finished >= 0:
-        step.add(f"self->has_finished = {statements.signal(finished)} != 0.0;")
-    for line in _give_outputs(program, model, variables):
+    for line in _end_step(statements, model, variables):
         step.add(line)
     step.add("(void)time, (void)fault;")
     step.close("}")
@@ -138,8 +142,30 @@ def _renewal(statements: Statements, phase: int) -> list[str]:
     return [line for component, each in rows.items() for line in statements.renewal(component, each)]
 
 
-def _give_outputs(program: ChoiceProgram, model: SystemModel, variables: Variables) -> list[str]:
-    lines = []
+def _passed_signals(program: ChoiceProgram, variables: Variables) -> dict[str, list[str]]:
+    """The parameters of systems that signals come from, each with the chain of connectors that brings its value."""
+    network, values = program.prepared.network, program.prepared.settings.nodes
+    nodes = (network.nodes[name] for name in program.layout.slots if name in network.nodes)
+    names = [node.name for node in nodes if node.component is None and node.kind in PARAMETERS]
+    chains = {name: parameter_chain(network, values, name) or [name] for name in names}
+    return {name: chain for name, chain in chains.items() if chain[0] in variables.parameter_paths}
+
+
+def _check_faults(model: SystemModel) -> list[str]:
+    """Refuse what a fault input cannot be."""
+    kinds = {"Real": "KIND_REAL", "Boolean": "KIND_BOOLEAN"}
+    return [
+        f"CHECK_FAULT(self->fault[{number}], {kinds.get(model.types[name], 'KIND_INTEGER')}, {quoted(f'fault.{name}')})"
+        for number, name in enumerate(model.faulty)
+    ]
+
+
+def _end_step(statements: Statements, model: SystemModel, variables: Variables) -> list[str]:
+    """What a step leaves: whether the system has come to its end, its outputs, the faults that were applied."""
+    program = statements.choice
+    finished = program.program.finished_slot
+    lines = [f"self->has_finished = {statements.signal(finished)} != 0.0;"] if finished >= 0 else []
+    lines += [f"note_fault(&self->fault[{number}]);" for number in range(len(model.faulty))]
     for each in variables.declared:
         if each.causality in ("output", "local") and each.name in program.layout.slots:
             signal = f"s[{model.signals[each.name]}]"

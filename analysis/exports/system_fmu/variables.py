@@ -164,7 +164,9 @@ class Variables:
     def _faults(self) -> Iterator[FmuVariable]:
         for number, name in enumerate(self.model.faulty):
             path, unit = f"fault[{number}]", self.model.units[name]
-            about = f"what happens to {name} from here on: none, override by the value, bias by it, or freeze"
+            about = (
+                f"fault of {name} at the end of the steps that follow: none, override by the value, bias by it, freeze"
+            )
             yield FmuVariable(
                 f"fault.{name}.kind",
                 "input",

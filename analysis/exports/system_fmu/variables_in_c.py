@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ....fmus_src.export.write.layout import Lines
 from ....fmus_src.export.write.names import comment, literal
 from ...runtime.system.network import Link
@@ -34,10 +36,10 @@ def write_struct(model: SystemModel, variables: Variables) -> str:
             about = comment(f"{each.causality}{unit}: {each.name}, {each.description}")
             lines.member(f"{C_TYPES[each.kind]} {each.path};", about)
     for candidate in model.candidates:
-        lines.member(f"{candidate.source.type_name} {candidate.identifier};", f"component {candidate.label}")
+        lines.member(f"{candidate.source.type_name} {candidate.identifier};", comment(f"component {candidate.label}"))
     lines.member("double signal[SIGNAL_COUNT];", "values on their way")
     if model.faulty:
-        lines.member(f"FaultInput fault[{len(model.faulty)}];", f"faults of {', '.join(model.faulty)}")
+        lines.member(f"FaultInput fault[{len(model.faulty)}];", comment(f"faults of {', '.join(model.faulty)}"))
     lines.member("double start_time;", "s")
     lines.member("int64_t point;", "steps since the start")
     lines.member("bool has_finished;", "the system has come to its end: nothing changes any more")
@@ -58,6 +60,8 @@ def _hidden(model: SystemModel, variables: Variables) -> list[tuple[str, str, st
     hidden += [(f"signal {name}", f"signal[{constant}]", "KIND_REAL") for name, constant in model.signals.items()]
     for number, name in enumerate(model.faulty):
         hidden.append((f"{name}, frozen", f"fault[{number}].frozen", "KIND_REAL"))
+        hidden.append((f"{name}, kind of the last step", f"fault[{number}].last_kind", "KIND_INTEGER"))
+        hidden.append((f"{name}, value of the last step", f"fault[{number}].last_value", "KIND_REAL"))
     return [
         *hidden,
         ("start time", "start_time", "KIND_REAL"),
@@ -91,9 +95,7 @@ def write_starts(model: SystemModel, variables: Variables) -> str:
     lines.add("memset(self, 0, sizeof *self);")
     for candidate in model.candidates:
         lines.add(f"self->{candidate.identifier}.block = {candidate.source.prefix}STARTS;")
-    values = {
-        each.path: each.start for each in variables.declared if each.start is not None and "block" not in each.path
-    }
+    values = {each.path: each.start for each in variables.declared if each.start is not None and each.is_member}
     for path, value in {**values, **variables.starts}.items():
         lines.add(f"self->{path} = {literal(value)};")  # type: ignore[arg-type]
     for number in range(len(model.faulty)):
@@ -111,22 +113,27 @@ def write_parameters(model: SystemModel, variables: Variables) -> str:
     for passed in variables.passed:
         lines.open("{")
         lines.add(f"double value = (double)self->{variables.parameter_paths[passed.chain[0]]};")
-        for target in passed.chain[1:]:
-            for line in _pass_on(model, model.network.driver[target]):
-                lines.add(line)
+        for line in pass_along(model, passed.chain):
+            lines.add(line)
         lines.add(f"self->{passed.path} = {_converted(passed)};")
         lines.close("}")
     lines.close("}")
     return "\n".join([*lines.text, ""])
 
 
-def _pass_on(model: SystemModel, link: Link) -> list[str]:
+def pass_along(model: SystemModel, chain: Sequence[str]) -> list[str]:
+    """The ``value`` of a system's parameter, the first of a chain of connectors, to that of the last."""
+    return [
+        line for number, name in enumerate(chain[1:]) for line in _pass_on(model, model.network.driver[name], number)
+    ]
+
+
+def _pass_on(model: SystemModel, link: Link, number: int) -> list[str]:
     transformation = link.transformation
     if transformation.table:
         entries = numbers(model.network, link) + ([(float("nan"), float("nan"))] if transformation.is_partial else [])
-        return ["const double given = value;", *map_value("given", "value", entries, link.source.name)]
-    if (transformation.factor, transformation.offset) == (1.0, 0.0):
-        return []
+        given = f"given_{number}"
+        return [f"const double {given} = value;", *map_value(given, "value", entries, link.source.name)]
     return [f"value = value * {literal(transformation.factor)} + {literal(transformation.offset)};"]
 
 

@@ -19,8 +19,10 @@ LOG_CATEGORIES = {
 }
 
 
-def start_description(name: str, guid: str, description: str, generation_tool: str) -> etree._Element:
-    """The root of a modelDescription.xml of FMI 2.0."""
+def start_description(
+    name: str, guid: str, description: str, generation_tool: str, convention: str = "structured"
+) -> etree._Element:
+    """The root of a modelDescription.xml of FMI 2.0, with the convention that names of variables follow."""
     return etree.Element(
         "fmiModelDescription",
         fmiVersion="2.0",
@@ -28,7 +30,7 @@ def start_description(name: str, guid: str, description: str, generation_tool: s
         guid=guid,
         description=description,
         generationTool=generation_tool,
-        variableNamingConvention="structured",
+        variableNamingConvention=convention,
     )
 
 

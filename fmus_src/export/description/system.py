@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -9,6 +10,8 @@ from lxml import etree
 
 from .common import add_log_categories, define_units, literal, one_line, start_description
 
+NAME = r"[A-Za-z_]\w*(?:\[\d+(?:,\d+)*\])?"
+STRUCTURED = re.compile(rf"{NAME}(?:\.{NAME})*", re.ASCII)  # FMI 2.0.4, 2.2.9, without derivatives and quoted names
 VARIABILITY = {"parameter": "fixed"}  # else by type
 
 
@@ -44,7 +47,8 @@ def system_description(
 
     ``dependencies`` are the inputs that outputs depend on directly, ``experiment`` attributes of DefaultExperiment.
     """
-    root = start_description(name, guid, one_line(description), generation_tool)
+    convention = "structured" if all(STRUCTURED.fullmatch(each.name) for each in variables) else "flat"
+    root = start_description(name, guid, one_line(description), generation_tool, convention)
     simulation = etree.SubElement(
         root,
         "CoSimulation",

@@ -68,10 +68,10 @@ class Slave:
         self.fmu.exitInitializationMode()
 
     def set(self, values: Mapping[str, float]) -> None:
-        for name, value in values.items():
+        for name, number in values.items():
             variable = self.variables[name]
             kind = "Integer" if variable.type == "Enumeration" else variable.type
-            getattr(self.fmu, f"set{kind}")([variable.valueReference], [value])
+            getattr(self.fmu, f"set{kind}")([variable.valueReference], [number])
 
     def get(self, name: str) -> Any:
         variable = self.variables[name]
