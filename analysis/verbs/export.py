@@ -16,7 +16,7 @@ from ...fmus_src.export.own_blocks import defines
 from ..common.errors import InputError, SeveralProblemsError, suggestion
 from ..common.targets import check_file
 from ..exports.block_files import check_there, export_file, find_block_file
-from ..exports.fmus import build_fmu, no_compiler, zig_is_here
+from ..exports.fmus import build_fmu, zig_is_here
 from ..exports.request import ExportRequest, Written
 from ..exports.system_fmu.build import build_system_fmu
 from ..exports.system_fmu.request import OneFmu
@@ -115,7 +115,7 @@ def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
     check_file("`output`", path, (".fmu",))
     platforms = request.platforms or (platforms_of(2) if zig_is_here() else available_platforms())
     if not platforms:
-        raise no_compiler(name, 2)
+        raise InputError("export", name, "needs a C compiler, and there is none", "install cc, or pip install ziglang")
     build_system_fmu(archive, path, one_fmu, platforms, portable=zig_is_here())
     return Written((path,), ("native",), tuple(platforms))
 

@@ -3,6 +3,8 @@
 Truth: the lines, exit status 2 of what is wrong; FMI 2.0's schema; a second build, byte by byte.
 """
 
+import subprocess
+import sys
 import zipfile
 
 import fmpy
@@ -112,6 +114,17 @@ def test_wrong_calls(arguments, capsys, tmp_path, monkeypatch):
 def test_what_is_no_system(capsys):
     assert main(["export", "analytic_guidance", "--as-fmu"]) == 2
     assert "--as-fmu: analytic_guidance: not a system, which alone can be one FMU" in capsys.readouterr().err
+
+
+def test_without_a_compiler(fmus, tmp_path):
+    nothing = "import shutil, importlib.util as u, sys; shutil.which = u.find_spec = lambda *_: None;"
+    call = f"{nothing} from perilune.analysis.cli import main; sys.exit(main(sys.argv[1:]))"
+    arguments = ["export", NAME, "--as-fmu", "--output", str(tmp_path / "one.fmu")]
+    ended = subprocess.run([sys.executable, "-c", call, *arguments], capture_output=True, text=True, check=False)
+    assert ended.returncode == 2
+    problem = "needs a C compiler, and there is none; install cc, or pip install ziglang"
+    assert ended.stderr == f"perilune: export: {NAME}: {problem}\n"
+    assert not (tmp_path / "one.fmu").exists()
 
 
 def test_foreign_and_python_fmus_are_refused(tiny_folder, tmp_path, capsys):
