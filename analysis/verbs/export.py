@@ -88,7 +88,7 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
 
 
 def _read_one_fmu(options: ExportOptions) -> OneFmu | None:
-    """What is asked of a system as one FMU. Raises InputError where something is, and no such FMU."""
+    """The options of a system as one FMU. Raises InputError where some are given without `as_fmu`."""
     if options["as_fmu"]:
         assembly = {name: value for name, value in options.items() if name in options_of(AssemblyOptions)}
         slots = {slot: [each.strip() for each in fmus.split(",")] for slot, fmus in options["slots"].items()}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path, PurePath
@@ -16,7 +17,7 @@ from ....fmus_src.own_digests import note_own
 from ....fmus_src.paths import CACHE
 from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive
-from .choices import Preparation, check_slots, find_default
+from .choices import Preparation, candidate_name, check_slots, find_default
 from .dependence import find_dependencies
 from .kind_in_c import file_name, write_kind
 from .model import SystemModel
@@ -47,8 +48,7 @@ def build_system_fmu(
     check_slots(slots, original.network)
     defaults = {slot: find_default(slot, candidates, original, options) for slot, candidates in slots.items()}
     model = SystemModel(preparation.choices(), request.exposed, request.faulty)
-    named = {slot: [choice.candidates[slot] for choice in model.choices] for slot in slots}
-    variables = Variables(model, defaults, {slot: list(dict.fromkeys(each)) for slot, each in named.items()})
+    variables = Variables(model, defaults, {slot: list(map(candidate_name, each)) for slot, each in slots.items()})
     if not variables.declared:
         problem = "has neither connectors nor parameters, so that its FMU would have no variable"
         raise InputError(model.network.file, "system", problem, "give `expose` with a signal")
@@ -61,7 +61,7 @@ def build_system_fmu(
         library = build_library(sources, f"{name}.c", platform, CACHE, portable=portable)
         files[f"binaries/{platform}/{name}{PLATFORMS[platform].extension}"] = library
     page = Related(PAGE, "document", "text/html", "what the system is, its variables, how to fly it")
-    reference, related = record_reference(name, find_choice(model, defaults), variables.declared)
+    reference, related = record_reference(name, find_choice(model.choices, defaults), variables.declared)
     write_zip(path, add_manifest({**files, **reference}, [page, *related]))
     note_own(path)
 
@@ -72,7 +72,7 @@ def _files(name: str, model: SystemModel, variables: Variables, others: OtherSet
     sources = read_wrapper(2, "system")
     sources |= {file_name(source): write_kind(source).encode() for source in model.sources}
     sources[f"{name}.c"] = write_system(name, about, guid, model, variables).encode()
-    dependencies = find_dependencies([choice.prepared for choice in model.choices], model.inputs)
+    dependencies = find_dependencies([choice.prepared for choice in model.choices], model.inputs, model.faulty)
     first = model.first
     description = system_description(
         name,
@@ -116,14 +116,13 @@ def _declared(variable: FmuVariable) -> SystemVariable:
 
 
 def _check_names(declared: Sequence[FmuVariable], file: str) -> None:
-    names = [each.name for each in declared]
-    for name in names:
-        if names.count(name) > 1:
+    for name, count in Counter(each.name for each in declared).items():
+        if count > 1:
             raise InputError(file, name, "would be the name of two variables of the FMU", "rename one in the system")
 
 
 def _model_identifier(system: str, model: SystemModel) -> str:
-    """The name of a system's FMU, one of C that no component and no file beside it has."""
+    """The name of a system's FMU, one of C that no component and no other file has."""
     name = re.sub(r"\W", "_", system, flags=re.ASCII)
     name = name if not name[:1].isdigit() else f"fmu_{name}"
     used = {source.prefix.removesuffix("_") for source in model.sources} | {

@@ -13,7 +13,7 @@ from ...runtime.fmi.representations import TEXTS
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.ssp.kinds import PARAMETERS
 from ...runtime.system.fmu import Fmu
-from ...runtime.system.network import Network
+from ...runtime.system.network import Network, Node
 from ...runtime.system.options import SystemOptions
 from ...runtime.system.prepared import PreparedSystem, prepare_system
 
@@ -77,8 +77,9 @@ class Preparation:
         network = prepared.network
         inputs = system_connectors(network, "input")
         values = {name: _start_of(network, name) for name in inputs if name not in prepared.settings.nodes}
-        # With a value inputs are connectors whose value is known, and remain connected.
-        prepared = prepare_system(self.archive, replace(changed, set={**values, **changed.set}), self._loaded)
+        if values:  # with a value inputs are connectors whose value is known, and remain connected
+            changed = replace(changed, set={**values, **changed.set})
+            prepared = prepare_system(self.archive, changed, self._loaded)
         numbers = tuple(self.slots[slot].index(fmu) + 1 for slot, fmu in use.items())
         return Choice({slot: candidate_name(fmu) for slot, fmu in use.items()}, numbers, prepared)
 
@@ -91,11 +92,16 @@ def candidate_name(use: str) -> str:
 def _start_of(network: Network, name: str) -> float | bool | str:
     """The start of an input of the system: nothing, false, or the first item of an enumeration."""
     node = network.nodes[name]
-    if node.type_name in TEXTS:
-        raise InputError(network.file, node.where, f"a {node.type_name}, which no block has", NOT_ONE)
+    check_type(network, node)
     if node.enumeration:
         return next(iter(node.enumeration))
     return {"Boolean": False, "Integer": 0}.get(node.type_name or "", 0.0)
+
+
+def check_type(network: Network, node: Node) -> None:
+    """Refuse a connector of the system whose type no block has. Raises InputError."""
+    if node.type_name in TEXTS:
+        raise InputError(network.file, node.where, f"a {node.type_name}, which no block has", NOT_ONE)
 
 
 def system_connectors(network: Network, kind: str) -> list[str]:

@@ -16,7 +16,6 @@ SHARED = ("kernel_math.h", "kernel_vectors.h", "block_elements.h")  # which all 
 END = FOOTER.format(fmi=2)
 # What a block's file defines begins in the first column.
 STRUCT = re.compile(r"^typedef struct (\w+) \{", re.MULTILINE)
-ALIAS = re.compile(r"^typedef (\w+) Block;", re.MULTILINE)
 STATIC = re.compile(r"^static [\w *]*?(\w+)(?= ?[(\[=])", re.MULTILINE)
 MACRO = re.compile(r"^#define (\w+)", re.MULTILINE)
 CHECKED = re.compile(r"^(?:CHECKED_FUNCTION|CHECKED_POWER)\((\w+),", re.MULTILINE)  # defines py_NAME

@@ -8,18 +8,27 @@ from ...runtime.system.prepared import PreparedSystem
 from .choices import system_connectors
 
 
-def find_dependencies(systems: Sequence[PreparedSystem], inputs: Sequence[str]) -> dict[str, list[str]]:
+def find_dependencies(
+    systems: Sequence[PreparedSystem], inputs: Sequence[str], faulty: Sequence[str]
+) -> dict[str, list[str]]:
     """The inputs that each output depends on directly in one of the systems, which differ in their candidates.
+
+    Those of the faults of a connector are among them where its value reaches the output in the same step.
 
     With Jacobi's algorithm no component does: all step with the values of the step's start.
     """
+    sources = {**{name: [name] for name in inputs}, **{name: fault_inputs(name) for name in faulty}}
     direct: dict[str, list[str]] = {}
     for prepared in systems:
-        for name in inputs:
-            for output in _reached(prepared, name):
-                if name not in direct.setdefault(output, []):
-                    direct[output].append(name)
+        for start, names in sources.items():
+            for output in _reached(prepared, start):
+                direct[output] = list(dict.fromkeys([*direct.get(output, ()), *names]))
     return direct
+
+
+def fault_inputs(connector: str) -> list[str]:
+    """The FMU's inputs for the faults of a connector: which kind of fault, and its value."""
+    return [f"fault.{connector}.kind", f"fault.{connector}.value"]
 
 
 def _reached(prepared: PreparedSystem, start: str) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from .component_source import ComponentSource
 
 FILE = """\
-/* The block {name} as a candidate of a system: translated, as the file says below, with a prefix before its names. */
+/* The block {name} as a component of a system: translated, as the file says below, with a prefix before its names. */
 #ifndef {guard}
 #define {guard}
 

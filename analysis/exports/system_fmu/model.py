@@ -4,26 +4,25 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import PurePath
 
 from ....fmus_src.export.native_fmu import read_wrapper
 from ....fmus_src.export.write.names import RESERVED
-from ...common.errors import InputError, suggestion
+from ...common.errors import InputError
 from ...runtime.flight.compiled import arrays, codes
 from ...runtime.flight.instructions import InstructionList
 from ...runtime.flight.orders.injections import Injection
 from ...runtime.flight.orders.rows import Unloaded
 from ...runtime.flight.program import Layout, build_program
 from ...runtime.flight.selection import find_variables
-from ...runtime.fmi.representations import TEXTS
 from ...runtime.system.checks import changeable
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.network import Network
 from ...runtime.system.prepared import PreparedSystem
-from .choices import NOT_ONE, Choice, system_connectors
+from .choices import Choice, check_type, system_connectors
 from .component_source import ComponentSource, Member, read_component_source
 
 DEFINE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
@@ -85,6 +84,12 @@ class ChoiceProgram:
         """The signal of each slot."""
         return list(self.layout.slots)
 
+    @property
+    def starts(self) -> dict[str, float]:
+        """The values that signals begin with, where they have one before anything is exchanged."""
+        initial = zip(self.names, self.program.initial.tolist(), strict=True)
+        return {name: start for name, start in initial if not math.isnan(start)}
+
 
 class SystemModel:
     """``exposed`` are the signals that the FMU gives as local variables, ``faulty`` the connectors whose faults are its
@@ -131,9 +136,7 @@ class SystemModel:
         """The outputs of the system itself that have a source."""
         names = system_connectors(self.network, "output")
         for name in names:
-            if self.network.nodes[name].type_name in TEXTS:
-                problem = f"a {self.network.nodes[name].type_name}, which no block has"
-                raise InputError(self.network.file, self.network.nodes[name].where, problem, NOT_ONE)
+            check_type(self.network, self.network.nodes[name])
         return [name for name in names if name in self.signals]
 
     def _program(self, choice: Choice) -> ChoiceProgram:
@@ -202,19 +205,10 @@ def _is_known(network: Network, name: str) -> bool:
 
 
 def _find_faulty(choices: Sequence[Choice], names: Sequence[str]) -> list[str]:
-    """The connectors that faults are asked for: of all candidates. Raises InputError."""
+    """The connectors whose faults are inputs: of all candidates. Raises InputError."""
     for name in names:
         for choice in choices:
             changeable(choice.prepared.network, name, ("`faults`", name))
     if len(set(names)) < len(names):
-        raise InputError("`faults`", ", ".join(names), "a connector is named twice", suggestion("", names))
+        raise InputError("`faults`", ", ".join(names), "names a connector twice", "give it once")
     return list(names)
-
-
-def starts_of(programs: Sequence[ChoiceProgram]) -> Mapping[str, float]:
-    """The values that signals begin with, where they have one before anything is exchanged."""
-    starts: dict[str, float] = {}
-    for each in programs:
-        initial = zip(each.names, each.program.initial.tolist(), strict=True)
-        starts |= {name: start for name, start in initial if not math.isnan(start)}
-    return starts

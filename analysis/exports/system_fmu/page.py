@@ -1,8 +1,8 @@
-"""What a system's FMU says of itself to readers: documentation/index.html, and the README beside its sources."""
+"""What a system's FMU says of itself to readers: documentation/index.html, and the README of its sources."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from lxml import etree, html
 from lxml.html import builder
@@ -68,7 +68,7 @@ def _conditions(model: SystemModel, dependencies: Mapping[str, Sequence[str]]) -
     texts = [
         f"A communication step is {step:g} s or a multiple of it, of as many whole steps of the system, during which "
         "inputs are held; other steps are refused.",
-        "Once the system has come to its end all values stay as they are, and fmi2GetBooleanStatus(fmi2Terminated) is "
+        "Once the system has come to its end, all values stay as they are, and fmi2GetBooleanStatus(fmi2Terminated) is "
         "true.",
         "States are saved, restored and serialised whole. Instances are independent of one another.",
     ]
@@ -90,6 +90,6 @@ def _row(variable: FmuVariable) -> list[str]:
     return [variable.name, variable.type, start, variable.unit or "", variable.description]
 
 
-def _table(header: Sequence[str], rows: object) -> etree._Element:
-    lines = [builder.TR(*map(builder.TH, header)), *(builder.TR(*map(builder.TD, row)) for row in rows)]  # type: ignore[attr-defined]
+def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> etree._Element:
+    lines = [builder.TR(*map(builder.TH, header)), *(builder.TR(*map(builder.TD, row)) for row in rows)]
     return builder.TABLE(*lines)

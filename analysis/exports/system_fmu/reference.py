@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from ....fmus_src.evidence.check import TIME
 from ....fmus_src.evidence.experiments import Experiment, write_experiments
@@ -12,18 +12,15 @@ from ....fmus_src.evidence.manifest import CSV, EXPERIMENTS, FOLDER, Related
 from ....fmus_src.evidence.recorded import write_table
 from ...runtime.apart.opening import open_simulation
 from .choices import Choice
-from .model import SystemModel
 from .variables import FmuVariable
 
 MOST_ROWS = 500
 OUTPUTS, EXPERIMENT = "outputs.csv", "outputs.exp"
 
 
-def find_choice(model: SystemModel, defaults: Mapping[str, int]) -> Choice:
+def find_choice(choices: Sequence[Choice], defaults: Mapping[str, int]) -> Choice:
     """The choice that flies where nobody chooses; ``defaults`` are candidates by slot, counted from 1."""
-    names = {slot: list(dict.fromkeys(each.candidates[slot] for each in model.choices)) for slot in defaults}
-    wanted = {slot: names[slot][number - 1] for slot, number in defaults.items()}
-    return next(choice for choice in model.choices if choice.candidates == wanted)
+    return next(choice for choice in choices if choice.numbers == tuple(defaults.values()))
 
 
 def record_reference(name: str, choice: Choice, declared: list[FmuVariable]) -> tuple[dict[str, bytes], list[Related]]:

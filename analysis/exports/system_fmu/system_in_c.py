@@ -12,7 +12,7 @@ from ...runtime.flight.instructions import write_renewal
 from ...runtime.ssp.kinds import PARAMETERS
 from .choices import parameter_chain
 from .kind_in_c import file_name
-from .model import ChoiceProgram, SystemModel, starts_of
+from .model import ChoiceProgram, SystemModel
 from .statements import Statements, quoted
 from .variables import FmuVariable, Variables
 from .variables_in_c import pass_along, write_parameters, write_signals, write_starts, write_struct, write_tables
@@ -80,7 +80,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     initialise.open(f"static void initialize{program.choice.name}(Block *self, Fault *fault)\n{{")
     initialise.add("double *const s = self->signal;")
     passed = _passed_signals(program, variables)
-    for name, start in starts_of([program]).items():
+    for name, start in program.starts.items():
         if name not in passed and name not in model.inputs:
             initialise.add(f"s[{model.signals[name]}] = {literal(start)};")
     for name, chain in passed.items():

@@ -9,7 +9,8 @@ from ...runtime.fmi.variable import Variable
 from ...runtime.ssp.given_values import ParameterValue, parse_value
 from ...runtime.ssp.kinds import PARAMETERS
 from ...runtime.system.network import Node
-from .choices import parameter_chain
+from .choices import check_type, parameter_chain
+from .dependence import fault_inputs
 from .model import Candidate, ChoiceProgram, SystemModel
 
 KINDS = {"Real": "KIND_REAL", "Integer": "KIND_INTEGER", "Enumeration": "KIND_INTEGER", "Boolean": "KIND_BOOLEAN"}
@@ -93,7 +94,8 @@ class Variables:
     def _system_parameters(self) -> Iterator[FmuVariable]:
         for name, value in self._values.items():
             node = self._nodes[name]
-            if node.component is None and node.kind in PARAMETERS and node.type_name != "String":
+            if node.component is None and node.kind in PARAMETERS:
+                check_type(self.model.network, node)
                 if parameter_chain(self.model.network, self._values, name):
                     continue  # an outer one has a value
                 variable = self._of_node(node, "parameter", "parameter", "parameter of the system", _typed(node, value))
@@ -167,8 +169,9 @@ class Variables:
             about = (
                 f"fault of {name} at the end of the steps that follow: none, override by the value, bias by it, freeze"
             )
+            kind, strength = fault_inputs(name)
             yield FmuVariable(
-                f"fault.{name}.kind",
+                kind,
                 "input",
                 "Enumeration",
                 f"{path}.kind",
@@ -180,9 +183,7 @@ class Variables:
             )
             is_real = self.model.types[name] == "Real"
             about = f"of an override or a bias of {name}"
-            yield FmuVariable(
-                f"fault.{name}.value", "input", "Real", f"{path}.value", about, 0.0, unit if is_real else None
-            )
+            yield FmuVariable(strength, "input", "Real", f"{path}.value", about, 0.0, unit if is_real else None)
 
 
 def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, Candidate]]:

@@ -97,7 +97,8 @@ def write_starts(model: SystemModel, variables: Variables) -> str:
         lines.add(f"self->{candidate.identifier}.block = {candidate.source.prefix}STARTS;")
     values = {each.path: each.start for each in variables.declared if each.start is not None and each.is_member}
     for path, value in {**values, **variables.starts}.items():
-        lines.add(f"self->{path} = {literal(value)};")  # type: ignore[arg-type]
+        assert not isinstance(value, str)  # no block has Strings
+        lines.add(f"self->{path} = {literal(value)};")
     for number in range(len(model.faulty)):
         lines.add(f"self->fault[{number}].frozen = NAN;")
     lines.close("}")

@@ -43,17 +43,15 @@ class InstructionList(Rows):
         self.texts = ((codes.COPY_TEXT, texts), (codes.COPY_BINARY, binaries))
         self.drives = drives
 
-    def connect(self, group: int, known: Collection[int] | None = None, reached: Collection[int] = ()) -> None:
+    def connect(self, group: int, known: Collection[int] | None = None) -> None:
         """Values over the connections that feed a component; group -1: system connectors.
 
-        With ``known`` only those whose values come from these components alone; with ``reached`` those to which one of
-        these contributes.
+        With ``known`` only those whose values come from these components alone.
         """
         group %= len(self.connections)
         run: list[int] = []
         for number, (code, origins, source, target) in enumerate(self.connections[group], self.firsts[group]):
-            is_left_out = known is not None and any(origin not in known for origin in origins)
-            if is_left_out or (reached and not any(origin in reached for origin in origins)):
+            if known is not None and any(origin not in known for origin in origins):
                 run = []
             elif code in (codes.COPY, codes.COPY_EXACT):
                 # neighbouring slots copied to neighbouring slots are one instruction
@@ -201,7 +199,7 @@ def write_renewal(
     for component in _ahead(names, schedule, algorithm):
         instructions.rows = []
         if part % periods.get(names[component], 1) == 0:
-            instructions.connect(component, reached={-1})
+            instructions.connect(component, {-1})
         if instructions.rows:
             renewed[component] = instructions.array()
     return renewed

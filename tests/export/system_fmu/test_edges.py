@@ -3,6 +3,8 @@
 Truth: closed forms, and the same systems simulated from their FMUs.
 """
 
+import re
+
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
@@ -12,11 +14,17 @@ from fmpy.validation import validate_fmu
 import perilune
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.fault import Fault
+from perilune.fmus_src.export.compilers import local_platform
+from perilune.fmus_src.export.own_blocks import build_own_blocks
 from tests.support.builders import component, connection, document, fly, inline, pack, system
 from tests.support.native.system_fmus import Slave, build_one, fly_one
 
 RAMP, GAIN = "output y Real m", "input u Real m; output y Real m"
 STEP = 0.25  # s
+PHASE = (
+    '<ssd:Enumerations><ssc:Enumeration name="Phase"><ssc:Item name="go" value="2"/><ssc:Item name="stay" value="1"/>'
+    "</ssc:Enumeration></ssd:Enumerations>"
+)
 
 
 @pytest.fixture
@@ -24,7 +32,7 @@ def make(tiny_folder, tmp_path):
     """A function from a root system to the system's file."""
 
     def make(*elements, **more):
-        times = {key: more.pop(key) for key in ("stop", "step") if key in more}
+        times = {key: more.pop(key) for key in ("stop", "step", "more") if key in more}
         ssd = document(system(*elements, **more), **times)
         return pack(tmp_path / "s.ssp", tiny_folder / "native", ssd)
 
@@ -104,6 +112,71 @@ def test_wrong_faults(make, tmp_path):
         with pytest.raises(FMICallException):
             slave.step(STEP)
         assert slave.messages[0].startswith(f"fault.{name}: {message}")
+
+
+def test_outputs_depend_on_faults(make, tmp_path):
+    """Those of what an output follows at once, and not those behind a delay."""
+    path = make(
+        component("r", "ramp", RAMP),
+        component("g", "gain", GAIN),
+        component("d", "delay", GAIN),
+        connections="".join(map(connection, ("r.y", "g.y", "r.y", "d.y"), ("g.u", "fast", "d.u", "slow"))),
+        declared="output fast Real m; output slow Real m",
+    )
+    slave = Slave(build_one(tmp_path / "one.fmu", path, faulty=["g.u", "d.u"]), tmp_path / "one")
+    named = {each.variable.name: [known.name for known in each.dependencies] for each in slave.description.outputs}
+    assert named == {"fast": ["fault.g.u.kind", "fault.g.u.value"], "slow": []}
+    slave.set({"fault.g.u.kind": 1, "fault.g.u.value": 4.0})
+    slave.step(STEP)
+    assert slave.get("fast") == 12.0
+
+
+def test_candidates_of_different_steps(make, tiny_folder, tmp_path):
+    """Where no description says it, the step is that of the FMUs."""
+    file = tmp_path / "slow.py"
+    file.write_text(SLOW)
+    build_own_blocks(file, tmp_path / "fmus", ["native"], [local_platform()])
+    path = make(component("c", "ramp", RAMP), step=None)
+    slots = {"c": [str(tiny_folder / "native" / "ramp.fmu"), str(tmp_path / "fmus" / "native" / "slow.fmu")]}
+    problem = re.escape("slots: c: their systems differ in times, with steps of 0.1 s, 0.5 s; give step and stop_time")
+    with pytest.raises(InputError, match=problem):
+        build_one(tmp_path / "one.fmu", path, slots, exposed=["c.y"])
+
+
+SLOW = '''
+"""A block of a step of its own."""
+
+from perilune import Block, Output
+
+
+class Slow(Block):
+    """y = t."""
+
+    default_step = 0.5
+    y = Output(0.0, unit="m", description="time")
+
+    def initialize(self) -> None:
+        self.y = 0.0
+
+    def step(self, t: float, h: float) -> None:
+        self.y = t + h
+'''
+
+
+def test_a_system_that_fails_at_its_start(make, tmp_path):
+    path = make(component("t", "trouble", RAMP), connections=connection("t.y", "y"), declared="output y Real m")
+    with pytest.warns(UserWarning, match="no reference trajectory: the system fails at its start: t"):
+        build_one(tmp_path / "one.fmu", path, set={"t.kind": 4})
+
+
+def test_an_enumeration_begins_with_its_first_item(make, tmp_path):
+    path = make(
+        component("r", "ramp", RAMP),
+        connections=connection("e", "phase"),
+        declared="input e Enumeration Phase; output phase Enumeration Phase",
+        more=PHASE,
+    )
+    assert Slave(build_one(tmp_path / "one.fmu", path), tmp_path / "one").get("phase") == 2
 
 
 def test_an_end_at_the_start(make, tmp_path):

@@ -122,9 +122,9 @@ def test_two_in_one_program(fmu, tmp_path):
 
 
 def test_two_landers_in_one_system(fmu, native, tmp_path):
-    """Two instances beside each other in a system: each is the lander alone, and stays as it is behind its end.
+    """Two instances in one system: each is the lander alone, and stays as it is after its end.
 
-    Nested as systems they would go on behind their ends, which end the root system alone.
+    Nested as systems they would go on after their ends, which end the root system alone.
     """
     step = float(native.time[1] - native.time[0])
     ssd = document(system(component("a", "one"), component("b", "one")), stop=float(native.time[-1]), step=step)

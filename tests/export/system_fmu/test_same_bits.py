@@ -111,7 +111,7 @@ def test_every_candidate_of_a_slot(tmp_path):
 
 @pytest.mark.usefixtures("fmus")
 def test_parameter_sets_and_single_values(tmp_path):
-    """Applied ones are the starts; a set beside them has what it would change."""
+    """Applied ones are the starts; another one has what it would change."""
     fmu = build_one(tmp_path / "one.fmu", "lunar_terminal_guidance", exposed=["plant.position"], parameters=("noisy",))
     native = perilune.simulate("lunar_terminal_guidance", parameters=["noisy"], set={"navigation.seed": 7})
     flown = fly_one(fmu, {"navigation.seed": 7})
@@ -194,7 +194,7 @@ def test_inputs_of_nested_systems(tiny_folder, tmp_path):
 
 
 def test_names_that_the_wrapper_has(tmp_path):
-    """Blocks called as files of C beside them, and as words of C."""
+    """Blocks called as files of the wrapper, components as words of C."""
     file = tmp_path / "blocks.py"
     file.write_text(BLOCKS)
     build_own_blocks(file, tmp_path / "fmus", ["native"], [local_platform()])
