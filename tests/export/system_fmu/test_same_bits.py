@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 import perilune
 from perilune.analysis.runtime.flight.simulation import Simulation
+from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.fmus_src.export.compilers import local_platform
@@ -69,14 +70,8 @@ def test_random_graphs(tiny_folder, tmp_path_factory, graph):
     shutil.rmtree(folder)
 
 
-SYSTEMS = [
-    "entry_attitude", "hover_transfer", "landing_mission", "lunar_descent_2d", "lunar_landing",
-    "lunar_terminal_guidance", "orbital_attitude", "robot_rendezvous", "satellite_pointing",
-]  # fmt: skip
-
-
 @pytest.mark.usefixtures("fmus")
-@pytest.mark.parametrize("name", either(SYSTEMS, ["entry_attitude", "lunar_landing"]))
+@pytest.mark.parametrize("name", either(system_names(), ["entry_attitude", "lunar_landing"]))
 def test_whole_systems(tmp_path, name):
     """Every exchanged signal; behind the system's end all values stay."""
     native = perilune.simulate(name, flavour="native")

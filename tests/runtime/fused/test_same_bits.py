@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 
 import perilune
 from perilune.analysis.runtime.flight.simulation import Simulation
+from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import component, connection, document, pack, system
@@ -40,14 +41,8 @@ def test_random_graphs(tiny_folder, tmp_path_factory, graph):
     assert fused == native
 
 
-SYSTEMS = [
-    "entry_attitude", "hover_transfer", "landing_mission", "lunar_descent_2d", "lunar_landing",
-    "lunar_terminal_guidance", "orbital_attitude", "robot_rendezvous", "satellite_pointing",
-]  # fmt: skip
-
-
 @pytest.mark.usefixtures("fmus")
-@pytest.mark.parametrize("name", either(SYSTEMS, ["lunar_terminal_guidance", "robot_rendezvous"]))
+@pytest.mark.parametrize("name", either(system_names(), ["lunar_terminal_guidance", "robot_rendezvous"]))
 def test_whole_systems(name):
     native, fused = (perilune.simulate(name, flavour=flavour) for flavour in ("native", "fused"))
     assert {each: rows.tobytes() for each, rows in fused.signals.items()} == {
