@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 from ...fmus_src.own_digests import has_foreign
-from ..runtime.apart.servers import CAN_FORK, start_server
 from .options.verb import Verb, options_of
 
 
@@ -19,7 +18,8 @@ def start_early(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, 
     in_processes = "engine" in options_of(verb.options) and (
         options.get("engine") == "processes" or (options.get("flavour") == "python" and options.get("workers") != 1)
     )
-    if not CAN_FORK:
-        return
     if in_processes or any(has_foreign(Path(file)) for file in files if file is not None):
-        start_server()
+        from ..runtime.apart.servers import CAN_FORK, start_server  # imports numba, which not all verbs need
+
+        if CAN_FORK:
+            start_server()

@@ -1,7 +1,8 @@
 """Navigation through a Kalman filter of the library filterpy."""
 
+from typing import Any
+
 import numpy as np
-from filterpy.kalman import KalmanFilter
 
 from ..kernel.matrices import Matrix
 from .filtered_navigation import FilteredNavigation
@@ -17,8 +18,10 @@ class KalmanNavigationFilterpy(FilteredNavigation):
     python_only = True
     requires = ("filterpy", "numpy")
 
-    def filter(self) -> KalmanFilter:
-        """A filter with the covariance; all its memory is in declared states."""
+    def filter(self) -> Any:
+        """A filterpy.kalman.KalmanFilter with the covariance; all its memory is in declared states."""
+        from filterpy.kalman import KalmanFilter  # with scipy.stats, half a second of whoever reads the catalogue
+
         made = KalmanFilter(dim_x=15, dim_z=1)
         made.P = np.array(self.covariance)
         return made

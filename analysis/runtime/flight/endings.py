@@ -12,7 +12,6 @@ from ..instances.instance import Instance, status_word
 from ..instances.library import FUNCTION_NAMES
 from ..ssp.names import split_name
 from .compiled import arrays, codes
-from .compiled.events import UPDATE_DISCRETE_STATES
 from .program import Layout
 
 TERMINATED = "terminated"  # an FMU asked for the end
@@ -134,7 +133,9 @@ def in_words(
         return status, f"{list(layout.texts.slots)[subject]} gave a string of {longest} bytes or more at t = {time:g} s"
     if code == codes.STUCK:
         component = list(instances)[subject]
-        token = "does not settle in event mode" if outcome.function == UPDATE_DISCRETE_STATES else "does not advance"
+        token = (
+            "does not settle in event mode" if outcome.function == codes.UPDATE_DISCRETE_STATES else "does not advance"
+        )
         log = " | ".join(instances[component].messages) or "no message in its log"
         return status, f"{component}: {FUNCTION_NAMES[outcome.function]} {token} at t = {time:g} s: {log}"
     if code == codes.NOT_TAKEN:

@@ -8,8 +8,6 @@ from typing import Any
 
 from fmpy import fmi2, fmi3
 
-from .intermediate import ignore_address
-
 
 class Fmi3Slave(fmi3.FMU3Slave):  # type: ignore[misc]  # FMPy has no types
     """An instance by co-simulation; ``environment`` is the number that its messages carry."""
@@ -18,6 +16,8 @@ class Fmi3Slave(fmi3.FMU3Slave):  # type: ignore[misc]  # FMPy has no types
 
     def begin(self, environment: int, log: Any, *, uses_events: bool) -> None:
         """Instantiate; ``log`` is a fmi3LogMessageCallback. Raises bare Exception where there is no instance."""
+        from .intermediate import ignore_address  # imports numba, which verbs that fly nothing do without
+
         self.environment, self.logMessage = environment, log
         self.intermediateUpdate = ctypes.cast(ignore_address(), fmi3.fmi3IntermediateUpdateCallback)
         resources = os.path.join(self.unzipDirectory, "resources", "")

@@ -7,9 +7,6 @@ from . import codes
 from .fmi3_calls import do_step_to_event, update_discrete_states
 from .fmi_calls import change_mode
 
-# Of library.FUNCTION_NAMES.
-SETTERS, GETTERS, DO_STEP = 14, 27, 40
-ENTER_EVENT_MODE, UPDATE_DISCRETE_STATES, ENTER_STEP_MODE = 46, 47, 48
 ROUNDING = 1e-9  # of a step: what an early return may lack of its end
 MOST_ROUNDS = 1000  # of event iterations, and of steps that return where they began
 
@@ -20,16 +17,16 @@ def _settle(functions, instance, stored, outcome):  # type: ignore[no-untyped-de
     An FMU that ends the simulation, or that never settles, becomes the outcome.
     """
     for _ in range(MOST_ROUNDS):
-        outcome[2] = UPDATE_DISCRETE_STATES
-        status = update_discrete_states(functions[UPDATE_DISCRETE_STATES], instance, stored.flags, stored.time)
+        outcome[2] = codes.UPDATE_DISCRETE_STATES
+        status = update_discrete_states(functions[codes.UPDATE_DISCRETE_STATES], instance, stored.flags, stored.time)
         if status < 0 or status > codes.FMI_WARNING:
             return status
         if stored.flags[1] != 0:
             outcome[0] = codes.ENDED
             return status
         if stored.flags[0] == 0:
-            outcome[2] = ENTER_STEP_MODE
-            return change_mode(functions[ENTER_STEP_MODE], instance)
+            outcome[2] = codes.ENTER_STEP_MODE
+            return change_mode(functions[codes.ENTER_STEP_MODE], instance)
     outcome[0] = codes.STUCK
     return status
 
@@ -41,8 +38,8 @@ def _step(functions, instance, begin, step, end, uses_events, stored, outcome): 
     """A step, continued to its end where it returns early; events are handled when they occur."""
     time, rounds = begin, 0
     while True:
-        outcome[2] = DO_STEP
-        status = do_step_to_event(functions[DO_STEP], instance, time, step, stored.flags, stored.time)
+        outcome[2] = codes.DO_STEP
+        status = do_step_to_event(functions[codes.DO_STEP], instance, time, step, stored.flags, stored.time)
         if status < 0 or status > codes.FMI_WARNING:
             return status
         last = stored.time[0]
@@ -53,8 +50,8 @@ def _step(functions, instance, begin, step, end, uses_events, stored, outcome): 
             stored.time[1] = now
             return status
         if stored.flags[0] != 0 and uses_events:
-            outcome[2] = ENTER_EVENT_MODE
-            status = change_mode(functions[ENTER_EVENT_MODE], instance)
+            outcome[2] = codes.ENTER_EVENT_MODE
+            status = change_mode(functions[codes.ENTER_EVENT_MODE], instance)
             if 0 <= status <= codes.FMI_WARNING:
                 status = settle(functions, instance, stored, outcome)
             if outcome[0] != 0 or status < 0 or status > codes.FMI_WARNING:

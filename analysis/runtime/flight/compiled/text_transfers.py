@@ -6,7 +6,7 @@ import numpy as np
 
 from ....common.compiler import compile_cached
 from . import codes
-from .events import ENTER_EVENT_MODE, SETTERS, settle
+from .events import settle
 from .fmi3_calls import copy_bytes, exchange_binaries, exchange_transfer
 from .fmi_calls import change_mode, copy_text
 from .transfers import set_transfer, to_stored
@@ -75,12 +75,12 @@ def _set_events(instruction, functions, fmi3, buffers):  # type: ignore[no-untyp
             changed |= to_stored(kind, slot, count, buffers.values, stored, outcome)
     if not changed or outcome[0] != 0:
         return np.int32(0)
-    outcome[2] = ENTER_EVENT_MODE
-    status = change_mode(functions[ENTER_EVENT_MODE], instance)
+    outcome[2] = codes.ENTER_EVENT_MODE
+    status = change_mode(functions[codes.ENTER_EVENT_MODE], instance)
     for p in range(first, last):
         if 0 <= status <= codes.FMI_WARNING:
             transfer = transfers.rows[p]
-            outcome[2] = SETTERS + transfer[codes.KIND]
+            outcome[2] = codes.SETTERS + transfer[codes.KIND]
             address = functions[outcome[2]]
             if transfer[codes.KIND] >= codes.STRING:
                 status = give_texts(address, instance, transfer, fmi3, buffers)

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 
 from ...instances.library import FUNCTION_NAMES
 from ..compiled import codes
-from ..compiled.events import DO_STEP, GETTERS, SETTERS, UPDATE_DISCRETE_STATES
 from .rows import Rows
 from .transfers import ComponentTransfers, TransferTable
 
@@ -30,7 +29,7 @@ class Fmi3Orders:
         for transfer in (*self._transfers.inputs, *self._transfers.discrete):
             self._rows.inject(self._table.slots(transfer))
             if transfer not in events:
-                self._exchange(self._code(codes.SET_TRANSFER, codes.GIVE_TEXTS, transfer), SETTERS, [transfer])
+                self._exchange(self._code(codes.SET_TRANSFER, codes.GIVE_TEXTS, transfer), codes.SETTERS, [transfer])
         if events:
             both = (events[0], len(events))
             self._rows.call(codes.SET_EVENTS, self._component, _mode("EnterEventMode"), both)
@@ -42,15 +41,15 @@ class Fmi3Orders:
 
     def get(self) -> None:
         for transfer in self._transfers.outputs:
-            self._exchange(self._code(codes.GET_TRANSFER, codes.TAKE_TEXTS, transfer), GETTERS, [transfer])
+            self._exchange(self._code(codes.GET_TRANSFER, codes.TAKE_TEXTS, transfer), codes.GETTERS, [transfer])
             self._rows.inject(self._table.slots(transfer))
 
     def read(self) -> None:
         """What is recorded only."""
-        self._exchange(codes.READ_TRANSFER, GETTERS, self._transfers.recorded)
+        self._exchange(codes.READ_TRANSFER, codes.GETTERS, self._transfers.recorded)
 
     def step(self, count: int) -> None:
-        self._rows.call(codes.STEP_TO_EVENTS, self._component, DO_STEP, (int(self._transfers.uses_events), count))
+        self._rows.call(codes.STEP_TO_EVENTS, self._component, codes.DO_STEP, (int(self._transfers.uses_events), count))
 
     def reset(self) -> None:
         for name in ("Terminate", "Reset"):
@@ -60,20 +59,20 @@ class Fmi3Orders:
         """Structure, parameters, initialisation mode, parameters."""
         if self._transfers.structural:
             self._rows.call(codes.MODE, self._component, _mode("EnterConfigurationMode"))
-            self._exchange(codes.GIVE_PARAMETERS, SETTERS, self._transfers.structural)
+            self._exchange(codes.GIVE_PARAMETERS, codes.SETTERS, self._transfers.structural)
             self._rows.call(codes.MODE, self._component, _mode("ExitConfigurationMode"))
-        self._exchange(codes.GIVE_PARAMETERS, SETTERS, self._transfers.before)
+        self._exchange(codes.GIVE_PARAMETERS, codes.SETTERS, self._transfers.before)
         self._rows.call(codes.ENTER_INITIALIZATION, self._component, _mode("EnterInitializationMode"))
-        self._exchange(codes.GIVE_PARAMETERS, SETTERS, self._transfers.repeated)
+        self._exchange(codes.GIVE_PARAMETERS, codes.SETTERS, self._transfers.repeated)
 
     def exit_initialization(self) -> None:
         """To step mode, by way of event mode where that is used."""
         self._rows.call(codes.MODE, self._component, _mode("ExitInitializationMode"))
         if self._transfers.uses_events:
-            self._rows.call(codes.SETTLE, self._component, UPDATE_DISCRETE_STATES)
+            self._rows.call(codes.SETTLE, self._component, codes.UPDATE_DISCRETE_STATES)
 
     def read_back(self) -> None:
-        self._exchange(codes.TAKE_BACK, GETTERS, self._transfers.back)
+        self._exchange(codes.TAKE_BACK, codes.GETTERS, self._transfers.back)
 
     def _code(self, of_numbers: int, of_texts: int, transfer: int) -> int:
         return of_texts if self._table.kind(transfer) >= codes.STRING else of_numbers

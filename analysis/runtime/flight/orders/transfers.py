@@ -11,16 +11,16 @@ from ...fmi.representations import REPRESENTATIONS
 from ...fmi.variable import Variable
 from ...instances.library import FUNCTION_NAMES
 from ...system.network import Network
-from ..compiled import codes, events
+from ..compiled import codes
 
 KINDS = {name: number for number, name in enumerate(REPRESENTATIONS)}
 NUMBERS = {
-    "SetFloat64": events.SETTERS,
-    "GetFloat64": events.GETTERS,
-    "DoStep": events.DO_STEP,
-    "EnterEventMode": events.ENTER_EVENT_MODE,
-    "UpdateDiscreteStates": events.UPDATE_DISCRETE_STATES,
-    "EnterStepMode": events.ENTER_STEP_MODE,
+    "SetFloat64": codes.SETTERS,
+    "GetFloat64": codes.GETTERS,
+    "DoStep": codes.DO_STEP,
+    "EnterEventMode": codes.ENTER_EVENT_MODE,
+    "UpdateDiscreteStates": codes.UPDATE_DISCRETE_STATES,
+    "EnterStepMode": codes.ENTER_STEP_MODE,
 }  # that the compiled loop has for functions, as it imports nothing of those who load them
 assert all(FUNCTION_NAMES[number] == f"fmi3{name}" for name, number in NUMBERS.items())
 
