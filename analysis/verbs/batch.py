@@ -168,7 +168,8 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
         resume_hint(folder),
         cluster(options["scheduler"], workers=workers, engine=engine) as elsewhere,
     ):
-        opened = open_campaign(plan, folder, resume=options["resume"], engine=engine, workers=workers)
+        by = None if options["scheduler"] is None else "the scheduler's workers"
+        opened = open_campaign(plan, folder, resume=options["resume"], engine=engine, workers=workers, elsewhere=by)
         if options["resume"]:
             name_foreign(opened)
         if options["retry_crashed"]:

@@ -61,7 +61,8 @@ def prepare(
     is_kept = options["overwrite"] or options["resume"]
     check_folder("`output`", folder, overwrite=is_kept, otherwise="`resume` or `overwrite`")
     with chdir(Path.cwd()):  # an FMU may change the folder
-        opened = open_campaign(read_campaign(system, campaign, options), folder, resume=options["resume"])
+        plan = read_campaign(system, campaign, options)
+        opened = open_campaign(plan, folder, resume=options["resume"], elsewhere="shards")
     return PreparedCampaign(folder, opened.numbering.count, opened.numbering.size)
 
 

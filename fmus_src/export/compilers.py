@@ -1,22 +1,12 @@
-"""C compilers: which one serves a platform, and shared libraries from sources through a cache."""
+"""C compilers: which one serves a platform, and with which flags."""
 
 from __future__ import annotations
 
-import hashlib
 import importlib.util
-import os
 import platform as host
 import shutil
-import subprocess
 import sys
-import tempfile
-import threading
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
-from pathlib import Path
-
-from .fat_binary import fat_binary
 
 # -O3 for what it does to calls and branches. -fno-tree-vectorize for bits: GCC's vectoriser fuses a difference next to
 # a sum with their products even under -ffp-contract=off (`kernel_self_test.h`). It costs no speed: vectors of doubles
@@ -31,7 +21,7 @@ class CompilerMissing(RuntimeError):  # noqa: N818
 
 
 class CompilationFailed(RuntimeError):  # noqa: N818
-    """The compiler refused the sources; its own message is in this one."""
+    """The compiler refused the sources, or did not work; its own message is in this one."""
 
 
 @dataclass(frozen=True)
@@ -113,76 +103,3 @@ def available_platforms(fmi: int = 2) -> list[str]:
             continue
         platforms.append(platform)
     return platforms
-
-
-@cache
-def _identity(command: tuple[str, ...]) -> str:
-    """Command and version of a compiler, as part of the cache's key."""
-    with tempfile.TemporaryDirectory() as folder:  # zig leaves a file behind where it runs
-        version = subprocess.run(
-            [*command, "--version"], capture_output=True, text=True, check=False, cwd=folder
-        ).stdout
-    return " ".join(command[1:] if command[0] == sys.executable else command) + version
-
-
-@cache
-def _processor(command: tuple[str, ...]) -> str:
-    """What a compiler takes this processor for, as part of the cache's key: the cache may be shared."""
-    with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "empty.c").touch()
-        macros = [*command, FOR_THIS_PROCESSOR, "-dM", "-E", "empty.c"]
-        return subprocess.run(macros, capture_output=True, text=True, check=False, cwd=folder).stdout
-
-
-def build_library(
-    sources: Mapping[str, bytes], main: str, platform: str, cache: Path, *, portable: bool = False
-) -> bytes:
-    """The shared library of the source file ``main``, as `library_files`; one for several processors in one."""
-    libraries = [path.read_bytes() for path in library_files(sources, main, platform, cache, portable=portable)]
-    return libraries[0] if len(libraries) == 1 else fat_binary(libraries)
-
-
-def library_files(
-    sources: Mapping[str, bytes],
-    main: str,
-    platform: str,
-    cache: Path,
-    *,
-    portable: bool = False,
-    flags: Sequence[str] = FLAGS,
-) -> list[Path]:
-    """The shared libraries of the source file ``main`` for each processor of a platform, in the folder ``cache``.
-
-    ``sources`` holds all files by name, ``flags`` are the compiler's. The libraries depend on these and the compiler
-    only, not on time or place. Raises `CompilerMissing` and `CompilationFailed`.
-    """
-    commands = compilers_for(platform, portable)
-    extension = PLATFORMS[platform].extension
-    files = []
-    for command in commands:
-        identity = _identity(tuple(command)) + (_processor(tuple(command)) if FOR_THIS_PROCESSOR in flags else "")
-        digest = hashlib.sha256("\0".join([identity, *flags, main]).encode())
-        for name in sorted(sources):
-            digest.update(b"\0" + name.encode() + b"\0" + hashlib.sha256(sources[name]).digest())
-        cached = cache / f"{digest.hexdigest()[:32]}{extension}"
-        if not cached.is_file():
-            library = _compile([*command, *flags], sources, main, Path(main).stem + extension)
-            cache.mkdir(parents=True, exist_ok=True)
-            partial = cached.with_name(f".{cached.name}.{os.getpid()}.{threading.get_ident()}.part")
-            partial.write_bytes(library)
-            partial.replace(cached)
-        files.append(cached)
-    return files
-
-
-def _compile(command: list[str], sources: Mapping[str, bytes], main: str, output: str) -> bytes:
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        for source, text in sources.items():
-            (folder / source).write_bytes(text)
-        finished = subprocess.run(
-            [*command, "-o", output, main, "-lm"], cwd=folder, capture_output=True, text=True, check=False
-        )
-        if finished.returncode != 0:
-            raise CompilationFailed(f"{' '.join(command)} on {main}:\n{finished.stderr}")
-        return (folder / output).read_bytes()

@@ -13,11 +13,12 @@ from ..evidence.block import add_evidence
 from ..own_digests import note_own
 from ..paths import CACHE
 from .archive import content_guid, write_zip
-from .compilers import PLATFORMS, SOURCE_OPTIONS, build_library
+from .compilers import PLATFORMS, SOURCE_OPTIONS
 from .description import fmi2, fmi3
 from .description.build import build_description
 from .description.terminals import FILE as TERMINALS_FILE
 from .description.terminals import terminals
+from .libraries import build_library
 from .write.translate import translate
 
 C_FILES = Path(__file__).parent / "fmi"

@@ -12,8 +12,9 @@ import pytest
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.export import compilers
-from perilune.fmus_src.export.compilers import CompilationFailed, CompilerMissing, build_library, local_platform
+from perilune.fmus_src.export import compilers, libraries
+from perilune.fmus_src.export.compilers import CompilationFailed, CompilerMissing, local_platform
+from perilune.fmus_src.export.libraries import build_library
 from perilune.fmus_src.export.native_fmu import STANDARD_HEADERS, build_native_fmu, wrapper_files
 from perilune.fmus_src.export.write.names import WRAPPER_NAMES
 from perilune.fmus_src.runtime import Component
@@ -54,7 +55,7 @@ def test_unchanged_block_is_not_compiled_again(tmp_path: Path, monkeypatch: pyte
     def refuse(*_: object) -> bytes:
         raise AssertionError("compiled again")
 
-    monkeypatch.setattr(compilers, "_compile", refuse)
+    monkeypatch.setattr(libraries, "_compile", refuse)
     assert built(tmp_path / "b", cache=tmp_path / "cache").read_bytes() == first
 
 

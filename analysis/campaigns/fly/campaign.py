@@ -9,7 +9,9 @@ from pathlib import Path
 
 from ....fmus_src.kernel.functions import VERSION
 from ...common.errors import InputError
-from ...runtime.system.options import UNTRUSTED, Trust
+from ...runtime.apart.opening import flies_here
+from ...runtime.fused.refusals import check_fused
+from ...runtime.system.options import FUSED, UNTRUSTED, Trust
 from ...runtime.system.prepared import PreparedSystem
 from ..lost_trials import lost_status
 from ..spec.checks import check_plan, prepare_variants
@@ -22,7 +24,7 @@ from .plan_manifest import gather, restore
 from .shards.files import is_flown, shard_path
 from .shards.numbering import Numbering
 from .store import FlownRows, HeldShards, StoredShards
-from .workers import in_threads, worker_count
+from .workers import in_threads, needs_children, worker_count
 
 
 @dataclass(frozen=True)
@@ -117,16 +119,28 @@ class Campaign:
 
 
 def open_campaign(
-    plan: BatchPlan, output: Path | None, *, resume: bool = False, engine: str | None = None, workers: int | None = None
+    plan: BatchPlan,
+    output: Path | None,
+    *,
+    resume: bool = False,
+    engine: str | None = None,
+    workers: int | None = None,
+    elsewhere: str | None = None,
 ) -> Campaign:
     """Check a plan and write down what it flies. Raises InputError before anything is written or flown.
 
     With ``output`` a campaign begins in that folder, in place of what is there, or goes on there with ``resume``; what
-    flies are the files that the folder then holds, whatever becomes of their originals.
+    flies are the files that the folder then holds, whatever becomes of their originals. ``elsewhere`` says who
+    simulates it, where that is not this process.
     """
-    worker_count(workers)
+    if elsewhere is not None and plan.options.flavour == FUSED:
+        problem = f"{elsewhere} compile steps where that pays, and do not know of the option"
+        raise InputError("`flavour`", FUSED, problem, "leave `flavour` out")
+    count = worker_count(workers)
     systems = check_plan(plan)
-    in_threads(systems.values(), engine)  # refused before anything is written
+    apart = needs_children(count, in_threads(systems.values(), engine), engine)
+    for prepared in systems.values():
+        check_fused(prepared, apart=apart or not flies_here(prepared))
     manifest, contents = gather(plan, systems)
     if output is None:
         return Campaign(plan, plan, systems, manifest, None)

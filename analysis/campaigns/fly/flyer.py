@@ -37,10 +37,10 @@ class TrialResult(NamedTuple):
 class Flyer:
     """Holds the simulations of a plan's variants; made once per worker, not shared between threads.
 
-    ``apart``: all fly in children, also what may fly here.
+    ``apart``: all fly in children, also what may fly here. ``trials`` and ``workers`` are as in `Fusing`.
     """
 
-    def __init__(self, plan: BatchPlan, *, apart: bool = False) -> None:
+    def __init__(self, plan: BatchPlan, *, apart: bool = False, trials: int | None = None, workers: int = 1) -> None:
         self.plan = plan
         self._apart = apart
         self._drawn: DrawnTrials | None = None
@@ -48,7 +48,7 @@ class Flyer:
         self._ready: dict[str, tuple[BaseSimulation, VariantNames]] = {}
         self._logs: dict[str, Log] = {}
         self._warned: set[str] = set()  # variants
-        self._fusing = Fusing(plan)
+        self._fusing = Fusing(plan.options.flavour, trials, workers)
         self.halted = False
 
     def simulation(self, variant: str) -> tuple[BaseSimulation, VariantNames]:
@@ -118,7 +118,7 @@ class Flyer:
                 begun = time.perf_counter()
                 group = simulation.fly_group(table)
                 seconds = time.perf_counter() - begun
-                self._fusing.consider(variant, simulation, following[: len(group.statuses)], seconds)
+                self._fusing.consider(variant, simulation, len(group.statuses), seconds)
             else:
                 group = self._fly_next(variant, flown, trials)
             numbers = range(flown, flown + len(group.statuses))

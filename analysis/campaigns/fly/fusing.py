@@ -7,7 +7,6 @@ import warnings
 
 from ...common.errors import InputError
 from ...runtime.flight.base_simulation import BaseSimulation
-from ..spec.plan import BatchPlan
 
 GAIN = 0.1  # of a trial's time, in most shipped systems (benchmarks/one_fmu.py)
 COMPILATION = 0.4  # s, of a component
@@ -18,22 +17,32 @@ _compiling = threading.Lock()  # one worker at a time, while the others go on
 class Fusing:
     """Compiles the steps of one worker's simulations where that pays and the user gives no flavour.
 
-    Results have the same bits before and after.
+    Results have the same bits before and after. ``trials`` are those of each variant that all ``workers`` together
+    simulate; None: nobody knows, and as many are expected as have been simulated.
     """
 
-    def __init__(self, plan: BatchPlan) -> None:
-        self._trials = plan.campaign.trials
-        self._is_open = plan.options.flavour is None
+    def __init__(self, flavour: str | None, trials: int | None, workers: int) -> None:
+        self._trials = trials
+        self._workers = workers
+        self._is_open = flavour is None
+        self._simulated: dict[str, int] = {}  # by this worker, of each variant
         self._decided: set[str] = set()  # variants
 
-    def consider(self, variant: str, simulation: BaseSimulation, last: range, seconds: float) -> None:
-        """Compile the steps of a variant whose trials ``last`` have taken so long (s), if those left save enough.
+    def consider(self, variant: str, simulation: BaseSimulation, count: int, seconds: float) -> None:
+        """Compile the steps of a variant, ``count`` trials of which took so long (s), if those left save enough.
 
-        Warns where the compiler refuses them; then trials are simulated as before.
+        Not behind the first trials, whose time is that of loading the loop, too. Warns where the compiler refuses them;
+        then trials are simulated as before.
         """
         if not self._is_open or variant in self._decided:
             return
-        saved = GAIN * (self._trials - last.stop) * seconds / len(last)
+        is_first = variant not in self._simulated
+        self._simulated[variant] = self._simulated.get(variant, 0) + count
+        if is_first:
+            return
+        simulated = self._simulated[variant] * self._workers
+        left = simulated if self._trials is None else self._trials - simulated
+        saved = GAIN * left * seconds / count
         if saved < MARGIN * COMPILATION * len(simulation.prepared.network.fmus):
             return
         if _compiling.acquire(blocking=False):
@@ -41,6 +50,8 @@ class Fusing:
                 self._decided.add(variant)
                 simulation.fuse()
             except InputError as error:
+                if simulation.recorder.halt[0]:
+                    return  # interrupted: the compiler has been ended
                 warnings.warn(f"{variant}: steps are not compiled: {error.problem}", stacklevel=2)
             finally:
                 _compiling.release()

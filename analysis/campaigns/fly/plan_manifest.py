@@ -81,7 +81,8 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
         draws = {"label": plan.given.file, "sha256": plan.given.sha256, "content": content}
     campaign = plan.campaign
     options = {name: value for name, value in asdict(plan.options).items() if name not in NOT_STORED}
-    options["flavour"] = plan.options.build  # fused steps have the bits of native FMUs: it may change under way
+    # Native FMUs are the default, and their fused steps have the same bits: these may change under way.
+    options["flavour"] = "python" if plan.options.flavour == "python" else None
     fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
     document: CampaignDocument = {
         **_source(plan.source, campaign.file, keep),

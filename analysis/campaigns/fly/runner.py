@@ -113,11 +113,14 @@ def _fly_here(
 ) -> Generator[tuple[int, dict[str, Trials]]]:
     count = worker_count(workers)
     threads = in_threads(campaign.systems.values(), engine)
-    flights = sum(len(campaign.numbering.of(shard)) for shard in shards) * len(campaign.plan.campaign.variants())
+    trials = sum(len(campaign.numbering.of(shard)) for shard in shards)
+    flights = trials * len(campaign.plan.campaign.variants())
     size = task_size(campaign.numbering.trials, count, threads)
     tasks = -(-flights // size)
     with (
-        FlyerPool(campaign.flown, min(count, max(tasks, 1)), threads, apart=engine == "processes") as pool,
+        FlyerPool(
+            campaign.flown, min(count, max(tasks, 1)), threads, apart=engine == "processes", trials=trials
+        ) as pool,
         closing(fly_shards(campaign.numbering, shards, pool, size)) as flown,
     ):
         yield from flown

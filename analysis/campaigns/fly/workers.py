@@ -42,6 +42,11 @@ def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
     return engine == "threads"
 
 
+def needs_children(workers: int, threads: bool, engine: str | None) -> bool:
+    """Whether trials that could fly in this process fly in children of the flight server."""
+    return engine == "processes" or (workers > 1 and not threads)
+
+
 def worker_count(workers: int | None) -> int:
     """The number of parallel flights: as asked for, or one per processor. Raises InputError."""
     count = workers if workers is not None else cpu_count()
@@ -55,13 +60,17 @@ class FlyerPool:
 
     Each is a thread; with one worker everything happens in the caller's. Native FMUs of our own fly there. Python FMUs
     hold the interpreter lock, and others' are not to be trusted: what is not for ``threads`` flies in children of the
-    flight server, as soon as there are two workers or it is to be ``apart``.
+    flight server, as soon as there are two workers or it is to be ``apart``. ``trials`` are those of each variant, if
+    their number is known.
     """
 
-    def __init__(self, plan: BatchPlan, workers: int, threads: bool, *, apart: bool = False) -> None:
+    def __init__(
+        self, plan: BatchPlan, workers: int, threads: bool, *, apart: bool = False, trials: int | None = None
+    ) -> None:
         self.plan = plan
         self._workers = workers
-        self._apart = apart or (workers > 1 and not threads)
+        self._trials = trials
+        self._apart = apart or needs_children(workers, threads, None)
         self._flyers: list[Flyer] = []
         self._thread = threading.local()
         if workers == 1:
@@ -69,7 +78,7 @@ class FlyerPool:
         self._executor = None if workers == 1 else ThreadPoolExecutor(workers, initializer=self._start)
 
     def _start(self) -> None:
-        self._thread.flyer = Flyer(self.plan, apart=self._apart)
+        self._thread.flyer = Flyer(self.plan, apart=self._apart, trials=self._trials, workers=self._workers)
         self._flyers.append(self._thread.flyer)
 
     def work(self, function: Callable[..., Result], tasks: Iterable[tuple]) -> Iterator[tuple[int, Result]]:

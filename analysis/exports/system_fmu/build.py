@@ -10,8 +10,9 @@ from pathlib import Path, PurePath
 
 from ....fmus_src.evidence.manifest import Related, add_manifest
 from ....fmus_src.export.archive import content_guid, write_zip
-from ....fmus_src.export.compilers import PLATFORMS, build_library
+from ....fmus_src.export.compilers import PLATFORMS
 from ....fmus_src.export.description.system import SystemVariable, system_description
+from ....fmus_src.export.libraries import build_library
 from ....fmus_src.export.native_fmu import read_wrapper
 from ....fmus_src.own_digests import note_own
 from ....fmus_src.paths import CACHE

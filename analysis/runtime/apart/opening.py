@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Unpack
 
 from ..flight.base_simulation import BaseSimulation, Choices
+from ..fused.refusals import check_fused
 from ..system.prepared import PreparedSystem
 from .simulation import ApartSimulation
 
@@ -19,7 +20,9 @@ def flies_here(prepared: PreparedSystem) -> bool:
 
 def open_simulation(prepared: PreparedSystem, *, apart: bool = False, **choices: Unpack[Choices]) -> BaseSimulation:
     """A simulation, in a child where it may not be here or is to be ``apart``; see `Choices`. Raises InputError."""
-    kind = _simulation_here() if flies_here(prepared) and not apart else ApartSimulation
+    apart = apart or not flies_here(prepared)
+    check_fused(prepared, apart=apart)
+    kind = ApartSimulation if apart else _simulation_here()
     return kind(prepared, **choices)
 
 

@@ -10,7 +10,8 @@ from typing import Unpack
 import numpy as np
 
 from ...common.collection import no_collection
-from ..fused.fuse import can_fuse, fuse
+from ..fused.fuse import fuse, is_compilable
+from ..fused.refusals import can_fuse, check_fused
 from ..instances.instance import Instance, instantiate
 from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
@@ -73,26 +74,32 @@ class Simulation(BaseSimulation):
             outcome=self.recorder.outcome,
             halt=self.recorder.halt,
         )
-        self.loops = self._make_loops()
+        self.loops = self._make_loops(self.prepared)
         self.life_cycle = LifeCycle(self.instances, self.program, self.fmi3, self._instructions, self._note_subject)
         self.recorder.enter(Phase.IDLE)
 
-    def _make_loops(self) -> Loops:
-        prepared, fused = self.prepared, None
+    def _make_loops(self, prepared: PreparedSystem) -> Loops:
+        fused = None
         if prepared.options.flavour == FUSED:
-            fused = fuse(self.instances, self.program, self._recorded.tolist())
+            check_fused(prepared)
+            fused = fuse(self.instances, self.program, self._recorded.tolist(), self._is_wanted)
         return Loops(locked=not prepared.is_native, with_fmi3=prepared.has_fmi3, fused=fused)
+
+    def _is_wanted(self) -> bool:
+        return not self.recorder.halt[0]
 
     def fuse(self) -> None:
         """See `BaseSimulation.fuse`. Raises InputError where the compiler refuses the steps, or changes results."""
-        if self.loops.fused is None and can_fuse(self.prepared, self.program):
-            self.prepared = replace(self.prepared, options=replace(self.prepared.options, flavour=FUSED))
-            self.loops = self._make_loops()
+        if self.loops.fused is None and can_fuse(self.prepared) and is_compilable(self.program):
+            fused = replace(self.prepared, options=replace(self.prepared.options, flavour=FUSED))
+            with self.loops.under_way:  # the instances are looked at: who closes this leaves them alone
+                loops = self._make_loops(fused)
+            self.prepared, self.loops = fused, loops
 
     def ignore_finished(self) -> None:
         """Let the flights that follow go on behind the system's own end."""
         self.program = self.program._replace(finished_slot=-1)
-        self.loops = self._make_loops()
+        self.loops = self._make_loops(self.prepared)
 
     def announce(self, _values: Mapping[str, ParameterValue], _faults: Sequence[Fault | None]) -> None:
         """Nothing: a flight here takes the thread that looks at the last one."""

@@ -26,7 +26,7 @@ NEEDED = '#include "fmi2_types.h"\n#include "life_cycle.h"'  # of the wrapper: a
 
 OFFSETS = """
 /* The offset of a variable in an instance, by its value reference. */
-UNIT_EXPORT uint32_t offset_of(uint32_t reference)
+_UNIT_EXPORT uint32_t offset_of(uint32_t reference)
 {
     return (uint32_t)offsetof(Component, now.block) + ELEMENTS[reference].offset;
 }
@@ -45,7 +45,7 @@ STANDARD = frozenset(
         INFINITY NAN HUGE_VAL offsetof PRId64 va_list va_start va_arg va_end snprintf vsnprintf sprintf
         abs atoi strtod calloc malloc free memcpy memmove memset memcmp strchr strcmp strcpy strlen strspn strstr
         fmod fabs sqrt floor ceil trunc isfinite isnan isinf signbit copysign
-        UNIT_EXPORT pack push pop cold noinline always_inline visibility dllexport
+        pack push pop cold noinline always_inline visibility dllexport
         """,
     )
 )

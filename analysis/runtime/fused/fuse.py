@@ -3,29 +3,24 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Iterable, Mapping
-from functools import cache, lru_cache
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 
 from ....fmus_src.export.compilers import FLAGS as FMU_FLAGS
-from ....fmus_src.export.compilers import (
-    FOR_THIS_PROCESSOR,
-    CompilationFailed,
-    CompilerMissing,
-    available_platforms,
-    library_files,
-    local_platform,
-)
+from ....fmus_src.export.compilers import FOR_THIS_PROCESSOR, CompilationFailed, CompilerMissing, local_platform
+from ....fmus_src.export.libraries import library_files
 from ....fmus_src.paths import CACHE
 from ...common.errors import InputError
 from ..flight.compiled import arrays
 from ..flight.compiled.frame import REALS, WORDS
 from ..instances.instance import PLACED, Instance
 from ..system.fmu import Fmu
-from ..system.prepared import PreparedSystem
+from ..system.options import FUSED
 from .component_code import ComponentCode, component_code
+from .refusals import INSTALL, NO_COMPILER, has_code
 from .unit import ENTRY, SELF_TEST, write_unit
 
 FILE = "fused.c"
@@ -35,33 +30,31 @@ MOST_CODES = 64  # of FMUs, that are kept
 MOST_INSTRUCTIONS = 20_000  # a minute of compilation
 
 
-def can_fuse(prepared: PreparedSystem, program: arrays.Program) -> bool:
-    """Whether the FMUs are all ours, native and of FMI 2.0, the steps compile in a minute, and a compiler is here."""
-    ours = all(fmu.is_own and fmu.is_native and fmu.version == 2 for fmu in prepared.network.fmus.values())
-    return ours and _instructions_in(program) <= MOST_INSTRUCTIONS and local_platform() in available_platforms()
+def is_compilable(program: arrays.Program) -> bool:
+    """Whether its steps compile in a minute."""
+    return int(program.phases[-1] - program.phases[0]) <= MOST_INSTRUCTIONS
 
 
-def _instructions_in(program: arrays.Program) -> int:
-    return int(program.phases[-1] - program.phases[0])
-
-
-def fuse(instances: Mapping[str, Instance], program: arrays.Program, recorded: Iterable[int]) -> arrays.Fused:
+def fuse(
+    instances: Mapping[str, Instance],
+    program: arrays.Program,
+    recorded: Iterable[int],
+    is_wanted: Callable[[], bool] = lambda: True,
+) -> arrays.Fused:
     """The steps of a ``program`` of which these slots are recorded, as a function of a library.
 
     The C is that inside the native FMUs of the ``instances``; other FMUs are called as ever. The library is kept in
-    the cache folder by its content. Raises InputError where there is no compiler, or one that changes results, and for
-    FMUs whose C is of another build, or whose periods come round together too late.
+    the cache folder by its content. The compiler is ended as soon as the function is not ``is_wanted`` any more. Raises
+    InputError where there is no compiler, or one that does not work or changes results, where the cache cannot be
+    written, and for FMUs whose C is of another build, or whose periods come round together too late.
     """
     components = _component_codes(instances)
-    if not components:
-        problem = "the system has no native FMU of Perilune, whose C could be fused"
-        raise InputError("`flavour`", "fused", problem, "leave `flavour` out")
-    if _instructions_in(program) > MOST_INSTRUCTIONS:
+    if not is_compilable(program):
         problem = (
             f"the steps repeat after {len(program.phases) - 1} communication steps only, too many to be one function"
         )
-        raise InputError("`flavour`", "fused", problem, "fly it `native`")
-    library = _load(_compile(write_unit(program, recorded, components)))
+        raise InputError("`flavour`", FUSED, problem, "fly it `native`")
+    library = _load(_compile(write_unit(program, recorded, components), is_wanted))
     _check_arithmetic(library)
     for number, instance in enumerate(instances.values()):
         if number in components:
@@ -76,7 +69,7 @@ def _component_codes(instances: Mapping[str, Instance]) -> dict[int, ComponentCo
     components = {}
     for number, instance in enumerate(instances.values()):
         fmu = instance.fmu
-        if fmu.is_own and fmu.is_native and fmu.version == 2:
+        if has_code(fmu):
             prefix = prefixes.setdefault(fmu.digest, f"k{len(prefixes)}_")
             components[number] = _CODES(fmu.digest, prefix, fmu)
     return components
@@ -100,26 +93,31 @@ class _Codes:
 _CODES = _Codes()
 
 
-@lru_cache(maxsize=MOST_CODES)
-def _compile(text: str) -> Path:
-    platform = local_platform()
+def _compile(text: str, is_wanted: Callable[[], bool]) -> Path:
+    platform, cached = local_platform(), CACHE / "fused"
     try:
         if platform is None:
             raise CompilerMissing("no platform of FMI 2.0")
-        (file,) = library_files({FILE: text.encode()}, FILE, platform, CACHE / "fused", flags=FLAGS)
+        (file,) = library_files({FILE: text.encode()}, FILE, platform, cached, flags=FLAGS, is_wanted=is_wanted)
     except CompilerMissing as error:
-        remedy = "install cc, or pip install ziglang; or fly it `native`"
-        raise InputError("`flavour`", "fused", "needs a C compiler, and there is none", remedy) from error
+        raise InputError("`flavour`", FUSED, NO_COMPILER, INSTALL) from error
     except CompilationFailed as error:
         lines = str(error).splitlines()
         problem = f"the compiler refuses its C: {next((line for line in lines if 'error' in line), lines[0])}"
-        raise InputError("`flavour`", "fused", problem, "fly it `native`") from error
+        raise InputError("`flavour`", FUSED, problem, "fly it `native`") from error
+    except OSError as error:
+        problem = f"the cache folder {cached} cannot be written: {error.strerror}"
+        raise InputError("`flavour`", FUSED, problem, "free or unlock it, or fly it `native`") from error
     return file
 
 
 @cache
 def _load(file: Path) -> ctypes.CDLL:
-    return ctypes.CDLL(str(file))
+    try:
+        return ctypes.CDLL(str(file))
+    except OSError as error:
+        problem = f"the compiler wrote what is no library: {error}"
+        raise InputError("`flavour`", FUSED, problem, "mend the compiler, or fly it `native`") from error
 
 
 def _check_arithmetic(library: ctypes.CDLL) -> None:
@@ -128,7 +126,7 @@ def _check_arithmetic(library: ctypes.CDLL) -> None:
     check.restype = ctypes.c_char_p
     problem = check()
     if problem is not None:
-        raise InputError("`flavour`", "fused", problem.decode(), "fly it `native`")
+        raise InputError("`flavour`", FUSED, problem.decode(), "fly it `native`")
 
 
 def _check_layout(library: ctypes.CDLL, code: ComponentCode, instance: Instance) -> None:

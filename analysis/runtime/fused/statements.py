@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...common.errors import InputError
+from ....fmus_src.export.write.names import literal
 from ..flight.compiled import arrays, codes
 
 INJECTIONS = {codes.OVERRIDE: "OVERRIDE", codes.BIAS: "BIAS", codes.FREEZE: "FREEZE", codes.EXCITE: "EXCITE"}
@@ -40,12 +40,8 @@ class Statements:
     prefixes: Mapping[int, str]
 
     def of(self, instruction: Instruction) -> list[str]:
-        """The lines of one instruction. Raises InputError for one that is not fused."""
-        write = WRITERS.get(instruction.code)
-        if write is None:
-            problem = "the system has FMUs of FMI 3.0, which are not fused"
-            raise InputError("`flavour`", "fused", problem, "fly it `native`")
-        return write(self, instruction)
+        """The lines of one instruction; those of FMI 3.0 have none."""
+        return WRITERS[instruction.code](self, instruction)
 
     def variable(self, row: Instruction, kind: str, index: int) -> str:
         """A value in the memory of a component."""
@@ -141,7 +137,7 @@ def _step(to: Statements, row: Instruction) -> list[str]:
 def _transformed(to: Statements, number: int) -> tuple[int, str]:
     program = to.program
     factor, offset = float(program.factor[number]), float(program.offset[number])
-    return int(program.target[number]), f"values[{program.source[number]}] * {factor.hex()} + {offset.hex()}"
+    return int(program.target[number]), f"values[{program.source[number]}] * {literal(factor)} + {literal(offset)}"
 
 
 def _transform(to: Statements, row: Instruction, sign: str = "=") -> list[str]:
@@ -170,7 +166,7 @@ def _map(to: Statements, row: Instruction) -> list[str]:
             if np.isnan(given):
                 otherwise = f"values[{target}] = values[{source}];"
             else:
-                tests.append(f"if (values[{source}] == {given.hex()}) values[{target}] = {becomes.hex()};")
+                tests.append(f"if (values[{source}] == {literal(given)}) values[{target}] = {literal(becomes)};")
         lines.append(" else ".join([*tests, otherwise]))
     return lines
 

@@ -16,21 +16,21 @@ SELF_TEST = "perilune_check_arithmetic"
 OUTCOMES = ("FAILED", "NONFINITE", "UNMAPPED", "TOO_LONG", "FMI_WARNING", "STOP_TIME", "FINISHED", "INTERRUPTED")
 EXPORT = """\
 #if defined(_WIN32)
-#define UNIT_EXPORT __declspec(dllexport)
+#define _UNIT_EXPORT __declspec(dllexport)
 #else
-#define UNIT_EXPORT __attribute__((visibility("default")))
+#define _UNIT_EXPORT __attribute__((visibility("default")))
 #endif
 """
 CHECK = """\
 /* What is wrong with the arithmetic of the compiled unit; NULL: nothing. */
-UNIT_EXPORT const char *{name}(void)
+_UNIT_EXPORT const char *{name}(void)
 {{
     return {prefix}check_arithmetic();
 }}
 """
 FLY = """\
 /* Fly from communication point to communication point; returns the number of rows in the record. */
-UNIT_EXPORT int64_t {entry}(const int64_t *frame, const double *reals)
+_UNIT_EXPORT int64_t {entry}(const int64_t *frame, const double *reals)
 {{
 {unpack}
 {instances}

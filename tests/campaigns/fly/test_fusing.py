@@ -8,7 +8,7 @@ import pytest
 import perilune
 from perilune.analysis.campaigns.fly import fusing
 from perilune.analysis.runtime.flight.simulation import Simulation
-from perilune.analysis.runtime.fused import fuse
+from perilune.analysis.runtime.fused import fuse, refusals
 
 SYSTEM, CAMPAIGN = "lunar_terminal_guidance", "noisy"
 OPTIONS = {"configuration": "analytic_guidance", "stop_time": 5.0, "trials": 1200, "workers": 2}
@@ -56,7 +56,7 @@ def test_not_where_it_does_not_pay_nor_with_a_flavour(fused, monkeypatch, flavou
 
 def test_nor_without_a_compiler(fused, monkeypatch):
     monkeypatch.setattr(fusing, "COMPILATION", 0.0)
-    monkeypatch.setattr(fuse, "available_platforms", list)
+    monkeypatch.setattr(refusals, "available_platforms", list)
     perilune.batch(SYSTEM, CAMPAIGN, **OPTIONS)
     assert not any(fused)
 
@@ -65,7 +65,6 @@ def test_a_compiler_that_fails_is_said_once(fused, monkeypatch):
     """The trials are those without it."""
     monkeypatch.setattr(fusing, "COMPILATION", 0.0)
     monkeypatch.setattr(fuse, "FLAGS", (*fuse.FLAGS, "-fno-such-flag"))
-    fuse._compile.cache_clear()
     options = OPTIONS | {"workers": 1}
     with pytest.warns(UserWarning, match="steps are not compiled: the compiler refuses its C") as noted:
         result = perilune.batch(SYSTEM, CAMPAIGN, **options)

@@ -7,7 +7,8 @@ import ctypes
 
 from perilune.analysis.runtime.fused.component_code import component_code
 from perilune.analysis.runtime.fused.unit import EXPORT
-from perilune.fmus_src.export.compilers import library_files, local_platform
+from perilune.fmus_src.export.compilers import local_platform
+from perilune.fmus_src.export.libraries import library_files
 
 TYPES = (
     "typedef struct Component { struct { int block; } now; } Component;\ntypedef struct { unsigned offset; } Element;\n"
@@ -21,8 +22,8 @@ MODEL = """
 #define SCALE(n) double scale_##n(double x) {{ return {factor} * x; }}
 SCALE(3)
 static const Element ELEMENTS[] = {{{{0}}}};
-UNIT_EXPORT double compute(double x) {{ return TWICE(scale_3(x)) + 1.5e1 + 0x1.8p1; }}
-UNIT_EXPORT const char *say(void) {{ return "compute TWICE {factor} /* as it is */"; }}
+_UNIT_EXPORT double compute(double x) {{ return TWICE(scale_3(x)) + 1.5e1 + 0x1.8p1; }}
+_UNIT_EXPORT const char *say(void) {{ return "compute TWICE {factor} /* as it is */"; }}
 #include "fmi2_wrapper.c"
 """
 

@@ -69,7 +69,6 @@ def test_c_that_has_an_instance_otherwise_than_the_binary(tiny_folder, tmp_path,
 )
 def test_what_would_not_be_compiled(tiny_folder, tmp_path, monkeypatch, change, refusal):
     """One line of what the compiler says."""
-    fuse._compile.cache_clear()
     for name, bound in change.items():
         monkeypatch.setattr(fuse, name, bound)
     prepared = prepare_system(pack(tmp_path / "s.ssp", tiny_folder / "native", RAMP), SystemOptions(flavour="fused"))

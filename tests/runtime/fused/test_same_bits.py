@@ -63,6 +63,20 @@ def test_a_failing_line_of_a_block_is_named(tiny_folder, tmp_path):
     assert message == native[-1]
 
 
+@pytest.mark.parametrize("offset", ["INF", "1e400"])
+def test_a_transformation_to_infinity(tiny_folder, tmp_path, offset):
+    ssd = document(
+        system(
+            component("ramp", "ramp", "output y Real m"),
+            component("gain", "gain", "input u Real m; output y Real m"),
+            connections=connection("ramp.y", "gain.u", f'<ssc:LinearTransformation factor="1" offset="{offset}"/>'),
+        )
+    )
+    path = pack(tmp_path / "s.ssp", tiny_folder / "native", ssd)
+    native, fused = (flown(path, each, {}) for each in ("native", "fused"))
+    assert fused == native
+
+
 def test_foreign_fmus_are_called_beside(tiny_folder, tmp_path):
     """The stranger is no FMU of ours, and in Python: it is called as ever."""
     ssd = document(

@@ -1,0 +1,48 @@
+"""Which systems' steps can be compiled, and what is said of the others before anything is simulated."""
+
+from __future__ import annotations
+
+from ....fmus_src.export.compilers import CompilerMissing, available_platforms, compilers_for, local_platform
+from ...common.errors import InputError
+from ..system.fmu import Fmu
+from ..system.options import FUSED
+from ..system.prepared import PreparedSystem
+
+NO_COMPILER = "needs a C compiler, and there is none"
+INSTALL = "install cc, or pip install ziglang; or fly it `native`"
+
+
+def has_code(fmu: Fmu) -> bool:
+    """Whether the C of an FMU can be part of the steps."""
+    return fmu.is_own and fmu.is_native and fmu.version == 2
+
+
+def can_fuse(prepared: PreparedSystem) -> bool:
+    """Whether all FMUs have their C, and a compiler is here."""
+    return all(map(has_code, prepared.network.fmus.values())) and local_platform() in available_platforms()
+
+
+def check_fused(prepared: PreparedSystem, *, apart: bool = False) -> None:
+    """Refuse the flavour `FUSED` for a system whose steps would not be compiled. Raises InputError.
+
+    ``apart``: it is simulated in processes of its own.
+    """
+    if prepared.options.flavour != FUSED:
+        return
+    if apart:
+        problem = "the system is simulated in processes of its own, where steps are not compiled"
+        raise InputError(
+            "`flavour`", FUSED, problem, "leave `flavour` out; or give `in_process` where you trust its FMUs"
+        )
+    if prepared.has_fmi3:
+        raise InputError("`flavour`", FUSED, "the system has FMUs of FMI 3.0, which are not fused", "fly it `native`")
+    if not any(map(has_code, prepared.network.fmus.values())):
+        problem = "the system has no native FMU of Perilune, whose C could be fused"
+        raise InputError("`flavour`", FUSED, problem, "leave `flavour` out")
+    platform = local_platform()
+    try:
+        if platform is None:
+            raise CompilerMissing("no platform of FMI 2.0")
+        compilers_for(platform)
+    except CompilerMissing as error:
+        raise InputError("`flavour`", FUSED, NO_COMPILER, INSTALL) from error

@@ -1,0 +1,141 @@
+"""Shared libraries from C sources, through a cache by content."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from pathlib import Path
+
+from .compilers import FLAGS, FOR_THIS_PROCESSOR, PLATFORMS, CompilationFailed, compilers_for
+from .fat_binary import fat_binary
+
+CHECKSUM = ".sha256"  # of the file next to a library in the cache
+POLLING = 0.1  # s between looks whether a library is still wanted
+
+
+@cache
+def _identity(command: tuple[str, ...]) -> str:
+    """Command and version of a compiler, as part of the cache's key."""
+    with tempfile.TemporaryDirectory() as folder:  # zig leaves a file behind where it runs
+        version = _output([*command, "--version"], folder)
+    return " ".join(command[1:] if command[0] == sys.executable else command) + version
+
+
+@cache
+def _processor(command: tuple[str, ...]) -> str:
+    """What a compiler takes this processor for, as part of the cache's key: the cache may be shared."""
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "empty.c").touch()
+        return _output([*command, FOR_THIS_PROCESSOR, "-dM", "-E", "empty.c"], folder)
+
+
+def _output(command: list[str], folder: str) -> str:
+    try:
+        return subprocess.run(command, capture_output=True, text=True, errors="replace", check=False, cwd=folder).stdout
+    except OSError as error:
+        raise CompilationFailed(f"{command[0]} cannot be run: {error.strerror}") from error
+
+
+def build_library(
+    sources: Mapping[str, bytes], main: str, platform: str, cache: Path, *, portable: bool = False
+) -> bytes:
+    """The shared library of the source file ``main``, as `library_files`; one for several processors in one."""
+    libraries = [path.read_bytes() for path in library_files(sources, main, platform, cache, portable=portable)]
+    return libraries[0] if len(libraries) == 1 else fat_binary(libraries)
+
+
+def library_files(
+    sources: Mapping[str, bytes],
+    main: str,
+    platform: str,
+    cache: Path,
+    *,
+    portable: bool = False,
+    flags: Sequence[str] = FLAGS,
+    is_wanted: Callable[[], bool] = lambda: True,
+) -> list[Path]:
+    """The shared libraries of the source file ``main`` for each processor of a platform, in the folder ``cache``.
+
+    ``sources`` holds all files by name, ``flags`` are the compiler's. The libraries depend on these and the compiler
+    only, not on time or place. A library in the cache that is not as it was compiled is compiled anew; the compiler is
+    ended as soon as nothing ``is_wanted`` any more. Raises `CompilerMissing`, `CompilationFailed`, and OSError where
+    the cache cannot be written.
+    """
+    commands = compilers_for(platform, portable)
+    extension = PLATFORMS[platform].extension
+    files = []
+    for command in commands:
+        identity = _identity(tuple(command)) + (_processor(tuple(command)) if FOR_THIS_PROCESSOR in flags else "")
+        digest = hashlib.sha256("\0".join([identity, *flags, main]).encode())
+        for name in sorted(sources):
+            digest.update(b"\0" + name.encode() + b"\0" + hashlib.sha256(sources[name]).digest())
+        cached = cache / f"{digest.hexdigest()[:32]}{extension}"
+        if not _is_whole(cached):
+            library = _compile([*command, *flags], sources, main, Path(main).stem + extension, is_wanted)
+            cache.mkdir(parents=True, exist_ok=True)
+            _write(cached, library)
+            _write(cached.with_suffix(CHECKSUM), hashlib.sha256(library).hexdigest().encode())
+        files.append(cached)
+    return files
+
+
+def _is_whole(cached: Path) -> bool:
+    """Whether a library is in the cache as it was compiled: a damaged one would end the process that loads it."""
+    try:
+        checksum = cached.with_suffix(CHECKSUM).read_text(encoding="ascii", errors="replace")
+        return hashlib.sha256(cached.read_bytes()).hexdigest() == checksum
+    except OSError:
+        return False
+
+
+def _write(path: Path, content: bytes) -> None:
+    partial = path.with_name(f".{path.name}.{os.getpid()}.{threading.get_ident()}.part")
+    partial.write_bytes(content)
+    partial.replace(path)
+
+
+def _compile(
+    command: list[str], sources: Mapping[str, bytes], main: str, output: str, is_wanted: Callable[[], bool]
+) -> bytes:
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for source, text in sources.items():
+            (folder / source).write_bytes(text)
+        about = f"{' '.join(command)} on {main}"
+        status, message = _run([*command, "-o", output, main, "-lm"], folder, is_wanted)
+        if status != 0:
+            end = f"ended by {signal.Signals(-status).name}" if status < 0 else f"ended with status {status}"
+            raise CompilationFailed(f"{about}:\n{message or f'error: it {end} without a message'}")
+        library = folder / output
+        if not library.is_file() or not library.stat().st_size:
+            raise CompilationFailed(f"{about}:\nerror: it wrote no library")
+        return library.read_bytes()
+
+
+def _run(command: list[str], folder: Path, is_wanted: Callable[[], bool]) -> tuple[int, str]:
+    """Exit status and messages of a compiler, which has a session of its own: Ctrl-C is for whoever waits for it."""
+    try:
+        process = subprocess.Popen(
+            command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True
+        )
+    except OSError as error:
+        raise CompilationFailed(f"{command[0]} cannot be run: {error.strerror}") from error
+    with process:
+        while True:
+            try:
+                _, errors = process.communicate(timeout=POLLING)
+                return process.returncode, errors.decode(errors="replace")
+            except subprocess.TimeoutExpired:
+                if not is_wanted():
+                    process.kill()
+                    raise CompilationFailed("ended, since it is not wanted any more") from None
+            except BaseException:
+                process.kill()
+                raise
