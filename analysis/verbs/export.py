@@ -91,7 +91,7 @@ def _read_one_fmu(options: ExportOptions) -> OneFmu | None:
     """The options of a system as one FMU. Raises InputError where some are given without `as_fmu`."""
     if options["as_fmu"]:
         assembly = {name: value for name, value in options.items() if name in options_of(AssemblyOptions)}
-        slots = {slot: [each.strip() for each in fmus.split(",")] for slot, fmus in options["slots"].items()}
+        slots = {slot: _candidates(slot, fmus) for slot, fmus in options["slots"].items()}
         system = system_options({**assembly, "flavour": "native"})
         return OneFmu(slots, options["expose"], options["faults"], system)
     defaults = defaults_of(ExportOptions)
@@ -103,6 +103,14 @@ def _read_one_fmu(options: ExportOptions) -> OneFmu | None:
     return None
 
 
+def _candidates(slot: str, fmus: object) -> list[str]:
+    """The candidates of a slot: one, a text with commas between them, or a list."""
+    several = fmus if isinstance(fmus, list | tuple) else str(fmus).split(",") if isinstance(fmus, str | Path) else ()
+    if not several or not all(isinstance(each, str | Path) for each in several):
+        raise InputError("`slots`", slot, f"{fmus!r} are no FMUs", "give names or paths, in a text or a list")
+    return [os.fspath(each).strip() for each in several]
+
+
 def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
     """A system as one FMU, of a name, a folder or an .ssp."""
     request.check_one_fmu()
@@ -111,7 +119,7 @@ def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
         problem = "not a system, which alone can be one FMU"
         raise InputError("`as_fmu`", name, problem, suggestion(name, system_names()))
     archive = open_system(name)
-    path = request.output or Path(f"{archive.path.resolve().stem}.fmu")
+    path = request.output or Path(f"{archive.path.resolve().name.removesuffix('.ssp')}.fmu")
     check_file("`output`", path, (".fmu",))
     platforms = request.platforms or (platforms_of(2) if zig_is_here() else available_platforms())
     if not platforms:

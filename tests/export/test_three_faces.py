@@ -30,6 +30,7 @@ BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = lengths.size(1000)
 # Two divide a step into hundreds where their drawn time constants are short, the third plans at most steps.
 LONG = ("attitude_moon_lander", "spherical_moon_lander", "hover_guidance")
+STEADY = ("slew_step",)  # whose outputs change once in a flight
 TYPES = ("Real", "Integer", "Boolean")
 
 
@@ -96,8 +97,9 @@ def fly_faces(block: type[Block], files: list[Path], wanted: int) -> None:
     faces = [Face(block, instance) for instance in instances]
     random = lengths.generator(f"{block.fmu_name} faces")
     rows: set[bytes] = set()
-    steps = 0
+    steps, flights = 0, 0
     while steps < wanted:
+        flights += 1
         h = block.default_step * random.choice([0.5, 1.0])
         plain = Component(block)
         plain.start_time = random.choice([0.0, 12.5])
@@ -139,4 +141,5 @@ def fly_faces(block: type[Block], files: list[Path], wanted: int) -> None:
                 break
     for instance in instances:
         instance.free()
-    assert only_switches(block) or len(rows) > 0.5 * wanted, "most rows repeat earlier ones: the comparison says little"
+    enough = flights if block.fmu_name in STEADY else 0.5 * wanted
+    assert only_switches(block) or len(rows) > enough, "most rows repeat earlier ones: the comparison says little"

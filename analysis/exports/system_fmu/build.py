@@ -16,6 +16,7 @@ from ....fmus_src.export.libraries import build_library
 from ....fmus_src.export.native_fmu import read_wrapper
 from ....fmus_src.own_digests import note_own
 from ....fmus_src.paths import CACHE
+from ....fmus_src.units import BASE_UNITS, UnitDefinition
 from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive
 from .choices import Preparation, candidate_name, check_slots, find_default
@@ -24,7 +25,7 @@ from .kind_in_c import file_name, write_kind
 from .model import SystemModel
 from .page import PAGE, README, system_page, system_readme
 from .parameter_sets import OtherSets, other_parameter_sets
-from .reference import find_choice, record_reference
+from .reference import find_default_program, record_reference
 from .request import OneFmu
 from .system_in_c import write_system
 from .variables import FmuVariable, Variables
@@ -55,14 +56,14 @@ def build_system_fmu(
         raise InputError(model.network.file, "system", problem, "give `expose` with a signal")
     _check_names(variables.declared, model.network.file)
     name = _model_identifier(archive.name, model)
-    others = other_parameter_sets(preparation, variables.declared)
+    others = other_parameter_sets(preparation, model.network.description.system, variables.declared)
     files = _files(name, model, variables, others, content_guid(_files(name, model, variables, others, "")))
     sources = {file.removeprefix("sources/"): text for file, text in files.items() if file.startswith("sources/")}
     for platform in platforms:
         library = build_library(sources, f"{name}.c", platform, CACHE, portable=portable)
         files[f"binaries/{platform}/{name}{PLATFORMS[platform].extension}"] = library
     page = Related(PAGE, "document", "text/html", "what the system is, its variables, how to fly it")
-    reference, related = record_reference(name, find_choice(model.choices, defaults), variables.declared)
+    reference, related = record_reference(name, find_default_program(model.programs, defaults), variables.declared)
     write_zip(path, add_manifest({**files, **reference}, [page, *related]))
     note_own(path)
 
@@ -84,10 +85,11 @@ def _files(name: str, model: SystemModel, variables: Variables, others: OtherSet
         generation_tool=f"Perilune {version('perilune')}",
         experiment={
             "startTime": first.start,
-            "stopTime": first.start + first.steps * first.step,
+            "stopTime": float(f"{first.start + first.steps * first.step:.12g}"),  # 0.3, not 0.30000000000000004
             "stepSize": first.step,
         },
         sources=[f"{name}.c"],
+        units=_system_units(model),
     )
     return {
         "modelDescription.xml": description,
@@ -95,6 +97,21 @@ def _files(name: str, model: SystemModel, variables: Variables, others: OtherSet
         **others.files,
         PAGE: system_page(name, about, model, variables.declared, dependencies, others),
         README: system_readme(name, about).encode(),
+    }
+
+
+def _system_units(model: SystemModel) -> dict[str, UnitDefinition]:
+    """Those that connectors of the system have, as its description defines them."""
+    nodes = (node for choice in model.choices for node in choice.prepared.network.nodes.values())
+    units = {node.unit.name: node.unit for node in nodes if node.unit is not None}
+    return {
+        name: UnitDefinition(
+            {base: power for base, power in zip(BASE_UNITS, unit.exponents, strict=True) if power},
+            unit.factor,
+            unit.offset,
+        )
+        for name, unit in units.items()
+        if unit.exponents is not None
     }
 
 

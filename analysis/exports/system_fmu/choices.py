@@ -11,7 +11,9 @@ from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError, suggestion
 from ...runtime.fmi.representations import TEXTS
 from ...runtime.ssp.archive import SystemArchive
+from ...runtime.ssp.given_values import parse_value
 from ...runtime.ssp.kinds import PARAMETERS
+from ...runtime.ssp.parameter_sets import SetValue
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.network import Network, Node
 from ...runtime.system.options import SystemOptions
@@ -49,7 +51,8 @@ class Preparation:
         for slot, candidates in self.slots.items():
             names = [candidate_name(each) for each in candidates]
             if len(set(names)) < len(names):
-                raise InputError("`slots`", f"{slot}={','.join(candidates)}", "names a candidate twice", "give it once")
+                remedy = "give each once, and files of one name other names"
+                raise InputError("`slots`", f"{slot}={','.join(candidates)}", "two candidates have one name", remedy)
         count = 1
         for candidates in self.slots.values():
             count *= len(candidates)
@@ -72,16 +75,41 @@ class Preparation:
         """The system with these candidates and, behind the chosen ones, ``more`` parameter sets. Raises InputError."""
         options = self.options
         parameters = (*options.parameters, *more)
-        changed = replace(options, use={**options.use, **use}, parameters=parameters, open_inputs="start")
-        prepared = prepare_system(self.archive, changed, self._loaded)
-        network = prepared.network
-        inputs = system_connectors(network, "input")
-        values = {name: _start_of(network, name) for name in inputs if name not in prepared.settings.nodes}
-        if values:  # with a value inputs are connectors whose value is known, and remain connected
-            changed = replace(changed, set={**values, **changed.set})
-            prepared = prepare_system(self.archive, changed, self._loaded)
+        changed = replace(
+            options,
+            use={**options.use, **use},
+            parameters=parameters,
+            set=self._values_for(use),
+            open_inputs="start",
+        )
+        prepared = self._prepare(changed)
+        inputs = [name for name in system_connectors(prepared.network, "input") if name not in prepared.settings.nodes]
+        for start_of in (_no_start, _start_of) if inputs else ():  # with a value inputs remain connected
+            starts = {name: start_of(prepared.network, name) for name in inputs}
+            prepared = self._prepare(replace(changed, set={**starts, **changed.set}))
         numbers = tuple(self.slots[slot].index(fmu) + 1 for slot, fmu in use.items())
         return Choice({slot: candidate_name(fmu) for slot, fmu in use.items()}, numbers, prepared)
+
+    def _values_for(self, use: Mapping[str, str]) -> dict[str, SetValue]:
+        """The values that are given; of SLOT.CANDIDATE.PARAMETER those of these candidates."""
+        chosen = {}
+        for name, number in self.options.set.items():
+            slot, _, inside = name.partition(".")
+            names = [each for each in map(candidate_name, self.slots.get(slot, ())) if inside.startswith(f"{each}.")]
+            if not names:
+                chosen[name] = number
+            elif slot in use and candidate_name(use[slot]) in names:
+                chosen[f"{slot}.{inside.removeprefix(f'{candidate_name(use[slot])}.')}"] = number
+        return chosen
+
+    def _prepare(self, options: SystemOptions) -> PreparedSystem:
+        try:
+            return prepare_system(self.archive, options, self._loaded)
+        except InputError as error:
+            if "allow_unmatched" not in error.remedy:
+                raise
+            remedy = "correct it; of a slot write SLOT.CANDIDATE.PARAMETER" if self.slots else "correct it"
+            raise InputError(error.file, error.element, error.problem, remedy) from error
 
 
 def candidate_name(use: str) -> str:
@@ -90,12 +118,38 @@ def candidate_name(use: str) -> str:
 
 
 def _start_of(network: Network, name: str) -> float | bool | str:
-    """The start of an input of the system: nothing, false, or the first item of an enumeration."""
+    """The start of an input of the system: that of the first input of a component that it reaches."""
+    start, type_name = _start_reached(network, name), network.nodes[name].type_name
+    if start is None or type_name == "Enumeration":
+        return _no_start(network, name)
+    return {"Boolean": bool, "Integer": int}.get(type_name or "", float)(start)
+
+
+def _no_start(network: Network, name: str) -> float | bool | str:
+    """Nothing, false, or the first item of an enumeration."""
     node = network.nodes[name]
     check_type(network, node)
     if node.enumeration:
         return next(iter(node.enumeration))
     return {"Boolean": False, "Integer": 0}.get(node.type_name or "", 0.0)
+
+
+def _start_reached(network: Network, name: str) -> float | None:
+    """The value with which the first input of a component that a connector reaches has its start."""
+    for link in network.driver.values():
+        if link.source.name != name or link.transformation.table or not link.transformation.factor:
+            continue
+        target = link.target
+        if target.component is None:
+            start = _start_reached(network, target.name)
+        else:
+            fmu = network.fmus[target.component]
+            variable = fmu.variables[target.variable]
+            begin = parse_value(variable.start_text, variable.type, fmu.label, variable.name)
+            start = None if isinstance(begin, str) else float(begin)
+        if start is not None:
+            return (start - link.transformation.offset) / link.transformation.factor
+    return None
 
 
 def check_type(network: Network, node: Node) -> None:

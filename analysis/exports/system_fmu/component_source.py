@@ -66,6 +66,9 @@ def read_component_source(fmu: Fmu, name: str) -> ComponentSource:
     """The source of an FMU of ours, whose names begin with ``name``. Raises InputError for the C of another build."""
     sources = fmu.read_sources()
     main = sources.get(f"{fmu.description.coSimulation.modelIdentifier}.c", "")
+    if "system_steps.h" in sources:
+        problem = "is itself a system as one FMU"
+        raise InputError(fmu.label, "sources", problem, "nest the system in its place, or export this one as .ssp")
     ours = read_wrapper(2)
     known = all(sources.get(header, "").encode() == ours[header] for header in SHARED)
     tables = TABLES.search(main)

@@ -18,8 +18,6 @@ typedef struct {type} {{
 /* From parameters and inputs to states and outputs. */
 static void {prefix}initialize({type} *self, Fault *fault, double start_time)
 {{
-    const {block} given = self->block;
-    self->block = {prefix}STARTS;
 {given}
     self->tick = 0;
     {prefix}model_set_start_time(&self->block, start_time);
@@ -54,8 +52,15 @@ def write_kind(source: ComponentSource) -> str:
         type=source.type_name,
         block=source.block,
         prefix=source.prefix,
-        given="\n".join(f"    {_retain(member, is_array)}" for member, is_array in source.given.items()),
+        given="\n".join(f"    {line}" for line in _begin(source)),
     )
+
+
+def _begin(source: ComponentSource) -> list[str]:
+    """From the starts, but for parameters and inputs."""
+    retained = [_retain(member, is_array) for member, is_array in source.given.items()]
+    begin = f"self->block = {source.prefix}STARTS;"
+    return [f"const {source.block} given = self->block;", begin, *retained] if retained else [begin]
 
 
 def _retain(member: str, is_array: bool) -> str:

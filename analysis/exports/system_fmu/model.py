@@ -26,6 +26,16 @@ from .choices import Choice, check_type, system_connectors
 from .component_source import ComponentSource, Member, read_component_source
 
 DEFINE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
+# Its headers: a file of such a name would be found in their place.
+C_LIBRARY = frozenset(
+    re.findall(
+        r"\w+",
+        """
+        assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdarg stdbool stddef
+        stdint stdio stdlib string tgmath time
+        """,
+    )
+)
 ALWAYS = (float("-inf"), float("inf"))
 
 
@@ -101,7 +111,9 @@ class SystemModel:
         self.members = Identifiers({*RESERVED, *_macros(), "point", "start_time", "has_finished", "signal", "fault"})
         self._candidates: dict[tuple[str, str], Candidate] = {}
         self._sources: dict[str, ComponentSource] = {}
-        self._prefixes = Identifiers({"model", *(PurePath(file).stem for file in read_wrapper(2, "system"))})
+        self._prefixes = Identifiers(
+            {"model", *C_LIBRARY, *(PurePath(file).stem for file in read_wrapper(2, "system"))}
+        )
         self.exposed = self._find_exposed(exposed)
         self.faulty = _find_faulty(choices, faulty)
         self.programs = [self._program(choice) for choice in choices]
@@ -113,6 +125,8 @@ class SystemModel:
                 raise InputError("`expose`", name, "no signal of the system", "name a variable as component.variable")
         self.types = {name: kind for program in self.programs for name, kind in program.layout.types.items()}
         self.units = {name: unit for program in self.programs for name, unit in program.layout.units.items()}
+        for name in (*self.exposed, *self.faulty):
+            self._check_alike(name)
 
     @property
     def candidates(self) -> list[Candidate]:
@@ -139,6 +153,16 @@ class SystemModel:
             check_type(self.network, self.network.nodes[name])
         return [name for name in names if name in self.signals]
 
+    def _check_alike(self, name: str) -> None:
+        """Refuse a signal that is another quantity with another candidate: one variable stands for all."""
+        layouts = [program.layout for program in self.programs if name in program.layout.slots]
+        kinds = {f"{layout.types[name]} in {layout.units[name] or '1'}": None for layout in layouts}
+        if len(kinds) > 1:
+            problem = f"{', '.join(kinds)}, as the candidates have it: one variable cannot stand for both"
+            raise InputError(
+                "`slots`", name, problem, "neither expose it nor give it a fault, or leave a candidate out"
+            )
+
     def _program(self, choice: Choice) -> ChoiceProgram:
         prepared = choice.prepared
         instances = dict.fromkeys(prepared.network.fmus, Unloaded())
@@ -163,6 +187,10 @@ class SystemModel:
         exposed: dict[str, None] = {}
         for name in names:
             error = None
+            if name in self.network.description.system.connectors:
+                raise InputError(
+                    "`expose`", name, "a connector of the system, which the FMU has anyway", "leave it out"
+                )
             nodes = [choice.prepared.network.nodes.get(name) for choice in self.choices]
             if any(node is not None and node.component is None and "." in name for node in nodes):
                 exposed[name] = None  # a connector of a system inside
@@ -175,17 +203,16 @@ class SystemModel:
             if error is not None and not any(each == name or each.startswith(f"{name}[") for each in exposed):
                 raise InputError("`expose`", name, error.problem, error.remedy)
         for name in exposed:
-            if self._is_parameter(name):
+            if any(self._is_parameter(choice.prepared.network, name) for choice in self.choices):
                 raise InputError("`expose`", name, "a parameter, which is one of the FMU anyway", "leave it out")
         return list(exposed)
 
-    def _is_parameter(self, name: str) -> bool:
+    @staticmethod
+    def _is_parameter(network: Network, name: str) -> bool:
         return any(
             name == f"{component}.{variable.name}"
-            and (
-                variable.causality == "parameter" or (variable.causality == "input" and name not in self.network.driver)
-            )
-            for component, fmu in self.network.fmus.items()
+            and (variable.causality == "parameter" or (variable.causality == "input" and name not in network.driver))
+            for component, fmu in network.fmus.items()
             for variable in fmu.variables.values()
         )
 

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import posixpath
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
 from ....fmus_src.evidence.parameter_set import write_parameter_set
 from ...common.errors import InputError
+from ...runtime.ssp.description import Element, System
 from ...runtime.ssp.given_values import ParameterValue
 from .choices import Preparation
 from .model import SystemModel
 from .variables import FmuVariable, Variables
+
+RESOURCES = "resources/"
 
 
 @dataclass(frozen=True)
@@ -22,20 +26,34 @@ class OtherSets:
     unfit: Sequence[str]
 
 
-def other_parameter_sets(preparation: Preparation, declared: Sequence[FmuVariable]) -> OtherSets:
-    """What each further set of the system changes of the ``declared`` parameters."""
-    archive, files, unfit = preparation.archive, {}, []
-    starts = {each.name: each.start for each in declared if each.causality == "parameter"}
-    applied = {PurePosixPath(name).stem for name in preparation.options.parameters}
-    for stem in sorted(PurePosixPath(file).stem for file in archive.files if file.endswith(".ssv")):
-        if stem in applied:
-            continue
-        changed, problems = _changes(preparation, stem, starts)
+def other_parameter_sets(preparation: Preparation, system: System, declared: Sequence[FmuVariable]) -> OtherSets:
+    """What each further set of the ``system`` changes of the ``declared`` parameters and inputs."""
+    files, unfit = {}, []
+    starts = {each.name: each.start for each in declared if each.causality in ("parameter", "input")}
+    for file in _others(preparation, system):
+        changed, problems = _changes(preparation, file, starts)
         unfit += problems
         if changed:
-            about = "parameters of the system's FMU that this set changes"
-            files[f"resources/{stem}.ssv"] = write_parameter_set(stem, changed, about)
+            about = "parameters and inputs of the system's FMU that this set changes"
+            stem = PurePosixPath(file).stem
+            files[f"{RESOURCES}{file.removeprefix(RESOURCES)}"] = write_parameter_set(stem, changed, about)
     return OtherSets(files, unfit)
+
+
+def _others(preparation: Preparation, system: System) -> list[str]:
+    """The sets of a system that are neither chosen nor bound by its description."""
+    files = preparation.archive.files
+    used = _bound(system)
+    for name in preparation.options.parameters:
+        used |= {f"{RESOURCES}{name}", name, f"{RESOURCES}{name}.ssv"}
+    return sorted(file for file in files if file.endswith(".ssv") and file not in used)
+
+
+def _bound(element: Element) -> set[str]:
+    """The files of parameter bindings of a system, and of all that is in it."""
+    inner = element.elements.values() if isinstance(element, System) else ()
+    files = {posixpath.normpath(binding.source) for binding in element.bindings if binding.source is not None}
+    return files.union(*map(_bound, inner))
 
 
 def _changes(
@@ -47,12 +65,12 @@ def _changes(
             choices.append(preparation.choice(use, name))
         except InputError as error:
             slots = ", ".join(f"{slot}={candidate}" for slot, candidate in use.items())
-            problems.append(f"{name}{f' with {slots}' if slots else ''}: {error.problem}")
+            problems.append(f"{PurePosixPath(name).stem}{f' with {slots}' if slots else ''}: {error.problem}")
     if not choices:
         return {}, problems
     changed: dict[str, float | int | bool] = {}
-    for each in Variables(SystemModel(choices, (), ()), {}, {}).declared:
-        if each.causality == "parameter" and each.name in starts and each.start != starts[each.name]:
-            assert isinstance(each.start, float | int)
-            changed[each.name] = each.start
+    for variable, number in Variables(SystemModel(choices, (), ()), {}, {}).effective.items():
+        if variable in starts and number != starts[variable]:
+            assert isinstance(number, float | int)
+            changed[variable] = number
     return changed, problems

@@ -11,22 +11,28 @@ from ....fmus_src.evidence.experiments import Experiment, write_experiments
 from ....fmus_src.evidence.manifest import CSV, EXPERIMENTS, FOLDER, Related
 from ....fmus_src.evidence.recorded import write_table
 from ...runtime.apart.opening import open_simulation
-from .choices import Choice
+from .model import ChoiceProgram
 from .variables import FmuVariable
 
 MOST_ROWS = 500
 OUTPUTS, EXPERIMENT = "outputs.csv", "outputs.exp"
 
 
-def find_choice(choices: Sequence[Choice], defaults: Mapping[str, int]) -> Choice:
-    """The choice that flies where nobody chooses; ``defaults`` are candidates by slot, counted from 1."""
-    return next(choice for choice in choices if choice.numbers == tuple(defaults.values()))
+def find_default_program(programs: Sequence[ChoiceProgram], defaults: Mapping[str, int]) -> ChoiceProgram:
+    """Of the choice that flies where nobody chooses; ``defaults`` are candidates by slot, counted from 1."""
+    return next(program for program in programs if program.choice.numbers == tuple(defaults.values()))
 
 
-def record_reference(name: str, choice: Choice, declared: list[FmuVariable]) -> tuple[dict[str, bytes], list[Related]]:
-    """Outputs and exposed signals with all parameters and inputs at their starts; nothing of a system without any."""
+def record_reference(
+    name: str, program: ChoiceProgram, declared: list[FmuVariable]
+) -> tuple[dict[str, bytes], list[Related]]:
+    """Outputs and exposed signals with all parameters and inputs at their starts; nothing of a system without any.
+
+    Signals that only other candidates have are left out.
+    """
     visible = [each.name for each in declared if each.causality in ("output", "local")]
-    prepared = choice.prepared
+    visible = [each for each in visible if each in program.layout.slots]
+    prepared = program.prepared
     every = max(1, math.ceil(prepared.steps / MOST_ROWS))
     with open_simulation(prepared, wanted=visible) as simulation:
         flight = simulation.advance(-1, prepared.steps, every=every)

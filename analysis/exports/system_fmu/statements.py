@@ -124,7 +124,7 @@ def check(subject: str) -> str:
 
 def quoted(text: str) -> str:
     """A text as C has it, on one line."""
-    escaped = text.replace("\\", r"\\").replace('"', r"\"").replace(" ", NO_BREAK)
+    escaped = text.replace("\\", r"\\").replace('"', r"\"").replace("?", r"\?").replace(" ", NO_BREAK)
     return f'"{escaped}"'
 
 

@@ -46,6 +46,9 @@ FOOTER = """\
 """
 
 
+_SIGNALS = "double *const s = self->signal;\n    (void)s;"
+
+
 def write_system(name: str, about: str, guid: str, model: SystemModel, variables: Variables) -> str:
     """The file that is compiled, of an FMU with this GUID; it includes the others."""
     header = HEADER.format(
@@ -78,7 +81,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     statements = Statements(program, model.signals)
     initialise = Lines()
     initialise.open(f"static void initialize{program.choice.name}(Block *self, Fault *fault)\n{{")
-    initialise.add("double *const s = self->signal;")
+    initialise.add(_SIGNALS if model.signals else "(void)self;")
     passed = _passed_signals(program, variables)
     for name, start in program.starts.items():
         if name not in passed and name not in model.inputs:
@@ -86,7 +89,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     for name, chain in passed.items():
         initialise.open("{")
         initialise.add(f"double value = (double)self->{variables.parameter_paths[chain[0]]};")
-        for line in pass_along(model, chain):
+        for line in pass_along(program.prepared.network, chain):
             initialise.add(line)
         initialise.add(f"s[{model.signals[name]}] = value;")
         initialise.close("}")
@@ -101,7 +104,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     step = Lines()
     step.comment("From one communication point to the next.")
     step.open(f"static void step{program.choice.name}(Block *self, Fault *fault)\n{{")
-    step.add("double *const s = self->signal;")
+    step.add(_SIGNALS if model.signals else "(void)self;")
     step.add("const double time = self->start_time + (double)self->point * SYSTEM_STEP;")
     for line in [*_check_faults(model), *_take_inputs(model, variables)]:
         step.add(line)
@@ -170,13 +173,15 @@ def _end_step(statements: Statements, model: SystemModel, variables: Variables) 
         if each.causality in ("output", "local") and each.name in program.layout.slots:
             signal = f"s[{model.signals[each.name]}]"
             convert = {"KIND_REAL": signal, "KIND_INTEGER": f"(int64_t){signal}", "KIND_BOOLEAN": f"{signal} != 0.0"}
+            if each.kind == "KIND_INTEGER" and model.faulty:  # of a bias
+                lines.append(f"CHECK_WHOLE({signal}, {quoted(each.name)})")
             lines.append(f"self->{each.path} = {convert[each.kind]};")
     return lines
 
 
 def _entry_points(model: SystemModel, variables: Variables) -> str:
     """What the wrapper calls, for the choice that the slots' parameters make."""
-    slots = [each for each in variables.declared if each.name.endswith(".use") and each.items and each.first_item == 1]
+    slots = [each for each in variables.declared if each.items and each.causality == "parameter"]
     lines = Lines()
     lines.open("static void model_set_start_time(Block *self, double start_time)\n{")
     lines.add("self->start_time = start_time;")

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...runtime.fmi.variable import Variable
 from ...runtime.ssp.given_values import ParameterValue, parse_value
 from ...runtime.ssp.kinds import PARAMETERS
-from ...runtime.system.network import Node
+from ...runtime.system.network import Network, Node
 from .choices import check_type, parameter_chain
 from .dependence import fault_inputs
 from .model import Candidate, ChoiceProgram, SystemModel
@@ -57,29 +57,34 @@ class FmuVariable:
 
 @dataclass(frozen=True)
 class Passed:
-    """A parameter of a component that connections bring the value of a system's: its path, and the chain of names."""
+    """A parameter of a component that connections of a ``network`` bring the value of a system's: its path, and the
+    chain of names."""
 
     path: str
     kind: str
     chain: tuple[str, ...]
+    network: Network
 
 
 class Variables:
     """``declared`` are the variables of the FMU, ``passed`` the parameters inside that follow from those of systems,
-    ``parameter_paths`` where these lie, by connector; ``starts`` the values that differ from the blocks' own."""
+    ``parameter_paths`` where these lie, by connector; ``starts`` the values that differ from the blocks' own.
+    ``effective`` are the values that all parameters and inputs have, declared or passed, by name."""
 
     def __init__(self, model: SystemModel, defaults: Mapping[str, int], slots: Mapping[str, Sequence[str]]) -> None:
         self.model = model
         self.passed: list[Passed] = []
         self.parameter_paths: dict[str, str] = {}
         self.starts: dict[str, ParameterValue] = {}
+        self.effective: dict[str, ParameterValue] = {}
         self._nodes = {name: node for choice in model.choices for name, node in choice.prepared.network.nodes.items()}
         self._values = {name: value for each in model.choices for name, value in each.prepared.settings.nodes.items()}
         system = [*self._inputs(), *self._outputs(), *self._system_parameters()]
         chosen = [self._slot(name, slots[name], default) for name, default in defaults.items()]
         inside = [each for program in _by_candidate(model) for each in self._component_parameters(*program)]
         exposed = [self._exposed(name) for name in model.exposed]
-        self.declared = [*system, *chosen, *inside, *exposed, *self._faults()]
+        self.declared = _with_unique_types([*system, *chosen, *inside, *exposed, *self._faults()])
+        self.effective |= {each.name: each.start for each in [*system, *inside] if each.start is not None}
 
     def _inputs(self) -> Iterator[FmuVariable]:
         for name in self.model.inputs:
@@ -121,7 +126,7 @@ class Variables:
             about,
             default,
             items=tuple(candidates),
-            items_name=f"{name}.use",
+            items_name=f"{name}.use.Candidate",
         )
 
     def _component_parameters(self, program: ChoiceProgram, candidate: Candidate) -> Iterator[FmuVariable]:
@@ -134,7 +139,9 @@ class Variables:
             if variable.causality == "parameter":
                 chain = parameter_chain(network, settings.nodes, full)
                 if chain:
-                    self.passed.append(Passed(path, candidate.member(variable.name).kind, tuple(chain)))
+                    if given is not None:
+                        self.effective[f"{candidate.label}.{variable.name}"] = given
+                    self.passed.append(Passed(path, candidate.member(variable.name).kind, tuple(chain), network))
                     continue
             elif variable.causality != "input" or full in network.driver:
                 continue
@@ -179,11 +186,22 @@ class Variables:
                 0,
                 items=FAULT_KINDS,
                 first_item=0,
-                items_name="fault",
+                items_name="FaultKind",
             )
             is_real = self.model.types[name] == "Real"
             about = f"of an override or a bias of {name}"
             yield FmuVariable(strength, "input", "Real", f"{path}.value", about, 0.0, unit if is_real else None)
+
+
+def _with_unique_types(declared: Sequence[FmuVariable]) -> list[FmuVariable]:
+    """The variables, with names of enumerations that none of them has: FMI 2.0.4, 2.2.3."""
+    names = {each.name for each in declared}
+    unique = {}
+    for name in {each.items_name for each in declared if each.items}:
+        unique[name] = name
+        while unique[name] in names:
+            unique[name] += "_"
+    return [replace(each, items_name=unique[each.items_name]) if each.items else each for each in declared]
 
 
 def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, Candidate]]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ....fmus_src.export.write.layout import Lines
 from ....fmus_src.export.write.names import comment, literal
-from ...runtime.system.network import Link
+from ...runtime.system.network import Link, Network
 from ...runtime.system.passing.parameters import numbers
 from .model import SystemModel
 from .statements import map_value, quoted
@@ -37,7 +37,8 @@ def write_struct(model: SystemModel, variables: Variables) -> str:
             lines.member(f"{C_TYPES[each.kind]} {each.path};", about)
     for candidate in model.candidates:
         lines.member(f"{candidate.source.type_name} {candidate.identifier};", comment(f"component {candidate.label}"))
-    lines.member("double signal[SIGNAL_COUNT];", "values on their way")
+    if model.signals:
+        lines.member("double signal[SIGNAL_COUNT];", "values on their way")
     if model.faulty:
         lines.member(f"FaultInput fault[{len(model.faulty)}];", comment(f"faults of {', '.join(model.faulty)}"))
     lines.member("double start_time;", "s")
@@ -114,7 +115,7 @@ def write_parameters(model: SystemModel, variables: Variables) -> str:
     for passed in variables.passed:
         lines.open("{")
         lines.add(f"double value = (double)self->{variables.parameter_paths[passed.chain[0]]};")
-        for line in pass_along(model, passed.chain):
+        for line in pass_along(passed.network, passed.chain):
             lines.add(line)
         lines.add(f"self->{passed.path} = {_converted(passed)};")
         lines.close("}")
@@ -122,17 +123,15 @@ def write_parameters(model: SystemModel, variables: Variables) -> str:
     return "\n".join([*lines.text, ""])
 
 
-def pass_along(model: SystemModel, chain: Sequence[str]) -> list[str]:
+def pass_along(network: Network, chain: Sequence[str]) -> list[str]:
     """The ``value`` of a system's parameter, the first of a chain of connectors, to that of the last."""
-    return [
-        line for number, name in enumerate(chain[1:]) for line in _pass_on(model, model.network.driver[name], number)
-    ]
+    return [line for number, name in enumerate(chain[1:]) for line in _pass_on(network, network.driver[name], number)]
 
 
-def _pass_on(model: SystemModel, link: Link, number: int) -> list[str]:
+def _pass_on(network: Network, link: Link, number: int) -> list[str]:
     transformation = link.transformation
     if transformation.table:
-        entries = numbers(model.network, link) + ([(float("nan"), float("nan"))] if transformation.is_partial else [])
+        entries = numbers(network, link) + ([(float("nan"), float("nan"))] if transformation.is_partial else [])
         given = f"given_{number}"
         return [f"const double {given} = value;", *map_value(given, "value", entries, link.source.name)]
     return [f"value = value * {literal(transformation.factor)} + {literal(transformation.offset)};"]

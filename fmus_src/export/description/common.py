@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from lxml import etree
 
 from ...block import Block
-from ...units import unit_definition
+from ...units import UnitDefinition, unit_definition
 from ...variables import Output, Parameter, State, Variable
 
 STATE_ANNOTATION = "org.perilune.state"
@@ -39,14 +39,17 @@ def add_units(root: etree._Element, variables: Iterable[Variable]) -> None:
     define_units(root, (unit for variable in variables for unit in variable.units() if unit))
 
 
-def define_units(root: etree._Element, names: Iterable[str]) -> None:
-    """UnitDefinitions of the units with these names; those that are no products of known units are names alone."""
+def define_units(
+    root: etree._Element, names: Iterable[str], others: Mapping[str, UnitDefinition] | None = None
+) -> None:
+    """UnitDefinitions of the units with these names; those that are no products of known units, nor among ``others``,
+    are names alone."""
     used = sorted(set(names))
     if used:
         definitions = etree.SubElement(root, "UnitDefinitions")
         for name in used:
             unit = etree.SubElement(definitions, "Unit", name=name)
-            meaning = unit_definition(name)
+            meaning = unit_definition(name) or (others or {}).get(name)
             if meaning is None:
                 continue
             numbers = {base: str(power) for base, power in meaning.exponents.items()}

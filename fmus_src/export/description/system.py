@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from lxml import etree
 
+from ...units import UnitDefinition
 from .common import add_log_categories, define_units, literal, one_line, start_description
 
 NAME = r"[A-Za-z_]\w*(?:\[\d+(?:,\d+)*\])?"
@@ -42,10 +43,12 @@ def system_description(
     generation_tool: str,
     experiment: Mapping[str, float],
     sources: Sequence[str],
+    units: Mapping[str, UnitDefinition],
 ) -> bytes:
     """modelDescription.xml; value references number the ``variables`` in order.
 
-    ``dependencies`` are the inputs that outputs depend on directly, ``experiment`` attributes of DefaultExperiment.
+    ``dependencies`` are the inputs that outputs depend on directly, ``experiment`` attributes of DefaultExperiment,
+    ``units`` those of the system's own description.
     """
     convention = "structured" if all(STRUCTURED.fullmatch(each.name) for each in variables) else "flat"
     root = start_description(name, guid, one_line(description), generation_tool, convention)
@@ -62,7 +65,7 @@ def system_description(
     files = etree.SubElement(simulation, "SourceFiles")
     for source in sources:
         etree.SubElement(files, "File", name=source)
-    define_units(root, (each.unit for each in variables if each.unit))
+    define_units(root, (each.unit for each in variables if each.unit), units)
     _add_types(root, variables)
     add_log_categories(root)
     etree.SubElement(root, "DefaultExperiment", {key: repr(number) for key, number in experiment.items()})

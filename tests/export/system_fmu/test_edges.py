@@ -4,7 +4,9 @@ Truth: closed forms, and the same systems simulated from their FMUs.
 """
 
 import re
+import subprocess
 
+import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
@@ -16,7 +18,7 @@ from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.fault import Fault
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.own_blocks import build_own_blocks
-from tests.support.builders import component, connection, document, fly, inline, pack, system
+from tests.support.builders import UNITS, component, connection, document, fly, inline, pack, system
 from tests.support.native.system_fmus import Slave, build_one, fly_one
 
 RAMP, GAIN = "output y Real m", "input u Real m; output y Real m"
@@ -32,7 +34,7 @@ def make(tiny_folder, tmp_path):
     """A function from a root system to the system's file."""
 
     def make(*elements, **more):
-        times = {key: more.pop(key) for key in ("stop", "step", "more") if key in more}
+        times = {key: more.pop(key) for key in ("stop", "step", "more", "units") if key in more}
         ssd = document(system(*elements, **more), **times)
         return pack(tmp_path / "s.ssp", tiny_folder / "native", ssd)
 
@@ -103,6 +105,9 @@ def test_wrong_faults(make, tmp_path):
     wrong = {
         ("r.count", 7, 0.0): "there is no such kind of fault; give 0 to 3",
         ("r.count", 1, 2.7): "the value is no whole number",
+        ("r.count", 1, 3e9): "the value does not fit into 32 bits",
+        ("r.count", 2, np.inf): "the value is not finite",
+        ("r.flag", 1, np.nan): "the value is not finite",
         ("r.flag", 2, 1.0): "a Boolean has no bias; give an override",
         ("r.flag", 1, 0.5): "the value is no Boolean; give 0 or 1",
     }
@@ -255,6 +260,53 @@ def test_what_is_refused(make, tmp_path, tiny_folder):
     wires = [connection(f"{a}.{out}", f"{b}.{into}") for a, b in ("vw", "wv") for out, into in ("mn", "cb")]
     ring = make(component("v", "whole", whole), component("w", "whole", whole), connections="".join(wires))
     assert "would have no variable; give expose with a signal" in refusal(ring, algorithm="jacobi")
+
+
+def test_an_input_begins_as_the_component_that_it_reaches(make, tmp_path):
+    """Closed form: 7 m is the start of a delay's input, and 0.007 km."""
+    path = make(
+        component("d", "delay", GAIN),
+        component("s", "careful", GAIN),
+        connections="".join(map(connection, ("u", "d.y", "v", "s.y"), ("d.u", "y", "s.u", "z"))),
+        declared="input u Real km; input v Real m; output y Real m; output z Real m",
+    )
+    native = fly(path, open_inputs="start")
+    fmu = build_one(tmp_path / "one.fmu", path)
+    starts = {each.name: each.start for each in Slave(fmu, tmp_path / "one").description.modelVariables}
+    assert (starts["u"], starts["v"]) == ("0.007", "1.0")
+    flown = fly_one(fmu)
+    assert all(np.array_equal(flown[name], native[name]) for name in "yz")
+
+
+def test_units_of_the_system(make, tmp_path):
+    """Truth: the factor of the description, and the conversion of another system to m."""
+    furlong = '<ssc:Unit name="furlong"><ssc:BaseUnit m="1" factor="201.168"/></ssc:Unit></ssd:Units>'
+    path = make(
+        component("g", "gain", GAIN),
+        connections=connection("u", "g.u") + connection("g.y", "y"),
+        declared="input u Real furlong; output y Real m",
+        units=UNITS.replace("</ssd:Units>", furlong),
+        stop=0.3,
+        step=0.1,
+    )
+    description = Slave(build_one(tmp_path / "one.fmu", path), tmp_path / "one").description
+    (unit,) = (each for each in description.unitDefinitions if each.name == "furlong")
+    assert (unit.baseUnit.m, unit.baseUnit.factor) == (1, 201.168)
+    assert description.defaultExperiment.stopTime == "0.3"
+
+
+def test_a_system_without_signals(make, tmp_path):
+    """Its C has no array of no elements."""
+    fmu = build_one(tmp_path / "one.fmu", make(component("g", "gain", GAIN)))
+    folder = fmpy.extract(str(fmu), str(tmp_path / "one"))
+    warned = subprocess.run(
+        ["gcc", "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "s.c"],
+        cwd=f"{folder}/sources",
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (warned.returncode, warned.stderr) == (0, "")
 
 
 def test_connectors_of_systems_inside_can_be_exposed(make, tmp_path):

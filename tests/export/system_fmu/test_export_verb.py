@@ -94,7 +94,11 @@ WRONG = {
     ("--as-fmu", "--faults", "plant.gravity"): "--faults: plant.gravity: no such connector of a component",
     ("--as-fmu", "--slot", "pilot=analytic_guidance"): "--slot: pilot: no such component; use one of",
     ("--as-fmu", "--slot", "guidance=analytic_guidance,"): "--slot: guidance=analytic_guidance,: an empty name",
-    ("--as-fmu", "--slot", "guidance=astar_guidance,astar_guidance"): "names a candidate twice; give it once",
+    (
+        "--as-fmu",
+        "--slot",
+        "guidance=astar_guidance,astar_guidance",
+    ): "two candidates have one name; give each once",
     ("--as-fmu", "--slot", "guidance=astar"): "no such FMU is built",
     ("--as-fmu", "--slot", SLOTS, "--use", "guidance=astar_robust_guidance"): "which is not among the candidates",
 }

@@ -47,8 +47,11 @@ static inline const char *refuse_fault(const FaultInput *input, int connector)
 {
     if (input->kind < FAULT_NONE || input->kind > FAULT_FREEZE) return "there is no such kind of fault; give 0 to 3";
     if (input->kind == FAULT_BIAS && connector == KIND_BOOLEAN) return "a Boolean has no bias; give an override";
-    if (connector == KIND_REAL || (input->kind != FAULT_OVERRIDE && input->kind != FAULT_BIAS)) return NULL;
+    if (input->kind != FAULT_OVERRIDE && input->kind != FAULT_BIAS) return NULL;
+    if (!isfinite(input->value)) return "the value is not finite";
+    if (connector == KIND_REAL) return NULL;
     if (connector == KIND_BOOLEAN && input->value != 0.0 && input->value != 1.0) return "the value is no Boolean; give 0 or 1";
+    if (!(input->value >= INT32_MIN && input->value <= INT32_MAX)) return "the value does not fit into 32 bits";
     return input->value == floor(input->value) ? NULL : "the value is no whole number";
 }
 

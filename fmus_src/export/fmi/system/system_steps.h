@@ -27,7 +27,8 @@ static Status advance(Component *component, double t, double h)
         const double begin = system->start_time + (double)system->point * SYSTEM_STEP;
         const double expected = t + taken * SYSTEM_STEP; /* by an importer whose steps may all be a little too long */
         if (fabs(expected - begin) > POINT_TOLERANCE * SYSTEM_STEP + TIME_TOLERANCE * fabs(begin)) {
-            return refuse_point(component, t);
+            component->now.time = begin;
+            return refuse_point(component, expected);
         }
         Fault fault = NO_FAULT;
         model_step(system, &fault);
