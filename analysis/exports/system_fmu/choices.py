@@ -106,10 +106,12 @@ class Preparation:
         try:
             return prepare_system(self.archive, options, self._loaded)
         except InputError as error:
-            if "allow_unmatched" not in error.remedy:
-                raise
-            remedy = "correct it; of a slot write SLOT.CANDIDATE.PARAMETER" if self.slots else "correct it"
-            raise InputError(error.file, error.element, error.problem, remedy) from error
+            file, remedy = error.file, error.remedy
+            if "allow_unmatched" in remedy:
+                remedy = "correct it; of a slot write SLOT.CANDIDATE.PARAMETER" if self.slots else "correct it"
+            if file == "`use`" and set(options.use.values()) - set(self.options.use.values()):
+                file = "`slots`"
+            raise InputError(file, error.element, error.problem, remedy) from error
 
 
 def candidate_name(use: str) -> str:

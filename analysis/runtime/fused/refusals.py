@@ -31,9 +31,8 @@ def check_fused(prepared: PreparedSystem, *, apart: bool = False) -> None:
         return
     if apart:
         problem = "the system is simulated in processes of its own, where steps are not compiled"
-        raise InputError(
-            "`flavour`", FUSED, problem, "leave `flavour` out; or give `in_process` where you trust its FMUs"
-        )
+        trust = "" if prepared.is_self_contained else "; or give `in_process` where you trust its FMUs"
+        raise InputError("`flavour`", FUSED, problem, f"leave `flavour` out{trust}")
     if prepared.has_fmi3:
         raise InputError("`flavour`", FUSED, "the system has FMUs of FMI 3.0, which are not fused", "fly it `native`")
     if not any(map(has_code, prepared.network.fmus.values())):
