@@ -26,6 +26,6 @@ RUNS = either(20_000, 1000)
 def test_any_calls(block: type[Block], version: int, tmp_path):
     program = build(block, version, tmp_path, guided=False)
     done = subprocess.run(
-        [program, str(RUNS), "1"], capture_output=True, text=True, check=False, timeout=either(3600, 600)
+        [program, str(RUNS), "1"], capture_output=True, text=True, check=False, timeout=600
     )
     assert done.returncode == 0, done.stderr
