@@ -25,7 +25,5 @@ RUNS = either(20_000, 1000)
 @pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.fmu_name)
 def test_any_calls(block: type[Block], version: int, tmp_path):
     program = build(block, version, tmp_path, guided=False)
-    done = subprocess.run(
-        [program, str(RUNS), "1"], capture_output=True, text=True, check=False, timeout=600
-    )
+    done = subprocess.run([program, str(RUNS), "1"], capture_output=True, text=True, check=False, timeout=600)
     assert done.returncode == 0, done.stderr

@@ -26,7 +26,7 @@ from .choices import Choice, check_type, system_connectors
 from .component_source import ComponentSource, Member, read_component_source
 
 DEFINE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
-# Its headers: a file of such a name would be found in their place.
+# Its headers: a file of such a name would be included in their place.
 C_LIBRARY = frozenset(
     re.findall(
         r"\w+",

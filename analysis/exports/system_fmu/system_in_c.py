@@ -17,6 +17,7 @@ from .statements import Statements, quoted
 from .variables import FmuVariable, Variables
 from .variables_in_c import pass_along, write_parameters, write_signals, write_starts, write_struct, write_tables
 
+SIGNALS = "double *const s = self->signal;\n    (void)s;"  # the first statements of a step
 HEADER = """\
 /* {name}: {about}
  *
@@ -44,9 +45,6 @@ FOOTER = """\
 #include "fmi2_wrapper.c"
 #include "system_steps.h"
 """
-
-
-_SIGNALS = "double *const s = self->signal;\n    (void)s;"
 
 
 def write_system(name: str, about: str, guid: str, model: SystemModel, variables: Variables) -> str:
@@ -81,7 +79,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     statements = Statements(program, model.signals)
     initialise = Lines()
     initialise.open(f"static void initialize{program.choice.name}(Block *self, Fault *fault)\n{{")
-    initialise.add(_SIGNALS if model.signals else "(void)self;")
+    initialise.add(SIGNALS if model.signals else "(void)self;")
     passed = _passed_signals(program, variables)
     for name, start in program.starts.items():
         if name not in passed and name not in model.inputs:
@@ -104,7 +102,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     step = Lines()
     step.comment("From one communication point to the next.")
     step.open(f"static void step{program.choice.name}(Block *self, Fault *fault)\n{{")
-    step.add(_SIGNALS if model.signals else "(void)self;")
+    step.add(SIGNALS if model.signals else "(void)self;")
     step.add("const double time = self->start_time + (double)self->point * SYSTEM_STEP;")
     for line in [*_check_faults(model), *_take_inputs(model, variables)]:
         step.add(line)

@@ -34,7 +34,7 @@ REFERENCE, REFERENCES, FIRST_VALUE, VALUES, KIND = range(5)
 TRANSFER_COLUMNS = 5
 # Kinds of a transfer, in the order of representations.REPRESENTATIONS.
 FLOAT64, FLOAT32, INT8, UINT8, INT16, UINT16, INT32, UINT32, INT64, UINT64, BOOLEAN, STRING, BINARY = range(13)
-# FUNCTION of what FMI 3.0 has besides; the setters and the getters are as many as the kinds.
+# FUNCTION of calls of FMI 3.0 alone; there is a setter and a getter for each kind.
 SETTERS, GETTERS, DO_STEP = 14, 27, 40
 ENTER_EVENT_MODE, UPDATE_DISCRETE_STATES, ENTER_STEP_MODE = 46, 47, 48
 
