@@ -22,7 +22,7 @@ from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
 from ..design.trajectories.stored_bound import MissingBound, find_bound
 from ..reports.figures.reading import read_figures
-from ..runtime.apart.resets import find_verdict
+from ..runtime.apart.resets import find_verdict, renewal_note
 from ..runtime.ssp.archive import DEFAULT_VARIANT, open_system
 from ..runtime.ssp.parameter_sets import read_parameter_file
 from ..runtime.system.fmu import Fmu, load_fmu
@@ -175,11 +175,9 @@ def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
 
 
 def _reset_notes(fmu: Fmu, name: str, options: System) -> list[str]:
-    """A note on an FMU whose reset fails: it is tried, unless it is our own."""
-    verdict = find_verdict(fmu, options)
-    if verdict.resets:
-        return []
-    return [f"{name}: instantiated anew for every simulation, as its reset fails: {verdict.reason}"]
+    """Return a note on an FMU whose reset fails: it is tried, unless it is our own."""
+    note = renewal_note(name, find_verdict(fmu, options))
+    return [] if note is None else [note]
 
 
 def _check_loops(subject: Subject, declared: Declaration) -> None:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import Any, Required, TypedDict
+from typing import Any, NotRequired, Required, TypedDict
 
 import msgspec
 
@@ -16,6 +16,7 @@ from ...common.atomic import write_atomically
 from ...common.bounds import INPUT_BYTES, TRIALS
 from ...common.errors import InputError
 from ...common.regular import check_folder, read_regular
+from ...runtime.instances.renewal import Renewal
 
 FILE = "manifest.json"
 CONTENTS = "files"  # the folder beside it
@@ -25,9 +26,10 @@ WRITE = "give a folder that perilune batch or prepare wrote"
 
 
 class ResetDocument(TypedDict):
-    """The verdict on an FMU's reset."""
+    """A `ResetVerdict`; manifests of earlier versions have ``resets`` in place of ``renewal``."""
 
-    resets: bool
+    renewal: NotRequired[Renewal]
+    resets: NotRequired[bool]
     reason: str
 
 

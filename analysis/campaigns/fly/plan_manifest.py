@@ -17,7 +17,7 @@ import pyarrow.parquet
 from ....fmus_src.kernel.functions import VERSION
 from ...common.errors import InputError
 from ...runtime.apart.resets import find_verdict
-from ...runtime.instances.reset_check import ResetVerdict, store_verdict
+from ...runtime.instances.renewal import Renewal, ResetVerdict, store_verdict
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.system.fault import parse_fault
 from ...runtime.system.options import UNTRUSTED, SystemOptions, Trust, Watch
@@ -192,8 +192,14 @@ def restore(
         stored_table = read_draws((draws or folder).absolute(), manifest.trials, plan.campaign.input_names())
         plan = replace(plan, known_draws=stored_table)  # made anew they could differ
     for digest, verdict in manifest.resets.items():
-        store_verdict(digest, ResetVerdict(**verdict))
+        store_verdict(digest, _restore_verdict(verdict))
     return plan
+
+
+def _restore_verdict(document: ResetDocument) -> ResetVerdict:
+    """Return a verdict; one of an earlier version knew of resets and new instances alone."""
+    earlier = Renewal.RESET if document.get("resets", False) else Renewal.INSTANCE
+    return ResetVerdict(document.get("renewal", earlier), document["reason"])
 
 
 def _restore_options(manifest: Manifest, folder: Path) -> SystemOptions:

@@ -21,7 +21,7 @@ def limits_for(fmus: Iterable[Fmu], options: SystemOptions) -> Limits:
 
 
 def _restriction_for(fmus: Iterable[Fmu], options: SystemOptions) -> Restriction | None:
-    """What foreign FMUs may do in their child, None where all are our own; they may write where they are unpacked.
+    """What foreign FMUs may do in their child, None where all are our own; they may write to the child's own files.
 
     Warns where the operating system lacks something for it, or raises InputError where that is asked for.
     """
@@ -33,6 +33,5 @@ def _restriction_for(fmus: Iterable[Fmu], options: SystemOptions) -> Restriction
         raise InputError("`isolate`", options.isolate, "; ".join(missing), "leave it out, or take another system")
     if missing:
         warnings.warn(f"foreign FMUs are not restricted here: {'; '.join(missing)}", stacklevel=2)
-    unpacked = [str(fmu.folder) for fmu in foreign]
     allowed = [str(Path(options.folder, folder)) for folder in options.writable]
-    return Restriction((*unpacked, *allowed), network=NETWORK in options.allow)
+    return Restriction(tuple(allowed), network=NETWORK in options.allow)

@@ -1,13 +1,14 @@
-"""Whether FMUs of others reset, tried in a child each, once per FMU and process."""
+"""Means to renew FMUs of others between simulations, tried in children, once per FMU and process."""
 
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Mapping
 
 from ...common.errors import InputError
 from ..flight.results import CRASHED
-from ..instances.reset_check import ResetVerdict, store_verdict, verdict_in_cache
+from ..instances.renewal import Renewal, ResetVerdict, store_verdict, verdict_in_cache
 from ..system.fmu import Fmu
 from ..system.options import SystemOptions
 from ..system.prepared import PreparedSystem
@@ -15,6 +16,9 @@ from .connection import ChildEndedError, Connection, Stillness
 from .containment import limits_for
 from .protocol import messages
 from .servers import Subject, begin_child
+
+DIFFERS = "a second process simulates it otherwise than the first"
+_noted: set[str] = set()  # digests of FMUs
 
 
 class TrialWatch:
@@ -42,10 +46,10 @@ class TrialWatch:
 
 
 def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, ResetVerdict]:
-    """The verdicts on FMUs that are not self-contained, by their SHA-256.
+    """Return the verdicts on FMUs that are not self-contained, by their SHA-256.
 
-    No reset is trusted of an FMU that cannot be tried, or where the ``watch`` is given up; the latter is no verdict for
-    other simulations.
+    An FMU that cannot be tried has a process for each simulation; where the ``watch`` is given up, that is no verdict
+    for other simulations.
     """
     verdicts = {}
     for fmu in prepared.network.fmus.values():
@@ -53,21 +57,22 @@ def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, R
             try:
                 verdicts[fmu.digest] = find_verdict(fmu, prepared.options, watch)
             except InputError as error:
-                verdicts[fmu.digest] = ResetVerdict(False, error.problem)
+                verdicts[fmu.digest] = ResetVerdict(Renewal.PROCESS, error.problem)
                 if not watch.is_given_up:
                     store_verdict(fmu.digest, verdicts[fmu.digest])
     return verdicts
 
 
 def find_verdict(fmu: Fmu, options: SystemOptions, watch: TrialWatch | None = None) -> ResetVerdict:
-    """Whether an FMU resets; one that ends its process in the trial does not.
+    """Return what renews an FMU, tried in children at the first call.
 
-    Raises InputError where it cannot be instantiated, or ends its process before it has flown with its declared values.
+    Raises InputError where it cannot be instantiated, or ends its process before it has been simulated with its
+    declared values.
     """
     verdict = verdict_in_cache(fmu)
     if verdict is None:
         try:
-            verdict = _try_twice(fmu, options, watch or TrialWatch())
+            verdict = _Trials(fmu, options, watch or TrialWatch()).decide()
         except ChildEndedError as error:
             problem = f"tried alone, with its declared values: {error.how}"
             raise InputError(
@@ -77,35 +82,84 @@ def find_verdict(fmu: Fmu, options: SystemOptions, watch: TrialWatch | None = No
     return verdict
 
 
-def _try_twice(fmu: Fmu, options: SystemOptions, watch: TrialWatch) -> ResetVerdict:
-    try:
-        return _try(fmu, options, watch, formats=True)
-    except ChildEndedError as error:
-        if error.status != CRASHED:
-            raise
-    # A message that is a format without its arguments may have ended it.
-    return _try(fmu, options, watch, formats=False)
+def renewal_note(component: str, verdict: ResetVerdict) -> str | None:
+    """Return a note on what a component costs that does not reset; None for one that does."""
+    match verdict.renewal:
+        case Renewal.RESET:
+            return None
+        case Renewal.INSTANCE:
+            return f"{component}: instantiated anew for every simulation, as its reset fails: {verdict.reason}"
+        case Renewal.PROCESS:
+            return f"{component}: a process for every simulation, as no other is like the first: {verdict.reason}"
+        case Renewal.NONE:
+            return f"{component}: simulations differ even in a process each, which every one has: {verdict.reason}"
 
 
-def _try(fmu: Fmu, options: SystemOptions, watch: TrialWatch, *, formats: bool) -> ResetVerdict:
-    """A trial in a child of its own; ``formats`` are as in `SystemFlights`.
+def note_processes(prepared: PreparedSystem, cost: float) -> None:
+    """Warn, once, of FMUs for which every simulation has a process, each of which costs so much (s)."""
+    for component, fmu in prepared.network.fmus.items():
+        verdict = verdict_in_cache(fmu)
+        if verdict is not None and verdict.needs_process and fmu.digest not in _noted:
+            _noted.add(fmu.digest)
+            warnings.warn(f"{fmu.label}: {renewal_note(component, verdict)}; {1e3 * cost:.0f} ms each", stacklevel=2)
 
-    Raises ChildEndedError where it ends before the FMU has flown with its declared values.
-    """
-    task = messages.ResetTrial(formats)
-    child = begin_child(Subject(fmu, fmu), task, folder=os.getcwd(), limits=limits_for([fmu], options))
-    connection = Connection(child, lambda line: None, Stillness(lambda: None, options.call_timeout))
-    watch.begin(connection)
-    has_flown = False
-    try:
-        answer = connection.hear(messages.Verdict)
-        if not answer.is_final:
-            has_flown = True
+
+class _Trials:
+    """Children that try one FMU, until it is known what renews it."""
+
+    def __init__(self, fmu: Fmu, options: SystemOptions, watch: TrialWatch) -> None:
+        self._fmu = fmu
+        self._options = options
+        self._watch = watch
+        self._formats = True  # of messages, as in `SystemFlights`
+        self._digest = ""  # of the first simulation in a new process
+
+    def decide(self) -> ResetVerdict:
+        """Try reset and new instance in one process, then whether a second one simulates as the first.
+
+        A process that ends once the FMU has been simulated has shown that no reset does; if it was without one, that
+        no instance does. Raises ChildEndedError where it ends before.
+        """
+        verdict = self._try_formats()
+        if not verdict.needs_process:
+            return verdict
+        first, connection = self._digest, self._begin(with_reset=False)
+        try:
+            self._digest = connection.hear(messages.Tried).digest
+        finally:
+            connection.kill()
+        return verdict if self._digest == first else ResetVerdict(Renewal.NONE, f"{verdict.reason}; {DIFFERS}")
+
+    def _try_formats(self) -> ResetVerdict:
+        try:
+            return self._try(with_reset=True)
+        except ChildEndedError as error:
+            if error.status != CRASHED:
+                raise
+        self._formats = False  # one without its arguments may have ended it
+        return self._try(with_reset=True)
+
+    def _try(self, *, with_reset: bool) -> ResetVerdict:
+        connection = self._begin(with_reset=with_reset)
+        self._digest = ""
+        try:
+            self._digest = connection.hear(messages.Tried).digest
             answer = connection.hear(messages.Verdict)
-    except ChildEndedError as error:
-        if not has_flown or watch.is_given_up:
-            raise
-        return ResetVerdict(False, f"when it was tried, {error.how}")
-    finally:
-        connection.close()
-    return ResetVerdict(answer.resets, answer.reason)
+            return ResetVerdict(Renewal(answer.renewal), answer.reason)
+        except ChildEndedError as error:
+            if not self._digest or self._watch.is_given_up:
+                raise
+            reason = f"when it was tried, {error.how}"
+        finally:
+            connection.close()
+        renewal = self._try(with_reset=False).renewal if with_reset else Renewal.PROCESS
+        return ResetVerdict(renewal, reason)
+
+    def _begin(self, *, with_reset: bool) -> Connection:
+        """Begin a trial in a child."""
+        fmu, options = self._fmu, self._options
+        task = messages.ResetTrial(self._formats, with_reset)
+        child = begin_child(Subject(fmu, fmu), task, folder=os.getcwd(), limits=limits_for([fmu], options))
+        connection = Connection(child, lambda line: None, Stillness(lambda: None, options.call_timeout))
+        self._watch.begin(connection)
+        return connection

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 import warnings
 from collections import deque
 from collections.abc import Mapping, Sequence
@@ -27,7 +28,7 @@ from .containment import limits_for
 from .memory import ApartMemory
 from .protocol import messages
 from .protocol.shared_recorder import SharedRecorder, make_recorder
-from .resets import TrialWatch, find_verdicts
+from .resets import TrialWatch, find_verdicts, note_processes
 from .servers import Subject, begin_child
 
 RECORDERS = 2  # one flight is looked at while the next one flies
@@ -68,6 +69,8 @@ class ApartSimulation(BaseSimulation):
         self._resets = TrialWatch()  # of trials that are under way in another thread
         self._is_halted = False
         self._renews = True  # whether a child flies more than once
+        self._needs_processes = False  # whether it may not, since FMUs leave behind what only a new process is without
+        self._noted: set[str] = set()  # what has been warned of
         self._formats = True  # of messages, which can end a process whose arguments are missing
         self._connection = self._begin()
 
@@ -128,7 +131,8 @@ class ApartSimulation(BaseSimulation):
 
     def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
         """See `BaseSimulation.announce`."""
-        is_ready = self._connection.is_open and self._renews and not self._is_halted
+        self._find_verdicts()
+        is_ready = self._connection.is_open and self._renews and not self._is_halted and not self._needs_processes
         if is_ready and len(self._announced) < RECORDERS and (not self._announced or len(self._recorders) == RECORDERS):
             self.set(values)
             self.set_faults(faults)
@@ -198,15 +202,26 @@ class ApartSimulation(BaseSimulation):
         """Have a child that can fly, and knows whose reset cannot be trusted."""
         if first >= 0:
             return
+        self._find_verdicts()
         if not self._renews:
             self._connection.kill()
+        if self._needs_processes and self._last is not None:
+            self._free()
+            begun = time.monotonic()
+            self._connection = self._begin()
+            note_processes(self.prepared, time.monotonic() - begun)
         if not self._connection.is_open:
             self._connection = self._begin()
-        elif self._last is not None and not self._knows_verdicts:
-            self._knows_verdicts = True
-            self._resets = TrialWatch()
-            verdicts = find_verdicts(self.prepared, self._resets)
-            self._connection.send(messages.KnownVerdicts({key: (it.resets, it.reason) for key, it in verdicts.items()}))
+
+    def _find_verdicts(self) -> None:
+        """Let the child know what renews FMUs, once it has simulated; note whether it may do so again."""
+        if self._last is None or self._knows_verdicts or not self._connection.is_open:
+            return
+        self._knows_verdicts = True
+        self._resets = TrialWatch()
+        verdicts = find_verdicts(self.prepared, self._resets)
+        self._connection.send(messages.KnownVerdicts(dict(verdicts)))
+        self._needs_processes = any(verdict.needs_process for verdict in verdicts.values())
 
     def _recorder_for(self, rows: int) -> int:
         """The number of the recorder whose turn it is; the child is given one where it has none, or too small a one."""
@@ -288,7 +303,8 @@ class ApartSimulation(BaseSimulation):
             self._note("it was terminated and freed", problem)
 
     def _note(self, when: str, problem: str) -> None:
-        """Warn of what an FMU does between flights, which no flight is to blame for."""
-        warnings.warn(
-            f"{progress.component_in_phase(self.prepared, self.recorder)}: when {when}, {problem}", stacklevel=4
-        )
+        """Warn, once, of what an FMU does between flights, which no flight is to blame for."""
+        text = f"{progress.component_in_phase(self.prepared, self.recorder)}: when {when}, {problem}"
+        if text not in self._noted:
+            self._noted.add(text)
+            warnings.warn(text, stacklevel=4)

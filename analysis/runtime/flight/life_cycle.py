@@ -9,7 +9,8 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from ..instances.instance import Instance
-from ..instances.reset_check import ResetVerdict, reset_verdict, store_verdict, verdict_in_cache
+from ..instances.renewal import Renewal, ResetVerdict, store_verdict, verdict_in_cache
+from ..instances.reset_check import reset_verdict
 from .compiled import arrays, codes
 from .endings import Outcome, check_initialisation
 from .instructions import InstructionList
@@ -68,11 +69,19 @@ class LifeCycle:
         if self.are_self_contained and len(self._running) == len(self._instances):
             self._running = set()
             return True
+        ended = []
         for index, (name, instance) in enumerate(self._instances.items()):
             self._note_subject(index)
             if not self._is_reset(name, instance):
-                instance.renew()
-                self._readdress(index, instance)
+                instance.free()
+                ended.append((index, instance))
+        for (
+            index,
+            instance,
+        ) in ended:  # all are freed first, so that libraries are loaded anew: they may have kept state
+            self._note_subject(index)
+            instance.renew()
+            self._readdress(index, instance)
         self._running = set()
         self._broken.clear()
         self._discarded.clear()
@@ -91,7 +100,9 @@ class LifeCycle:
         try:
             instance.slave.reset()
         except FMICallException as error:
-            store_verdict(instance.fmu.digest, ResetVerdict(False, f"fmi2Reset returned status {error.status}"))
+            store_verdict(
+                instance.fmu.digest, ResetVerdict(Renewal.INSTANCE, f"fmi2Reset returned status {error.status}")
+            )
             return False
         return True
 

@@ -12,8 +12,8 @@ from lxml import etree
 
 from ...common.errors import InputError
 from ..fmi.variable import Variable
-from ..instances.fmi3_slave import Fmi3Slave
 from ..instances.instance import Instance
+from ..instances.slaves import Fmi3Slave
 from ..ssp.fmu_description import find_annotation
 from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem

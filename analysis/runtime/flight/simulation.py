@@ -83,7 +83,12 @@ class Simulation(BaseSimulation):
         if prepared.options.flavour == FUSED:
             check_fused(prepared)
             fused = fuse(self.instances, self.program, self._recorded.tolist(), self._is_wanted)
-        return Loops(locked=not prepared.is_native, with_fmi3=prepared.has_fmi3, fused=fused)
+        return Loops(
+            locked=not prepared.is_native,
+            with_fmi3=prepared.has_fmi3,
+            fused=fused,
+            self_contained=prepared.is_self_contained,
+        )
 
     def _is_wanted(self) -> bool:
         return not self.recorder.halt[0]

@@ -46,6 +46,31 @@
         if (text_address[text][text_size - 1] != '\0') END(TOO_LONG, text, number); \
     } while (0)
 
+/* The default floating-point environment, where an FMU has left another one: MXCSR and the x87 control word, or FPCR,
+ * as compiled/floats.py has them. */
+#if defined(__x86_64__)
+#define RESTORE_FLOATS() \
+    do { \
+        uint32_t mxcsr; \
+        uint16_t control; \
+        __asm__ volatile("stmxcsr %0\n\tfnstcw %1" : "=m"(mxcsr), "=m"(control) : : "memory"); \
+        if ((mxcsr & 0xffc0u) != 0x1f80u || (control & 0x0f3fu) != 0x033fu) { \
+            mxcsr = 0x1f80u; \
+            control = 0x037fu; \
+            __asm__ volatile("ldmxcsr %0\n\tfldcw %1" : : "m"(mxcsr), "m"(control) : "memory"); \
+        } \
+    } while (0)
+#elif defined(__aarch64__)
+#define RESTORE_FLOATS() \
+    do { \
+        uint64_t fpcr; \
+        __asm__ volatile("mrs %0, fpcr" : "=r"(fpcr) : : "memory"); \
+        if (fpcr != 0) __asm__ volatile("msr fpcr, %0" : : "r"((uint64_t)0) : "memory"); \
+    } while (0)
+#else
+#define RESTORE_FLOATS() (void)0
+#endif
+
 /* Faults on slots, each in its window [from, until) s. */
 #define DURING(fault, statement) \
     if (fault_window[2 * (fault)] <= after && after < fault_window[2 * (fault) + 1]) statement

@@ -205,6 +205,10 @@ def _get_text(to: Statements, row: Instruction) -> list[str]:
     return [*_call_text(to, row, "text_given"), *texts]
 
 
+def _restore_floats(_: Statements, __: Instruction) -> list[str]:
+    return ["RESTORE_FLOATS();"]
+
+
 Writer = Callable[[Statements, Instruction], list[str]]
 WRITERS: dict[int, Writer] = {
     codes.COPY: _copy,
@@ -226,4 +230,5 @@ WRITERS: dict[int, Writer] = {
     codes.SET_TEXT: _set_text,
     codes.GET_TEXT: _get_text,
     codes.COPY_TEXT: _copy_text,
+    codes.RESTORE_FLOATS: _restore_floats,
 }

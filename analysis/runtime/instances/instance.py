@@ -17,8 +17,8 @@ from ...common.errors import InputError
 from ...common.visible import visible, visible_line
 from ..system.fmu import Fmu
 from ..system.options import LOG_LEVELS, SAID_FROM
-from .fmi3_slave import Fmi3Slave, Slave
 from .library import LOADING, Library, acquire, release
+from .slaves import Fmi3Slave, Slave
 
 MOST_MESSAGES = 1000  # of a component, in a flight
 LONGEST_MESSAGE = 4096  # bytes
@@ -99,6 +99,11 @@ class Instance:
         return int(self.slave.component)
 
     @property
+    def is_self_contained(self) -> bool:
+        """True if its calls leave nothing behind in the process."""
+        return self.fmu.is_self_contained
+
+    @property
     def messages(self) -> list[str]:
         """What the FMU has said since the flight began."""
         return [_text(message) for message in self.said]
@@ -158,8 +163,7 @@ class Instance:
         _alone.discard(self.fmu.digest)
 
     def renew(self) -> None:
-        """Another fmi2Component in the place of this one, which is freed; raises InputError."""
-        self.free()
+        """Put another fmi2Component in the place of this one, which has been freed. Raises InputError."""
         fresh = instantiate(self.fmu, self.name, self.log, uses_events=self.uses_events)
         self.library, self.slave, self.said, self.is_there = fresh.library, fresh.slave, fresh.said, True
 

@@ -9,11 +9,9 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
-from fmpy import fmi2
-
 from ..fmi.representations import REPRESENTATIONS
 from ..system.fmu import Fmu
-from .fmi3_slave import Fmi3Slave, Slave
+from .slaves import Fmi3Slave, FMU2WatchedSlave, Slave
 
 FUNCTION_NAMES = (
     "fmi2SetReal",
@@ -53,12 +51,18 @@ class Library:
     """What the instances of one unpacked FMU share, since fmpy takes milliseconds to load it for each."""
 
     def __init__(self, fmu: Fmu) -> None:
+        self._restore = _nothing if fmu.is_self_contained else _float_restorer()
         with contextlib.chdir(Path.cwd()):  # back also when loading fails
-            self._slave: Slave = (fmi2.FMU2Slave if fmu.version == 2 else Fmi3Slave)(
-                guid=fmu.description.guid,
-                unzipDirectory=str(fmu.folder),
-                modelIdentifier=fmu.description.coSimulation.modelIdentifier,
-            )
+            try:
+                self._slave: Slave = (FMU2WatchedSlave if fmu.version == 2 else Fmi3Slave)(
+                    guid=fmu.description.guid,
+                    unzipDirectory=str(fmu.folder),
+                    modelIdentifier=fmu.description.coSimulation.modelIdentifier,
+                )
+            finally:
+                self._restore()
+        if not fmu.is_self_contained:
+            self._slave.after_call = self._restore
         dll, prefix = self._slave.dll, f"fmi{fmu.version}"
         functions = [getattr(dll, name) if name.startswith(prefix) else None for name in FUNCTION_NAMES]
         self.addresses = [
@@ -75,6 +79,17 @@ class Library:
 
     def unload(self) -> None:
         self._slave.freeLibrary()
+        self._restore()
+
+
+def _float_restorer() -> Callable[[], None]:
+    from ..flight.compiled.floats import float_restorer  # imports numba, which verbs that simulate nothing do without
+
+    return float_restorer()
+
+
+def _nothing() -> None:
+    """Leave the floating-point environment as the own code of Perilune leaves it."""
 
 
 def _place(dll: ctypes.CDLL) -> Callable[..., int | None] | None:

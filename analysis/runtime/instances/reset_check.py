@@ -1,9 +1,11 @@
-"""Whether an FMU's fmi2Reset makes an instance as good as new: tried, once, on the FMU alone."""
+"""Means to renew an FMU between simulations, the cheapest that does: tried, once, on the FMU alone."""
 
 from __future__ import annotations
 
+import hashlib
 import threading
-from collections.abc import Callable
+import warnings
+from collections.abc import Callable, Iterator
 from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,87 +18,129 @@ from ..fmi.variable import Variable
 from ..system.fmu import Fmu
 from .instance import Instance, instantiate
 from .library import LOADING
+from .renewal import RESETS, Renewal, ResetVerdict, store_verdict, verdict_in_cache
+from .traces import read_traces
 from .trial import KINDS, Number, begin, declared, read, step
 
 STEPS = 10
 
 
-@dataclass(frozen=True)
-class ResetVerdict:
-    """Whether an FMU resets; ``reason`` says what showed that it does not."""
-
-    resets: bool
-    reason: str = ""
-
-
-_verdicts: dict[str, ResetVerdict] = {}  # by the FMUs' digests
 _trying = threading.Lock()
+_noted: set[str] = set()  # digests of FMUs
 
 
-def verdict_in_cache(fmu: Fmu) -> ResetVerdict | None:
-    """The verdict on an FMU, if there is one yet; our own reset, which their tests show."""
-    return ResetVerdict(True) if fmu.is_self_contained else _verdicts.get(fmu.digest)
+def reset_verdict(fmu: Fmu) -> ResetVerdict:
+    """Return the verdict on an FMU in this process, tried at the first call.
 
-
-def store_verdict(digest: str, verdict: ResetVerdict) -> None:
-    """Keep what a flight, or another process, has shown of the FMU with this SHA-256."""
-    _verdicts[digest] = verdict
-
-
-def reset_verdict(fmu: Fmu, flown: Callable[[], None] = lambda: None) -> ResetVerdict:
-    """Whether an FMU resets, tried at the first call: it does not depend on who asks, nor on what has flown.
-
-    One instance flies with other parameters and inputs than declared, is reset and flies with the declared ones;
-    outputs and parameters must be those of a fresh instance, to the last bit. ``flown`` is called as soon as a first
-    instance has flown with the declared values.
+    `Renewal.PROCESS` then stands for all that no new instance renews.
     """
     with _trying:
         verdict = verdict_in_cache(fmu)
         if verdict is None:
-            with LOADING, chdir(Path.cwd()):  # back, should the FMU have gone elsewhere
-                verdict = _verdicts[fmu.digest] = _try_reset(fmu, flown)
+            verdict = try_renewals(fmu)
+            store_verdict(fmu.digest, verdict)
+        if verdict.needs_process and fmu.digest not in _noted:
+            _noted.add(fmu.digest)
+            problem = f"simulations in this process depend on those before them: {verdict.reason}"
+            warnings.warn(f"{fmu.label}: {problem}; leave out `in_process`", stacklevel=2)
         return verdict
 
 
-def _try_reset(fmu: Fmu, flown: Callable[[], None]) -> ResetVerdict:
-    fresh = instantiate(fmu, fmu.name)
+def try_renewals(
+    fmu: Fmu, simulated: Callable[[str], None] = lambda digest: None, *, with_reset: bool = True
+) -> ResetVerdict:
+    """Try a reset, unless that is known to fail, then a new instance.
+
+    The first instance is simulated with the declared values, the second with other parameters and inputs, then reset
+    and simulated with the declared values, and a third one with these: outputs and parameters must be those of the
+    first, to the last bit, and process and folder as they were before. ``simulated`` is called with the SHA-256 of
+    what the first instance has output.
+    """
+    with LOADING, chdir(Path.cwd()):  # back, should the FMU have gone elsewhere
+        before = read_traces(fmu.folder)
+        first = _simulate_anew(fmu, simulated)
+        reason, is_usable = first.failure, first.is_usable
+        if with_reset and first.is_complete:
+            reason, is_usable = _try_reset(fmu, first.rows)
+        verdict = RESETS
+        if reason or not with_reset:
+            is_as_good = is_usable and _simulate_anew(fmu).rows == first.rows
+            verdict = ResetVerdict(Renewal.INSTANCE if is_as_good else Renewal.PROCESS, reason)
+        changes = read_traces(fmu.folder).changes_since(before)
+        if changes:
+            verdict = ResetVerdict(Renewal.PROCESS, changes)
+    return verdict
+
+
+@dataclass(frozen=True)
+class _Simulation:
+    """Outputs of a new instance with the declared values, row by row, then its parameters, or what ended it."""
+
+    rows: list[bytes]
+    failure: str = ""
+    is_usable: bool = True  # the FMU: no instance may follow a fatal error (FMI 2.0, fmi2Fatal)
+
+    @property
+    def is_complete(self) -> bool:
+        return not self.failure
+
+
+def _simulate_anew(fmu: Fmu, simulated: Callable[[str], None] = lambda digest: None) -> _Simulation:
+    """Simulate a new instance; ``simulated`` is called with the SHA-256 of its rows before it is freed."""
+    instance = instantiate(fmu, fmu.name)
+    rows: list[bytes] = []
     try:
-        expected = [*_simulate(fresh, {}), read(fresh, "parameter")]
+        for row in _simulate(instance, {}):
+            rows.append(row)
+        failed = None
     except FMICallException as error:
-        _free(fresh, error)
-        return ResetVerdict(False, f"it cannot be tried on its declared starts: {_words(error)}")
-    flown()
-    _free(fresh)
+        failed = error
+        rows.append(_words(error).encode())
+    simulated(hashlib.sha256(repr(rows).encode()).hexdigest())
+    _free(instance, failed)
+    if failed is None:
+        return _Simulation(rows)
+    failure = f"it cannot be tried on its declared starts: {_words(failed)}"
+    return _Simulation(rows, failure, is_usable=not _is_fatal(failed))
+
+
+def _try_reset(fmu: Fmu, expected: list[bytes]) -> tuple[str, bool]:
+    """Return why an instance after its reset is not as good as a new one, and whether the FMU may still be used."""
     for changes in _changes(fmu):
         used = instantiate(fmu, fmu.name)
         try:
-            _simulate(used, changes)
+            list(_simulate(used, changes))
         except FMICallException as error:  # does not fly with these
             _free(used, error)
             continue
         try:
             used.slave.terminate()
             used.slave.reset()
-            state = [*_simulate(used, {}), read(used, "parameter")]
+            state = list(_simulate(used, {}))
         except FMICallException as error:
             _free(used, error)
-            return ResetVerdict(False, f"after a flight {_words(error)}")
+            return f"after a flight {_words(error)}", not _is_fatal(error)
         _free(used)
         if state[:-1] != expected[:-1]:
-            return ResetVerdict(False, "after its reset it flies other than a fresh instance")
+            return "after its reset it flies other than a fresh instance", True
         if state != expected:
-            return ResetVerdict(False, "after its reset parameters have other values than in a fresh instance")
-        return ResetVerdict(True)
-    return ResetVerdict(False, "it cannot be tried: it flies only once")
+            return "after its reset parameters have other values than in a fresh instance", True
+        return "", True
+    return "it cannot be tried: it flies only once", True
 
 
 def _words(error: FMICallException) -> str:
     return f"{error.function} returned status {error.status}"
 
 
+def _is_fatal(error: FMICallException) -> bool:
+    """True if no instance of the FMU may be used any more (FMI 2.0, fmi2Fatal)."""
+    return not 0 <= error.status < fmi2.fmi2Fatal
+
+
 def _free(instance: Instance, error: FMICallException | None = None) -> None:
-    """Free an instance, but not after a fatal error (FMI 2.0, fmi2Fatal)."""
-    if error is None or 0 <= error.status < fmi2.fmi2Fatal:
+    """Free an instance, but not after a fatal error."""
+    if error is None or not _is_fatal(error):
         instance.free()
     else:
         instance.abandon()
@@ -139,10 +183,10 @@ def _other(variable: Variable) -> Number | None:
     return next((KINDS[variable.type](value) for value in (start + span, start - span) if low <= value <= high), None)
 
 
-def _simulate(instance: Instance, changes: dict[str, Number]) -> list[bytes]:
-    """The outputs after initialisation and after every step, as bytes.
+def _simulate(instance: Instance, changes: dict[str, Number]) -> Iterator[bytes]:
+    """Yield the outputs after initialisation and after every step, then the parameters, as bytes.
 
-    Raises FMICallException where a call fails. A discarded step ends the flight, which is a row, too.
+    Raises FMICallException where a call fails. A discarded step is the last one.
     """
     experiment = instance.fmu.description.defaultExperiment
     start, size, tolerance = (
@@ -155,10 +199,10 @@ def _simulate(instance: Instance, changes: dict[str, Number]) -> list[bytes]:
     )
     start, size = start or 0.0, size or 0.01
     begin(instance, changes, start, tolerance)
-    rows = [read(instance, "output")]
+    yield read(instance, "output")
     for n in range(STEPS):
         if not step(instance, start + n * size, size):
-            rows.append(b"ended")
+            yield b"ended"
             break
-        rows.append(read(instance, "output"))
-    return rows
+        yield read(instance, "output")
+    yield read(instance, "parameter")

@@ -9,8 +9,8 @@ from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
 
 from ..fmi.variable import Variable
-from .fmi3_slave import Fmi3Slave
 from .instance import Instance
+from .slaves import Fmi3Slave
 
 Number = float | int | bool
 KINDS: dict[str, Callable[[float], Number]] = {"Real": float, "Integer": int, "Enumeration": int, "Boolean": bool}

@@ -14,6 +14,7 @@ import msgspec
 import numpy as np
 
 from ...flight.selection import Selection
+from ...instances.renewal import ResetVerdict
 from ...ssp.given_values import ParameterValue
 from ...system.fault import Fault
 from .requests import receive_bytes
@@ -47,9 +48,10 @@ class SystemFlights:
 
 @dataclass(frozen=True)
 class ResetTrial:
-    """To try whether an FMU resets; ``formats`` as in `SystemFlights`."""
+    """To try what renews an FMU; ``formats`` as in `SystemFlights`, ``with_reset`` as in `try_renewals`."""
 
     formats: bool
+    with_reset: bool
 
 
 # Requests, to a child
@@ -73,9 +75,9 @@ class Fly:
 
 @dataclass(frozen=True)
 class KnownVerdicts:
-    """By SHA-256 of FMUs, whether they reset and why not; has no answer."""
+    """The verdicts on FMUs by their SHA-256; has no answer."""
 
-    verdicts: dict[str, tuple[bool, str]]
+    verdicts: dict[str, ResetVerdict]
 
 
 @dataclass(frozen=True)
@@ -145,18 +147,26 @@ class CellList(msgspec.Struct, tag=True, forbid_unknown_fields=True):
 
 
 class Verdict(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """A `ResetVerdict`; one that is not final says that the FMU has flown with its declared values."""
+    """A `ResetVerdict`."""
 
-    resets: bool
+    renewal: str
     reason: str
-    is_final: bool = True
+
+
+class Tried(msgspec.Struct, tag=True, forbid_unknown_fields=True):
+    """The FMU has been simulated with its declared values; a `Verdict` follows.
+
+    ``digest`` is the SHA-256 of its outputs and parameters.
+    """
+
+    digest: str
 
 
 class Freed(msgspec.Struct, tag=True, forbid_unknown_fields=True):
     """The last answer: all instances are freed."""
 
 
-Answer = Done | Flown | Refused | CellList | Verdict | Freed
+Answer = Done | Flown | Refused | CellList | Verdict | Tried | Freed
 Kind = TypeVar("Kind", bound=msgspec.Struct)
 _decoder = msgspec.json.Decoder(Answer)
 FREED = msgspec.json.encode(Freed())

@@ -5,19 +5,28 @@ Only here, and in what this calls, are the libraries of FMUs loaded that fly in 
 
 from __future__ import annotations
 
+import random
+import shutil
 import socket
+import tempfile
 from collections.abc import Sequence
 from functools import singledispatchmethod
+from pathlib import Path
 from typing import Any
+
+import numpy as np
+import numpy.random
 
 from ....common.errors import InputError
 from ...flight.base_simulation import NOTHING
 from ...flight.compiled import loop
+from ...flight.compiled.floats import float_restorer
 from ...flight.memory import Memory, Snapshot
 from ...flight.simulation import Simulation
 from ...instances.instance import Log, leave_messages_unformatted
 from ...instances.intermediate import ignore_address
-from ...instances.reset_check import ResetVerdict, reset_verdict, store_verdict
+from ...instances.renewal import store_verdict
+from ...instances.reset_check import try_renewals
 from ...system.fmu import Fmu
 from ...system.prepared import PreparedSystem
 from ..protocol import messages
@@ -25,15 +34,20 @@ from ..protocol.messages import ResetTrial, SystemFlights, send_answer, send_lin
 from ..protocol.requests import receive_request
 from ..protocol.shared_recorder import SharedRecorder, open_recorder
 
+SEED = 0  # of generators that FMUs leave at their start, as that of C's rand() is
+
 
 def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket, memory: Sequence[int]) -> None:
     """Do a task with a system or an FMU; ``memory`` is the file of the recorder, if there is one."""
     if not task.formats:
         leave_messages_unformatted()
     try:
+        _settle(subject)
         if isinstance(task, ResetTrial):
-            verdict = reset_verdict(subject, lambda: send_answer(channel, messages.Verdict(False, "", is_final=False)))
-            send_answer(channel, messages.Verdict(verdict.resets, verdict.reason))
+            verdict = try_renewals(
+                subject, lambda digest: send_answer(channel, messages.Tried(digest)), with_reset=task.with_reset
+            )
+            send_answer(channel, messages.Verdict(verdict.renewal, verdict.reason))
             return
         recorder = open_recorder(task.signals, task.rows, memory, task.recorder)
         recorder.close()
@@ -45,10 +59,27 @@ def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket,
     pilot.serve()
 
 
+def _settle(subject: PreparedSystem | Fmu) -> None:
+    """Have this process as every other that simulates this: files as unpacked, generators at their start.
+
+    Children of one server would share the state of Python's and numpy's generators, and those of another not.
+    """
+    fmus = [subject] if isinstance(subject, Fmu) else list(subject.network.fmus.values())
+    copies: dict[Path, Path] = {}
+    for fmu in fmus:
+        if not fmu.is_self_contained:
+            if fmu.folder not in copies:
+                copies[fmu.folder] = Path(shutil.copytree(fmu.folder, Path(tempfile.mkdtemp()) / "fmu", symlinks=True))
+            fmu.folder = copies[fmu.folder]
+    random.seed(SEED)
+    np.random.seed(SEED)
+
+
 def load(subject: object, *, locked: bool) -> None:
     """Have all compiled that flights of a system, or the trial of an FMU, will call: a child cannot write the cache."""
     with_fmi3 = subject.has_fmi3 if isinstance(subject, PreparedSystem) else False
     loop.load(locked=locked, with_fmi3=with_fmi3)
+    float_restorer()()
     if with_fmi3 or (isinstance(subject, Fmu) and subject.version == 3):
         ignore_address()
 
@@ -113,8 +144,8 @@ class _Pilot:
 
     @_answer.register
     def _(self, request: messages.KnownVerdicts, _descriptors: list[int]) -> None:
-        for digest, (resets, reason) in request.verdicts.items():
-            store_verdict(digest, ResetVerdict(resets, reason))
+        for digest, verdict in request.verdicts.items():
+            store_verdict(digest, verdict)
 
     @_answer.register
     def _(self, request: messages.NewRecorder, descriptors: list[int]) -> None:

@@ -16,6 +16,7 @@ FIRST_OF_FMI3 = 27
 SET_TRANSFER, GET_TRANSFER, READ_TRANSFER, COPY_EXACT, STEP_TO_EVENTS, SETTLE = range(27, 33)
 COPY_BINARY, GIVE_TEXTS, TAKE_TEXTS, SET_EVENTS = range(33, 37)
 GIVE_PARAMETERS, TAKE_BACK, ENTER_INITIALIZATION = range(37, 40)
+RESTORE_FLOATS = 40  # after each call of an FMU that is not self-contained
 IN_MEMORY = (PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN)  # whose ADDRESS is a place in the instance
 
 # Instruction columns. FIRST and COUNT are connections, faults, slots, parameters, Strings or driven inputs; a COPY

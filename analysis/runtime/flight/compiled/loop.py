@@ -51,6 +51,7 @@ from .codes import (
     NONFINITE,
     OVERRIDE,
     PUT_REAL,
+    RESTORE_FLOATS,
     SET_REAL,
     SET_WHOLE,
     STEP,
@@ -61,6 +62,7 @@ from .codes import (
     TRANSFORM,
     UNMAPPED,
 )
+from .floats import restore_floats
 from .fmi3 import begin_fmi3, exchange_in_steps
 from .fmi_calls import boolean_at, do_step, exchange, exchange_texts, put_real, real_at, whole_at
 from .fused import fly_steps
@@ -227,6 +229,8 @@ def _fly(program, buffers, settings, span, recording, excitation, fmi3, fused): 
                 driven_row = min(n + 1 + np.int64(address), drive_table.shape[0] - 1)
                 for d in range(first, first + count):
                     values[drive_slot[d]] = drive_table[driven_row, d]
+            elif code == RESTORE_FLOATS:
+                restore_floats()
             else:
                 if code <= COPY_TEXT:
                     status = exchange_texts(instructions[k], buffers.texts, outcome)

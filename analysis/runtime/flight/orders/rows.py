@@ -23,6 +23,10 @@ class Callee(Protocol):
     def function_addresses(self) -> list[int]:
         """Of its functions, in the order of `FUNCTION_NAMES`."""
 
+    @property
+    def is_self_contained(self) -> bool:
+        """True if its calls leave nothing behind in the process."""
+
     def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
         """Where these variables lie side by side in its memory; 0 where it does not say."""
 
@@ -31,6 +35,7 @@ class Unloaded:
     """Stands for an instance in instructions that are read and not worked off."""
 
     address = 0
+    is_self_contained = True
 
     def function_addresses(self) -> list[int]:
         """None has an address."""
@@ -46,6 +51,7 @@ class Rows:
 
     def __init__(self, instances: Sequence[Callee], fault_slots: Sequence[int]) -> None:
         self.addresses = [(instance.address, instance.function_addresses()) for instance in instances]
+        self._self_contained = [instance.is_self_contained for instance in instances]
         self.between_steps = False  # all FMUs: what they give and take then may be in their memory
         self.fault_slots = fault_slots
         self.rows: list[list[int]] = []
@@ -58,6 +64,8 @@ class Rows:
         """A call of an FMI function on a stretch of slots or parameters, or on a stretch of the table."""
         instance, addresses = self.addresses[component]
         self.rows.append([code, addresses[function], instance, int(stretch[0]), int(stretch[1]), component, function])
+        if not self._self_contained[component]:
+            self.rows.append([codes.RESTORE_FLOATS, 0, 0, 0, 0, component, 0])
 
     def inject(self, stretch: Stretch) -> None:
         """The faults on a stretch of slots."""

@@ -11,7 +11,8 @@ import pytest
 import perilune
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.flight.simulation import Simulation
-from perilune.analysis.runtime.instances.reset_check import ResetVerdict, reset_verdict
+from perilune.analysis.runtime.instances.renewal import Renewal, ResetVerdict
+from perilune.analysis.runtime.instances.reset_check import reset_verdict
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import component, document, fly, pack, system
@@ -94,16 +95,18 @@ def test_what_may_be_called_after_a_failure(tmp_path, calls, answer, letters):
 @pytest.mark.parametrize("quirks", GOOD, ids=str)
 def test_an_fmu_that_resets(tmp_path, quirks):
     fmu = load_fmu(odd_fmu(tmp_path, **quirks).read_bytes(), "odd.fmu")
-    assert reset_verdict(fmu) == ResetVerdict(True)
+    assert reset_verdict(fmu) == ResetVerdict(Renewal.RESET)
 
 
 @pytest.mark.parametrize(("quirks", "reason"), BAD, ids=str)
 def test_an_fmu_that_does_not_reset(tmp_path, calls, quirks, reason):
     path = odd_system(tmp_path, **quirks)
     fmu = load_fmu((tmp_path / "odd.fmu").read_bytes(), "odd.fmu")
-    assert reset_verdict(fmu) == ResetVerdict(False, reason)
+    assert reset_verdict(fmu) == ResetVerdict(Renewal.INSTANCE, reason)
     assert calls()
-    assert reset_verdict(load_fmu((tmp_path / "odd.fmu").read_bytes(), "again")) == ResetVerdict(False, reason)
+    assert reset_verdict(load_fmu((tmp_path / "odd.fmu").read_bytes(), "again")) == ResetVerdict(
+        Renewal.INSTANCE, reason
+    )
     assert calls() == ""  # tried once
     notes = perilune.validate(path)[0].notes
     assert f"odd: instantiated anew for every simulation, as its reset fails: {reason}" in notes

@@ -1,16 +1,34 @@
-"""FMPy's face of an FMI 3.0 instance."""
+"""FMPy's faces of an instance, of FMI 2.0 and FMI 3.0."""
 
 from __future__ import annotations
 
 import ctypes
 import os
+from collections.abc import Callable
 from typing import Any
 
 from fmpy import fmi2, fmi3
 
 
-class Fmi3Slave(fmi3.FMU3Slave):  # type: ignore[misc]  # FMPy has no types
-    """An instance by co-simulation; ``environment`` is the number that its messages carry."""
+class CallWatch:
+    """Mixin that calls ``after_call`` after every function of the FMU, also one that fails."""
+
+    after_call: Callable[[], None] | None = None
+
+    def _call(self, name: str, *arguments: Any) -> Any:  # through which FMPy makes all calls
+        try:
+            return super()._call(name, *arguments)  # type: ignore[misc]
+        finally:
+            if self.after_call is not None:
+                self.after_call()
+
+
+class FMU2WatchedSlave(CallWatch, fmi2.FMU2Slave):  # type: ignore[misc]  # FMPy has no types
+    """An instance of FMI 2.0; FMPy tells the version by the beginning of the name."""
+
+
+class Fmi3Slave(CallWatch, fmi3.FMU3Slave):  # type: ignore[misc]  # FMPy has no types
+    """An instance of FMI 3.0; ``environment`` is the number that its messages carry."""
 
     environment = 0
 
@@ -39,4 +57,4 @@ class Fmi3Slave(fmi3.FMU3Slave):  # type: ignore[misc]  # FMPy has no types
             raise Exception("Failed to instantiate FMU")
 
 
-Slave = fmi2.FMU2Slave | Fmi3Slave
+Slave = FMU2WatchedSlave | Fmi3Slave

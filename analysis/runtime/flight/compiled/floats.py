@@ -1,0 +1,85 @@
+"""The floating-point environment of a thread, which the code of an FMU may leave changed.
+
+On x86-64 it is two words: MXCSR of SSE (rounding, flush to zero, denormals are zero, exception masks) and the control
+word of the x87; on aarch64 it is FPCR. Other processors are left alone. Flags of past exceptions are no part of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+from llvmlite import binding, ir
+from numba import types
+from numba.core import cgutils
+from numba.core.base import BaseContext
+from numba.core.typing import Signature
+
+from ....common.compiler import compile_cached
+from .fmi_calls import INT32, INT64, in_compiled_code
+
+# Intel 64 and IA-32 Architectures Software Developer's Manual, volume 1: MXCSR (10.2.3) and the control word (8.1.5),
+# their defaults and the bits that are settings.
+MXCSR, MXCSR_SETTINGS = 0x1F80, 0xFFC0
+CONTROL_WORD, CONTROL_WORD_SETTINGS = 0x037F, 0x0F3F
+FPCR = 0  # Arm Architecture Reference Manual, C5.2.8: all bits are settings
+
+binding.initialize_native_asmparser()  # numba starts LLVM without it, and LLVM has no intrinsic for these words
+
+
+@in_compiled_code(types.void)
+def restore_floats(context: BaseContext, builder: ir.IRBuilder, _: Signature, __: Sequence[ir.Value]) -> ir.Value:
+    """Put the environment of this thread back to the default, where it is another one.
+
+    Reading takes a nanosecond; C's fegetenv and fesetenv, which save and load everything, a hundred.
+    """
+    machine = binding.get_process_triple().partition("-")[0]
+    if machine == "x86_64":
+        _restore_x86_64(builder)
+    elif machine in ("aarch64", "arm64"):
+        _restore_aarch64(builder)
+    return context.get_dummy_value()
+
+
+def _restore_x86_64(builder: ir.IRBuilder) -> None:
+    words = cgutils.alloca_once(builder, INT32, 2)
+    mxcsr, control = (builder.gep(words, [INT32(index)]) for index in range(2))
+    builder.store(INT32(0), control)  # the instruction writes 16 bits
+    _access(builder, "stmxcsr ($0)", mxcsr)
+    _access(builder, "fnstcw ($0)", control)
+    sse, x87 = (
+        builder.icmp_unsigned("!=", builder.and_(builder.load(word), INT32(settings)), INT32(default & settings))
+        for word, settings, default in (
+            (mxcsr, MXCSR_SETTINGS, MXCSR),
+            (control, CONTROL_WORD_SETTINGS, CONTROL_WORD),
+        )
+    )
+    with builder.if_then(builder.or_(sse, x87), likely=False):
+        builder.store(INT32(MXCSR), mxcsr)
+        builder.store(INT32(CONTROL_WORD), control)
+        _access(builder, "ldmxcsr ($0)", mxcsr)
+        _access(builder, "fldcw ($0)", control)
+
+
+def _access(builder: ir.IRBuilder, instruction: str, address: ir.Value) -> None:
+    """Emit an instruction that reads or writes memory at an address."""
+    kind = ir.FunctionType(ir.VoidType(), [address.type])
+    builder.asm(kind, instruction, "r,~{memory}", [address], side_effect=True)
+
+
+def _restore_aarch64(builder: ir.IRBuilder) -> None:
+    word = builder.asm(ir.FunctionType(INT64, []), "mrs $0, fpcr", "=r", [], side_effect=True)
+    with builder.if_then(builder.icmp_unsigned("!=", word, INT64(FPCR)), likely=False):
+        kind = ir.FunctionType(ir.VoidType(), [INT64])
+        builder.asm(kind, "msr fpcr, $0", "r", [INT64(FPCR)], side_effect=True)
+
+
+def _restore() -> None:
+    restore_floats()
+
+
+@cache
+def float_restorer() -> Any:
+    """Return a function of no arguments that does the same for Python."""
+    return compile_cached(_restore)

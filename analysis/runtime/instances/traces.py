@@ -1,0 +1,63 @@
+"""Traces that an FMU leaves in its process and its folder, which instances that follow would meet."""
+
+from __future__ import annotations
+
+import ctypes
+import itertools
+import locale
+import os
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+BYTECODE = "__pycache__"  # which Python writes, and whoever imports the sources again has
+
+
+@dataclass(frozen=True)
+class Traces:
+    """State of a process and of a folder that outlives instances: compare two of them with `changes_since`."""
+
+    working_folder: str
+    locale: str
+    environment: frozenset[bytes]
+    files: Mapping[str, tuple[int, int]]  # by name: size (bytes), time of change (ns)
+
+    def changes_since(self, before: Traces) -> str:
+        """Return what has changed, in words; empty where nothing has."""
+        if self.files != before.files:
+            names = sorted(name for name, _ in self.files.items() ^ before.files.items())
+            return f"its folder has changed: {names[0]}"
+        if self.working_folder != before.working_folder:
+            return "it changes the working folder of its process"
+        if self.locale != before.locale:
+            return "it changes the locale of its process"
+        if self.environment != before.environment:
+            entry = min(self.environment ^ before.environment)
+            name = entry.partition(b"=")[0].decode(errors="replace")
+            return f"it changes the environment of its process: {name}"
+        return ""
+
+
+def read_traces(folder: Path) -> Traces:
+    """Read the state of this process, and of the folder that an FMU is unpacked into."""
+    return Traces(os.getcwd(), locale.setlocale(locale.LC_ALL), _environment(), _files(folder))
+
+
+def _environment() -> frozenset[bytes]:
+    """Return the entries of C's environment, which Python's copy does not follow."""
+    if sys.platform != "linux":
+        return frozenset(f"{name}={value}".encode() for name, value in os.environ.items())
+    entries = ctypes.POINTER(ctypes.c_char_p).in_dll(ctypes.CDLL(None), "environ")
+    numbers = itertools.count()
+    return frozenset(iter(lambda: entries[next(numbers)], None)) if entries else frozenset()
+
+
+def _files(folder: Path) -> dict[str, tuple[int, int]]:
+    files = {}
+    for path in folder.rglob("*"):
+        name = path.relative_to(folder)
+        if BYTECODE not in name.parts and not path.is_dir():
+            state = path.lstat()
+            files[name.as_posix()] = state.st_size, state.st_mtime_ns
+    return files
