@@ -75,10 +75,7 @@ class LifeCycle:
             if not self._is_reset(name, instance):
                 instance.free()
                 ended.append((index, instance))
-        for (
-            index,
-            instance,
-        ) in ended:  # all are freed first, so that libraries are loaded anew: they may have kept state
+        for index, instance in ended:  # once all are freed: libraries without users are unloaded, with their state
             self._note_subject(index)
             instance.renew()
             self._readdress(index, instance)

@@ -16,8 +16,7 @@ from perilune.analysis.runtime.apart.resets import find_verdict
 from perilune.analysis.runtime.instances.renewal import Renewal
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.analysis.runtime.system.options import SystemOptions
-from tests.support.builders import component, document, pack, system
-from tests.support.foreign.coupled import CAMPAIGN, MODULES, Trace, coupled_fmu, coupled_module
+from tests.support.foreign.coupled import CAMPAIGN, Trace, coupled_fmu, coupled_module, coupled_system
 
 pytestmark = pytest.mark.flies
 TRIALS = 24
@@ -98,38 +97,25 @@ def test_the_verdict_says_what_renews_an_fmu(tmp_path, trace):
 
 
 def test_processes_for_each_simulation_are_noted_once_with_reason_and_cost(tmp_path):
-    fmu = coupled_fmu(tmp_path, Trace.FILES)
+    fmu = coupled_fmu(tmp_path, Trace.FILES, resets=False)  # of no other test here: it would have been noted
     note = "coupled: a process for every simulation, as no other is like the first: its folder has changed: trace"
     with pytest.warns(UserWarning, match=note) as noted:
-        trials(fmu, tmp_path, workers=2)
-        trials(fmu, tmp_path, workers=1)
+        [trials(fmu, tmp_path, workers=workers) for workers in (2, 1)]
     assert len(noted) == 1
     assert re.search(r"; \d+ ms each$", str(noted[0].message))
     assert f"{fmu}: {note.removeprefix('coupled: ')}" in perilune.validate(fmu)[0].notes
 
 
 @pytest.mark.filterwarnings("ignore:.*a process for every simulation")
-@pytest.mark.parametrize("options", [{"workers": 2, "engine": "processes"}, {"scheduler": "local"}], ids=name_of)
-def test_all_traces_in_one_system_change_no_table(tmp_path, options):
-    """A component for each, whose traces meet all others; against one worker in the caller's process."""
-    path = everything(tmp_path)
-    campaign = CAMPAIGN.format(trials=6).replace("coupled.", "ROUNDING.").replace('"coupled"', '"everything"')
-    (tmp_path / "campaign.toml").write_text(campaign)
+def test_all_traces_in_one_system_change_no_table(tmp_path):
+    """Against one worker; dask's are tried in `test_dask.py`."""
+    system, campaign = coupled_system(tmp_path)
     tables = [
-        perilune.batch(path, tmp_path / "campaign.toml", **TIMES, **others).to_pandas()
-        for others in ({"workers": 1}, options)
+        perilune.batch(system, campaign, **options).to_pandas()
+        for options in ({"workers": 1}, {"workers": 2}, {"workers": 2, "engine": "processes"})
     ]
     assert tables[0].equals(tables[1])
-
-
-def everything(folder):
-    """A system of one FMU for each trace that a process can renew."""
-    parts = []
-    for trace in MET:
-        if isinstance(trace, Trace):
-            coupled_fmu(folder, trace).rename(folder / f"{trace.name.lower()}.fmu")
-            parts.append(component(trace.name, trace.name.lower(), "output y Real"))
-    return pack(folder / "everything.ssp", folder, document(system(*parts), stop=0.5))
+    assert tables[0].equals(tables[2])
 
 
 @pytest.mark.parametrize("trace", [Trace.ROUNDING, Trace.TRAPS, Trace.FLUSH], ids=name_of)
@@ -150,7 +136,7 @@ def test_in_this_process_a_note_says_that_trials_depend_on_each_other(tmp_path):
 def test_a_folder_of_an_earlier_version_is_read(tmp_path):
     """Its manifest has verdicts without a renewal."""
     fmu, folder = coupled_fmu(tmp_path, Trace.GLOBAL), tmp_path / "out"
-    p, last = trials(fmu, tmp_path, 4, workers=1, output=folder)
+    _, last = trials(fmu, tmp_path, 4, workers=1, output=folder)
     manifest = folder / "manifest.json"
     text, count = re.subn(r'"renewal": *"instance"', '"resets": false', manifest.read_text())
     assert count == 1

@@ -8,7 +8,7 @@ from pathlib import Path
 import fmpy
 from pythonfmu import FmuBuilder
 
-from tests.support.builders import write_zip
+from tests.support.builders import component, document, pack, system, write_zip
 from tests.support.foreign.library import library
 
 # As coupled.c numbers them.
@@ -49,6 +49,19 @@ def coupled_fmu(folder: Path, trace: Trace, *, resets: bool = True) -> Path:
     macros = (f"-DTRACE={trace.value}", *(() if resets else ("-DKEEPS_STATE",)))
     binary = f"binaries/{fmpy.platform}/coupled{fmpy.sharedLibraryExtension}"
     return write_zip(folder / "coupled.fmu", {"modelDescription.xml": DESCRIPTION, binary: library("coupled", macros)})
+
+
+def coupled_system(folder: Path, trials: int = 4) -> tuple[Path, Path]:
+    """``folder``/everything.ssp with an FMU for each trace but the clock, which meet each other; its campaign."""
+    parts = []
+    for trace in Trace:
+        if trace is not Trace.CLOCK:
+            coupled_fmu(folder, trace).rename(folder / f"{trace.name.lower()}.fmu")
+            parts.append(component(trace.name, trace.name.lower(), "output y Real"))
+    campaign = folder / "everything.toml"
+    named = CAMPAIGN.replace('"coupled"', '"everything"').replace("coupled.", f"{Trace.ROUNDING.name}.")
+    campaign.write_text(named.format(trials=trials))
+    return pack(folder / "everything.ssp", folder, document(system(*parts), stop=0.5, step=0.25)), campaign
 
 
 # The same with a module's global, or its generator, which its own seed begins, or nothing.

@@ -17,6 +17,7 @@ from perilune.analysis.common.errors import InputError
 from perilune.fmus_src.paths import PACKAGE, SYSTEMS
 from tests.support.campaigns.clusters import can_hide, dask_cluster, until
 from tests.support.campaigns.folders import bytes_of, killed_when, shards_in, started
+from tests.support.foreign.coupled import coupled_system
 from tests.support.interrupts import interrupted_when
 from tests.support.lengths import either
 from tests.support.lone_fmus import build_lone_fmu
@@ -246,3 +247,14 @@ def test_what_is_said_of_another_perilune():
         with pytest.raises(InputError) as caught:
             refuse_others(ours, theirs, "w")
         assert words in str(caught.value)
+
+
+@pytest.mark.filterwarnings("ignore:.*a process for every simulation")
+def test_trials_of_foreign_fmus_are_those_of_one_worker(cluster, tmp_path):
+    """FMUs that leave something in their thread, process or folder."""
+    system, campaign = coupled_system(tmp_path)
+    tables = [
+        perilune.batch(system, campaign, **options).to_pandas()
+        for options in ({"workers": 1}, {"scheduler": cluster.address})
+    ]
+    assert tables[0].equals(tables[1])
