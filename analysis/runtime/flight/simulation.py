@@ -15,6 +15,7 @@ from ..fused.refusals import can_fuse, check_fused
 from ..instances.instance import Instance, instantiate
 from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
+from ..system.namesakes import note_loaded
 from ..system.options import FUSED
 from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem
@@ -55,6 +56,8 @@ class Simulation(BaseSimulation):
         prepared = self.prepared
         for number, (name, fmu) in enumerate(prepared.network.fmus.items()):
             self.recorder.enter(Phase.INSTANTIATION, number)
+            if prepared.options.in_process:
+                note_loaded(fmu)
             uses_events = needs_events(prepared.network, name)
             self.instances[name] = instantiate(fmu, name, self._log, uses_events=uses_events)
         injections = self._selection.injections(prepared.step)

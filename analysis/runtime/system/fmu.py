@@ -61,6 +61,11 @@ class Fmu:
         return int(self.description.fmiMajorVersion)
 
     @property
+    def binary(self) -> str:
+        """The path of its library for this platform, in the FMU."""
+        return _binary(self.description)
+
+    @property
     def is_alone(self) -> bool:
         """Whether a process can hold one instance of it only."""
         return bool(self.description.coSimulation.canBeInstantiatedOnlyOncePerProcess)

@@ -27,6 +27,7 @@ from .feedthrough import find_feedthrough
 from .flattening import build_network
 from .fmu import Fmu, load_fmu
 from .inputs import Drive, check_signals, drive_inputs, find_driven, settle_open_inputs
+from .namesakes import check_namesakes
 from .network import Network
 from .options import ALGORITHMS, FUSED, OPEN_INPUTS, SystemOptions
 from .passing.settings import Settings
@@ -202,6 +203,7 @@ def _prepare(
         if slot not in network.fmus:
             raise InputError("`use`", slot, "no such component", suggestion(slot, network.fmus))
     _refuse_seconds(network)
+    check_namesakes(network.fmus.values(), in_process=options.in_process)
     if series is not None:
         network.driven = find_driven(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
     assignments = [each for name, (_, retired) in replaced.items() for each in retired.assignments(name)]
