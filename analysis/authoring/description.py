@@ -39,7 +39,7 @@ def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Map
             "size": 1,
             "causality": variable.causality or "local",
             "type": variable.type,
-            "unit": fmu.unit_of(variable),
+            "unit": variable.unit,
             "value": [value] if whole else value,
             "minimum": _number(variable.minimum),
             "maximum": _number(variable.maximum),

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from ...fmus_src.units import unit_definition
 from ..common.errors import InputError
+from ..runtime.ssp.conversions import unit_by_name
 from .recorded_run import RecordedRun
 
 
@@ -98,7 +98,7 @@ def compare_runs(first: RecordedRun, second: RecordedRun) -> RunDifferences:
     originals: dict[tuple[bytes, bytes], str] = {}
     for name in common:
         unit, other = first.units.get(name), second.units.get(name)
-        line = _conversion(other, unit)
+        line = _conversion(other, unit, is_relative=name in first.relative | second.relative)
         if line is None:
             unlike.append((name, str(unit), str(other)))
             continue
@@ -115,14 +115,12 @@ def compare_runs(first: RecordedRun, second: RecordedRun) -> RunDifferences:
     return RunDifferences(first, second, time, resampled, ordered, only, unlike)
 
 
-def _conversion(unit: str | None, into: str | None) -> tuple[float, float] | None:
-    """Factor and offset from a unit into another one; as it is where one is unknown; None for other dimensions."""
+def _conversion(unit: str | None, into: str | None, *, is_relative: bool) -> tuple[float, float] | None:
+    """Return factor and offset from a unit into another; 1 and 0 where one is unknown, None for other dimensions."""
     if unit == into or unit is None or into is None:
         return 1.0, 0.0
-    source, target = unit_definition(unit), unit_definition(into)
-    if source is None or target is None or source.exponents != target.exponents:
-        return None
-    return source.factor / target.factor, (source.offset - target.offset) / target.factor
+    source, target = (replace(unit_by_name(name), is_relative=is_relative) for name in (unit, into))
+    return source.conversion_to(target) if source.fits(target) else None
 
 
 def _sample(run: RecordedRun, name: str, time: np.ndarray, *, hold: bool) -> np.ndarray:

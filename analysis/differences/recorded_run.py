@@ -28,7 +28,8 @@ class RecordedRun:
     """Signals over ``time`` [n] (s, ascending), float64 [n] each, by name.
 
     ``units`` are by signal where they are known, ``discrete`` are signals whose values hold between samples (Integers
-    and Booleans), ``origin`` says what was simulated where the table does.
+    and Booleans), ``relative`` those that are differences in their unit, ``origin`` says what was simulated where the
+    table does.
     """
 
     file: str
@@ -37,6 +38,7 @@ class RecordedRun:
     signals: dict[str, np.ndarray]
     units: dict[str, str]
     discrete: frozenset[str]
+    relative: frozenset[str] = frozenset()
 
 
 def read_run(path: Path) -> RecordedRun:
@@ -69,7 +71,7 @@ def read_run(path: Path) -> RecordedRun:
         raise InputError(path, TIME, "no samples, or times that do not ascend", FORM)
     fields = [field for field in table.schema if field.name != TIME]
     units = {field.name: _unit(field) for field in fields} if is_parquet else about.get("units", {})
-    types = about.get("types", {})
+    types, relative = about.get("types", {}), about.get("relative_quantities")
     return RecordedRun(
         file=str(path),
         origin=_origin(about),
@@ -79,6 +81,7 @@ def read_run(path: Path) -> RecordedRun:
         discrete=frozenset(
             field.name for field in fields if _is_discrete(field.type, is_parquet) or field.name in types
         ),
+        relative=frozenset(map(str, relative if isinstance(relative, list) else ())),
     )
 
 

@@ -69,7 +69,7 @@ def _unit(prepared: PreparedSystem, parameter: str) -> str | None:
     for component, fmu in prepared.network.fmus.items():
         variable = fmu.variables.get(parameter.removeprefix(f"{component}."))
         if parameter.startswith(f"{component}.") and variable is not None:
-            return fmu.unit_of(variable)
+            return variable.unit
     return None
 
 

@@ -23,7 +23,7 @@ def units_of(space: DrawSpace, prepared: PreparedSystem, facts: StudyProvenance)
             )
             if component:
                 fmu = prepared.network.fmus[component]
-                units[name] = fmu.unit_of(fmu.variables[name.removeprefix(f"{component}.")])
+                units[name] = fmu.variables[name.removeprefix(f"{component}.")].unit
     return {name: unit for name, unit in units.items() if unit and unit != "1"}
 
 

@@ -194,7 +194,7 @@ def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]
         for component, fmu in network.fmus.items():
             for variable in fmu.variables.values():
                 if variable.causality in ("input", "output"):
-                    fact = SignalMetadata(unit=fmu.unit_of(variable), type=variable.type)
+                    fact = SignalMetadata(unit=variable.unit, type=variable.type)
                     signals.setdefault(f"{component}.{variable.name}", fact)
         for node in network.nodes.values():
             if node.component is None and node.kind not in ("parameter", "calculatedParameter"):

@@ -104,7 +104,7 @@ class _Reader:
         if isinstance(element, Component):
             fmu = self.network.fmus[block.path]
             outputs = (each for each in fmu.variables.values() if each.causality == "output")
-            declared |= {each.name: ("output", fmu.unit_of(each)) for each in outputs if each.name not in declared}
+            declared |= {each.name: ("output", each.unit) for each in outputs if each.name not in declared}
         for connector_name, (kind, unit) in declared.items():
             name, is_vector = base_name(connector_name)
             for side in SIDES.get(kind, ()):

@@ -129,7 +129,7 @@ class SignalReader(AnnotationReader):
         """One scalar of several in an attribute."""
         if name not in self.types or self.types[name] not in NUMBERS:
             raise self.unfit(element, name, f"{attribute} {name}: no such scalar", suggestion(name, self.types))
-        return Signal(name, (name,), self.unit_of(name), 1.0, (0.0,))
+        return Signal(name, (name,), self.network.unit_of(name), 1.0, (0.0,))
 
     def scalar(
         self,
@@ -165,8 +165,8 @@ class SignalReader(AnnotationReader):
             raise self.unfit(element, name, f"{what}: no such signal", suggestion(name, self.types))
         if any(self.types[item] not in types for item in names):
             raise self.unfit(element, name, f"{what} is not {' or '.join(types)}", "name another signal")
-        unit_of_first = self.unit_of(names[0])
-        if any(self.unit_of(item) != unit_of_first for item in names):
+        unit_of_first = self.network.unit_of(names[0])
+        if any(self.network.unit_of(item) != unit_of_first for item in names):
             raise self.unfit(element, name, f"{what}: its elements differ in unit", "name one of them")
         signal = Signal(name, names, unit_of_first, 1.0, (0.0,) * len(names))
         if like is not None:
@@ -191,7 +191,7 @@ class SignalReader(AnnotationReader):
         if "less" not in element.attrib or fmu is None or not names or elements(name, self.types):
             return signal, self.signal(element, "less", like=signal) if "less" in element.attrib else None
         self.check_size(element, f"less {name} has {len(names)} elements", len(names), signal)
-        unit = fmu.units.get(fmu.unit_of(fmu.variables[names[0]]) or "")
+        unit = fmu.unit_of(fmu.variables[names[0]])
         values = Signal(name, tuple(f"{component}.{item}" for item in names), unit, 1.0, (0.0,) * len(names))
         like = self.convert_limits(element, f"less {name}", values, signal.unit)
         constants = (self.parameter_value(element, "less", item) for item in values.names)
@@ -216,15 +216,6 @@ class SignalReader(AnnotationReader):
         if component in self.substituted:
             return MissingSignalError(f"{problem}, with {self.network.fmus[component].name} as {component}")
         return self.refuse(element, problem, remedy)
-
-    def unit_of(self, name: str) -> Unit | None:
-        """The unit of a recorded signal: of its connector, else of the FMU's output."""
-        node = self.network.nodes.get(name)
-        if node is not None:
-            return node.unit
-        component, variable = split_name(name, self.network.fmus)
-        fmu = self.network.fmus[component]
-        return fmu.units.get(fmu.unit_of(fmu.variables[variable]) or "")
 
     def unit(self, element: etree._Element, name: str, signal: str) -> Unit:
         """A unit by its name, of the SSD or of the signal's FMU."""

@@ -149,7 +149,7 @@ class BaseSimulation(ABC):
 
     def provenance(self) -> Provenance:
         """Parameter values, hashes, options and version: what the result depends on."""
-        return provenance_of(self.prepared, self.settings, self.layout.parameters, self._faults)
+        return provenance_of(self.prepared, self.settings, self.layout.parameters, self._faults, self.signal_names)
 
     @abstractmethod
     def close(self) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -113,6 +113,7 @@ class Provenance(TypedDict):
     faults: list[str]
     algorithm: str
     input: NotRequired[DrivenInput]
+    relative_quantities: NotRequired[list[str]]  # signals that are differences in their unit
     perilune: str
 
 
@@ -221,10 +222,16 @@ def with_meaning(network: Network, name: str, value: int) -> str:
 
 
 def provenance_of(
-    prepared: PreparedSystem, settings: Settings, parameters: Parameters, faults: Sequence[Fault | None]
+    prepared: PreparedSystem,
+    settings: Settings,
+    parameters: Parameters,
+    faults: Sequence[Fault | None],
+    signals: Iterable[str],
 ) -> Provenance:
-    """Parameter values, hashes, options and version."""
-    return {
+    """Return parameter values, hashes, options and version; which of the ``signals`` are differences, where any are."""
+    units = {name: prepared.network.unit_of(name) for name in signals}
+    relative = [name for name, unit in units.items() if unit is not None and unit.is_relative]
+    provenance: Provenance = {
         "system": prepared.archive.name,
         "system_sha256": prepared.archive.digest,
         "fmus": {
@@ -246,3 +253,4 @@ def provenance_of(
         **(prepared.drive.facts() if prepared.drive is not None else InputFacts()),
         "perilune": version("perilune"),
     }
+    return provenance | {"relative_quantities": relative} if relative else provenance

@@ -32,6 +32,7 @@ class Variable:
     minimum: str | None = None
     maximum: str | None = None
     unit: str | None = None
+    is_relative: bool = False  # a difference of values in the unit, to which its offset does not apply
     description: str | None = None
     items: Mapping[str, int] = field(default_factory=dict)  # of an Enumeration
     array: str = ""  # name of the array that it is an element of
@@ -95,7 +96,7 @@ def _starts(declared: ModelVariable) -> dict[tuple[int, ...], str]:
 
 
 def _scalar(declared: ModelVariable, type_name: str, representation: str) -> Variable:
-    kind = declared.declaredType
+    kind, stated = declared.declaredType, declared.relativeQuantity
     items = {} if kind is None or type_name != "Enumeration" else {item.name: int(item.value) for item in kind.items}
     return Variable(
         name=declared.name,
@@ -109,6 +110,7 @@ def _scalar(declared: ModelVariable, type_name: str, representation: str) -> Var
         minimum=declared.min,
         maximum=declared.max,
         unit=declared.unit or (kind.unit if kind is not None else None),
+        is_relative=kind is not None and kind.relativeQuantity if stated is None else stated,
         description=declared.description,
         items=items,
     )

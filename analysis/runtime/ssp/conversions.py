@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from fmpy.model_description import ModelDescription
 from lxml import etree
 
-from ....fmus_src.units import BASE_UNITS
+from ....fmus_src.units import BASE_UNITS, unit_definition
 from ...common.errors import InputError
 from .documents import child, children, tag
 
 
 @dataclass(frozen=True)
 class Unit:
-    """value in base units = factor * value + offset. One that nobody defines has no ``exponents``: it is its name."""
+    """value in base units = factor * value + offset. One that nobody defines has no ``exponents``: it is its name.
+
+    ``is_relative``: of a difference of such values, to which offsets do not apply (FMI's relativeQuantity).
+    """
 
     name: str
     exponents: tuple[int, ...] | None
     factor: float = 1.0
     offset: float = 0.0
+    is_relative: bool = False
 
     def differs_from(self, other: Unit) -> str:
         """The name, and what the unit is made of where the other has the same: ``N.m (kg m2 s-2)``."""
@@ -43,38 +49,57 @@ class Unit:
         """Whether both mean one unit, by what they are made of; by their names where nobody says that of one."""
         if self.exponents is None or other.exponents is None:
             return self.name == other.name
-        return (self.exponents, self.factor, self.offset) == (other.exponents, other.factor, other.offset)
+        return self.exponents == other.exponents and self.conversion_to(other) == (1.0, 0.0)
 
     def conversion_to(self, other: Unit) -> tuple[float, float]:
-        """Factor and offset that turn a value in this unit into one in the other."""
-        if (self.factor, self.offset) == (other.factor, other.offset):
-            return 1.0, 0.0
-        return self.factor / other.factor, (self.offset - other.offset) / other.factor
+        """Return factor and offset from this unit into the other: of values, or of differences if one has those."""
+        factor = 1.0 if self.factor == other.factor else self.factor / other.factor
+        if self.is_relative or other.is_relative or self.offset == other.offset:
+            return factor, 0.0
+        return factor, (self.offset - other.offset) / other.factor
 
 
-def units_of_fmu(description: ModelDescription) -> dict[str, Unit]:
-    """Units that an FMU defines, by name (fmpy ModelDescription)."""
-    units: dict[str, Unit] = {}
+def unit_by_name(name: str) -> Unit:
+    """Return the unit that a name usually means; without base units where it means none."""
+    definition = unit_definition(name)
+    if definition is None:
+        return Unit(name, None)
+    exponents = tuple(definition.exponents.get(each, 0) for each in BASE_UNITS)
+    return Unit(name, exponents, definition.factor, definition.offset)
+
+
+def units_of_fmu(description: ModelDescription, label: str) -> dict[str, Unit]:
+    """Return the units that an FMU of this ``label`` defines, by name (fmpy ModelDescription). Raises InputError."""
+    units = {}
     for definition in description.unitDefinitions:
-        base = definition.baseUnit
-        if base is None:
-            units[definition.name] = Unit(definition.name, None)
-        else:
-            exponents = tuple(int(getattr(base, name, 0) or 0) for name in BASE_UNITS)
-            units[definition.name] = Unit(definition.name, exponents, float(base.factor), float(base.offset))
+        name, base = definition.name, definition.baseUnit
+        attributes = {each: getattr(base, each, 0) for each in (*BASE_UNITS, "factor", "offset")}
+        units[name] = Unit(name, None) if base is None else _unit(name, attributes, label)
     return units
 
 
-def units_of_document(root: etree._Element, prefix: str) -> dict[str, Unit]:
-    """Units defined in an SSP document; ``prefix`` is its namespace prefix (ssd, ssv, ssb)."""
+def units_of_document(root: etree._Element, prefix: str, file: str) -> dict[str, Unit]:
+    """Return the units that an SSP document defines; ``prefix`` is that of its namespace: ssd, ssv, ssb.
+
+    Raises InputError, with the ``file``.
+    """
     units = {}
     for element in children(child(root, f"{prefix}:Units"), "ssc:Unit"):
         base = child(element, "ssc:BaseUnit")
         assert base is not None  # the schema requires it
-        exponents = tuple(int(base.get(name, "0")) for name in BASE_UNITS)
         name = element.get("name", "")
-        units[name] = Unit(name, exponents, float(base.get("factor", "1")), float(base.get("offset", "0")))
+        units[name] = _unit(name, base.attrib, file)
     return units
+
+
+def _unit(name: str, base: Mapping[str, object], file: str) -> Unit:
+    """Return a unit by the attributes of its BaseUnit, which schema or FMPy have checked to be numbers."""
+    exponents = tuple(int(str(base.get(each, 0))) for each in BASE_UNITS)
+    factor, offset = float(str(base.get("factor", 1.0))), float(str(base.get("offset", 0.0)))
+    if not factor or not math.isfinite(factor) or not math.isfinite(offset):
+        problem = f"no value can be converted with factor {factor:g} and offset {offset:g}"
+        raise InputError(file, f"Unit {name}", problem, "give finite numbers, and a factor other than 0")
+    return Unit(name, exponents, factor, offset)
 
 
 @dataclass(frozen=True)

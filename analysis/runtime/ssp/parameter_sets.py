@@ -72,7 +72,7 @@ def read_parameter_set(
     Raises InputError.
     """
     check_schema(root, "ssv", file)
-    units = {**(units or {}), **units_of_document(root, "ssv")}
+    units = {**(units or {}), **units_of_document(root, "ssv", file)}
     assignments: dict[str, list[Assignment]] = {}
     for parameter in children(child(root, "ssv:Parameters"), "ssv:Parameter"):
         name, line = parameter.get("name", ""), parameter.sourceline

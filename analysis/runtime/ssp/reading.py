@@ -61,7 +61,7 @@ class Reader:
         root = read_document(data, "ssd", self.file)
         check_annotations(root, self.file)
         self.notes += signatures(root)
-        self.units = units_of_document(root, "ssd")
+        self.units = units_of_document(root, "ssd", self.file)
         system = child(root, "ssd:System")
         assert system is not None  # the schema requires it
         experiment = child(root, "ssd:DefaultExperiment")
@@ -192,6 +192,7 @@ class Reader:
 
     def dictionary(self, element: etree._Element) -> dict[str, Connector]:
         name, source = element.get("name", ""), element.get("source")
+        file = source or self.file
         if source is not None:
             root = read_document(self.load(source, f"signal dictionary {name}"), "ssb", source)
             self.notes += [f"{source}: {note}" for note in signatures(root)]
@@ -201,7 +202,11 @@ class Reader:
                 raise self.refuse(element, name, "signal dictionary without source or content", "give one of them")
             check_schema(inline, "ssb", self.file)
             root = inline
-        self.units |= units_of_document(root, "ssb")
+        for unit in units_of_document(root, "ssb", file).values():
+            known = self.units.setdefault(unit.name, unit)
+            if not unit.is_same(known):
+                problem = f"is {unit.differs_from(known)} here, {known.differs_from(unit)} in {self.file}"
+                raise InputError(file, f"Unit {unit.name}", problem, "use a name for each")
         return {
             entry.get("name", ""): self.read_type(entry, entry.get("name", ""), "inout")
             for entry in children(root, "ssb:DictionaryEntry")

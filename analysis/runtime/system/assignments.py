@@ -21,6 +21,7 @@ from .network import Network, Node
 from .options import SystemOptions
 from .passing.parameters import pass_parameters
 from .passing.settings import Settings
+from .passing.units import check_offset
 
 SETTABLE = (*PARAMETERS, "input")
 SINGLE = "`set`"  # where single values come from, unless a file says them
@@ -149,7 +150,7 @@ def _apply(
     problem = "matches no parameter"
     if isinstance(target, Node):
         if target.kind in SETTABLE:
-            number = _fit(assignment, target.type_name or "Real", target)
+            number = _fit(network, assignment, target.type_name or "Real", target)
             _check_bounds(assignment, None, number)
             settings.nodes[target.name] = number if isinstance(number, str) else float(number)
             settings.node_origins[target.name] = assignment.origin
@@ -161,10 +162,9 @@ def _apply(
         is_constant = variable is not None and variable.variability == "constant"
         has_start = variable is not None and (variable.causality in SETTABLE or variable.initial in ("exact", "approx"))
         if variable is not None and has_start and not is_constant:
-            unit = fmu.units.get(fmu.unit_of(variable) or "")
-            items = dict(variable.items)
+            unit, items = fmu.unit_of(variable), dict(variable.items)
             node = Node(f"{component}.{name}", variable.causality, component, name, variable.type, unit, 0, items)
-            value = _fit(assignment, variable.type, node)
+            value = _fit(network, assignment, variable.type, node)
             _check_bounds(assignment, variable, value)
             settings.variables[component, name] = value
             settings.origins[component, name] = assignment.origin
@@ -197,7 +197,7 @@ def _check_driven(network: Network, assignment: Assignment) -> None:
         raise InputError(assignment.file, assignment.where, problem, remedy)
 
 
-def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
+def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
     """The assignment's value as its target needs it: type, unit, transformation."""
     value, given = assignment.value, assignment.type_name
     if type_name == "Binary":
@@ -222,6 +222,7 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
                     f"unit {assignment.unit.name} does not fit {node.unit.name}",
                     f"give the value in a unit that converts to {node.unit.name}",
                 )
+            check_offset(network, node, assignment.unit, node.unit, assignment.file, assignment.where)
             transformation = transformation.after_units(assignment.unit.conversion_to(node.unit))
         return float(value) * transformation.factor + transformation.offset
     if transformation.table:

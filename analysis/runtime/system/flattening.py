@@ -21,6 +21,7 @@ from ..ssp.kinds import PARAMETERS, leads
 from ..ssp.types import is_of_type, runtime_type
 from .fmu import Fmu
 from .network import Link, Network, Node
+from .passing.units import convert_units
 
 SUMMED = ("Real", "Integer")
 WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"))  # types of source and target that fit though they differ
@@ -42,6 +43,7 @@ def build_network(description: Description, load: Callable[[str, Component], Fmu
     for path, system in network.systems.items():
         for connection in system.connections:
             _connect(network, path, system, connection)
+    convert_units(network)
     _settle_types(network)
     for link in network.links():
         _check_link(network, link)
@@ -110,7 +112,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
             f"is {actual} in {fmu.label}, {exact} here",
             "correct the connector's type or use another FMU",
         )
-    own = fmu.units.get(fmu.unit_of(variable) or "")
+    own = fmu.unit_of(variable)
     declared = _unit(network, name, fmu, connector)
     if own and declared and not own.is_same(declared):
         raise network.refuse(
@@ -119,6 +121,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
             "correct the connector's unit or use another FMU",
         )
     unit, items = declared or own, dict(variable.items)
+    unit = None if unit is None else replace(unit, is_relative=variable.is_relative)
     return Node(name, kind, component, connector.name, variable.type, unit, connector.line, items, connector.array)
 
 
@@ -213,16 +216,7 @@ def _link(network: Network, path: str, system: System, connection: Connection) -
             "calculated parameters are not passed on to parameters",
             "remove the connection and give the value in a parameter set",
         )
-    transformation = connection.transformation
-    if not connection.suppress_unit_conversion and start.unit and end.unit:
-        if not start.unit.fits(end.unit):
-            raise network.refuse(
-                connection.where,
-                f"units do not fit: {start.unit.name} and {end.unit.name}",
-                "correct the unit of one end",
-            )
-        transformation = transformation.after_units(start.unit.conversion_to(end.unit))
-    return Link(start, end, transformation, connection.line)
+    return Link(start, end, connection.transformation, connection.line, connection.suppress_unit_conversion)
 
 
 def _settle_types(network: Network) -> None:

@@ -22,6 +22,7 @@ from ...common.errors import InputError
 from ...common.scratch import make_folder
 from ...common.zips import REMEDY, UNREADABLE, open_zip, read_entry
 from ..fmi import description as fmi3
+from ..fmi.quantities import complete_quantities
 from ..fmi.variable import Variable, elements_of, variables_of
 from ..ssp.conversions import Unit, units_of_fmu
 from ..ssp.documents import parse_xml
@@ -85,9 +86,10 @@ class Fmu:
         """The parameters of FMI 3.0 that size arrays, or others that are set before an instance has its structure."""
         return [name for name, variable in self.variables.items() if variable.causality == STRUCTURAL]
 
-    def unit_of(self, variable: Variable) -> str | None:
-        """Name of a variable's unit, its own or its type's."""
-        return variable.unit
+    def unit_of(self, variable: Variable) -> Unit | None:
+        """Return the unit of a variable; None where it has none, or one that the FMU does not define."""
+        unit = self.units.get(variable.unit or "")
+        return unit if unit is None else replace(unit, is_relative=variable.is_relative)
 
     def with_sizes(self, sizes: Mapping[str, int]) -> Fmu:
         """The same with other structural parameters, by name: arrays have the elements that follow from them."""
@@ -169,7 +171,7 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     if is_fmi3:
         fmi3.check_sizes(description, {}, label)
     fmu.variables = dict(_read_variables(xml))
-    fmu.units = units_of_fmu(description)
+    fmu.units = units_of_fmu(description, label)
     weakref.finalize(fmu, shutil.rmtree, folder, ignore_errors=True)
     return fmu
 
@@ -194,8 +196,10 @@ def _read_description(xml: bytes) -> tuple[ModelDescription | None, tuple[str, .
 
 
 def _completed(description: ModelDescription, xml: bytes) -> ModelDescription:
+    root = parse_xml(xml, DESCRIPTION)
+    complete_quantities(description, root)
     if description.fmiMajorVersion == 3:
-        fmi3.complete(description, parse_xml(xml, DESCRIPTION))
+        fmi3.complete(description, root)
     return description
 
 

@@ -9,6 +9,7 @@ from ...common.errors import InputError
 from ..ssp.conversions import Transformation, Unit
 from ..ssp.description import Component, Description, System
 from ..ssp.kinds import PARAMETERS
+from ..ssp.names import split_name
 from .fmu import Fmu
 
 
@@ -39,6 +40,7 @@ class Node:
 class Link:
     """A connection between nodes, with unit conversion and transformation in one.
 
+    ``keeps_number``: units are not converted (SSP's suppressUnitConversion).
     ``added`` are links with the same target, from components to a component, whose values are added to its own.
     """
 
@@ -46,6 +48,7 @@ class Link:
     target: Node
     transformation: Transformation
     line: int
+    keeps_number: bool = False
     added: list[Link] = field(default_factory=list)
 
     @property
@@ -60,7 +63,10 @@ class Link:
 
 @dataclass
 class Network:
-    """The flat system. ``notes`` are remarks for `perilune validate`."""
+    """The flat system. ``notes`` are remarks for `perilune validate`.
+
+    ``mixed`` are connectors without an FMU that values and differences of values (relativeQuantity) are connected with.
+    """
 
     description: Description
     fmus: dict[str, Fmu] = field(default_factory=dict)
@@ -69,6 +75,7 @@ class Network:
     systems: dict[str, System] = field(default_factory=dict)  # by path with trailing dot, "" for the root
     notes: list[str] = field(default_factory=list)
     driven: dict[str, str] = field(default_factory=dict)  # inputs that a series drives, with its columns
+    mixed: set[str] = field(default_factory=set)
 
     @property
     def file(self) -> str:
@@ -77,6 +84,13 @@ class Network:
     def refuse(self, where: str, problem: str, remedy: str) -> InputError:
         """The error of an element of the description."""
         return InputError(self.file, where, problem, remedy)
+
+    def unit_of(self, signal: str) -> Unit | None:
+        """Return the unit of a recorded signal: of its connector, else of the FMU's variable."""
+        if signal in self.nodes:
+            return self.nodes[signal].unit
+        component, variable = split_name(signal, self.fmus)
+        return self.fmus[component].unit_of(self.fmus[component].variables[variable])
 
     def links(self) -> Iterator[Link]:
         """All links, those that are added to others behind them."""

@@ -6,11 +6,9 @@ over earlier ones; and pencil and paper for the numbers.
 """
 
 import math
-import re
 
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import (
@@ -71,16 +69,6 @@ def test_untyped_connectors_take_the_type_of_the_fmu(flown):
     assert result.units["gain.u"] == "m"
 
 
-def test_unit_conversion_of_a_length(flown):
-    gain = component("gain", "kilometre_gain", "input u Real km; output y Real km")
-    back = component("delay", "delay", "input u Real m; output y Real m")
-    wires = connection("ramp.y", "gain.u") + connection("gain.y", "delay.u")
-    result = flown(system(RAMP, gain, back, connections=wires))
-    assert result["gain.u"].tolist() == pytest.approx([y / 1000 for y in ramp()], rel=1e-15)
-    assert result["delay.u"].tolist() == pytest.approx([3 * y for y in ramp()], rel=1e-15)
-    assert (result.units["gain.u"], result.units["delay.u"]) == ("km", "m")
-
-
 def test_unit_conversion_of_an_angle_through_a_system_connector(flown):
     angle = component("angle", "degree_angle", "output y Real deg")
     result = flown(
@@ -90,45 +78,6 @@ def test_unit_conversion_of_an_angle_through_a_system_connector(flown):
     assert result["angle.y"].tolist() == [90.0] * 5
     assert result["bearing"].tolist() == pytest.approx([math.pi / 2] * 5, rel=1e-15)
     assert result.units["bearing"] == "rad"
-
-
-def test_offsets_of_units(flown):
-    inner = system(
-        declared="input warm Real degC; output absolute Real K",
-        connections=connection("warm", "absolute"),
-        name="inner",
-    )
-    result = flown(
-        system(inner, declared="output t Real K", connections=connection("inner.absolute", "t")),
-        set={"inner.warm": 20.0},
-    )
-    assert result["t"].tolist() == pytest.approx([293.15] * 5, rel=1e-15)
-
-
-def test_transformation_comes_after_the_unit_conversion(flown):
-    gain = component("gain", "kilometre_gain", "input u Real km; output y Real km")
-    wire = connection("ramp.y", "gain.u", LINEAR.format(2, 7))
-    result = flown(system(RAMP, gain, connections=wire))
-    assert result["gain.u"].tolist() == pytest.approx([2 * (y / 1000) + 7 for y in ramp()], rel=1e-15)
-
-
-def test_unit_conversion_suppressed(flown):
-    gain = component("gain", "kilometre_gain", "input u Real km; output y Real km")
-    wire = connection("ramp.y", "gain.u", LINEAR.format(2, 7), 'suppressUnitConversion="true"')
-    assert flown(system(RAMP, gain, connections=wire))["gain.u"].tolist() == [2 * y + 7 for y in ramp()]
-    other = system(
-        component("angle", "angle", "output y Real rad"),
-        GAIN,
-        connections=connection("angle.y", "gain.u", attributes='suppressUnitConversion="true"'),
-    )
-    assert flown(other)["gain.u"].tolist() == [1.0] * 5
-
-
-def test_radians_fit_no_unit_at_all(flown):
-    """FMI 2.0: rad is a unit of its own only where both sides know it."""
-    odd = component("odd", "stranger", "input u Real 1; output y Real; output length Real")
-    root = system(component("angle", "angle", "output y Real rad"), odd, connections=connection("angle.y", "odd.u"))
-    assert flown(root)["odd.u"].tolist() == [1.0] * 5
 
 
 def test_integer_to_real(flown):
@@ -262,15 +211,6 @@ def test_parameter_sets_inline_and_external_in_any_unit(flown):
     result = flown(root, files=files)
     assert result["gain.u"].tolist() == ramp(2.0)
     assert result["gain.y"].tolist() == [4 * y for y in ramp(2.0)]
-
-
-def test_an_inline_set_has_the_units_of_its_ssd(flown):
-    """SSP 1.0: a unit is one of the enclosing file."""
-    values = inline("start=Real:0.002 km")
-    without = re.sub(r"<ssv:Units>.*?</ssv:Units>", "", values, flags=re.DOTALL)
-    assert without != values
-    result = flown(system(component("ramp", "ramp", "output y Real m", without)))
-    assert result["ramp.y"].tolist() == ramp(2.0)
 
 
 def entry(source, target, inner="", attributes=""):
@@ -418,13 +358,6 @@ def test_variants_of_one_archive(tiny, tmp_path):
     assert fly(path, variant="high")["ramp.y"].tolist() == [50.0, 50.5, 51.0]
     assert fly(path, variant="high.ssd")["ramp.y"][0] == 50.0
     assert fly(path, variant="SystemStructure")["ramp.y"][0] == 1.0
-
-
-def test_units_of_the_ssd_are_the_ssds(flown):
-    """A connector's unit is one of the SSD, which calls m what is 1000 of the FMU's m only by mistake."""
-    units = UNITS.replace('name="m"><ssc:BaseUnit m="1"', 'name="m"><ssc:BaseUnit factor="1000" m="1"')
-    with pytest.raises(InputError, match=r"ramp\.y .*unit is m \(m\) in .*, m \(1000 m\) here"):
-        flown("", files={"SystemStructure__ssd": document(system(RAMP), units=units)})
 
 
 def test_an_archive_and_its_folder_fly_alike(tiny, tmp_path):

@@ -103,7 +103,7 @@ def _site(reader: SignalReader, element: etree._Element, local: bool) -> Site:
     names = elements(variable, fmu.variables) if fmu is not None else []
     if fmu is None or not names or any(fmu.variables[item].causality != "parameter" for item in names):
         return Site(name, read_signal(reader, element, "position", 3, METRE))
-    declared = fmu.units.get(fmu.unit_of(fmu.variables[names[0]]) or "")
+    declared = fmu.unit_of(fmu.variables[names[0]])
     full = tuple(f"{component}.{item}" for item in names)
     signal = Signal(position, full, declared, 1.0, (0.0,) * len(names))
     check_length(reader, element, "position", signal, 3)

@@ -32,7 +32,6 @@ class ComponentSlots(NamedTuple):
 
 def place_component(network: Network, component: str, exchanged: Exchanged, slots: Slots) -> ComponentSlots:
     """Add the slots of a component of FMI 2.0 to ``slots``."""
-    fmu = network.fmus[component]
     ranges: list[Stretch] = []
     for function, variables in enumerate(_by_function(network, component, exchanged)):
         first = len(slots.references)
@@ -41,9 +40,9 @@ def place_component(network: Network, component: str, exchanged: Exchanged, slot
             if CAUSALITIES[function % 2] == "input":
                 if exchanged.is_given(name):
                     start = slots.start(component, variable)
-                    slots.add(name, variable.reference, start, variable.type, fmu.unit_of(variable))
+                    slots.add(name, variable.reference, start, variable.type, variable.unit)
             elif exchanged.is_fetched(name):
-                slots.add(name, variable.reference, np.nan, variable.type, fmu.unit_of(variable))
+                slots.add(name, variable.reference, np.nan, variable.type, variable.unit)
         ranges.append((first, len(slots.references) - first))
     return ComponentSlots(ranges, _place_recorded(network, component, exchanged, slots))
 
@@ -72,7 +71,7 @@ def _place_recorded(network: Network, component: str, exchanged: Exchanged, slot
         for variable in fmu.variables.values():
             name = f"{component}.{variable.name}"
             if name in exchanged.named and name not in slots.numbers and TYPE_KIND.get(variable.type) == kind:
-                slots.add(name, variable.reference, np.nan, variable.type, fmu.unit_of(variable))
+                slots.add(name, variable.reference, np.nan, variable.type, variable.unit)
         if len(slots.references) > first:
             reads.append((function, first, len(slots.references) - first))
     return reads

@@ -1,0 +1,79 @@
+"""Units of connections: which connectors of systems pass differences on, and what each connection converts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ....common.errors import InputError
+from ...ssp.conversions import Unit
+from ..network import Network, Node
+
+
+def convert_units(network: Network) -> None:
+    """Put the conversion of units before the transformation of each connection. Raises InputError."""
+    _settle_differences(network)
+    noted: set[object] = set()
+    for link in network.links():
+        source, target = link.source, link.target
+        if link.keeps_number or source.unit is None or target.unit is None:
+            continue
+        if not source.unit.fits(target.unit):
+            problem = f"units do not fit: {source.unit.name} and {target.unit.name}"
+            raise network.refuse(link.where, problem, "correct the unit of one end")
+        for node in (source, target):
+            check_offset(network, node, source.unit, target.unit, network.file, link.where)
+        connection = link.line or link.where  # the elements of an array have one line
+        if _disagree(source.unit, target.unit) and connection not in noted:
+            noted.add(connection)
+            relative, other = (source, target) if source.unit.is_relative else (target, source)
+            problem = f"{relative.name} is a difference (relativeQuantity), {other.name} is not"
+            network.notes.append(f"{link.where}: {problem}: converted without the offsets of their units")
+        link.transformation = link.transformation.after_units(source.unit.conversion_to(target.unit))
+
+
+def check_offset(network: Network, node: Node, source: Unit, target: Unit, file: str, where: str) -> None:
+    """Refuse to convert units of different offsets at a connector for values and for differences. Raises InputError."""
+    if node.name in network.mixed and source.offset != target.offset:
+        problem = f"{node.name} is connected with values and with differences (relativeQuantity)"
+        problem += f", so that the offset between {source.name} and {target.name} fits one of them alone"
+        raise InputError(file, where, problem, "use a connector for each, or the unit of the components")
+
+
+def _disagree(source: Unit, target: Unit) -> bool:
+    return source.is_relative != target.is_relative and source.offset != target.offset
+
+
+def _settle_differences(network: Network) -> None:
+    """Take over relativeQuantity at connectors without an FMU from the variables that they are connected with.
+
+    Those for both kinds of variables become ``network.mixed``.
+    """
+    if not any(node.unit is not None and node.unit.is_relative for node in network.nodes.values()):
+        return
+    neighbours: dict[str, list[Node]] = {}
+    for link in network.links():
+        for here, there in ((link.source, link.target), (link.target, link.source)):
+            if here.component is None:
+                neighbours.setdefault(here.name, []).append(there)
+    settled: set[str] = set()
+    for first in neighbours:
+        if first not in settled:
+            group, kinds = _group(neighbours, first)
+            settled |= group
+            if len(kinds) > 1:
+                network.mixed |= group
+            for node in (network.nodes[name] for name in group if kinds == {True}):
+                node.unit = None if node.unit is None else replace(node.unit, is_relative=True)
+
+
+def _group(neighbours: dict[str, list[Node]], first: str) -> tuple[set[str], set[bool]]:
+    """Return the connectors without an FMU around the ``first``, and the kinds of the variables around them."""
+    group, kinds, pending = {first}, set[bool](), [first]
+    while pending:
+        for node in neighbours[pending.pop()]:
+            if node.component is None and node.name not in group:
+                group.add(node.name)
+                pending.append(node.name)
+            elif node.component is not None and node.unit is not None:
+                kinds.add(node.unit.is_relative)
+    return group, kinds
