@@ -13,6 +13,10 @@ from .errors import InputError
 PREFIX = "PERILUNE_"
 
 
+class ExcessError(InputError):
+    """Input that would take more than a bound permits, and is not tried."""
+
+
 @dataclass(frozen=True)
 class Bound:
     """At most so many: ``default`` unless the environment says otherwise; ``subject`` is what is counted."""
@@ -42,10 +46,10 @@ class Bound:
         return number
 
     def check(self, number: float, file: str | os.PathLike[str], element: str) -> None:
-        """Raise InputError where a number is above the bound."""
+        """Raise ExcessError where a number is above the bound."""
         if number > self.limit:
             problem = f"{self.subject}: {number:.6g} {self.unit}, at most {self.limit:.6g} are accepted"
-            raise InputError(file, element, problem, f"if you trust it, set {self.variable}")
+            raise ExcessError(file, element, problem, f"if you trust it, set {self.variable}")
 
 
 ARCHIVE_BYTES = Bound("archive_bytes", 2e9, "bytes", "content of an archive (.ssp, .fmu), unpacked")
@@ -58,7 +62,7 @@ CAMPAIGN_FILES = Bound("campaign_files", 100, "files", "files that a campaign ex
 EXPRESSION_CHARACTERS = Bound("expression_characters", 10_000, "characters", "an expression")
 GRID_POINTS = Bound("grid_points", 10_000, "points", "values of a grid or of a sweep")
 INPUT_BYTES = Bound("input_bytes", 2e9, "bytes", "a file of inputs, draws or parameters, a manifest or its contents")
-MEMORY_FRACTION = Bound("memory_fraction", 0.25, "of the free memory", "samples of a simulation")
+MEMORY_FRACTION = Bound("memory_fraction", 0.25, "of the free memory", "samples of a simulation, inputs over time")
 TRIALS = Bound("trials", 1e9, "trials", "trials of a campaign")
 TABLE_TRIALS = Bound("table_trials", 1e6, "trials", "trials drawn as one table, rows of a file of draws")
 SHARDS = Bound("shards", 1e6, "shards", "shards of a campaign")

@@ -17,7 +17,7 @@ CLOSE = 1e-9  # of a time: communication points carry rounding
 class SignalCheck:
     """A signal where it is worst: at ``time`` (s) its ``reference``, what was simulated (``actual``), the difference
     and what is ``permitted`` of it. ``excess`` is the greatest difference over what is permitted, infinite where
-    nothing is.
+    nothing is. ``tolerance`` is the most that a sample may differ by, over the reference's greatest magnitude.
     """
 
     name: str
@@ -27,6 +27,7 @@ class SignalCheck:
     difference: float
     permitted: float
     excess: float
+    tolerance: float
 
     @property
     def met(self) -> bool:
@@ -59,8 +60,14 @@ def compare_signal(
     if permitted is None:
         excess = np.where(same, 0.0, np.inf)  # 0.0 and -0.0 are not the same bits
     row = int(np.argmax(excess if excess.any() else difference))
-    samples = (float(array[row]) for array in (time, reference, actual, difference, limits, excess))
-    return SignalCheck(name, *samples)
+    worst = [float(array[row]) for array in (time, reference, actual, difference, limits, excess)]
+    worst.append(float(np.max(limits[np.isfinite(reference)], initial=0.0)) / _magnitude(reference))
+    return SignalCheck(name, *worst)
+
+
+def _magnitude(reference: np.ndarray) -> float:
+    """Return the greatest magnitude of a signal's finite samples, SMALLEST at least."""
+    return float(np.max(np.abs(reference[np.isfinite(reference)]), initial=SMALLEST))
 
 
 def permitted_differences(
@@ -75,8 +82,7 @@ def permitted_differences(
         return declared[0] + declared[1] * np.abs(reference)
     if relative == 0.0:
         return None
-    finite = np.abs(reference[np.isfinite(reference)])
-    return np.full(reference.size, relative * float(np.max(finite, initial=SMALLEST)))
+    return np.full(reference.size, relative * _magnitude(reference))
 
 
 def compare(

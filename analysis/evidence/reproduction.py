@@ -12,6 +12,7 @@ import numpy as np
 from lxml import etree
 
 from ..common.errors import InputError
+from ..common.machine.room import check_room
 from ..common.visible import first_ones
 from ..runtime.apart.opening import open_simulation
 from ..runtime.flight.interruptible import fly
@@ -28,6 +29,8 @@ from .trajectory import Trajectory, read_trajectory
 TEXTS = ("String", "Binary")
 NAMED = 6  # columns without a variable
 RELATIVE = 1e-6  # of a signal's greatest magnitude, where no tolerance is declared
+FEWEST = 10  # samples of a reference that verify
+WIDEST = 1e-2  # tolerance that verifies, of a signal's greatest magnitude
 WHOLE = 1e-6  # what a number of steps may lack of a whole one
 SET = "resources/perilune-verify-experiment.ssv"  # an experiment's parameters among the files of its archive
 
@@ -36,7 +39,8 @@ SET = "resources/perilune-verify-experiment.ssv"  # an experiment's parameters a
 class Reproduction:
     """An experiment's comparison: ``signals`` the worst first, ``problems`` that kept it from being complete.
 
-    ``not_compared`` are columns of texts, ``interpolated`` says that reference times lie between communication points.
+    ``samples`` are the reference's at different times. ``not_compared`` are columns of texts, ``interpolated`` says
+    that reference times lie between communication points.
     """
 
     name: str
@@ -51,6 +55,23 @@ class Reproduction:
     def exact(self) -> bool:
         """Whether all signals have the bits of the reference."""
         return not any(each.difference or each.excess for each in self.signals)
+
+    @property
+    def widest(self) -> SignalCheck:
+        """The signal with the largest tolerance."""
+        return max(self.signals, key=lambda each: each.tolerance)
+
+    @property
+    def weaknesses(self) -> list[str]:
+        """Reasons for which the comparison says too little to verify anything, a line each."""
+        few = f"a reference of {self.samples} samples, {FEWEST} verify; give one of more samples"
+        wide = [
+            f"{each.name} may differ by {each.tolerance:.3g} of its greatest magnitude, {WIDEST:g} verifies at most; "
+            "take a smaller tolerance"
+            for each in self.signals
+            if each.tolerance > WIDEST
+        ]
+        return [*([few] if self.signals and self.samples < FEWEST else []), *first_ones(wide, NAMED, "signals")]
 
 
 def reproduce(
@@ -69,7 +90,8 @@ def reproduce(
     """
     reference = _table(files, experiment.references, archive.label)
     prepared = _prepare(archive, files, experiment, reference, options, loaded)
-    made = Reproduction(experiment.name, experiment.references, reference.time.size, (), not_compared=reference.texts)
+    samples = int(np.unique(reference.time).size)
+    made = Reproduction(experiment.name, experiment.references, samples, (), not_compared=reference.texts)
     if experiment.start is not None and experiment.start != prepared.start:
         problem = f"starts at {experiment.start:g} s, where the default experiment starts at {prepared.start:g} s"
         return replace(made, problems=(f"{problem}: not simulated",))
@@ -163,6 +185,10 @@ def _prepare(
     series = None
     if experiment.stimuli is not None:
         series = _table(files, experiment.stimuli, archive.label).series(without=others)
+    if options.step is not None:  # before inputs are interpolated, and anything is simulated
+        start = float(reference.time[0]) if experiment.start is None else experiment.start
+        columns = reference.signals.keys() | (series.columns.keys() if series else set())
+        check_room(len(columns), (stop - start) // options.step, options.step)
     return prepare_system(archive, options, loaded, series)
 
 

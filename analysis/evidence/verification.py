@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..common.bounds import ARCHIVE_BYTES
+from ..common.bounds import ARCHIVE_BYTES, ExcessError
 from ..common.errors import InputError
 from ..common.regular import read_input
 from ..common.visible import first_ones
@@ -42,8 +42,8 @@ def verify_archive(
 ) -> Verification:
     """Check the files of an .fmu or .ssp against its evidence, and simulate its experiments again.
 
-    ``relative`` as of `reproduce`, ``timeout`` (s) of each simulation. Raises InputError where there is no evidence, or
-    some that cannot be read.
+    ``relative`` as of `reproduce`, ``timeout`` (s) of each simulation. Raises InputError where there is no evidence,
+    some that cannot be read, or an experiment that takes more than a bound permits.
     """
     files = ZippedFiles(read_input(archive.path, "give an .fmu or .ssp", ARCHIVE_BYTES), archive.label)
     manifest = read_manifest(files, archive.label)
@@ -60,6 +60,9 @@ def verify_archive(
     for experiment in plan.experiments:
         try:
             reproductions.append(reproduce(archive, files, experiment, options, relative, timeout, loaded))
+        except ExcessError as error:
+            element = f"experiment {experiment.name}"
+            raise InputError(archive.label, element, error.problem, error.remedy) from error
         except InputError as error:
             problems.append(f"{experiment.name}: {error.text}")
     studies, reproduced, differences = _repeat_studies(archive, manifest, files, options)

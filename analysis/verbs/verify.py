@@ -24,6 +24,7 @@ from .options.library import VERIFY, VerifyOptions
 from .options.option import FilePath
 from .options.verb import verb
 
+VERIFIED, COMPARED, DIFFERENT = "verified", "compared", "different"  # verdicts
 NAMED = 6  # signals of an experiment that do not fit
 
 
@@ -50,16 +51,18 @@ class Verifications(Sequence[Verification]):
             lines += [f"{each.file}: {_summary(made)}" for made in each.reproductions]
             lines += [f"{each.file}: {name}: report reproduced" for name in each.reproduced]
             lines += [line for note in each.notes for line in wrap(f"{each.file}: note: {note}", 4)]
-            lines += [] if _problems(each) else [f"{each.file}: verified"]
+            lines += [f"{each.file}: {_verdict(each)}"] if not _problems(each) else []
         return [on_one_line(line) for line in lines]
 
     def problems(self) -> list[str]:
-        """What of all files is not as it was handed on, or not reproduced."""
-        return [on_one_line(problem) for each in self.files for problem in _problems(each)]
+        """What of all files is not as it was handed on, not reproduced, or compared by too little."""
+        return [on_one_line(line) for each in self.files for line in (*_problems(each), *_weaknesses(each))]
 
     def to_json(self) -> object:
         """All comparisons, for other programs."""
-        return to_json([{**asdict(each), "verified": not _problems(each)} for each in self.files])
+        return to_json(
+            [{**asdict(each), "verified": (made := _verdict(each)) == VERIFIED, "verdict": made} for each in self.files]
+        )
 
 
 @verb(VERIFY)
@@ -68,8 +71,9 @@ def verify(*paths: FilePath | Sequence[FilePath], **options: Unpack[VerifyOption
 
     ``paths`` are .fmu and .ssp files with a manifest of FMI-LS-REF, Perilune's or another tool's, or names of FMUs, of
     which ``flavour`` says the build. Signals without a declared tolerance may differ by ``tolerance`` of their greatest
-    magnitude: by default 1e-6, and 0, the same bits, in Perilune's own. ``timeout`` (s, wall clock) is of each
-    simulation; the other options say what foreign FMUs may do. Raises InputError for a file without evidence.
+    magnitude: by default 1e-6, and 0, the same bits, in Perilune's own. A tolerance above 1e-2 or fewer than 10 samples
+    verify nothing. ``timeout`` (s, wall clock) is of each simulation; the other options say what foreign FMUs may do.
+    Raises InputError for a file without evidence, and for an experiment that takes more than a bound permits.
     """
     system = SystemOptions(**trust_of(options).trust)
     watch = Watch(options["timeout"])
@@ -104,6 +108,12 @@ def _summary(made: Reproduction) -> str:
         return f"{compared}: not compared"
     more = "; reference times lie between communication points: interpolated" if made.interpolated else ""
     more += f"; not numbers, not compared: {', '.join(made.not_compared)}" if made.not_compared else ""
+    widest = made.widest
+    more = (
+        f"; tolerance up to {number(widest.tolerance, 2)} of the greatest magnitude, {widest.name}{more}"
+        if widest.tolerance
+        else f"; tolerance 0{more}"
+    )
     if made.exact:
         return f"{compared}: the same bits{more}"
     worst = made.signals[0]
@@ -111,6 +121,20 @@ def _summary(made: Reproduction) -> str:
         return f"{compared}: {sum(not each.met for each in made.signals)} signals differ{more}"
     fraction = f"{number(worst.excess, 2)} of the tolerance"
     return f"{compared}: differ by at most {fraction}, {worst.name} at t = {number(worst.time)} s{more}"
+
+
+def _verdict(verification: Verification) -> str:
+    if _problems(verification):
+        return DIFFERENT
+    return COMPARED if _weaknesses(verification) else VERIFIED
+
+
+def _weaknesses(verification: Verification) -> list[str]:
+    return [
+        f"{verification.file}: {made.name}: compared, not verified: {weakness}"
+        for made in verification.reproductions
+        for weakness in made.weaknesses
+    ]
 
 
 def _problems(verification: Verification) -> list[str]:

@@ -16,13 +16,13 @@ from tests.evidence.hostile import OUT, experiment, fmu, manifest
 STUDIED = f"<Annotations><Annotation type='{STUDY}'><Study name='/etc/passwd'/></Annotation></Annotations>"
 IN = OUT.replace("out", "in")
 FED = manifest('<Experiment name="e"><Stimuli source="in.csv"/><References source="out.csv"/></Experiment>')
+STILL = "".join(["time,y\n", *(f"{0.1 * n:.1f},0\n" for n in range(11))])
 WIDE = "time," + ",".join(f"c{n}" for n in range(20_000)) + "\n" + "0," * 20_000 + "0\n"
 
 
 @pytest.mark.parametrize(
     ("files", "message"),
     [
-        (experiment('stepSize="1e-300"'), "e: "),
         (experiment('stepSize="0.1" startTime="5"'), "e: starts at 5 s, where the default experiment starts at 0 s"),
         (experiment("", "../../../etc/passwd"), "holds no trajectory: nothing to reproduce"),
         (experiment("", "file:///etc/passwd"), "holds no trajectory: nothing to reproduce"),
@@ -39,7 +39,6 @@ WIDE = "time," + ",".join(f"c{n}" for n in range(20_000)) + "\n" + "0," * 20_000
         (experiment("") | {OUT: WIDE}, "e: and 19994 more columns"),
         (experiment("") | {OUT: "time,\x1b[2Jy\n0,0\n"}, "e: column \\x1b[2Jy: no such variable"),
         (experiment("") | {OUT: "time,y\n0,1e400\n1,nan\n"}, "e: y differs by ∞ at t = 0 s"),
-        (experiment("") | {OUT: "time,y\n0,0\n1e300,0\n"}, "e: "),
     ],
 )
 def test_a_line_for_what_it_asks(tiny_folder, tmp_path, capsys, files, message):
@@ -65,16 +64,16 @@ def test_files_that_are_listed_often_are_digested_once(tiny_folder, tmp_path, ca
 
 def test_names_are_those_of_uris(tiny_folder, tmp_path, capsys):
     """By RFC 3986: percent-encoded, a fragment is no part of the path."""
-    files = experiment("", "a%20b%2520c.csv#rows") | {OUT.replace("out", "a b%20c"): "time,y\n0,0\n"}
+    files = experiment("", "a%20b%2520c.csv#rows") | {OUT.replace("out", "a b%20c"): STILL}
     fmu(files)(tmp_path, tiny_folder / "native")
     assert main(["verify", str(tmp_path / "x.fmu")]) == 0
-    assert "e: a b%20c.csv: 1 samples of 1 signals: the same bits" in capsys.readouterr().out
+    assert "e: a b%20c.csv: 11 samples of 1 signals: the same bits" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("line", ["{}  modelDescription.xml\r\n", "{} *modelDescription.xml\n"])
 def test_sums_of_windows_and_of_binary_mode(tiny_folder, tmp_path, capsys, line):
     """As `sha256sum --binary` writes them, and with the ends of lines of Windows."""
-    files = experiment("") | {OUT: "time,y\n0,0\n"}
+    files = experiment("") | {OUT: STILL}
     fmu(files)(tmp_path, tiny_folder / "native")
     with zipfile.ZipFile(tmp_path / "x.fmu") as archive:
         digest = hashlib.sha256(archive.read("modelDescription.xml")).hexdigest()

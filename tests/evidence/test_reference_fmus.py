@@ -18,12 +18,13 @@ from tests.support.fmi3.tables import columns
 
 FMUS = [*((2, name) for name in FMI2), *((3, name) for name in FMI3)]
 STOP = 2.0  # s, of all of them a whole number of default steps
+STEPPED = {"StateSpace": 10.0}  # s, of those with steps too long for ten samples in that time
 
 
 def with_result(version, name, path, change=lambda table: table):
     """The FMU with FMPy's trajectory; those of texts and of arrays are left out."""
     fmu = reference_fmu(version, name)
-    simulated = fmpy.simulate_fmu(str(fmu), stop_time=STOP)
+    simulated = fmpy.simulate_fmu(str(fmu), stop_time=STEPPED.get(name, STOP))
     numbers = {
         "time": simulated["time"],
         **{key.removeprefix("fmu."): samples for key, samples in columns("fmu", simulated).items()},
@@ -41,7 +42,9 @@ def test_reproduced(version, name, tmp_path, capsys):
     assert main(["verify", str(path)]) == 0
     out = capsys.readouterr().out
     assert "no attribute fmi-ls-description" in " ".join(out.split())
-    assert re.search(r"default experiment: out.csv: \d+ samples of \d+ signals: the same bits\n", out)
+    assert re.search(
+        r"default experiment: out.csv: \d+ samples of \d+ signals: the same bits; tolerance up to 1e-6 of", out
+    )
 
 
 def test_a_difference_is_named(tmp_path, capsys):

@@ -13,10 +13,11 @@ from typing import Unpack
 import numpy as np
 
 from ...common.errors import InputError
+from ...common.machine.room import check_room
 from ..flight.base_simulation import NOTHING, BaseSimulation, Choices
 from ..flight.endings import FLIGHT_STATUSES
 from ..flight.program import layout_of
-from ..flight.recorder import Phase, check_room, rows_between
+from ..flight.recorder import Phase, rows_between
 from ..flight.results import COMPLETE, CRASHED, Flight
 from ..flight.selection import check_replaced
 from ..ssp.given_values import ParameterValue

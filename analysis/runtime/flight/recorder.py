@@ -6,16 +6,11 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 
 import numpy as np
-import psutil
 
-from ...common.bounds import MEMORY_FRACTION
-from ...common.errors import InputError
+from ...common.machine.room import check_room
 
 POINT, SUBJECT = 4, 1  # of an outcome, in flight: the communication point under way, the component stepped last
 OUTCOME_WORDS = 6
-
-
-SMALL = 1e8  # bytes, up to which the free memory is not read
 
 
 class Phase(IntEnum):
@@ -43,7 +38,7 @@ class FlightRecorder:
     phase: np.ndarray = field(default_factory=lambda: np.zeros(2, dtype=np.int64))
 
     def reserve(self, signals: int, rows: int, step: float) -> None:
-        """Have room for so many rows. Raises InputError, which names the ``step`` (s), where memory does not do."""
+        """Have room for so many rows. Raises ExcessError, which names the ``step`` (s), where memory does not do."""
         if self.times.size < rows:
             check_room(signals, rows, step)
             self._allocate(signals, rows)
@@ -65,16 +60,6 @@ class FlightRecorder:
     def subject(self) -> int:
         """The number of the component that was the last to step."""
         return int(self.outcome[SUBJECT])
-
-
-def check_room(signals: int, rows: int, step: float) -> None:
-    """Raise InputError, which names the ``step`` (s), where the free memory does not do for so many rows."""
-    needed = 8.0 * rows * (signals + 1)
-    if needed > SMALL and needed > MEMORY_FRACTION.limit * psutil.virtual_memory().available:
-        excess = f"{MEMORY_FRACTION.limit:.0%} of what is free"
-        problem = f"{rows} rows of {signals} signals take {needed / 1e9:.3g} GB, over {excess}"
-        remedy = f"give a longer step or an earlier `stop_time`, or set {MEMORY_FRACTION.variable}"
-        raise InputError("`step`", f"{step:g}", problem, remedy)
 
 
 def rows_between(first: int, last: int, every: int = 1) -> int:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError, suggestion
+from ...common.machine.room import check_room
 from ..fmi.representations import OF_FMI2, REPRESENTATIONS, TEXTS, Representation
 from ..ssp.kinds import LED_OUT
 from .network import Link, Network, Node
@@ -104,6 +105,7 @@ def check_signals(network: Network, settings: Settings) -> None:
 
 
 HELD = ("discrete", "tunable")  # variabilities of Reals that are held, not interpolated
+POINTS = 1_000_000  # that are interpolated at once, which takes ten times their memory
 CLOSE = 1e-9  # of the greater of two times that are one: FMPy's, which is that of math.isclose
 
 
@@ -190,15 +192,20 @@ def _check_type(series: InputSeries, column: str, type_name: str, stored: Repres
 def drive_inputs(
     network: Network, series: InputSeries, driven: dict[str, str], start: float, step: float, steps: int
 ) -> Drive:
-    """The values of ``driven`` inputs, as `find_driven` gives them, at all communication points."""
-    points = start + np.arange(steps + 1) * step
-    first = points[:1]
+    """The values of ``driven`` inputs, as `find_driven` gives them, at all communication points.
+
+    Raises ExcessError where the free memory does not do for them.
+    """
+    check_room(len(driven), steps + 2, step, "inputs")
     table = np.empty((steps + 2, len(driven)))
+    kinds = {name: interpolate if _is_continuous(network, name) else hold for name in driven}
     for place, (name, column) in enumerate(driven.items()):
         values = series.columns[column]
-        of_type = interpolate if _is_continuous(network, name) else hold
-        table[0, place] = of_type(first, series.time, values, after_event=False)[0]
-        table[1:, place] = of_type(points, series.time, values, after_event=True)
+        table[0, place] = kinds[name](np.array([start]), series.time, values, after_event=False)[0]
+        for row in range(0, steps + 1, POINTS):
+            points = start + np.arange(row, min(row + POINTS, steps + 1)) * step
+            samples = kinds[name](points, series.time, values, after_event=True)
+            table[row + 1 : row + 1 + points.size, place] = samples
     return Drive(series, tuple(driven), table)
 
 

@@ -11,7 +11,12 @@ from fmpy.simulation import Input
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.system import inputs
 from perilune.analysis.runtime.system.inputs import hold, interpolate
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.analysis.runtime.system.series import read_series
 
 TIMES = st.lists(st.sampled_from([0.0, 0.1, 0.2, 0.3, 0.30000000000000004, 0.5, 0.7, 1.0, 3.0]), min_size=1, max_size=9)
 POINTS = st.lists(
@@ -47,3 +52,21 @@ def test_in_closed_form():
 @pytest.mark.parametrize("ours", [interpolate, hold])
 def test_one_sample_is_held(ours):
     assert ours(np.array([-1.0, 0.5, 2.0]), np.array([0.5]), np.array([7.0]), after_event=True).tolist() == [7.0] * 3
+
+
+def test_points_in_parts_have_the_same_bits(tiny, monkeypatch):
+    fmu = str(tiny / "gain.fmu")
+    series = read_series({"time": [0.0, 0.35, 0.35, 0.8], "u": [1.0, 2.0, -1.0, 0.3]})
+    whole = prepare_system(fmu, SystemOptions(step=0.01, stop_time=1.0), series=series).drive.table
+    monkeypatch.setattr(inputs, "POINTS", 7)
+    parts = prepare_system(fmu, SystemOptions(step=0.01, stop_time=1.0), series=series).drive.table
+    assert parts.shape == (102, 1)
+    assert parts.tobytes() == whole.tobytes()
+
+
+@pytest.mark.parametrize("step", [1e-7, 1e-12])
+def test_more_points_than_memory_are_refused(tiny, monkeypatch, step):
+    monkeypatch.setenv("PERILUNE_MEMORY_FRACTION", "1e-9")
+    series = read_series({"time": [0.0], "u": [1.0]})
+    with pytest.raises(InputError, match=r"rows of 1 inputs take \S+ GB, over 0% of what is free; give a longer step"):
+        prepare_system(str(tiny / "gain.fmu"), SystemOptions(step=step, stop_time=1.0), series=series)

@@ -39,7 +39,7 @@ def jet_health():
         truth="closed form",
         step=STEP,
         inputs={},
-        outputs={"jet_factor": np.tile(factors, (9, 1))},
+        outputs={"jet_factor": np.tile(factors, (13, 1))},
         tolerances={"jet_factor": (0.0, 0.0)},
         parameters={"factors": factors},
     )

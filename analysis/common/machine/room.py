@@ -1,0 +1,22 @@
+"""Room in memory for tables over time, before it is taken."""
+
+from __future__ import annotations
+
+import psutil
+
+from ..bounds import MEMORY_FRACTION, ExcessError
+
+SMALL = 1e8  # bytes, up to which the free memory is not read
+
+
+def check_room(columns: int, rows: float, step: float, things: str = "signals") -> None:
+    """Raise ExcessError, which names the ``step`` (s), where the free memory does not do for so many rows of numbers.
+
+    ``things`` are what the columns are; one more has the times.
+    """
+    needed = 8.0 * rows * (columns + 1)
+    if needed > SMALL and needed > MEMORY_FRACTION.limit * psutil.virtual_memory().available:
+        excess = f"{MEMORY_FRACTION.limit:.0%} of what is free"
+        problem = f"{rows:.10g} rows of {columns} {things} take {needed / 1e9:.3g} GB, over {excess}"
+        remedy = f"give a longer step or an earlier stop time, or set {MEMORY_FRACTION.variable}"
+        raise ExcessError("`step`", f"{step:g}", problem, remedy)
