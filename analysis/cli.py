@@ -11,7 +11,9 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from .common.errors import EndedError, ExitStatus, InputError, UnwrittenError, call_by_flags, warn_in_one_line
+from .common.machine.os_errors import line_of, reason_of
 from .common.process import leave, open_closed_streams, steady_streams
+from .common.targets import check_encoding
 from .verbs.help import Parser, group_help, overview, verb_help
 from .verbs.options.parsing import add_verb, flags_of, read_parsed
 from .verbs.options.verb import Verb
@@ -29,10 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = _carry_out(sys.argv[1:] if arguments is None else list(arguments))
         output.flush()
         if output.is_cut and output.error is not None:
-            print(
-                f"perilune: standard output: {output.error.strerror}; free some space, or write to a file",
-                file=sys.stderr,
-            )
+            print(f"perilune: {line_of(output.error, 'standard output')}", file=sys.stderr)
             return ExitStatus.REFUSED
         return status
 
@@ -49,6 +48,7 @@ def _carry_out(given: Sequence[str]) -> int:
     verb = VERBS[f"{parsed.verb} {parsed.second}" if parsed.verb in GROUPS else parsed.verb]
     flags = flags_of(verb)
     try:
+        _check_names(verb, given)
         return carry_out(verb, parsed)
     except InputError as error:
         for line in error.lines(flags):
@@ -65,9 +65,19 @@ def _carry_out(given: Sequence[str]) -> int:
         print(f"perilune: interrupted{hint}", file=sys.stderr)
         return ExitStatus.NOT_MET
     except OSError as error:  # a file that cannot be read or written
-        reason = f"{error.filename}: {error.strerror}" if error.filename else str(error)
-        print(f"perilune: {reason}; give another path or fix this one", file=sys.stderr)
+        print(f"perilune: {line_of(error)}", file=sys.stderr)
         return ExitStatus.REFUSED
+
+
+def _check_names(verb: Verb, given: Sequence[str]) -> None:
+    """Refuse names that libraries cannot open, before anything is read. Raises InputError."""
+    for text in given:
+        check_encoding(verb.name, text)
+    try:
+        here = os.getcwd()
+    except OSError as error:
+        raise InputError("working folder", "", reason_of(error), "change to a folder that is there") from error
+    check_encoding("working folder", here)
 
 
 class _Version(argparse.Action):

@@ -23,7 +23,7 @@ CLOSED = (errno.EPIPE, errno.ESHUTDOWN)
 class Stream:
     """A text stream that takes everything: from the first error on, which ``error`` keeps, what is written is dropped.
 
-    Characters that control a terminal are written as `visible` does.
+    Characters that control a terminal are written as `visible` does, those that its encoding has not as in Python.
 
     ``stream`` is None where the process was started without it.
     """
@@ -41,7 +41,8 @@ class Stream:
         return self.error is not None and self.error.errno not in CLOSED
 
     def write(self, text: str) -> int:
-        self._try("write", visible(text))
+        encoding = getattr(self._stream, "encoding", None) or "utf-8"
+        self._try("write", visible(text).encode(encoding, "backslashreplace").decode(encoding))
         return len(text)
 
     def flush(self) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from .atomic import PARTIAL
 from .errors import InputError
+from .machine.os_errors import line_of
 
 DEVICES = Path("/dev")  # whose links, /dev/stdout for one, may lead to ordinary files
 LONGEST_NAME = 255  # bytes, on all common file systems
@@ -20,6 +21,14 @@ RESULTS = (
 )  # fmt: skip
 
 
+def check_encoding(option: str, name: str) -> None:
+    """Refuse a name whose bytes are not UTF-8: Arrow and libxml2 open no such file. Raises InputError."""
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        raise InputError(option, name, "not UTF-8", "give a name, in folders with names, in UTF-8") from None
+
+
 def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), new_folders: int = 1) -> None:
     """Refuse a file that cannot be written, before anything flies: writing is tried. Raises InputError.
 
@@ -27,6 +36,7 @@ def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), n
     """
     if path is None:
         return
+    check_encoding(option, str(path.absolute()))
     if os.path.isdir(path):
         ending = f", ending with {' or '.join(suffixes)}" if suffixes else ""
         raise InputError(option, str(path), "is a folder", f"give the name of a file in it{ending}")
@@ -53,6 +63,7 @@ def check_folder(option: str, path: Path | None, *, overwrite: bool, otherwise: 
     """
     if path is None:
         return
+    check_encoding(option, str(path.absolute()))
     _check_folder(option, path, path, 2)
     held = [name for name in RESULTS if os.path.exists(path / name)]
     if held and not overwrite:
@@ -108,10 +119,7 @@ class Results:
             write(self.home / path)
         except OSError as error:
             self.failed = True
-            name = error.filename or path
-            print(
-                f"perilune: {name}: {error.strerror or error}; check path, permissions and free space", file=sys.stderr
-            )
+            print(f"perilune: {line_of(error, path)}", file=sys.stderr)
         else:
             self.written.append(path)
 

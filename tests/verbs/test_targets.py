@@ -182,7 +182,7 @@ def test_one_file_that_cannot_be_written_keeps_no_other(tmp_path, capsys, monkey
     captured = capsys.readouterr()
     assert captured.out.splitlines()[0].startswith("lunar_terminal_guidance: completed")
     assert captured.out.splitlines()[-1] == f"written: {table}"
-    assert captured.err == f"perilune: {page}: No space left on device; check path, permissions and free space\n"
+    assert captured.err == f"perilune: {page}: No space left on device; free some space\n"
     assert table.read_text().startswith("time,")
 
 

@@ -19,6 +19,7 @@ from lxml import etree
 
 from ....fmus_src.own_digests import is_own
 from ...common.errors import InputError
+from ...common.machine.os_errors import is_of_machine, reason_of, remedy_of
 from ...common.scratch import make_folder
 from ...common.zips import REMEDY, UNREADABLE, open_zip, read_entry
 from ..fmi import description as fmi3
@@ -167,6 +168,9 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     try:
         archive.extractall(folder, names)
     except UNREADABLE as error:
+        if isinstance(error, OSError) and is_of_machine(error):
+            problem = f"cannot be unpacked to {folder}: {reason_of(error)}"
+            raise InputError(label, "archive", problem, remedy_of(error)) from error
         raise InputError(label, "archive", f"damaged in the zip, or not unpacked: {error}", REMEDY) from error
     if is_fmi3:
         fmi3.check_sizes(description, {}, label)

@@ -20,6 +20,7 @@ from ...campaigns.replay_command import campaign_command, replay_command
 from ...campaigns.spec.plan import BatchPlan, read_plan
 from ...campaigns.spec.sweeps import part_sweeps
 from ...common.errors import EndedError, ExitStatus, InputError
+from ...common.machine.os_errors import line_of
 from ...runtime.system.fault import faults_of
 from ...runtime.system.options import Watch, system_options
 from ...runtime.system.series import read_series
@@ -98,9 +99,7 @@ def resume_hint(folder: Path | None) -> Iterator[None]:
             interrupt.add_note(hint)
         raise
     except OSError as error:
-        file = f"{error.filename}: " if error.filename else ""
-        text = f"{file}{error.strerror or error}; free some space{_hint(home)}"
-        raise EndedError(text, ExitStatus.REFUSED) from error
+        raise EndedError(f"{line_of(error)}{_hint(home)}", ExitStatus.REFUSED) from error
 
 
 def _hint(folder: Path | None) -> str:

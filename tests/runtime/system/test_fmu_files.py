@@ -3,6 +3,7 @@
 Truth: the FMU's own archive.
 """
 
+import errno
 import hashlib
 import zipfile
 
@@ -84,3 +85,14 @@ def test_flaws_are_told_each_time(tiny, tmp_path):
     assert load(flawed).flaws == second.flaws
     with pytest.raises(InputError, match=r"again: modelDescription.xml: not valid: .*Odd.*; fix the FMU"):
         load_fmu(flawed.read_bytes(), "again", strict=True)
+
+
+def test_a_full_disk_names_the_folder(tiny, monkeypatch):
+    """Not the archive, which is whole."""
+
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(zipfile.ZipFile, "extractall", full)
+    with pytest.raises(InputError, match=r"cannot be unpacked to /.*: No space left on device; free some space"):
+        load(tiny / "ramp.fmu")
