@@ -7,20 +7,25 @@ ships; a list in the cache folder has whatever was built on this machine. All ot
 from __future__ import annotations
 
 import hashlib
+import os
+import re
 from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
 from ..analysis.common.atomic import write_atomically
-from ..analysis.common.bounds import ARCHIVE_BYTES
+from ..analysis.common.bounds import ARCHIVE_BYTES, INPUT_BYTES
 from ..analysis.common.errors import InputError
+from ..analysis.common.machine.cached import warn_once, warn_unusable
 from ..analysis.common.regular import read_input
 from ..analysis.common.zips import ZippedFiles
 from .paths import CACHE, FLAVOURS, names_fmu, shipped_fmu
 
 SUMS = "SHA256SUMS"
 NOTED = CACHE / SUMS
+LINE = re.compile(rb"([0-9a-f]{64}) [ *].")
 LISTS = (NOTED, *(shipped_fmu("", flavour).with_name(SUMS) for flavour in FLAVOURS))
+_built_here: set[str] = set()  # digests that no list could be written of
 
 
 def digest_of(path: Path) -> str:
@@ -34,7 +39,7 @@ def _digest(content: bytes) -> str:
 
 def is_own(digest: str) -> bool:
     """Whether the FMU with this SHA-256 is one that Perilune built."""
-    return any(digest in _digests_in(path, *_version(path)) for path in LISTS)
+    return digest in _built_here or any(digest in _digests_in(path, *_version(path)) for path in LISTS)
 
 
 def has_foreign(path: Path) -> bool:
@@ -53,19 +58,31 @@ def has_foreign(path: Path) -> bool:
 
 
 def note_own(path: Path) -> None:
-    """Add the FMU that was just built at ``path`` to the list of this machine."""
+    """Add the FMU that was just built at ``path`` to the list of this machine, else to that of this process."""
     digest = digest_of(path)
-    if not is_own(digest):
+    if is_own(digest):
+        return
+    try:
         NOTED.parent.mkdir(parents=True, exist_ok=True)
-        # One write, since several processes may build at once.
-        with NOTED.open("a", encoding="utf-8", newline="\n") as file:
-            file.write(f"{digest}  {path.name}\n")
+        line = _line(digest, path)
+        # One write, since several processes may build at once; behind a line that was cut.
+        with NOTED.open("ab+") as file:
+            size = file.seek(0, os.SEEK_END)
+            file.seek(max(size - 1, 0))
+            file.write(line if file.read() in (b"", b"\n") else b"\n" + line)
+    except OSError as error:
+        warn_unusable(NOTED.parent, error)
+        _built_here.add(digest)
 
 
 def list_own(folder: Path, paths: Iterable[Path]) -> None:
     """Write the list of the FMUs that were just built in a folder, in place of the one before."""
-    lines = [f"{digest_of(path)}  {path.name}\n" for path in sorted(paths)]
-    write_atomically(folder / SUMS, "".join(lines).encode())
+    write_atomically(folder / SUMS, b"".join(_line(digest_of(path), path) for path in sorted(paths)))
+
+
+def _line(digest: str, path: Path) -> bytes:
+    """Return a line of a list, as sha256sum writes it: names are bytes, of any encoding."""
+    return f"{digest}  ".encode() + os.fsencode(path.name) + b"\n"
 
 
 def _version(path: Path) -> tuple[int, int]:
@@ -74,9 +91,26 @@ def _version(path: Path) -> tuple[int, int]:
         stat = path.stat()
     except FileNotFoundError:
         return 0, 0
+    except OSError as error:
+        warn_unusable(path.parent, error)
+        return 0, 0
     return stat.st_mtime_ns, stat.st_size
 
 
 @lru_cache(maxsize=2 * len(LISTS))
 def _digests_in(path: Path, _time: int, size: int) -> frozenset[str]:
-    return frozenset(line[:64] for line in path.read_text(encoding="utf-8").splitlines()) if size else frozenset()
+    """Return the digests of a list; a warning says which of its lines are none of sha256sum, and are left out."""
+    if not size:
+        return frozenset()
+    try:
+        lines = read_input(path, "remove it", INPUT_BYTES).splitlines()
+    except InputError as error:
+        warn_once(str(path), f"{error}; until then its FMUs are foreign")
+        return frozenset()
+    matches = [LINE.match(line) for line in lines]
+    damaged = [number for number, match in enumerate(matches, start=1) if match is None and lines[number - 1]]
+    if damaged:
+        more = f" and {len(damaged) - 1} more" if len(damaged) > 1 else ""
+        problem = f"line {damaged[0]}{more} not as sha256sum writes it: left out"
+        warn_once(str(path), f"{path}: {problem}; remove the file and build its FMUs again")
+    return frozenset(match[1].decode() for match in matches if match is not None)

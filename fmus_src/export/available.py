@@ -10,9 +10,12 @@ import hashlib
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
+from ...analysis.common.machine.cached import cached_file
 from ...analysis.common.regular import names_file
 from ..catalogue import catalogue
+from ..own_digests import note_own
 from ..paths import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, own_fmu, own_fmus, shipped_fmu
 from .pythonfmu_fmu import build_python_fmu
 
@@ -26,8 +29,9 @@ def fmu_file(name: str, flavour: str, system: Path | None = None) -> Path | None
     if names_file(shipped):
         return shipped
     if not IS_CHECKOUT and flavour == "python" and name in catalogue():
-        path = _python_folder() / f"{name}.fmu"
-        return path if path.is_file() else build_python_fmu(catalogue()[name], path)
+        path = cached_file(_python_folder() / f"{name}.fmu", lambda: _python_fmu(name))
+        note_own(path)  # the list may have been damaged since it was built
+        return path
     return next((own for own in own_fmus(name, flavour, system) if names_file(own)), None)
 
 
@@ -42,6 +46,11 @@ def fmu_flavours() -> dict[str, dict[str, Path | None]]:
             for path in sorted(folder.glob("*.fmu")):
                 files.setdefault(path.stem, {}).setdefault(flavour, path)
     return files
+
+
+def _python_fmu(name: str) -> bytes:
+    with TemporaryDirectory() as folder:
+        return build_python_fmu(catalogue()[name], Path(folder) / f"{name}.fmu").read_bytes()
 
 
 @cache

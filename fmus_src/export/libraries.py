@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import signal
 import subprocess
 import sys
 import tempfile
-import threading
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
+from ...analysis.common.machine.cached import cached_file
 from .compilers import FLAGS, FOR_THIS_PROCESSOR, PLATFORMS, CompilationFailed, compilers_for
 from .fat_binary import fat_binary
 
-CHECKSUM = ".sha256"  # of the file next to a library in the cache
 POLLING = 0.1  # s between looks whether a library is still wanted
 
 
@@ -64,9 +62,9 @@ def library_files(
     """The shared libraries of the source file ``main`` for each processor of a platform, in the folder ``cache``.
 
     ``sources`` holds all files by name, ``flags`` are the compiler's. The libraries depend on these and the compiler
-    only, not on time or place. A library in the cache that is not as it was compiled is compiled anew; the compiler is
-    ended as soon as nothing ``is_wanted`` any more. Raises `CompilerMissing`, `CompilationFailed`, and OSError where
-    the cache cannot be written.
+    only, not on time or place. A library in the cache that is not as it was compiled is compiled again, and is a
+    temporary file where the cache cannot be written; the compiler is ended as soon as nothing ``is_wanted`` any more.
+    Raises `CompilerMissing`, `CompilationFailed`, and OSError where no file can be written.
     """
     commands = compilers_for(platform, portable)
     extension = PLATFORMS[platform].extension
@@ -76,29 +74,9 @@ def library_files(
         digest = hashlib.sha256("\0".join([identity, *flags, main]).encode())
         for name in sorted(sources):
             digest.update(b"\0" + name.encode() + b"\0" + hashlib.sha256(sources[name]).digest())
-        cached = cache / f"{digest.hexdigest()[:32]}{extension}"
-        if not _is_whole(cached):
-            library = _compile([*command, *flags], sources, main, Path(main).stem + extension, is_wanted)
-            cache.mkdir(parents=True, exist_ok=True)
-            _write(cached, library)
-            _write(cached.with_suffix(CHECKSUM), hashlib.sha256(library).hexdigest().encode())
-        files.append(cached)
+        library = partial(_compile, [*command, *flags], sources, main, Path(main).stem + extension, is_wanted)
+        files.append(cached_file(cache / f"{digest.hexdigest()[:32]}{extension}", library))
     return files
-
-
-def _is_whole(cached: Path) -> bool:
-    """Whether a library is in the cache as it was compiled: a damaged one would end the process that loads it."""
-    try:
-        checksum = cached.with_suffix(CHECKSUM).read_text(encoding="ascii", errors="replace")
-        return hashlib.sha256(cached.read_bytes()).hexdigest() == checksum
-    except OSError:
-        return False
-
-
-def _write(path: Path, content: bytes) -> None:
-    partial = path.with_name(f".{path.name}.{os.getpid()}.{threading.get_ident()}.part")
-    partial.write_bytes(content)
-    partial.replace(path)
 
 
 def _compile(

@@ -3,6 +3,7 @@
 Truth: the folders before and after; a folder that cannot be.
 """
 
+import errno
 import itertools
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -12,6 +13,7 @@ import pytest
 from numba import config
 
 from perilune.analysis.common import compiler
+from perilune.analysis.common.machine import cached
 from perilune.analysis.runtime.flight.compiled.loop import function
 from perilune.fmus_src.paths import CACHE
 
@@ -70,7 +72,41 @@ def test_a_folder_that_cannot_be_written_is_said(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setattr(compiler, "CACHE", tmp_path / "file")
     monkeypatch.setattr(config, "CACHE_DIR", "")
-    with pytest.warns(UserWarning, match="cannot be written: compiled anew; set NUMBA_CACHE_DIR"):
+    with pytest.warns(UserWarning, match="Not a directory: done without; remove the file"):
         function = compiler.compile_cached(doubled)
     assert function(21) == 42
     assert not list(Path(__file__).parent.rglob("*doubled*.nb*"))
+
+
+@pytest.mark.parametrize("setting", ["", "theirs"])
+@pytest.mark.parametrize("suffix", [".nbi", ".nbc"])
+def test_damaged_files_are_compiled_again_and_replaced(tmp_path, monkeypatch, suffix, setting):
+    """Empty, cut, of other bytes, and with one changed bit, which numba would run."""
+    monkeypatch.setattr(compiler, "CACHE", tmp_path)
+    monkeypatch.setattr(config, "CACHE_DIR", setting and str(tmp_path / setting))
+    assert compiler.compile_cached(doubled)(21) == 42
+    (file,) = tmp_path.rglob(f"*doubled*{suffix}")
+    whole = file.read_bytes()
+    for damaged in (b"", whole[: len(whole) // 2], b"garbage" * 99, whole[:99] + bytes([whole[99] ^ 1]) + whole[100:]):
+        file.write_bytes(damaged)
+        monkeypatch.setattr(cached, "_warned", set())
+        function = compiler.compile_cached(doubled)
+        with pytest.warns(UserWarning, match="damaged files are made again, .*doubled"):
+            assert function(21) == 42
+        assert not function.stats.cache_hits
+        repeated = compiler.compile_cached(doubled)
+        assert repeated(21) == 42
+        assert sum(repeated.stats.cache_hits.values()) == 1
+
+
+def test_a_disk_that_fills_up_ends_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr(compiler, "CACHE", tmp_path)
+    monkeypatch.setattr(config, "CACHE_DIR", "")
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(compiler, "write_sealed", full)
+    function = compiler.compile_cached(doubled)
+    with pytest.warns(UserWarning, match=f"cache {tmp_path}.*: No space left on device: done without; free some space"):
+        assert function(21) == 42

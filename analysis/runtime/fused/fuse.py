@@ -6,6 +6,7 @@ import ctypes
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from pathlib import Path
+from tempfile import gettempdir
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from ....fmus_src.export.compilers import FOR_THIS_PROCESSOR, CompilationFailed,
 from ....fmus_src.export.libraries import library_files
 from ....fmus_src.paths import CACHE
 from ...common.errors import InputError
+from ...common.machine.os_errors import reason_of, remedy_of
 from ..flight.compiled import arrays
 from ..flight.compiled.frame import REALS, WORDS
 from ..instances.instance import PLACED, Instance
@@ -45,8 +47,8 @@ def fuse(
 
     The C is that inside the native FMUs of the ``instances``; other FMUs are called as ever. The library is kept in
     the cache folder by its content. The compiler is ended as soon as the function is not ``is_wanted`` any more. Raises
-    InputError where there is no compiler, or one that does not work or changes results, where the cache cannot be
-    written, and for FMUs whose C is of another build, or whose periods come round together too late.
+    InputError where there is no compiler, or one that does not work or changes results, where no library can
+    be written, and for FMUs whose C is of another build, or whose periods come round together too late.
     """
     components = _component_codes(instances)
     if not is_compilable(program):
@@ -106,8 +108,8 @@ def _compile(text: str, is_wanted: Callable[[], bool]) -> Path:
         problem = f"the compiler refuses its C: {next((line for line in lines if 'error' in line), lines[0])}"
         raise InputError("`flavour`", FUSED, problem, "fly it `native`") from error
     except OSError as error:
-        problem = f"the cache folder {cached} cannot be written: {error.strerror}"
-        raise InputError("`flavour`", FUSED, problem, "free or unlock it, or fly it `native`") from error
+        problem = f"the library cannot be written: {error.filename or gettempdir()}: {reason_of(error)}"
+        raise InputError("`flavour`", FUSED, problem, f"{remedy_of(error)}, or simulate it `native`") from error
     return file
 
 

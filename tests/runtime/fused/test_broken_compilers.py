@@ -3,6 +3,7 @@
 Truth: the refusal in one line, and the same system flown by its FMUs.
 """
 
+import errno
 import sys
 import threading
 import time
@@ -12,6 +13,7 @@ import pytest
 
 import perilune
 from perilune.analysis.common.errors import InputError
+from perilune.analysis.common.machine import cached
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.fused import fuse
 from perilune.analysis.runtime.system.options import SystemOptions
@@ -77,7 +79,21 @@ def test_refused_in_one_line(ramp, compiler, text, problem):
 
 def test_a_cache_that_cannot_be_written(ramp, tmp_path):
     (tmp_path / "fused").write_text("a file in place of the folder")
-    with pytest.raises(InputError, match=r"the cache folder .*fused cannot be written"):
+    with (
+        pytest.warns(UserWarning, match=r"fused: Not a directory: done without"),
+        Simulation(of(ramp, flavour="fused")) as simulation,
+    ):
+        assert simulation.fly().complete
+
+
+def test_without_room_for_a_library_anywhere(ramp, monkeypatch):
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(libraries, "_compile", full)
+    with pytest.raises(
+        InputError, match=r"the library cannot be written: .*: No space left on device; free some space"
+    ):
         Simulation(of(ramp, flavour="fused"))
 
 
@@ -92,7 +108,11 @@ def test_a_damaged_library_is_compiled_anew(ramp, tmp_path):
         library.unlink()  # the process has the old one open
         library.write_bytes(damaged)
         fuse._load.cache_clear()
-        with Simulation(of(ramp, flavour="fused")) as simulation:
+        cached._warned.clear()
+        with (
+            pytest.warns(UserWarning, match="damaged files are made again"),
+            Simulation(of(ramp, flavour="fused")) as simulation,
+        ):
             assert simulation.fly().signals["ramp.y"].tobytes() == expected.signals["ramp.y"].tobytes()
         assert library.read_bytes() == whole
 

@@ -1,0 +1,113 @@
+"""Files of the cache folder: read by their checksums, written whole, done without where they cannot be kept.
+
+A damaged file is made again, and a cache that cannot be used ends nothing: either is said in one line for a process.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import tempfile
+import threading
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+from ....fmus_src.paths import CACHE
+from ..atomic import write_atomically
+from ..scratch import make_folder
+from .os_errors import reason_of, remedy_of
+
+CHECKSUM = ".sha256"  # of the file next to one that other programs open
+DIGEST = hashlib.sha256().digest_size  # bytes behind the content of a sealed file
+_substitutes: dict[Path, Path] = {}  # of files that cannot be kept: temporary ones of this process
+_warned: set[str] = set()
+_writing = threading.Lock()  # of threads that make one file at once
+
+
+def cached_file(path: Path, make: Callable[[], bytes]) -> Path:
+    """Return a file of the cache, which ``make`` gives the content of where it is missing or damaged.
+
+    The same input has to give the same content. Where the cache cannot be written the file is a temporary one, for
+    this process. Raises OSError where that cannot be written either.
+    """
+    if _has_checksum(path):
+        return path
+    if path not in _substitutes:
+        content = make()
+        try:
+            with _writing:  # the checksum first: a file without one is not said to be damaged
+                write_atomically(path.with_suffix(CHECKSUM), hashlib.sha256(content).hexdigest().encode())
+                write_atomically(path, content)
+        except OSError as error:
+            warn_unusable(path.parent, error)
+            substitute = make_folder() / path.name
+            substitute.write_bytes(content)
+            _substitutes[path] = substitute
+        else:
+            return path
+    return _substitutes[path]
+
+
+def _has_checksum(path: Path) -> bool:
+    try:
+        checksum = path.with_suffix(CHECKSUM).read_bytes()
+        digest = hashlib.sha256(path.read_bytes()).hexdigest().encode()
+    except OSError:  # missing, or found out when it is written
+        return False
+    if digest != checksum:
+        warn_damaged(path)
+    return digest == checksum
+
+
+def write_sealed(path: Path, content: bytes) -> None:
+    """Write a file with its digest behind its content, whole or not at all. Raises OSError."""
+    with _writing:
+        write_atomically(path, content + hashlib.sha256(content).digest())
+
+
+def is_sealed(path: Path) -> bool:
+    """True if a file is as `write_sealed` wrote it; a damaged one is removed."""
+    try:
+        content = path.read_bytes()
+        if hashlib.sha256(content[:-DIGEST]).digest() == content[-DIGEST:]:
+            return True
+        warn_damaged(path)
+        path.unlink()
+    except FileNotFoundError:
+        pass
+    except OSError as error:
+        warn_unusable(path.parent, error)
+    return False
+
+
+def find_obstacle(folder: Path) -> OSError | None:
+    """Return why a folder of the cache cannot be written, None where it can; the folder is made."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return None
+    except OSError as error:
+        return error
+
+
+def warn_damaged(path: Path) -> None:
+    """Warn of a file that is not as it was written, which is made again; once for all files of a cache."""
+    place = _cache_of(path.parent)
+    warn_once(f"damaged {place}", f"cache {place}: damaged files are made again, {path.name} for one")
+
+
+def warn_unusable(folder: Path, error: OSError) -> None:
+    """Warn of a cache that cannot be used, once for all of its folders."""
+    place = _cache_of(folder)
+    warn_once(f"unusable {place}", f"cache {place}: {reason_of(error)}: done without; {remedy_of(error)}")
+
+
+def _cache_of(folder: Path) -> Path:
+    return CACHE if folder.is_relative_to(CACHE) else folder
+
+
+def warn_once(subject: str, text: str) -> None:
+    """Warn with a text, once in a process for a subject."""
+    if subject not in _warned:
+        _warned.add(subject)
+        warnings.warn(text, stacklevel=3)
