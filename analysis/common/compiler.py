@@ -49,10 +49,10 @@ class SealedFiles(caching.IndexDataCacheFile):
     def __init__(self, cache_path: str, filename_base: str, source_stamp: Any) -> None:
         super().__init__(cache_path, f"{filename_base}.sealed", source_stamp)
 
-    def save(self, key: Any, data: Any) -> None:
+    def save(self, key: Any, compiled: Any) -> None:
         """Write a compiled function, or do without."""
         try:
-            super().save(key, data)
+            super().save(key, compiled)
         except OSError as error:
             warn_unusable(Path(self._cache_path), error)
 

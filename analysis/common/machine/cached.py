@@ -92,14 +92,14 @@ def find_obstacle(folder: Path) -> OSError | None:
 
 def warn_damaged(path: Path) -> None:
     """Warn of a file that is not as it was written, which is made again; once for all files of a cache."""
-    place = _cache_of(path.parent)
-    warn_once(f"damaged {place}", f"cache {place}: damaged files are made again, {path.name} for one")
+    home = _cache_of(path.parent)
+    warn_once(f"damaged {home}", f"cache {home}: damaged files are made again, {path.name} for one")
 
 
 def warn_unusable(folder: Path, error: OSError) -> None:
     """Warn of a cache that cannot be used, once for all of its folders."""
-    place = _cache_of(folder)
-    warn_once(f"unusable {place}", f"cache {place}: {reason_of(error)}: done without; {remedy_of(error)}")
+    home = _cache_of(folder)
+    warn_once(f"unusable {home}", f"cache {home}: {reason_of(error)}: done without; {remedy_of(error)}")
 
 
 def _cache_of(folder: Path) -> Path:

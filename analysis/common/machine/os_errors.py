@@ -43,7 +43,7 @@ def reason_of(error: OSError) -> str:
     return error.strerror or str(error)
 
 
-def line_of(error: OSError, place: str | os.PathLike[str] = "") -> str:
-    """Return place, reason and remedy in one line; ``place`` is where an error names no file."""
-    name = os.fsdecode(error.filename or place)
+def line_of(error: OSError, subject: str | os.PathLike[str] = "") -> str:
+    """Return file, reason and remedy in one line; ``subject`` stands where an error names no file."""
+    name = os.fsdecode(error.filename or subject)
     return f"{f'{name}: ' if name else ''}{reason_of(error)}; {remedy_of(error)}"

@@ -12,7 +12,7 @@ from perilune.analysis.verbs.common.campaigns import resume_hint
 FULL = (errno.ENOSPC, errno.EDQUOT)
 
 
-def test_space_is_asked_for_where_the_disk_is_full_alone():
+def test_space_is_the_remedy_of_full_disks_alone():
     assert {number for number, remedy in REMEDIES.items() if "free some space" in remedy} == set(FULL)
 
 

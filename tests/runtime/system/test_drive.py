@@ -54,14 +54,14 @@ def test_one_sample_is_held(ours):
     assert ours(np.array([-1.0, 0.5, 2.0]), np.array([0.5]), np.array([7.0]), after_event=True).tolist() == [7.0] * 3
 
 
-def test_points_in_parts_have_the_same_bits(tiny, monkeypatch):
+def test_points_in_blocks_have_the_same_bits(tiny, monkeypatch):
     fmu = str(tiny / "gain.fmu")
     series = read_series({"time": [0.0, 0.35, 0.35, 0.8], "u": [1.0, 2.0, -1.0, 0.3]})
     whole = prepare_system(fmu, SystemOptions(step=0.01, stop_time=1.0), series=series).drive.table
     monkeypatch.setattr(inputs, "POINTS", 7)
-    parts = prepare_system(fmu, SystemOptions(step=0.01, stop_time=1.0), series=series).drive.table
-    assert parts.shape == (102, 1)
-    assert parts.tobytes() == whole.tobytes()
+    split = prepare_system(fmu, SystemOptions(step=0.01, stop_time=1.0), series=series).drive.table
+    assert split.shape == (102, 1)
+    assert split.tobytes() == whole.tobytes()
 
 
 @pytest.mark.parametrize("step", [1e-7, 1e-12])
