@@ -12,6 +12,7 @@ from ..instances.instance import Instance, status_word
 from ..instances.library import FUNCTION_NAMES
 from ..ssp.names import split_name
 from .compiled import arrays, codes
+from .compiled.rounding import allowance
 from .program import Layout
 
 TERMINATED = "terminated"  # an FMU asked for the end
@@ -26,6 +27,7 @@ STATUS = {
     codes.TOO_LONG: "failed",
     codes.ENDED: TERMINATED,
     codes.STUCK: "failed",
+    codes.OUTSIDE_STEP: "failed",
 }
 FLIGHT_STATUSES = set(STATUS.values())
 ENTER, EXIT = (
@@ -138,6 +140,9 @@ def in_words(
         )
         log = " | ".join(instances[component].messages) or "no message in its log"
         return status, f"{component}: {FUNCTION_NAMES[outcome.function]} {token} at t = {time:g} s: {log}"
+    if code == codes.OUTSIDE_STEP and fmi3 is not None:
+        last, begin = fmi3.stored.time.tolist()
+        return status, _outside_words("fmi3DoStep returned early", last, begin, time, subject, instances)
     if code == codes.NOT_TAKEN:
         parameters = layout.parameters
         component, variable = parameters.keys[subject]
@@ -154,6 +159,32 @@ def in_words(
             token += ", which is no wish to end,"
         return status, f"{component}: {FUNCTION_NAMES[outcome.function]} returned {token} at t = {time:g} s: {log}"
     return status, ""
+
+
+def ended_in_words(
+    time: float, begin: float, end: float, subject: int, instances: Mapping[str, Instance]
+) -> tuple[str, str]:
+    """Return status and message of a flight that an FMU has ended at ``time`` (s), in its step from begin to end.
+
+    It has failed where the time is not in that step.
+    """
+    allowed = allowance(begin, end)
+    if not begin - allowed <= time <= end + allowed:  # NaN is not, either
+        words = "fmi2DoStep asked for the end by discard"
+        return STATUS[codes.OUTSIDE_STEP], _outside_words(words, time, begin, end, subject, instances)
+    component, instance = list(instances.items())[subject]
+    said = f": {' | '.join(instance.messages)}" if instance.messages else ""
+    return TERMINATED, f"{component} asked for the end at t = {time:g} s{said}"
+
+
+def _outside_words(
+    said: str, last: float, begin: float, end: float, subject: int, instances: Mapping[str, Instance]
+) -> str:
+    """Return the message on a lastSuccessfulTime (s) that is not in the step from begin to end."""
+    component, instance = list(instances.items())[subject]
+    log = " | ".join(instance.messages) or "no message in its log"
+    step = f"its step from {begin:.12g} s to {end:.12g} s"
+    return f"{component}: {said} with lastSuccessfulTime {last:.12g} s, which is not in {step}: {log}"
 
 
 def _limits(name: str, instances: Mapping[str, Instance]) -> str:

@@ -21,7 +21,7 @@ from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem
 from .base_simulation import NOTHING, BaseSimulation, Choices
 from .compiled import arrays, codes
-from .endings import STATUS, TERMINATED, Outcome, end_request, in_words
+from .endings import STATUS, TERMINATED, Outcome, end_request, ended_in_words, in_words
 from .group import FlightGroup, flights_in_group, group_of
 from .instructions import write_ending
 from .life_cycle import LifeCycle
@@ -229,10 +229,12 @@ class Simulation(BaseSimulation):
             component, instance = list(self.instances.items())[outcome.subject]
             time = float(self.fmi3.stored.time[1]) if outcome.is_ended and self.fmi3 else end_request(instance)
             if time is not None:
-                self._fly_last_row(outcome.subject, time, end)
-                end += 1
-                said = f": {' | '.join(instance.messages)}" if instance.messages else ""
-                status, message = TERMINATED, f"{component} asked for the end at t = {time:g} s{said}"
+                last = prepared.start + outcome.point * prepared.step
+                begin = last - prepared.periods.get(component, 1) * prepared.step
+                status, message = ended_in_words(time, begin, last, outcome.subject, self.instances)
+                if status == TERMINATED:
+                    self._fly_last_row(outcome.subject, time, end)
+                    end += 1
         flight = Flight(
             time=recorder.times[start:end],
             signals=dict(zip(self.signal_names, recorder.record[:, start:end], strict=True)),

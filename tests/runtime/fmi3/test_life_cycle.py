@@ -102,6 +102,18 @@ def test_failures_are_named(tmp_path, trouble, message):
     assert (flight.status, flight.message) == ("failed", f"Strict: {message}")
 
 
+@pytest.mark.parametrize(
+    ("trouble", "last"), [("no_time", "nan"), ("no_end", "inf"), ("goes_back", "-0.125"), ("goes_beyond", "0.375")]
+)
+def test_an_early_return_at_a_time_outside_its_step_ends_the_simulation(tmp_path, trouble, last):
+    path = str(strict_fmu(tmp_path, events=True))
+    flight = perilune.simulate(path, input=series(tmp_path), set={"Strict.trouble": trouble})
+    outside = f"lastSuccessfulTime {last} s, which is not in its step from 0 s to 0.25 s"
+    message = f"Strict: fmi3DoStep returned early with {outside}: no message in its log"
+    assert (flight.status, flight.message) == ("failed", message)
+    assert flight.time.tolist() == [0.0]
+
+
 def test_messages_are_no_formats(tmp_path, capfd):
     path = str(strict_fmu(tmp_path))
     assert perilune.simulate(path, set={"Strict.trouble": "talks"}, log="warning").status == "stop_time"

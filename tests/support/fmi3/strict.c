@@ -1,4 +1,5 @@
 /* An FMU of FMI 3.0 that counts how it is called, and refuses what the state machine of co-simulation does not allow. */
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +12,8 @@
 
 enum { TIME, SIZE, GAIN, U, Y, D, EVENTS, ACCEPTED, EARLY, RETURNS, ROUNDS, END_AT, TROUBLE, WIDE_OUT, WIDER_OUT, WIDE_IN,
        WIDER_IN, MISMATCHES, TEXT_OUT, TEXT_IN, BLOB_OUT, BLOB_IN, SMALL_OUT, SMALL_IN, TOLERANCE, SINGLE_OUT, SINGLE_IN };
-enum { FINE, FAILS, DISCARDS, DIES, STANDS_STILL, NEVER_SETTLES, TALKS };
+enum { FINE, FAILS, DISCARDS, DIES, STANDS_STILL, NEVER_SETTLES, TALKS, NO_TIME, NO_END, GOES_BACK,
+       GOES_BEYOND };
 typedef enum { INSTANTIATED, CONFIGURATION, INITIALIZATION, EVENT, STEP, ENDED, REFUSED } State;
 
 typedef struct {
@@ -64,7 +66,7 @@ fmi3Instance fmi3InstantiateCoSimulation(
     fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logs, fmi3Boolean events,
     fmi3Boolean early, const fmi3ValueReference required[], size_t count, fmi3InstanceEnvironment environment,
     fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback update) {
-    if (strcmp(token, "by hand") || (events && !HAS_EVENTS) || count || !name || !resources) return NULL;
+    if ((*token && strcmp(token, "by hand")) || (events && !HAS_EVENTS) || count || !name || !resources) return NULL;
     Instance *me = calloc(1, sizeof *me);
     me->uses_events = events, me->may_return_early = early;
     me->environment = environment, me->log = log, me->update = update;
@@ -153,8 +155,12 @@ fmi3Status fmi3DoStep(
         return me->trouble == FAILS ? fmi3Error : me->trouble == DISCARDS ? fmi3Discard : fmi3Fatal;
     }
     if (me->trouble == TALKS) me->log(me->environment, fmi3Warning, "logEvents", "100% of a %s");
-    if (me->may_return_early && me->trouble == STANDS_STILL) {
+    if (me->may_return_early && (me->trouble == STANDS_STILL || me->trouble >= NO_TIME)) {
         *early = fmi3True;
+        if (me->trouble == NO_TIME) *last = NAN;
+        if (me->trouble == NO_END) *last = INFINITY;
+        if (me->trouble == GOES_BACK) *last = begin - 0.125;
+        if (me->trouble == GOES_BEYOND) *last = end + 0.125;
         return fmi3OK;
     }
     if (me->may_return_early && me->early > 0 && step > me->early + 1e-9) {

@@ -9,7 +9,10 @@ import fmpy
 from tests.support.builders import write_zip
 from tests.support.foreign.library import library
 
-TROUBLES = ("fine", "fails", "discards", "dies", "stands_still", "never_settles", "talks")
+TROUBLES = (
+    *("fine", "fails", "discards", "dies", "stands_still", "never_settles", "talks"),
+    *("no_time", "no_end", "goes_back", "goes_beyond"),
+)
 ITEMS = "".join(f'<Item name="{name}" value="{number}"/>' for number, name in enumerate(TROUBLES))
 DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="3.0" modelName="Strict" instantiationToken="by hand">

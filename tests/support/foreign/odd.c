@@ -18,6 +18,7 @@
  * GOES_TO          the folder that it makes the process's own when it is instantiated
  * ONE_AT_A_TIME    a second instance beside the first is refused
  * ENDS_AT          the time (s) at which it asks for the end, as Stair of the Reference FMUs does at 10 s
+ * SAYS_TIME        the fmi2LastSuccessfulTime that it then gives, as text, which is not its own
  * KEEPS_END        fmi2Reset does not forget that it has asked for the end, which it does at the next step again
  * DEED, IN         what it does to its process in a call, see deeds.h
  * ANSWERS, AT      the status that fmi2DoStep returns from the time AT (s) on
@@ -284,5 +285,8 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *v)
 {
     *v = ((Odd *)c)->time;
+#ifdef SAYS_TIME
+    *v = strtod(SAYS_TIME, NULL);
+#endif
     return kind == fmi2LastSuccessfulTime ? fmi2OK : fmi2Discard;
 }

@@ -99,7 +99,7 @@ class StoredValues(NamedTuple):
     sent: np.ndarray  # uint64 [s], each transfer's values side by side from its first slot on, as given or taken last
     exact: np.ndarray  # uint64 [s], whole numbers of 64 bits, of which the float64 of a slot may be rounded
     flags: np.ndarray  # uint8 [8], what calls return
-    time: np.ndarray  # float64 [2], likewise: the last is the time (s) at which an FMU has ended the simulation
+    time: np.ndarray  # float64 [2], likewise (s): the last is when an FMU has ended the simulation, or began a step
 
 
 class Fmi3(NamedTuple):

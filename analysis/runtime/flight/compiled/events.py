@@ -6,8 +6,8 @@ from ....common.compiler import compile_cached
 from . import codes
 from .fmi3_calls import do_step_to_event, update_discrete_states
 from .fmi_calls import change_mode
+from .rounding import allowance
 
-ROUNDING = 1e-9  # of a step: what an early return may lack of its end
 MOST_ROUNDS = 1000  # of event iterations, and of steps that return where they began
 
 
@@ -32,18 +32,27 @@ def _settle(functions, instance, stored, outcome):  # type: ignore[no-untyped-de
 
 
 settle = compile_cached(_settle)
+allowance_of = compile_cached(allowance)
 
 
 def _step(functions, instance, begin, step, end, uses_events, stored, outcome):  # type: ignore[no-untyped-def]
-    """A step, continued to its end where it returns early; events are handled when they occur."""
+    """Step to the end, again where the FMU returns early; events are handled when they occur.
+
+    An early return at a time that is not in its step becomes the outcome, with the beginning of that step.
+    """
     time, rounds = begin, 0
+    allowed = allowance_of(begin, end)
     while True:
         outcome[2] = codes.DO_STEP
         status = do_step_to_event(functions[codes.DO_STEP], instance, time, step, stored.flags, stored.time)
         if status < 0 or status > codes.FMI_WARNING:
             return status
         last = stored.time[0]
-        is_early = stored.flags[2] != 0 and end - last > ROUNDING * (end - begin)
+        if stored.flags[2] != 0 and not time - allowed <= last <= end + allowed:  # NaN is not, either
+            outcome[0] = codes.OUTSIDE_STEP
+            stored.time[1] = time
+            return status
+        is_early = stored.flags[2] != 0 and end - last > allowed
         now = last if is_early else end
         if stored.flags[1] != 0:
             outcome[0] = codes.ENDED

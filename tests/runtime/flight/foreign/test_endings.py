@@ -7,6 +7,7 @@ import fmpy
 import numpy as np
 import pytest
 
+import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.fault import parse_fault
@@ -27,6 +28,15 @@ def test_the_rows_are_those_of_fmpy(tmp_path, end):
     np.testing.assert_array_equal(result.time, truth["time"])
     for name in ("y", "tolerance", "length"):
         np.testing.assert_array_equal(result[f"odd.{name}"], truth[name])
+
+
+@pytest.mark.parametrize(("said", "last"), [("nan", "nan"), ("inf", "inf"), ("0.25", "0.25"), ("0.875", "0.875")])
+def test_an_end_at_a_time_outside_its_step_is_a_failure(tmp_path, said, last):
+    """It is asked for in the step from 0.5 s to 0.75 s."""
+    flight = perilune.simulate(odd_fmu(tmp_path, ENDS_AT=0.6, SAYS_TIME=said))
+    outside = f"lastSuccessfulTime {last} s, which is not in its step from 0.5 s to 0.75 s"
+    message = f"odd: fmi2DoStep asked for the end by discard with {outside}: no message in its log"
+    assert (flight.status, flight.message, flight.time[-1]) == ("failed", message, 0.5)
 
 
 def test_every_nth_row_and_the_last(tmp_path):
