@@ -11,7 +11,7 @@ from fmpy.model_description import ModelDescription
 from lxml import etree
 
 from ...common.errors import InputError
-from ..ssp.fmu_description import FIX
+from ..ssp.fmu_description import FIX, require_attributes
 from .representations import REPRESENTATIONS, TEXTS
 from .variable import shape
 
@@ -31,16 +31,13 @@ def check_description(root: etree._Element, label: str) -> None:
 
     Raises InputError, with the FMU's ``label``.
     """
-    if not root.get("modelName") or not root.get("instantiationToken"):
-        missing = "instantiationToken" if root.get("modelName") else "modelName"
-        raise InputError(label, _line_of(root), f"no attribute {missing}", FIX)
+    require_attributes(root, ("modelName", "instantiationToken"), label, _line_of(root))
     interface = root.find("CoSimulation")
     if interface is None:
         kinds = [kind for kind in ("ModelExchange", "ScheduledExecution") if root.find(kind) is not None]
         problem = f"not a co-simulation FMU: {' and '.join(kinds) or 'no interface'} only"
         raise InputError(label, "CoSimulation", problem, "export it for co-simulation")
-    if not interface.get("modelIdentifier"):
-        raise InputError(label, _line_of(interface), "no attribute modelIdentifier", FIX)
+    require_attributes(interface, ("modelIdentifier",), label, _line_of(interface))
     variables = [each for each in root.iterfind("ModelVariables/*") if isinstance(each.tag, str)]
     clock = next((each for each in variables if each.tag == "Clock"), None)
     if clock is not None:
@@ -84,18 +81,14 @@ def check_sizes(description: ModelDescription, sizes: dict[int, int], label: str
 
 def _check_type(declared: etree._Element, label: str) -> None:
     for item in declared.iterfind("Item"):
-        for name in ("name", "value"):
-            if not item.get(name):
-                raise InputError(label, _line_of(item), f"no attribute {name}", FIX)
+        require_attributes(item, ("name", "value"), label, _line_of(item))
         _check_texts(item, "value", [item.get("value")], int, "an integer", label)
     for name in ("min", "max"):
         _check_texts(declared, name, [declared.get(name)], float, "a number", label)
 
 
 def _check_variable(variable: etree._Element, label: str) -> None:
-    for name in ("name", "valueReference"):
-        if not variable.get(name):
-            raise InputError(label, _line_of(variable), f"no attribute {name}", FIX)
+    require_attributes(variable, ("name", "valueReference"), label, _line_of(variable))
     tag = str(variable.tag)
     if tag not in REPRESENTATIONS and tag != "Enumeration":
         problem = f"{tag} is not a type of FMI 3.0"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import fmpy
@@ -25,6 +25,7 @@ REQUIRED = {
     VARIABLE: ("name", "valueReference"),
     ITEM: ("name", "value"),
 }
+MAY_BE_EMPTY = ("guid", "instantiationToken")
 
 
 def _truth(text: str) -> bool:
@@ -54,9 +55,7 @@ def check_description(root: etree._Element, label: str) -> None:
         raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0 or 3.0")
     for path, attributes in REQUIRED.items():
         for element in root.iterfind(path):
-            for name in attributes:
-                if not element.get(name):
-                    raise InputError(label, _line_of(element), f"no attribute {name}", FIX)
+            require_attributes(element, attributes, label, _line_of(element))
     for path, (read, kind, attributes) in NUMBERS.items():
         for element in root.iterfind(path):
             for name in attributes:
@@ -66,6 +65,16 @@ def check_description(root: etree._Element, label: str) -> None:
     twice = next((name for name, count in names.items() if count > 1), None)
     if twice is not None:
         raise InputError(label, str(twice), "two variables of this name", FIX)
+
+
+def require_attributes(element: etree._Element, names: Sequence[str], label: str, where: str) -> None:
+    """Refuse an element, at ``where``, without these attributes, or with an empty one that may not be; InputError."""
+    for name in names:
+        text = element.get(name)
+        if text is None:
+            raise InputError(label, where, f"no attribute {name}", FIX)
+        if not text and name not in MAY_BE_EMPTY:
+            raise InputError(label, where, f"the attribute {name} is empty", FIX)
 
 
 def check_rules(xml: bytes, version: int, label: str) -> None:

@@ -160,3 +160,15 @@ def refused(expected: str, path: str, **options: object) -> None:
     with pytest.raises(perilune.InputError, match=expected) as error:
         perilune.simulate(path, **options)
     assert "\n" not in str(error.value)
+
+
+def test_an_empty_instantiation_token_is_one(tmp_path):
+    path = retouched(strict_fmu(tmp_path), tmp_path / "empty.fmu", changed('Token="by hand"', 'Token=""'))
+    assert perilune.simulate(path).status == "stop_time"
+    assert perilune.validate(path)[0].problems == ()
+
+
+def test_an_empty_name_is_not_said_to_be_missing(tmp_path):
+    path = retouched(strict_fmu(tmp_path), tmp_path / "empty.fmu", changed('name="early"', 'name=""'))
+    with pytest.raises(perilune.InputError, match=r"Float64 \(line \d+\): the attribute name is empty; fix"):
+        perilune.simulate(path)
