@@ -54,7 +54,7 @@ def step_of_component(component: etree._Element, file: str) -> float | None:
     """The step (s) that a component is to be made with, where it is not the system's; raises InputError."""
     for kind, item in _read_annotation(component):
         if kind in OSP and tag(item) == "StepSizeHint":
-            return _seconds(item, ("value",), file)
+            return step_hint(item, "value", f"{tag(item)} (line {item.sourceline})", file)
     return None
 
 
@@ -66,17 +66,33 @@ def _read_annotation(element: etree._Element | None) -> Iterator[tuple[str, etre
                 yield annotation.get("type", ""), item
 
 
-def _seconds(item: etree._Element, names: tuple[str, ...], file: str) -> float:
-    text = next((item.get(name) for name in names if item.get(name) is not None), "")
-    return positive_seconds(text or "", names[0], f"{tag(item)} (line {item.sourceline})", file)
+def _seconds(element: etree._Element, names: tuple[str, ...], file: str) -> float:
+    name = next((name for name in names if element.get(name) is not None), names[0])
+    return _positive_attribute(element, name, f"{tag(element)} (line {element.sourceline})", file)
 
 
-def positive_seconds(text: str, name: str, where: str, file: str) -> float:
-    """A step's text as a number; raises InputError naming the attribute or element ``name``."""
+def step_hint(element: etree._Element, name: str, where: str, file: str) -> float | None:
+    """Return the step (s) of an attribute that libcosim takes as a hint; None without it, and for 0, which is none.
+
+    Raises InputError, at ``where``.
+    """
+    try:
+        is_none = float(element.get(name, "0")) == 0.0
+    except ValueError:
+        is_none = False
+    return None if is_none else _positive_attribute(element, name, where, file)
+
+
+def _positive_attribute(element: etree._Element, name: str, where: str, file: str) -> float:
+    return positive_seconds(element.get(name, ""), name, where, file, f'write {name}="0.1"')
+
+
+def positive_seconds(text: str, name: str, where: str, file: str, remedy: str) -> float:
+    """Return the text of an attribute or content ``name`` at ``where`` as a step (s); raises InputError."""
     try:
         value = float(text)
     except ValueError:
         value = math.nan
     if not 0.0 < value < math.inf:
-        raise InputError(file, where, f"{name} is not a positive number of seconds", f'write {name}="0.1"')
+        raise InputError(file, where, f"{name} {text!r} is not a positive number of seconds", remedy)
     return value

@@ -58,6 +58,33 @@ def test_step_and_algorithm_are_those_of_the_annotation(tiny, tmp_path, text):
     np.testing.assert_array_equal(requested["gain.y"], fly(plain)["gain.y"])
 
 
+def hinted(step):
+    hint = annotated("com.opensimulationplatform", f'<osp:StepSizeHint {OSP} value="{step}"/>')
+    gain = GAIN.replace("</ssd:Component>", f"{hint}</ssd:Component>")
+    return document(system(RAMP, gain, connections=WIRED))
+
+
+def test_a_hint_of_zero_is_none(tiny, tmp_path):
+    path = pack(tmp_path / "s.ssp", tiny, hinted("0.0"))
+    plain = pack(tmp_path / "plain.ssp", tiny, document(system(RAMP, GAIN, connections=WIRED)))
+    np.testing.assert_array_equal(fly(path)["gain.y"], fly(plain)["gain.y"])
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (hinted("-1"), r"StepSizeHint \(line \d+\): value '-1' is not a positive number of seconds; write value="),
+        (
+            osp("0").replace("baseStepSize", "stepSize"),
+            r"FixedStepAlgorithm \(line \d+\): stepSize '0' is not a positive number of seconds; write stepSize=",
+        ),
+    ],
+)
+def test_a_bad_step_is_named_by_its_attribute(tiny, tmp_path, text, words):
+    with pytest.raises(InputError, match=words):
+        fly(pack(tmp_path / "s.ssp", tiny, text))
+
+
 def test_ours_goes_before_theirs(tiny, tmp_path):
     text = document(system(RAMP, GAIN, connections=WIRED, extra=fixed(0.125)))
     assert fly(pack(tmp_path / "s.ssp", tiny, text)).provenance["step"] == 0.25

@@ -16,7 +16,7 @@ from ..archive import SystemArchive
 from ..conversions import IDENTITY, Transformation
 from ..description import Binding, Component, Connection, Connector, Description, System, is_elsewhere, source_file
 from ..documents import NAMESPACES, parse_xml, tag
-from ..experiment import positive_seconds
+from ..experiment import positive_seconds, step_hint
 from .functions import OUT, Function, FunctionError, Point, read_function
 from .groups import read_groups
 
@@ -69,7 +69,7 @@ class _Reader:
             enumerations={},
             start_time=0.0 if start is None else self.number(start),
             stop_time=None if end is None else self.number(end),
-            step=None if step is None else self.step(step, step.text or ""),
+            step=None if step is None else self.base_step(step),
             algorithm="jacobi",
             notes=self.notes,
         )
@@ -81,8 +81,9 @@ class _Reader:
         except ValueError:
             raise self.refuse(element, f"content {text!r} is not a number", "write one") from None
 
-    def step(self, element: etree._Element, text: str) -> float:
-        return positive_seconds(text, tag(element), f"{tag(element)} (line {element.sourceline})", self.file)
+    def base_step(self, element: etree._Element) -> float:
+        where, remedy = f"{tag(element)} (line {element.sourceline})", "write a number such as 0.1"
+        return positive_seconds((element.text or "").strip(), "content", where, self.file, remedy)
 
     def simulator(self, element: etree._Element) -> None:
         name, source = element.get("name", ""), source_file(element.get("source", ""))
@@ -94,14 +95,13 @@ class _Reader:
         if name in self.system.elements:
             raise self.refuse(element, f"a second one of the name {name}", "rename one")
         values = element.findall("{*}InitialValues/{*}InitialValue")
-        text = element.get("stepSize")
         self.system.elements[name] = Component(
             name=name,
             connectors={},
             bindings=[self.binding(values, element.sourceline)] if values else [],
             line=element.sourceline,
             source=source,
-            step=None if text is None else self.step(element, text),
+            step=step_hint(element, "stepSize", f"Simulator {name} (line {element.sourceline})", self.file),
         )
 
     def binding(self, values: list[etree._Element], line: int) -> Binding:
