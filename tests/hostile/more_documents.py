@@ -91,7 +91,7 @@ OTHERS = {
         OSP.replace("<Connections>", "<Connections>" + joined("ramp.y", "gain.u") * 10**5),
         ("gain.u", "driven twice"),
     ),
-    "a file three folders above": (OSP.replace('"ramp.fmu"', '"../../../ramp.fmu"'), ("ramp (line", "folders above")),
+    "a file far above": (OSP.replace('"ramp.fmu"', f'"{"../" * 99}gone/x.fmu"'), ("ramp (line", "no file ../")),
     "an absolute file": (OSP.replace('"ramp.fmu"', '"/etc/ramp.fmu"'), ("ramp (line", "lies outside")),
     "a step of inf": (OSP.replace(">0.125<", ">inf<"), ("BaseStepSize",)),
     "a start of nan": (OSP.replace("<BaseStepSize>", "<StartTime>nan</StartTime><BaseStepSize>"), ("Time",)),

@@ -28,7 +28,6 @@ HOW_TO_BUILD = (
 OSP_DESCRIPTION = "OspSystemStructure.xml"
 OSP_SUFFIX = ".xml"
 OTHER = "give another file"
-MOST_LEVELS = 2  # that the files of a system's folder may lie above it, as in config/ next to fmus/
 DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
 
 
@@ -70,32 +69,28 @@ class SystemArchive:
 
     def _inside(self, name: str) -> bool:
         """Whether a name may be that of a file in the system's folder, or near it, beyond those of `system_files`."""
-        return self.path.is_dir() and (not _leaves(name) or (self.known_digest is None and _levels_up(name) > 0))
+        return self.path.is_dir() and (not _leaves(name) or (self.known_digest is None and _goes_up(name)))
 
     def note(self) -> str | None:
-        """What is said of files that were read from a folder above the system's own one; None where none was."""
-        levels = max((_levels_up(name) for name in self.besides), default=0)
-        if not levels:
+        """Return what is said of files that were read from outside the system's folder; None where none was."""
+        paths = [Path(os.path.normpath(self.path / name)) for name in self.besides if _goes_up(name)]
+        outside = [str(path) for path in paths if not path.is_relative_to(self.path)]
+        if not outside:
             return None
-        return f"{self.label}: reads files of {self.path.parents[levels - 1]}, which lies above the system's folder"
+        lie = "lies" if len(outside) == 1 else "lie"
+        return f"{self.label}: reads {', '.join(outside)}, which {lie} outside the system's folder"
 
     def _content(self, name: str, element: str) -> bytes:
         if name not in self.files and not self._inside(name) and _leaves(name):
-            raise InputError(self.label, element, *self._outside(name))
+            where = "folder" if self.path.is_dir() else "archive"
+            problem = f"{name} lies outside the system's {where}"
+            raise InputError(self.label, element, problem, "put the file inside and correct the reference")
         if not self.has(name):
             raise InputError(self.label, element, f"no file {name}", "add the file or correct the reference")
         if name not in self.files:
             self.besides[name] = None
         content = self.files.get(name, self.path / name)
         return content if isinstance(content, bytes) else read_input(content, OTHER, bound_of(name))
-
-    def _outside(self, name: str) -> tuple[str, str]:
-        """What is wrong with a name that leads out of the system, and what to do."""
-        if self.path.is_dir() and self.known_digest is None and name.startswith("../"):
-            remedy = "move the file nearer, or the description, and correct the reference"
-            return f"{name} lies more than {MOST_LEVELS} folders above the system's", remedy
-        where = "folder" if self.path.is_dir() else "archive"
-        return f"{name} lies outside the system's {where}", "put the file inside and correct the reference"
 
     def fmu(self, source: str, element: str, flavour: str) -> tuple[Callable[[], bytes], str]:
         """What reads an FMU's content, and its name in messages.
@@ -108,7 +103,7 @@ class SystemArchive:
         if fmu_asked(source) in self.elsewhere:
             return read_fmu(self.elsewhere[fmu_asked(source)]), source
         name = self._place(source)
-        if self.has(name) or self.path.is_file() or not self._inside(name):
+        if self.has(name) or self.path.is_file() or not self._inside(name) or _goes_up(name):
             return partial(self._content, name, element), f"{self.label}!{name}"
         self.refuse_elsewhere(name, element)
         path = fmu_file(Path(name).stem, flavour, self.path)
@@ -261,12 +256,10 @@ def _leaves(name: str) -> bool:
     return name.startswith(("/", "..")) or ":" in name.partition("/")[0]
 
 
-def _levels_up(name: str) -> int:
-    """How many folders above its own a name leads to, if the file may lie there: at most MOST_LEVELS; else 0."""
-    steps = name.split("/")
-    inside = list(itertools.dropwhile("..".__eq__, steps))
-    levels = len(steps) - len(inside)
-    return levels if levels <= MOST_LEVELS and inside and ":" not in inside[0] else 0
+def _goes_up(name: str) -> bool:
+    """True if a normalised name leads by .. to a file of another folder, from the folder that it starts from."""
+    inside = list(itertools.dropwhile("..".__eq__, name.split("/")))
+    return name.startswith("../") and bool(inside) and ":" not in inside[0]
 
 
 def _folder(path: Path, description: str | None = None) -> SystemArchive:

@@ -3,6 +3,8 @@
 Truth: libcosim, step by step; pencil and paper for what it makes of a start.
 """
 
+import re
+
 import numpy as np
 import pytest
 
@@ -49,6 +51,19 @@ def test_steps_that_seldom_meet(folder):
     np.testing.assert_array_equal(result["slower.y"][3::3], read)
 
 
+def test_a_step_size_of_zero_is_no_hint(folder):
+    written = folder(CHAIN.replace('stepSize="0.25"', 'stepSize="0.0"'))
+    truth = libcosim(written, ["slow.y"], 12)
+    np.testing.assert_array_equal(fly(written, stop_time=1.5)["slow.y"][1:], truth[:, 0])
+
+
+@pytest.mark.parametrize("step", ["-0.25", "soon", "nan"])
+def test_a_bad_step_size_is_named(folder, step):
+    words = rf'Simulator slow \(line 5\): stepSize {step!r} is not a positive number of seconds; write stepSize="0\.1"'
+    with pytest.raises(InputError, match=words):
+        fly(folder(CHAIN.replace('stepSize="0.25"', f'stepSize="{step}"')))
+
+
 def test_a_step_that_is_no_multiple(folder, capsys):
     written = folder(structure(simulator("ramp", "ramp", 0.3) + simulator("fast", "delay"), joined("ramp.y", "fast.u")))
     truth = libcosim(written, ["fast.y"], 12)
@@ -61,6 +76,17 @@ def test_the_file_itself_may_be_named(folder):
     written = folder(CHAIN)
     actual = [fly(path, stop_time=1.5)["after.y"] for path in (written, written / "OspSystemStructure.xml")]
     np.testing.assert_array_equal(*actual)
+
+
+def test_fmus_far_above_the_file(tiny_folder, tmp_path, capsys):
+    """As libcosim takes them; each is named in a note."""
+    text = re.sub(r'"(\w+\.fmu)"', r'"../../../\1"', CHAIN)
+    written = write_osp(tmp_path / "a" / "b" / "c", tiny_folder, text, fmus="../../..")
+    truth = libcosim(written, ["after.y"], 12)[:, 0]
+    np.testing.assert_array_equal(fly(written / "OspSystemStructure.xml", stop_time=1.5)["after.y"][1:], truth)
+    assert main(["validate", str(written)]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert f"reads {tmp_path / 'ramp.fmu'}, {tmp_path / 'delay.fmu'}, which lie outside the system's folder" in said
 
 
 def test_simulators_in_a_process_of_their_own(folder):
@@ -140,7 +166,10 @@ def test_groups_of_variables(folder):
             CHAIN.replace('simulator="fast"', 'simulator="vast"'),
             r"Variable \(line \d+\): no simulator vast; name one of",
         ),
-        (CHAIN.replace(">0.125<", ">ten<"), r"BaseStepSize is not a positive number of seconds"),
+        (
+            CHAIN.replace(">0.125<", ">ten<"),
+            r"BaseStepSize \(line 2\): content 'ten' is not a positive number of seconds; write a number such as 0\.1",
+        ),
         (CHAIN.replace("fixedStep", "ecco"), r"ecco is not supported"),
         (
             CHAIN.replace("<Connections>", "<VariableConnections/><Connections>"),
