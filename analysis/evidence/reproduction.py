@@ -16,9 +16,10 @@ from ..common.machine.room import check_room
 from ..common.visible import first_ones
 from ..runtime.apart.opening import open_simulation
 from ..runtime.flight.interruptible import fly
+from ..runtime.fmi.proposals import proposed_step
 from ..runtime.ssp.archive import SystemArchive, read_fmu
 from ..runtime.ssp.documents import NAMESPACES, read_document
-from ..runtime.system.alone import describe_alone, proposed_step
+from ..runtime.system.alone import describe_alone
 from ..runtime.system.fmu import Fmu, load_fmu
 from ..runtime.system.options import SystemOptions
 from ..runtime.system.prepared import PreparedSystem, prepare_system
@@ -175,7 +176,7 @@ def _prepare(
             name for name, variable in fmu.variables.items() if variable.causality != "input" or variable.type in TEXTS
         }
         if options.step is None:
-            options = replace(options, step=_step(reference.time, proposed_step(fmu)))
+            options = replace(options, step=_step(reference.time, proposed_step(fmu.description, fmu.label, [])))
     if experiment.parameters is not None:
         content = _content(files, experiment.parameters, archive.label)
         if component:

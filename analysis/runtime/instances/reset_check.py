@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import threading
 import warnings
 from collections.abc import Callable, Iterator
@@ -197,7 +198,7 @@ def _simulate(instance: Instance, changes: dict[str, Number]) -> Iterator[bytes]
             getattr(experiment, "tolerance", None),
         )
     )
-    start, size = start or 0.0, size or 0.01
+    start, size = start or 0.0, size if size is not None and 0.0 < size < math.inf else 0.01
     begin(instance, changes, start, tolerance)
     yield read(instance, "output")
     for n in range(STEPS):

@@ -8,6 +8,7 @@ import re
 from fmpy.util import auto_interval
 
 from ...common.errors import InputError
+from ..fmi.proposals import proposed_step
 from ..fmi.representations import TEXTS
 from ..ssp.description import Component, Connector, Description, System
 from .fmu import Fmu
@@ -46,15 +47,6 @@ def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[
     return Description(fmu.label, fmu.name, root, {}, {}, start, stop, step), remarks
 
 
-def proposed_step(fmu: Fmu) -> float | None:
-    """The step (s) of an FMU's default experiment, else its fixed internal one; None where it states neither."""
-    step = (
-        getattr(fmu.description.defaultExperiment, "stepSize", None)
-        or fmu.description.coSimulation.fixedInternalStepSize
-    )
-    return None if step is None else float(step)
-
-
 def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[str]]:
     """Start, end and step (s), and what is to be said of them."""
     experiment = fmu.description.defaultExperiment
@@ -62,8 +54,8 @@ def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[
         None if value is None else float(value)
         for value in (getattr(experiment, "startTime", None), getattr(experiment, "stopTime", None))
     )
-    step = proposed_step(fmu)
     remarks: list[str] = []
+    step = proposed_step(fmu.description, fmu.label, remarks) if options.step is None else options.step
     start = 0.0 if start is None else start
     if stop is None:
         stop = start + DURATION
@@ -72,13 +64,11 @@ def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[
     if step is None:
         duration = (stop if options.stop_time is None else options.stop_time) - start
         step = float(auto_interval(duration if duration > 0.0 else DURATION))
-        if options.step is None:
-            remarks.append(f"the FMU proposes no step: {step:g} s taken")
-    selected = step if options.step is None else options.step
-    ratio = (stop - start) / selected if selected else math.nan  # 0 is refused with the times of all systems
+        remarks.append(f"the FMU proposes no step: {step:g} s taken")
+    ratio = (stop - start) / step if step else math.nan  # 0 is refused with the times of all systems
     steps = math.floor(ratio + WHOLE) if 0.0 < ratio < math.inf else 0
     if options.stop_time is None and steps and ratio - steps > WHOLE:
-        whole = start + steps * selected
-        remarks.append(f"{stop - start:g} s are not whole steps of {selected:g} s: the end is {whole:g} s")
+        whole = start + steps * step
+        remarks.append(f"{stop - start:g} s are not whole steps of {step:g} s: the end is {whole:g} s")
         stop = whole
     return start, stop, step, remarks

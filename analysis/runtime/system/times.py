@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from ...common.errors import InputError
+from ..fmi.proposals import step_of_experiment
 from ..ssp.archive import OSP_SUFFIX
 from .network import Network
 from .options import SystemOptions
@@ -24,16 +25,11 @@ class MissingStopTimeError(InputError):
 def flight_times(network: Network, options: SystemOptions) -> tuple[float, float, int]:
     """Start (s), communication step (s) and number of steps; raises InputError."""
     description = network.description
-    proposed = [
-        float(fmu.description.defaultExperiment.stepSize)
-        for fmu in network.fmus.values()
-        if fmu.description.defaultExperiment is not None and fmu.description.defaultExperiment.stepSize
-    ]
     if options.step is None and description.varies is not None:
         line = f"step (line {description.varies})"
         raise InputError(network.file, line, "varies, which it does not here", "give one: `step`")
     given = options.step if options.step is not None else _read_step(network)
-    step = given if given is not None else min(proposed, default=None)
+    step = given if given is not None else _shortest_proposal(network)
     if step is None:
         raise InputError(network.file, "step", "neither the SSD nor an FMU proposes one", "give `step`")
     if not 0.0 < step < float("inf"):
@@ -101,6 +97,13 @@ def _read_step(network: Network) -> float | None:
     """The step (s) that the description gives: the shortest where inner systems have steps of their own."""
     inner = [system.step for path, system in network.systems.items() if path and system.step is not None]
     return None if network.description.step is None else min([network.description.step, *inner])
+
+
+def _shortest_proposal(network: Network) -> float | None:
+    """Return the shortest step (s) of the default experiments of FMUs. Raises InputError."""
+    fmus = {fmu.label: fmu.description for fmu in network.fmus.values()}
+    steps = [step_of_experiment(description, label, network.notes) for label, description in fmus.items()]
+    return min((step for step in steps if step is not None), default=None)
 
 
 def _step_of_system(network: Network, component: str) -> float | None:

@@ -1,0 +1,40 @@
+"""The communication steps that FMUs propose: those of their default experiments, and fixed internal ones."""
+
+from __future__ import annotations
+
+import math
+
+from fmpy.model_description import ModelDescription
+
+from ...common.errors import InputError
+from ..ssp.fmu_description import DESCRIPTION
+
+
+def step_of_experiment(description: ModelDescription, label: str, notes: list[str]) -> float | None:
+    """Return the step (s) of an FMU's default experiment; None where it states none.
+
+    Tools write 0 for none, which is noted. Raises InputError for one that is no positive number otherwise.
+    """
+    text = getattr(description.defaultExperiment, "stepSize", None)
+    return _seconds(text, STEP_SIZE, label, notes)
+
+
+def proposed_step(description: ModelDescription, label: str, notes: list[str]) -> float | None:
+    """Return likewise the step of its default experiment, else its fixed internal one."""
+    step = step_of_experiment(description, label, notes)
+    return step or _seconds(description.coSimulation.fixedInternalStepSize, INTERNAL_STEP_SIZE, label, notes)
+
+
+STEP_SIZE = "DefaultExperiment, stepSize"
+INTERNAL_STEP_SIZE = "CoSimulation, fixedInternalStepSize"
+
+
+def _seconds(text: str | None, attribute: str, label: str, notes: list[str]) -> float | None:
+    seconds = 0.0 if text is None else float(text)
+    where = f"{DESCRIPTION}: {attribute}"
+    if not 0.0 <= seconds < math.inf:
+        problem = f"{text} is not a positive number of seconds"
+        raise InputError(label, where, problem, f"fix the FMU's {DESCRIPTION}, or give `step`")
+    if seconds == 0.0 and text is not None:
+        notes.append(f"{label}: {where}: {text} is no step, and taken as none")
+    return seconds or None
