@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import lzma
+import stat
 import struct
 import zipfile
 import zlib
@@ -15,6 +16,7 @@ from .errors import InputError
 END = b"PK\5\6"  # of the directory's last record
 REMEDY = "build or copy the file again"
 BACKSLASH = "repack it with / between the names of folders"
+LINK = "repack it with the file or folder itself in the link's place"
 # what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
 UNREADABLE = (
     zipfile.BadZipFile,
@@ -49,6 +51,8 @@ def open_zip(packed: bytes, label: str) -> zipfile.ZipFile:
             raise InputError(label, name, "a backslash in a file name, which zip archives do not have", BACKSLASH)
         if name.startswith("/") or ".." in segments or ":" in segments[0]:
             raise InputError(label, name, "a file name that leaves the archive's folder", "repack without it")
+        if stat.S_ISLNK(entry.external_attr >> 16):
+            raise InputError(label, name, "a symbolic link, which archives may not have: none is followed", LINK)
         if checksums.setdefault(name, entry.CRC) != entry.CRC:
             raise InputError(label, name, "two files of this name, with different contents", "repack with one of them")
     return archive

@@ -94,7 +94,7 @@ ARCHIVES: dict[str, tuple[Content, tuple[str, ...]]] = {
     "an absolute entry": (zipped(("/tmp/outside", b"x")), ("/tmp/outside", "leaves")),
     "a drive's entry": (zipped(("C:/outside", b"x")), ("C:/outside", "leaves")),
     "a backslash": (zipped(("..\\outside", b"x")), ("..\\outside", "a backslash")),
-    "a link for a description": (link(), ("SystemStructure.ssd", "not well-formed XML")),
+    "a link for a description": (link(), ("SystemStructure.ssd", "a symbolic link", "none is followed")),
     "two descriptions": (zipped(("SystemStructure.ssd", b"<x/>")), ("SystemStructure.ssd", "two files of this name")),
     "a folder and a file of one name": (
         zipped(("resources/ramp.fmu/x", b""), ("resources/ramp.fmu", b"")),

@@ -1,0 +1,39 @@
+"""Links in archives, as Unix tools pack them with `zip -y`: named, and not followed."""
+
+import zipfile
+
+import pytest
+
+import perilune
+from tests.support.builders import document, system, write_zip
+from tests.support.foreign.odd_fmu import odd_fmu
+
+
+@pytest.mark.parametrize("name", ["binaries", "documentation/index.html"])
+def test_a_link_in_an_fmu_is_named(tmp_path, name):
+    path = odd_fmu(tmp_path)
+    add_link(path, name)
+    with pytest.raises(perilune.InputError) as refused:
+        perilune.simulate(path)
+    assert str(refused.value) == f"{path}: {name}: {LINK}"
+
+
+def test_a_link_in_a_system_is_named(tmp_path):
+    path = write_zip(tmp_path / "s.ssp", {"SystemStructure.ssd": document(system())})
+    add_link(path, "resources")
+    with pytest.raises(perilune.InputError) as refused:
+        perilune.simulate(path)
+    assert str(refused.value) == f"{path}: resources: {LINK}"
+
+
+LINK = (
+    "a symbolic link, which archives may not have: none is followed; "
+    "repack it with the file or folder itself in the link's place"
+)
+
+
+def add_link(path, name):
+    entry = zipfile.ZipInfo(name)
+    entry.external_attr = 0o120777 << 16
+    with zipfile.ZipFile(path, "a") as archive:
+        archive.writestr(entry, "elsewhere")
