@@ -45,6 +45,7 @@ from .shards.files import numbers, read_table
 from .shards.numbering import shard_size
 
 # Of the options: where values are written, where paths are meant from, and what whoever simulates decides.
+REFUSE = "refuse"
 NOT_STORED = ("places", "folder", *UNTRUSTED.trust)
 
 
@@ -83,6 +84,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
     options = {name: value for name, value in asdict(plan.options).items() if name not in NOT_STORED}
     # Native FMUs are the default, and their fused steps have the same bits: these may change under way.
     options["flavour"] = "python" if plan.options.flavour == "python" else None
+    options["open_inputs"] = plan.options.open_inputs or REFUSE  # as folders had it before there was None
     fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
     document: CampaignDocument = {
         **_source(plan.source, campaign.file, keep),
@@ -209,11 +211,14 @@ def _restore_options(manifest: Manifest, folder: Path) -> SystemOptions:
     if unknown:
         raise InputError(folder / FILE, f"options.{unknown[0]}", "not an option of a campaign", SAME_VERSION)
     try:
-        return msgspec.convert(dict(manifest.options), SystemOptions)
+        options = msgspec.convert(dict(manifest.options), SystemOptions)
     except msgspec.ValidationError as error:
         problem, _, element = str(error).partition(" - at ")
         name = f"options.{element.strip('`$.')}".rstrip(".")
         raise InputError(folder / FILE, name, f"{problem[:1].lower()}{problem[1:]}", SAME_VERSION) from error
+    if manifest.system["fmu"] is not None and options.open_inputs == REFUSE:
+        return replace(options, open_inputs=None)  # what is refused of an FMU alone was refused before it was written
+    return options
 
 
 def _restore_source(contents: Path, campaign: SourceDocument) -> CampaignSource:

@@ -41,7 +41,9 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
         one = len(open_inputs) == 1
         problem = f"{'input is' if one else f'{len(open_inputs)} inputs are'} neither connected nor given a value"
         setting = f"`set` {shlex.quote(f'{open_inputs[0].name}=VALUE')}"
-        remedy = f"connect {'it' if one else 'them'}, give a value: {setting}, or `open_inputs` start"
+        connecting = "drive" if names_fmu(network.file) else "connect"
+        driving = " by `input`" if names_fmu(network.file) else ""
+        remedy = f"{connecting} {'it' if one else 'them'}{driving}, give a value: {setting}, or `open_inputs` start"
         given = next((settings.left_out[node.name] for node in open_inputs if node.name in settings.left_out), None)
         if given is not None:
             remedy = f"map {given} too, whose mapping leaves it out; or {remedy}"

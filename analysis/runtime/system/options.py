@@ -82,8 +82,8 @@ class SystemOptions(Trust, Layer):
 
     Times in s. ``algorithm`` None is what the system's description says, else the first of `ALGORITHMS`. ``flavour``
     None takes native FMUs where they are built, `FUSED` compiles the steps of the system as one function, too.
-    ``open_inputs``: what becomes of inputs that the SSD declares and
-    nothing drives, ``start`` keeps the FMU's start values. ``strict``: FMUs whose descriptions break rules of FMI are
+    ``open_inputs``: what becomes of inputs that nothing drives, ``start`` keeps the FMU's start values; None is
+    ``refuse`` in a system and ``start`` of an FMU alone. ``strict``: FMUs whose descriptions break rules of FMI are
     refused and not only remarked upon. ``feedthrough`` are components whose outputs depend directly on all inputs,
     ``no_feedthrough`` those whose outputs depend directly on none. ``call_timeout`` (s), of one call of an FMU, and
     ``memory`` (GB) are limits of processes with foreign FMUs. ``folder`` is what relative paths are meant from: an FMU
@@ -97,7 +97,7 @@ class SystemOptions(Trust, Layer):
     flavour: str | None = None
     allow_unmatched: bool = False
     strict: bool = False
-    open_inputs: str = "refuse"
+    open_inputs: str | None = None
     feedthrough: tuple[str, ...] = ()
     no_feedthrough: tuple[str, ...] = ()
     call_timeout: float = field(default=300.0, compare=False)

@@ -210,7 +210,8 @@ def _prepare(
     assignments += chosen()
     network.notes += notes
     settings = collect_settings(network, archive, assignments, options)
-    settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
+    keep_starts = archive.is_fmu if options.open_inputs is None else options.open_inputs == "start"
+    settle_open_inputs(network, settings, keep_starts=keep_starts)
     check_signals(network, settings)
     check_shared(network, settings)
     check_aliases(network)

@@ -64,8 +64,8 @@ class SystemOptions(TrustOptions, AssemblyOptions, total=False):
         ),
     ]
     open_inputs: Annotated[
-        Literal["refuse", "start"],
-        Option("unconnected inputs: refuse the system, or keep their start values", "refuse"),
+        Literal["refuse", "start"] | None,
+        Option("unconnected inputs: refuse them, or keep their start values; default: refuse, start for an FMU alone"),
     ]
     allow_unmatched: Annotated[
         bool,

@@ -8,12 +8,15 @@ from __future__ import annotations
 import re
 
 import pytest
+from fmpy.util import auto_interval
 
 import perilune
+from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
-from tests.support.builders import retouched
+from tests.support.builders import component, document, pack, retouched, system
+from tests.support.foreign.odd_fmu import odd_fmu
 
 
 @pytest.mark.parametrize(
@@ -41,6 +44,62 @@ def test_connectors_are_inputs_outputs_and_parameters(tiny):
     strings = prepare_system(tiny / "stranger.fmu")
     assert {node.variable for node in strings.network.nodes.values()} == {"u", "y", "word", "length"}
     assert perilune.simulate(tiny / "stranger.fmu", set={"Stranger.word": "four"}).final()["Stranger.length"] == 4.0
+
+
+def test_an_empty_guid_is_one(tmp_path):
+    path = odd_fmu(tmp_path)
+    retouched(path, path, lambda text: text.replace('guid="by hand"', 'guid=""'))
+    assert perilune.simulate(path, stop_time=0.5).status == "stop_time"
+    retouched(path, path, lambda text: text.replace('guid=""', ""))
+    with pytest.raises(InputError, match=r"fmiModelDescription \(line 2\): no attribute guid; fix"):
+        prepare_system(path)
+
+
+STEP_SIZE = re.compile(r'stepSize="[^"]*"')
+
+
+def with_step(folder, step):
+    path = odd_fmu(folder)
+    return retouched(path, path, lambda text: STEP_SIZE.sub(f'stepSize="{step}"', text))
+
+
+def test_a_step_size_of_zero_is_none(tmp_path):
+    """FMPy's interval for 1 s is 2 ms, as for an FMU that says nothing; in a system, too, the others' step counts."""
+    path = with_step(tmp_path, "0.0")
+    prepared = prepare_system(path)
+    assert prepared.step == auto_interval(1.0)
+    said = f"{path}: modelDescription.xml: DefaultExperiment, stepSize: 0.0 is no step, and taken as none"
+    assert said in prepared.network.notes
+    root = system(component("zero", "odd"), component("other", "another"))
+    odd_fmu(tmp_path, name="another")
+    path = pack(tmp_path / "s.ssp", tmp_path, document(root, step=None))
+    prepared = prepare_system(path, SystemOptions(open_inputs="start"))
+    assert prepared.step == 0.25
+    assert [note for note in prepared.network.notes if "s.ssp!resources/odd.fmu: model" in note and "0.0" in note]
+
+
+@pytest.mark.parametrize("step", ["-0.1", "nan", "INF"])
+def test_a_step_size_that_is_no_step_is_the_fmus(tmp_path, step):
+    path = with_step(tmp_path, step)
+    words = f"modelDescription.xml: DefaultExperiment, stepSize: {step} is not a positive number of seconds; fix"
+    with pytest.raises(InputError, match=words):
+        prepare_system(path)
+    assert perilune.simulate(path, step=0.125, stop_time=0.5).time[1] == 0.125
+    assert perilune.validate(path, step=0.125)[0].problems == ()
+
+
+def test_open_inputs_of_an_fmu_alone_are_refused_by_choice(tmp_path, capsys):
+    path = str(odd_fmu(tmp_path))
+    assert perilune.simulate(path, stop_time=0.5).status == "stop_time"
+    assert main(["run", path, "--stop-time", "0.5", "--open-inputs", "start"]) == 0
+    capsys.readouterr()
+    for verb in ("run", "validate"):
+        assert main([verb, path, "--open-inputs", "refuse"]) == 2
+    lines = capsys.readouterr().err.splitlines()
+    remedy = "drive it by --input, give a value: --set odd.u=VALUE, or --open-inputs start"
+    assert lines[0] == f"perilune: {path}: odd.u: input is neither connected nor given a value; {remedy}"
+    assert lines[1].startswith(f"perilune: {path}: odd.u: input is neither connected nor given a value; ")
+    assert main(["run", path, "--stop-time", "0.5", "--open-inputs", "refuse", "--set", "odd.u=1"]) == 0
 
 
 @pytest.mark.parametrize(
