@@ -18,7 +18,7 @@ CAUSALITIES = ("input", "output", "structuralParameter", "parameter", "calculate
 
 
 def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Mapping[str, str] | None = None) -> list:
-    """A row for each variable: name, size, causality, type, unit, value, limits, description.
+    """A row for each variable: name, size, causality, type, unit, value, limits, description, items of an Enumeration.
 
     ``values`` are put in place of the FMU's starts, in its own units, and ``origins`` say where they come from.
     ``size`` is 1, or as the elements are counted: 3, or [2, 3]; ``value`` is then a list, in row order.
@@ -45,6 +45,10 @@ def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Map
             "maximum": _number(variable.maximum),
             "from": origins.get(name),
             "description": variable.description or "",
+            "items": [
+                {"name": label, "value": number, "description": variable.meanings.get(label, "")}
+                for label, number in variable.items.items()
+            ],
         }
     variables = list(rows.values())
     for row in variables:

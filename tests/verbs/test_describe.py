@@ -12,6 +12,9 @@ import perilune
 from perilune.analysis.cli import main
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.paths import SYSTEMS
+from tests.support.builders import retouched
+from tests.support.fmi3.strict_fmu import TROUBLES, strict_fmu
+from tests.support.foreign.odd_fmu import odd_fmu
 
 pytestmark = pytest.mark.usefixtures("fmus")
 SYSTEM = "lunar_terminal_guidance"
@@ -75,6 +78,25 @@ def test_an_fmu_by_its_name_and_by_its_file(described):
     assert rows["initial_velocity"]["value"] == declared["initial_velocity"].start
     assert rows["specific_impulse"]["minimum"] == pytest.approx(1e-3)
     assert described(actual["file"]) == actual
+
+
+HOVER = '<Item name="hover" value="7" description="without wind"/>'
+
+
+def test_items_of_enumerations_are_described(tmp_path, capsys):
+    """Of FMUs of others, of FMI 2.0 and 3.0: with values, and descriptions where there are any."""
+    path = odd_fmu(tmp_path)
+    retouched(path, path, lambda text: text.replace('<Item name="hover" value="7"/>', HOVER))
+    (mode,) = (row for row in perilune.describe(path)["variables"] if row["name"] == "mode")
+    idle, hover = {"name": "idle", "value": 1, "description": ""}, {"name": "hover", "value": 7}
+    assert mode["items"] == [idle, hover | {"description": "without wind"}]
+    strict = strict_fmu(tmp_path)
+    (trouble,) = (row for row in perilune.describe(strict)["variables"] if row["name"] == "trouble")
+    assert [(each["value"], each["name"]) for each in trouble["items"]] == list(enumerate(TROUBLES))
+    assert main(["describe", str(path)]) == main(["describe", str(strict)]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "mode 1 1 idle, 7 hover (without wind)" in said
+    assert "trouble 0 0 fine, 1 fails, 2 discards" in said
 
 
 def test_a_slot_names_its_blocks(described):

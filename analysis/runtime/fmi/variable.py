@@ -35,6 +35,7 @@ class Variable:
     is_relative: bool = False  # a difference of values in the unit, to which its offset does not apply
     description: str | None = None
     items: Mapping[str, int] = field(default_factory=dict)  # of an Enumeration
+    meanings: Mapping[str, str] = field(default_factory=dict)  # of those of its items that have a description
     array: str = ""  # name of the array that it is an element of
     index: int = 0  # among the array's elements
 
@@ -97,7 +98,7 @@ def _starts(declared: ModelVariable) -> dict[tuple[int, ...], str]:
 
 def _scalar(declared: ModelVariable, type_name: str, representation: str) -> Variable:
     kind, stated = declared.declaredType, declared.relativeQuantity
-    items = {} if kind is None or type_name != "Enumeration" else {item.name: int(item.value) for item in kind.items}
+    members = [] if kind is None or type_name != "Enumeration" else kind.items
     return Variable(
         name=declared.name,
         type=type_name,
@@ -112,5 +113,6 @@ def _scalar(declared: ModelVariable, type_name: str, representation: str) -> Var
         unit=declared.unit or (kind.unit if kind is not None else None),
         is_relative=kind is not None and kind.relativeQuantity if stated is None else stated,
         description=declared.description,
-        items=items,
+        items={each.name: int(each.value) for each in members},
+        meanings={each.name: each.description for each in members if each.description},
     )

@@ -159,12 +159,22 @@ def _variable_lines(rows: list[dict[str, Any]]) -> list[str]:
     }
     for causality, title in titles.items():
         chosen = [
-            [f"  {row['name']}{_size(row)}", _value(row), row["unit"] or "", row["from"] or "", row["description"]]
+            [f"  {row['name']}{_size(row)}", _value(row), row["unit"] or "", row["from"] or "", _about(row)]
             for row in rows
             if row["causality"] == causality
         ]
         lines += [title, *text_table(chosen)] if chosen else []
     return lines
+
+
+def _about(row: Mapping[str, Any]) -> str:
+    """Return a variable's description with the items of an Enumeration, unless it lists them, as those of ours do."""
+    about = row["description"]
+    members = [(each["value"], each["name"], each["description"]) for each in row["items"]]
+    if all(f"{number} {meaning or name}" in about for number, name, meaning in members):
+        return str(about)
+    texts = [f"{number} {name}" + (f" ({meaning})" if meaning else "") for number, name, meaning in members]
+    return ": ".join(filter(None, (about, ", ".join(texts))))
 
 
 def _size(row: Mapping[str, Any]) -> str:
