@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
@@ -12,8 +13,11 @@ from attrs import evolve
 from fmpy.validation import validate_model_description
 
 from ...fmus_src.paths import names_fmu
+from ..campaigns.spec.checks import check_plan
 from ..campaigns.spec.file import SYNTHESIS, read_campaign
-from ..campaigns.spec.source import read_source_file
+from ..campaigns.spec.home import find_system
+from ..campaigns.spec.plan import read_plan
+from ..campaigns.spec.source import read_source
 from ..common.bounds import bound_of
 from ..common.errors import ExitStatus, InputError
 from ..common.regular import read_input
@@ -101,10 +105,12 @@ def validate(*paths: FilePath | Sequence[FilePath], **options: Unpack[ValidateOp
     system, all_variants = system_options(options), options["all_variants"]
     if all_variants and system.variant is not None:
         raise InputError("`all_variants`", str(system.variant), "a `variant` is given, too", "give one of the two")
-    return Validation(tuple(_check(path, system, all_variants) for path in path_list(paths)))
+    names = path_list(paths)
+    systems = [name for name in names if not name.endswith(FILES)]
+    return Validation(tuple(_check(path, system, all_variants, systems) for path in names))
 
 
-def _check(path: str, options: System, all_variants: bool) -> FileCheck:
+def _check(path: str, options: System, all_variants: bool, systems: Sequence[str]) -> FileCheck:
     notes: list[str] = []
     problems: list[str] = []
     try:
@@ -125,8 +131,7 @@ def _check(path: str, options: System, all_variants: bool) -> FileCheck:
         elif path.endswith(".json"):
             read_law(Path(path))
         elif path.endswith(".toml"):
-            is_search = SYNTHESIS in read_source_file(Path(path)).table().content
-            (read_synthesis if is_search else read_campaign)(Path(path))
+            notes += _check_campaign(path, systems)
         else:
             notes += _check_system(path, options, all_variants)
     except InputError as error:
@@ -149,6 +154,21 @@ def _broken_rules(fmu: Fmu) -> list[str]:
     )
     rules += validate_model_description(unnamed, validate_model_structure=True)
     return [" ".join(rule.split()) for rule in rules]
+
+
+def _check_campaign(path: str, systems: Sequence[str]) -> list[str]:
+    """Check a search, or a campaign as `batch` does, with its system where that is known; notes. Raises InputError."""
+    raw = _read(path)
+    system = find_system(raw, Path(path), systems)
+    table = read_source(raw, path, None if system is None else open_system(system)).table()
+    if SYNTHESIS in table.content:
+        read_synthesis(Path(path))
+    elif system is None:
+        other = read_campaign(Path(path)).system
+        return [f"checked without {other}, which is no system of Perilune's: name the system, too, in the same command"]
+    else:
+        check_plan(read_plan(system, path if os.path.dirname(path) else os.path.join(os.curdir, path), System()))
+    return []
 
 
 def _check_system(path: str, options: System, all_variants: bool) -> list[str]:

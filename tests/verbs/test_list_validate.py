@@ -90,3 +90,52 @@ def test_rules_of_names_are_those_of_fmpy(tiny, tmp_path, capsys, name):
     assert ("naming convention" in "".join(expected)) == (name in ("slo pe", "1slope", "a[x]", "a..b", "a[1][2]"))
     assert all("".join(rule.split()) in said for rule in expected)
     assert ("modelDescription.xml" in said) == bool(expected)
+
+
+CAMPAIGN = """
+system = "{}"
+trials = 2
+seed = 1
+[draw."ramp.{}"]
+distribution = "uniform"
+low = 1.0
+high = 2.0
+[metric.end]
+expression = "ramp.y"
+reduction = "final"
+[success]
+expression = "end > 0"
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "parameter", "problem"),
+    [
+        ("s", "slope", None),
+        ("other", "slope", "system: the campaign is for other, not s; fly that system"),
+        ("s", "gone", "no such parameter in the system"),
+    ],
+)
+def test_a_campaign_is_refused_as_by_batch(tiny_folder, tmp_path, capsys, name, parameter, problem):
+    """In the system's folder, and by itself with the system in the same command."""
+    folder = tmp_path / "s"
+    (folder / "resources").mkdir(parents=True)
+    (folder / "campaigns").mkdir()
+    (folder / "resources" / "ramp.fmu").write_bytes((tiny_folder / "native" / "ramp.fmu").read_bytes())
+    (folder / "SystemStructure.ssd").write_text(document(system(component("ramp", "ramp", "output y Real m"))))
+    for path in (folder / "campaigns" / "c.toml", tmp_path / "c.toml"):
+        path.write_text(CAMPAIGN.format(name, parameter))
+        paths = [str(path)] if path.parent != tmp_path else [str(folder), str(path)]
+        assert main(["validate", *paths]) == (0 if problem is None else 2)
+        said = capsys.readouterr().err
+        if problem is not None:
+            assert problem in said
+            assert main(["batch", str(folder), "--campaign", str(path)]) == 2
+            assert said == capsys.readouterr().err
+
+
+def test_a_campaign_without_its_system_is_noted(tmp_path, capsys):
+    (tmp_path / "c.toml").write_text(CAMPAIGN.format("other", "slope"))
+    assert main(["validate", str(tmp_path / "c.toml")]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "checked without other, which is no system of Perilune's: name the system, too, in the same command" in said

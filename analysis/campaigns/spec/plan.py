@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive, open_system
 from ...runtime.system.fault import Fault
@@ -23,6 +22,7 @@ from ..draws.table import CountedDraws, Draws, DrawTable, draw_parts, draw_table
 from .campaign import Campaign, Group, Variant, groups_of
 from .faults import DrawnFault, fault_columns, fault_of_trials
 from .file import parse_campaign
+from .home import is_called
 from .source import CampaignSource, read_source
 from .sweeps import with_sweeps
 
@@ -229,9 +229,8 @@ def read_plan(
     raw, label = archive.campaign(campaign)
     source = read_source(raw, label, archive)
     read = parse_campaign(source.table())
-    name = read.system[:-4] if names_fmu(read.system) else read.system.removesuffix(".ssp")
     is_its = archive.path.suffix == ".ssp" and label.startswith(f"{archive.label}!")  # whatever the archive is called
-    if name != archive.name and not is_its:
+    if not is_called(read.system, archive.name) and not is_its:
         raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
     changes: dict = {}
     if trials is not None:

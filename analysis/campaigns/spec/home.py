@@ -1,0 +1,43 @@
+"""The system that a campaign's file is for, where no command names it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from ....fmus_src.paths import names_fmu
+from ...common.errors import InputError
+from ...runtime.ssp.archive import OSP_DESCRIPTION, SystemArchive, open_system, system_names
+from .source import parse_toml
+
+FOLDERS = ("campaigns", SystemArchive.campaign_path(""))  # of a system's folder, and of an archive that was unpacked
+
+
+def find_system(raw: bytes, path: Path, named: Sequence[str]) -> str | None:
+    """Return the system that a campaign's file is checked with: the one in whose folder of campaigns it lies.
+
+    Elsewhere it is that of the ``named`` ones, paths or names, whose name the file has, else their first; without any
+    it is Perilune's of this name. None where there is none. Raises InputError for a file that is not TOML.
+    """
+    for folder in path.resolve().parents:
+        holds = any(path.resolve().is_relative_to(folder / each) for each in FOLDERS)
+        if holds and (any(folder.glob("*.ssd")) or (folder / OSP_DESCRIPTION).is_file()):
+            return str(folder)
+    name = str(parse_toml(raw, str(path)).get("system", ""))
+    opened = dict(_names_of(named))
+    if opened:
+        return next((system for system, called in opened.items() if is_called(name, called)), next(iter(opened)))
+    return next((known for known in system_names() if is_called(name, known)), None)
+
+
+def is_called(text: str, name: str) -> bool:
+    """True if a campaign's ``system`` is a system of this name, with or without the suffix of its file."""
+    return (text[:-4] if names_fmu(text) else text.removesuffix(".ssp")) == name
+
+
+def _names_of(systems: Iterable[str]) -> Iterator[tuple[str, str]]:
+    """Yield each system with its name, without those that cannot be opened: their own checks say so."""
+    for system in systems:
+        with suppress(InputError):
+            yield system, open_system(system).name
