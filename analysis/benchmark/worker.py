@@ -16,6 +16,7 @@ from typing import Any
 
 from ..campaigns.fly.runner import run_batch
 from ..campaigns.spec.plan import read_plan
+from ..common.family.ending import end_with_parent
 from ..runtime.system.options import SystemOptions
 from .contestant import Unavailable
 from .importers import MODULE
@@ -30,7 +31,9 @@ class Worker:
 
     def __init__(self, contestant: str, ssp: Path, module: str = MODULE) -> None:
         self.contestant = contestant
-        command = [sys.executable, "-m", f"{__package__}.serve", contestant, str(ssp), module]
+        ending = f"from {end_with_parent.__module__} import end_with_parent; end_with_parent({os.getpid()})"
+        start = f"{ending}; from {__package__}.serve import main; main()"
+        command = [sys.executable, "-c", start, contestant, str(ssp), module]
         # it ends without clearing up: what it unpacks lies beside the .ssp and goes with it
         paths = os.pathsep.join(filter(None, sys.path))  # where the module is
         environment = {**os.environ, "TMPDIR": tempfile.mkdtemp(dir=ssp.parent), "PYTHONPATH": paths}
@@ -67,7 +70,9 @@ class Worker:
     def __enter__(self) -> Worker:
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, problem: type[BaseException] | None, *_: object) -> None:
+        if problem is not None:
+            self._process.kill()  # what it is at may take long
         self.close()
 
 

@@ -107,8 +107,3 @@ def leave(status: int) -> NoReturn:
     for farewell in reversed(_farewells):
         farewell()
     os._exit(status)
-
-
-def leave_when_done() -> None:
-    """Let a worker's process end with `leave` once its own handlers have run."""
-    atexit.register(leave, 0)

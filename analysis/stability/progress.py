@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from multiprocessing.connection import Connection
 from threading import Thread
 
 from loky.backend import get_context
-from loky.backend.queues import SimpleQueue
 
-from ..common.process import leave_when_done
 from ..common.progress import progress_bar
 
 Tell = Callable[[int, int], None]  # so many more steps are to be done, so many more are done
 
-_queue: SimpleQueue | None = None  # of a worker process
+_pipe: Connection | None = None  # of a worker process
 
 
 @contextmanager
@@ -30,30 +29,33 @@ def show_progress() -> Iterator[Tell]:
 
 
 @contextmanager
-def listen(tell: Tell) -> Iterator[SimpleQueue]:
-    """A queue for worker processes, whose steps are told on; each starts with `begin` and it."""
-    queue = SimpleQueue(ctx=get_context("loky"))
+def listen(tell: Tell) -> Iterator[Connection]:
+    """A pipe for worker processes, whose steps are passed on; each starts with `begin` and it, and ends in the block.
+
+    It has no lock, which a worker that is killed would keep: so few bytes are written at once.
+    """
+    reader, writer = get_context("loky").Pipe(duplex=False)
 
     def listen() -> None:
-        while (steps := queue.get()) is not None:
-            tell(*steps)
+        with reader, suppress(EOFError):
+            while True:
+                tell(*reader.recv())
 
     listener = Thread(target=listen, daemon=True)
     listener.start()
     try:
-        yield queue
+        yield writer
     finally:
-        queue.put(None)
+        writer.close()
         listener.join()
 
 
-def begin(queue: SimpleQueue) -> None:
-    """The first thing that a worker process does."""
-    global _queue
-    leave_when_done()
-    _queue = queue
+def begin(pipe: Connection) -> None:
+    """Have the steps of a worker process sent through a pipe."""
+    global _pipe
+    _pipe = pipe
 
 
 def tell_parent(expected: int, done: int) -> None:
-    assert _queue is not None  # the process has begun with it
-    _queue.put((expected, done))
+    assert _pipe is not None  # the process has begun with it
+    _pipe.send((expected, done))

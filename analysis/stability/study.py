@@ -10,10 +10,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from loky import ProcessPoolExecutor
-
 from ..campaigns.fly.workers import worker_count
 from ..common.errors import InputError
+from ..common.family.pools import process_pool
 from ..runtime.system.options import Layer
 from ..runtime.system.prepared import PreparedSystem
 from .dispersion import disperse
@@ -57,8 +56,8 @@ def _study(request: Request, count: int, tell: Tell) -> StabilityReport:
     points = [point for point in request.declaration.points if request.loops_at(point)]
     if min(count, len(points)) > 1:
         with (
-            listen(tell) as queue,
-            ProcessPoolExecutor(min(count, len(points)), initializer=begin, initargs=(queue,)) as pool,
+            listen(tell) as pipe,
+            process_pool(min(count, len(points)), begin, pipe) as pool,
         ):
             results = list(pool.map(partial(study_point, request, tell=tell_parent), points))
     else:

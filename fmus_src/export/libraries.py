@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import hashlib
 import signal
-import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 from pathlib import Path
 
+from ...analysis.common.family.programs import Ended, run_program
 from ...analysis.common.machine.cached import cached_file
 from .compilers import FLAGS, FOR_THIS_PROCESSOR, PLATFORMS, CompilationFailed, compilers_for
 from .fat_binary import fat_binary
-
-POLLING = 0.1  # s between looks whether a library is still wanted
 
 
 @cache
@@ -35,10 +33,18 @@ def _processor(command: tuple[str, ...]) -> str:
 
 
 def _output(command: list[str], folder: str) -> str:
+    return _run(command, folder).output
+
+
+def _run(command: list[str], folder: str | Path, is_wanted: Callable[[], bool] = lambda: True) -> Ended:
+    """Run a compiler. Raises `CompilationFailed` where it cannot be run, or is not wanted any more."""
     try:
-        return subprocess.run(command, capture_output=True, text=True, errors="replace", check=False, cwd=folder).stdout
+        ended = run_program(command, folder, is_wanted)
     except OSError as error:
         raise CompilationFailed(f"{command[0]} cannot be run: {error.strerror}") from error
+    if ended is None:
+        raise CompilationFailed("ended, since it is not wanted any more")
+    return ended
 
 
 def build_library(
@@ -87,7 +93,7 @@ def _compile(
         for source, text in sources.items():
             (folder / source).write_bytes(text)
         about = f"{' '.join(command)} on {main}"
-        status, message = _run([*command, "-o", output, main, "-lm"], folder, is_wanted)
+        status, _, message = _run([*command, "-o", output, main, "-lm"], folder, is_wanted)
         if status != 0:
             end = f"ended by {signal.Signals(-status).name}" if status < 0 else f"ended with status {status}"
             raise CompilationFailed(f"{about}:\n{message or f'error: it {end} without a message'}")
@@ -95,25 +101,3 @@ def _compile(
         if not library.is_file() or not library.stat().st_size:
             raise CompilationFailed(f"{about}:\nerror: it wrote no library")
         return library.read_bytes()
-
-
-def _run(command: list[str], folder: Path, is_wanted: Callable[[], bool]) -> tuple[int, str]:
-    """Exit status and messages of a compiler, which has a session of its own: Ctrl-C is for whoever waits for it."""
-    try:
-        process = subprocess.Popen(
-            command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True
-        )
-    except OSError as error:
-        raise CompilationFailed(f"{command[0]} cannot be run: {error.strerror}") from error
-    with process:
-        while True:
-            try:
-                _, errors = process.communicate(timeout=POLLING)
-                return process.returncode, errors.decode(errors="replace")
-            except subprocess.TimeoutExpired:
-                if not is_wanted():
-                    process.kill()
-                    raise CompilationFailed("ended, since it is not wanted any more") from None
-            except BaseException:
-                process.kill()
-                raise

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ...common.errors import InputError
+from ...common.errors import EndedError, ExitStatus, InputError
 from ..flight.results import CRASHED, HUNG, OUT_OF_MEMORY
 from .protocol.messages import (
     ANSWER,
@@ -27,14 +27,19 @@ from .protocol.messages import (
     read_answer,
     receive_frame,
 )
-from .protocol.orders import NEAR_MEMORY_LIMIT, Ended
+from .protocol.orders import CHANNEL_CLOSED, NEAR_MEMORY_LIMIT, NO_CHANNEL, SERVER_ENDED, Ended
 from .protocol.orders import OUT_OF_MEMORY as TOO_LARGE
 from .protocol.requests import send_request
 from .servers import AnyChild
 
 LOOK = 0.25  # s, between looks at a child that says nothing
 FRAME = 10.0  # s in which the next bytes of an answer follow, once it has begun
+AGAIN = "simulate again, where memory ran out with fewer `workers`"
 PATIENCE = 1.5  # s that a child has to free its instances
+
+
+class ServerEndedError(EndedError):
+    """A child that ended with its flight server, for no fault of an FMU."""
 
 
 class ChildEndedError(Exception):
@@ -116,6 +121,8 @@ class Connection:
             return ""
         answer = self._last_answer()
         ended = self._finish(kill=answer is None)
+        if ended is not None and ended.reason == SERVER_ENDED:
+            return ""
         if answer is None:
             return f"its process did not end within {PATIENCE:g} s"
         return "" if ended is None or answer == FREED else f"its process ended {_in_words(ended.status)}"
@@ -175,10 +182,12 @@ class Connection:
         self._finish(kill=True)
         return ChildEndedError(CRASHED, "its process sent answers that cannot be read")
 
-    def _ended(self) -> ChildEndedError:
+    def _ended(self) -> ChildEndedError | ServerEndedError:
         ended = self._finish(kill=bool(self._given_up))
         if self._given_up:
             return ChildEndedError(HUNG, self._given_up)
+        if ended is not None and ended.reason == SERVER_ENDED:
+            return ServerEndedError(f"{SERVER_ENDED}; {AGAIN}", ExitStatus.NOT_MET)
         if ended is None:
             return ChildEndedError(CRASHED, "its process has ended")
         if ended.reason == TOO_LARGE:
@@ -186,6 +195,8 @@ class Connection:
         if ended.reason == NEAR_MEMORY_LIMIT:
             how = f"its process ended {_in_words(ended.status)} near its memory limit"
             return ChildEndedError(OUT_OF_MEMORY, how)
+        if ended.status == NO_CHANNEL:
+            return ChildEndedError(CRASHED, CHANNEL_CLOSED)
         return ChildEndedError(CRASHED, ended.reason or f"its process ended {_in_words(ended.status)}")
 
 

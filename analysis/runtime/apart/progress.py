@@ -11,6 +11,11 @@ def measure(recorder: FlightRecorder) -> bytes:
     return recorder.outcome.tobytes() + recorder.phase.tobytes()
 
 
+def count_rows(recorder: FlightRecorder, first: int, every: int) -> int:
+    """How many rows a flight has left that began at a communication point and was not finished; every n-th is kept."""
+    return min(max(-(-(recorder.point - max(first, -1) - 1) // every), 0), recorder.times.size)
+
+
 def component_in_phase(prepared: PreparedSystem, recorder: FlightRecorder) -> str:
     """The component that the child was instantiating, resetting or freeing."""
     return _component(prepared, int(recorder.phase[1]))

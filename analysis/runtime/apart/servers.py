@@ -16,12 +16,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...common.process import at_end
-from .protocol.orders import Begin, End, Ended, Forget, Learn, Look
+from ..system.fmu import Fmu
+from ..system.prepared import PreparedSystem
+from .protocol.orders import SERVER_ENDED, Begin, End, Ended, Forget, Learn, Look
 from .protocol.requests import pack, receive_request, send_request
 from .started import StartedChild
 from .system.restriction import Restriction
 
-SERVER_GONE = Ended(0, "the flight server has ended")
+SERVER_GONE = Ended(0, SERVER_ENDED)
 PATIENCE = 2.0  # s that a server has to end
 CAN_FORK = hasattr(os, "fork")
 _lock = threading.RLock()
@@ -36,7 +38,7 @@ class Subject:
     """
 
     owner: object
-    content: object
+    content: PreparedSystem | Fmu
     locked: bool = False
 
 

@@ -24,14 +24,16 @@ from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
 from . import progress
-from .connection import ChildEndedError, Connection, Stillness
+from .connection import ChildEndedError, Connection, ServerEndedError, Stillness
 from .containment import limits_for
 from .memory import ApartMemory
 from .protocol import messages
+from .protocol.orders import SERVER_ENDED
 from .protocol.shared_recorder import SharedRecorder, make_recorder
 from .resets import TrialWatch, find_verdicts, note_processes
 from .servers import Subject, begin_child
 
+ATTEMPTS = 2  # at a flight, whose server ends
 RECORDERS = 2  # one flight is looked at while the next one flies
 SEE_LOG = "perilune run --log info shows what it logs"
 
@@ -73,7 +75,10 @@ class ApartSimulation(BaseSimulation):
         self._needs_processes = False  # whether it may not, since FMUs leave behind what only a new process is without
         self._noted: set[str] = set()  # what has been warned of
         self._formats = True  # of messages, which can end a process whose arguments are missing
-        self._connection = self._begin()
+        try:
+            self._connection = self._begin()
+        except ServerEndedError:
+            self._connection = self._begin()  # of another server
 
     @property
     def recorder(self) -> SharedRecorder:  # type: ignore[override]
@@ -137,11 +142,20 @@ class ApartSimulation(BaseSimulation):
         if is_ready and len(self._announced) < RECORDERS and (not self._announced or len(self._recorders) == RECORDERS):
             self.set(values)
             self.set_faults(faults)
-            with suppress(ChildEndedError):  # which the flight itself comes to, too
+            with suppress(ChildEndedError, ServerEndedError):  # which the flight itself comes to, too
                 self._announced.append(self._depart(-1, self.prepared.steps, 1, NOTHING))
 
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
-        """See `BaseSimulation.advance`."""
+        """See `BaseSimulation.advance`; a flight whose server ends is simulated once more, if from its start."""
+        for _ in range(ATTEMPTS if first < 0 else 1):
+            try:
+                return self._advance(first, last, excitation, every)
+            except ServerEndedError:
+                self._announced.clear()
+                self._connection.kill()
+        return self._flight(progress.count_rows(self.recorder, first, every), CRASHED, SERVER_ENDED)
+
+    def _advance(self, first: int, last: int, excitation: np.ndarray, every: int) -> Flight:
         try:
             if self._announced and not self._is_as_announced(self._announced[0], first, last, every, excitation):
                 self._recall()
@@ -155,7 +169,7 @@ class ApartSimulation(BaseSimulation):
             if self.recorder.phase[0] == Phase.RENEWAL and self._renews:
                 self._renews = False  # it happened after a flight, and before this one
                 self._note("it was terminated and reset", error.how)
-                return self.advance(first, last, excitation, every=every)
+                return self._advance(first, last, excitation, every)
             return self._lost(error, first, every)
         if flown.status not in FLIGHT_STATUSES or not 0 <= flown.rows <= self.recorder.times.size:
             self._connection.kill()
@@ -176,7 +190,7 @@ class ApartSimulation(BaseSimulation):
 
     def _recall(self) -> None:
         """Do without the flights that were announced: they end at their next communication points."""
-        with suppress(ChildEndedError):
+        with suppress(ChildEndedError, ServerEndedError):
             while self._announced:
                 self._recorders[self._announced[0].request.recorder].halt[0] = True
                 self._connection.hear(messages.Flown)
@@ -249,9 +263,8 @@ class ApartSimulation(BaseSimulation):
         The next one flies with messages as they are: a format without its arguments may have ended this one.
         """
         self._formats = not self._formats or error.status != CRASHED
-        point = self.recorder.point
-        rows = min(max(-(-(point - max(first, -1) - 1) // every), 0), self.recorder.times.size)
-        return self._flight(rows, error.status, f"{progress.describe(self.prepared, self.recorder)}: {error.how}")
+        message = f"{progress.describe(self.prepared, self.recorder)}: {error.how}"
+        return self._flight(progress.count_rows(self.recorder, first, every), error.status, message)
 
     def interrupt(self, halt: bool = True) -> None:
         """See `BaseSimulation.interrupt`."""

@@ -16,8 +16,10 @@ from typing import IO, Any
 import psutil
 
 from ...common.scratch import make_folder
+from ..system.fmu import Fmu
+from ..system.prepared import PreparedSystem
 from .protocol.messages import receive_frame
-from .protocol.orders import OUT_OF_MEMORY, Ended, Single
+from .protocol.orders import CHANNEL_CLOSED, OUT_OF_MEMORY, Ended, Single
 from .protocol.printed import BLOCK, Printed
 from .protocol.requests import pack
 
@@ -29,7 +31,7 @@ class StartedChild:
     """Its process, and this end of its channel; as `servers.Child`. ``memory`` (bytes) is what it may take."""
 
     def __init__(
-        self, content: object, task: Any, folder: str, memory: int, files: Sequence[int], *, locked: bool
+        self, content: PreparedSystem | Fmu, task: Any, folder: str, memory: int, files: Sequence[int], *, locked: bool
     ) -> None:
         self.channel, theirs = socket.socketpair()
         self._scratch, self._memory, self._reason = make_folder(), memory, ""
@@ -47,7 +49,7 @@ class StartedChild:
             channel: int | bytes = theirs.fileno()
             if sys.platform == "win32":
                 channel = theirs.share(self._process.pid)
-            order = Single(channel, list(files), task, pack(content), locked)
+            order = Single(os.getpid(), channel, list(files), task, pack(content), locked)
             assert self._process.stdin is not None
             with suppress(OSError), self._process.stdin as standard_input:  # it may have ended
                 standard_input.write(pickle.dumps(order, pickle.HIGHEST_PROTOCOL))
@@ -55,7 +57,7 @@ class StartedChild:
         with suppress(OSError, EOFError):  # which whoever asks for something comes to, too
             receive_frame(self.channel)  # it is loaded: limits on calls of FMUs hold from here on
         assert self._process.stdout is not None
-        self._reader = threading.Thread(target=_pass_on, args=(self._process.stdout,), daemon=True)
+        self._reader = threading.Thread(target=_pass_on, args=(self._process.stdout, content.printers), daemon=True)
         self._reader.start()
 
     @property
@@ -76,7 +78,7 @@ class StartedChild:
         try:
             self._process.wait(0.0 if kill else GRACE)
         except subprocess.TimeoutExpired:
-            self._reason = self._reason or ("" if kill else "it closed its channel")
+            self._reason = self._reason or ("" if kill else CHANNEL_CLOSED)
             self._process.kill()
             self._process.wait()
         self._reader.join(GRACE)  # what it has started may still have its output
@@ -84,9 +86,9 @@ class StartedChild:
         return Ended(self._process.returncode, self._reason)
 
 
-def _pass_on(output: IO[bytes]) -> None:
+def _pass_on(output: IO[bytes], printers: Sequence[str]) -> None:
     """Pass on what it prints, until it ends."""
-    printed = Printed()
+    printed = Printed(printers)
     with output:
         while block := os.read(output.fileno(), BLOCK):
             printed.add(block)

@@ -58,6 +58,11 @@ class Fmu:
         return self.description.modelName
 
     @property
+    def printers(self) -> list[str]:
+        """Its name, as `PreparedSystem.printers`."""
+        return [self.name]
+
+    @property
     def version(self) -> int:
         """Of FMI, 2 or 3."""
         return int(self.description.fmiMajorVersion)

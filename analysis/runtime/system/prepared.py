@@ -70,6 +70,12 @@ class PreparedSystem:
         """Whether all of its FMUs are; see `Fmu`."""
         return all(fmu.is_self_contained for fmu in self.network.fmus.values())
 
+    @property
+    def printers(self) -> list[str]:
+        """The components that may print where they simulate apart: those of others, of external state, else all."""
+        fmus = self.network.fmus
+        return [name for name, fmu in fmus.items() if not fmu.is_self_contained] or list(fmus)
+
     def of_flights(self) -> PreparedSystem:
         """What flights take of it, and another process can be sent: without documents, and readers of files."""
         description = self.network.description

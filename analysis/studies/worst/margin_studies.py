@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import signal
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from loky import ProcessPoolExecutor
@@ -17,7 +17,7 @@ from ...campaigns.fly.workers import worker_count
 from ...campaigns.spec.checks import check_draws
 from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError
-from ...common.process import leave_when_done
+from ...common.family.pools import process_pool
 from ...common.progress import progress_bar
 from ...stability.dispersion import models_of_trial
 from ...stability.loops.margin_values import Margins
@@ -59,9 +59,12 @@ class MarginStudies:
         self.lost: Counter[str] = Counter()  # none: a study whose flight is lost has a reason
         self.facts = study_provenance(self._plan, {"default": prepared})
         self.facts |= {"loop": asked.loop.name, "point": asked.point.name, "time": self._study.bench.time}
+        self._held = ExitStack()
+        self._held.callback(self._study.close)
         self._pool: ProcessPoolExecutor | None = None
         if self._count > 1:
-            self._pool = ProcessPoolExecutor(self._count, initializer=_begin, initargs=(self._asked, self._cells))
+            pool = process_pool(self._count, _begin, self._asked, self._cells)
+            self._pool = self._held.enter_context(pool)
         self._progress = progress_bar(unit="study")
 
     def fly(self, columns: Columns, streams: Streams) -> tuple[Studied, Mapping[str, np.ndarray]]:
@@ -88,11 +91,9 @@ class MarginStudies:
     def __enter__(self) -> MarginStudies:
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, *problem: Any) -> None:
         self._progress.close()
-        if self._pool is not None:
-            self._pool.shutdown(kill_workers=True)
-        self._study.close()
+        self._held.__exit__(*problem)
 
 
 def _nominal(asked: MarginAsked) -> tuple[PointStudy, list[int]]:
@@ -123,8 +124,6 @@ _held: tuple[PointStudy, Sequence[int]] | None = None  # of a worker process
 
 def _begin(asked: MarginAsked, cells: Sequence[int]) -> None:
     global _held
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all; the parent decides
-    leave_when_done()
     _held = asked.open_request(), cells
 
 

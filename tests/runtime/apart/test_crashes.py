@@ -16,8 +16,11 @@ from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.apart import servers
 from perilune.analysis.runtime.system.options import SystemOptions
+from tests.support.builders import component, document, pack, system
 from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
+from tests.support.foreign.odd_fmu import ENDS as ENDS_OF_ODD
 from tests.support.lengths import either
 
 pytestmark = pytest.mark.flies
@@ -186,8 +189,48 @@ def test_what_fmus_print_has_an_end(tmp_path):
     command = [sys.executable, "-m", "perilune", "run", str(fmu), "--stop-time", "1"]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=100)
     lines = done.stderr.splitlines()
-    assert lines[:2] == ["\\x1b[31mline 0", "\\x1b[31mline 1"]
-    assert lines[1000:] == ["... and 999000 lines more"]
+    assert lines[:2] == ["odd: \\x1b[31mline 0", "odd: \\x1b[31mline 1"]
+    assert lines[1000:] == ["odd: ... and 999000 lines more"]
+
+
+# By the name of the component; several share the output of their process.
+NAMES = {
+    ("odd",): "odd",
+    ("perilune",): "component perilune",
+    ("Log: t = 1 s",): "component Log: t = 1 s",
+    ("a", "b"): "a, b",
+    ("a", "b", "c", "d", "e"): "a, b, c and 2 more",
+}
+
+
+@pytest.fixture
+def heard(monkeypatch, capfd):
+    """What is printed, by a flight server of the test's own too."""
+    monkeypatch.setattr(servers, "_server", None)
+    yield lambda: capfd.readouterr().err.splitlines()
+    servers.start_server().close()
+
+
+def test_what_fmus_print_never_looks_like_a_line_of_ours(tmp_path, heard):
+    odd_fmu(tmp_path, DEED=Deed.SAY, IN=Call.STEP)
+    for names, label in NAMES.items():
+        root = system(*(component(name, "odd", ENDS_OF_ODD) for name in names))
+        path = pack(tmp_path / "s.ssp", tmp_path, document(root, stop=1.0))
+        assert perilune.simulate(path, open_inputs="start").status == "stop_time"
+        said = [f"{label}: perilune: all is well", f"{label}: and more"]
+        assert heard() == said * (2 * len(names))  # of each in two steps
+
+
+def test_an_fmu_that_closes_the_files_of_its_process(tmp_path, heard):
+    """Its channel, too, through which its message would go: it is said in words, and no traceback of ours."""
+    for call in (Call.INITIALISATION, Call.STEP):
+        path = odd_fmu(tmp_path, DEED=Deed.CLOSE, IN=call)
+        for log in (None, "info"):
+            flight = perilune.simulate(path, stop_time=1.0, log=log)
+            assert flight.status == "crashed"
+            assert flight.message.startswith("odd: ")  # and when it was heard of, which may be later
+            assert flight.message.endswith(": it closed its channel")
+            assert heard() == []
 
 
 @pytest.mark.parametrize("call", [Call.CONSTRUCTION, Call.INSTANTIATION, Call.INITIALISATION, Call.STEP])

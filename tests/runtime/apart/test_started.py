@@ -57,4 +57,4 @@ def test_what_it_prints_is_no_order_to_the_terminal(tmp_path, capfd):
     flight = perilune.simulate(odd_fmu(tmp_path, DEED=Deed.PRINT, IN=Call.INITIALISATION), stop_time=1.0)
     assert flight.status == "stop_time"
     lines = capfd.readouterr().err.splitlines()
-    assert (lines[0], lines[1000]) == ("\\x1b[31mline 0", "... and 999000 lines more")
+    assert (lines[0], lines[1000]) == ("odd: \\x1b[31mline 0", "odd: ... and 999000 lines more")

@@ -5,13 +5,15 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/ptrace.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 
 enum { CONSTRUCTION, INSTANTIATION, INITIALISATION, STEP, RESETTING, FREEING };
-enum { SEGFAULT, ABORT, OVERFLOW, EXIT_0, EXIT_1, EXIT_AT_ONCE, KILL_GROUP, HANG, GROW, FILL, RESERVE, PRINT, SCRIBBLE, CORRUPT, LEAVE_ORPHAN, TRY, LOG, LOG_CONTROLS, HANG_WITH_LOCK, LOG_MILLION };
+enum { SEGFAULT, ABORT, OVERFLOW, EXIT_0, EXIT_1, EXIT_AT_ONCE, KILL_GROUP, HANG, GROW, FILL, RESERVE, PRINT, SCRIBBLE, CORRUPT, LEAVE_ORPHAN, TRY, LOG, LOG_CONTROLS, HANG_WITH_LOCK, LOG_MILLION, CLOSE, SAY };
 
 #ifdef DEED
 static const fmi2CallbackFunctions *callbacks;
@@ -36,6 +38,40 @@ static long writes(const char *folder, const char *name)
     return open(path, O_CREAT | O_WRONLY, 0600);
 }
 
+/* What they set is what is set already, or nobody's. */
+static void try_settings(void)
+{
+    pid_t parent = getppid();
+    struct rlimit limit;
+    struct sched_param usual = {0};
+    unsigned long processors[16], nobody = 54321;
+    unsigned char attributes[56] = {56};
+    long masks = syscall(SYS_sched_getaffinity, 0, sizeof processors, processors);
+    syscall(SYS_sched_getattr, 0, attributes, sizeof attributes, 0);
+    tried("prlimit64", prlimit(parent, RLIMIT_CPU, NULL, &limit));
+    tried("setpriority", setpriority(PRIO_PROCESS, parent, getpriority(PRIO_PROCESS, parent)));
+    tried("setpriority of a user", setpriority(PRIO_USER, nobody, 0));
+    tried("setpriority of a group", setpriority(PRIO_PGRP, nobody, 0));
+    tried("ioprio_set", syscall(SYS_ioprio_set, 1, parent, syscall(SYS_ioprio_get, 1, parent)));
+    tried("ioprio_set of a user", syscall(SYS_ioprio_set, 3, nobody, 0));
+    tried("sched_setaffinity", syscall(SYS_sched_setaffinity, parent, masks, processors));
+    tried("sched_setparam", syscall(SYS_sched_setparam, parent, &usual));
+    tried("sched_setscheduler", syscall(SYS_sched_setscheduler, parent, SCHED_OTHER, &usual));
+    tried("sched_setattr", syscall(SYS_sched_setattr, parent, attributes, 0));
+    tried("migrate_pages", syscall(SYS_migrate_pages, parent, 0, NULL, NULL));
+    tried("move_pages", syscall(SYS_move_pages, parent, 0, NULL, NULL, NULL, 0));
+    tried("kcmp", syscall(SYS_kcmp, parent, parent, 1, 0, 0));
+    tried("process_mrelease", syscall(448, -1, 0));
+    tried("own prlimit64", prlimit(0, RLIMIT_NOFILE, NULL, &limit));
+    tried("own prlimit64 by number", prlimit(getpid(), RLIMIT_NOFILE, NULL, &limit));
+    tried("own setpriority", setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0)));
+    tried("own ioprio_set", syscall(SYS_ioprio_set, 1, getpid(), syscall(SYS_ioprio_get, 1, 0)));
+    tried("own sched_setaffinity", syscall(SYS_sched_setaffinity, getpid(), masks, processors));
+    tried("own sched_setparam", syscall(SYS_sched_setparam, 0, &usual));
+    tried("own sched_setscheduler", syscall(SYS_sched_setscheduler, 0, SCHED_OTHER, &usual));
+    tried("own sched_setattr", syscall(SYS_sched_setattr, 0, attributes, 0));
+}
+
 static void try_everything(void)
 {
     const char *results = getenv("TRY_RESULTS");
@@ -50,6 +86,7 @@ static void try_everything(void)
     tried("ptrace", ptrace(PTRACE_ATTACH, getppid(), NULL, NULL));
     tried("signal", kill(getppid(), SIGTERM));
     tried("signal to all", kill(-1, SIGCONT));
+    try_settings();
     int pair[2];
     tried("socketpair", socketpair(AF_UNIX, SOCK_STREAM, 0, pair));
 }
@@ -96,6 +133,8 @@ static void do_it(void)
     case LOG_MILLION: for (int i = 0; i < 1000000; i++) say("more"); break;
     case HANG_WITH_LOCK: ((int (*)(void))dlsym(RTLD_DEFAULT, "PyGILState_Ensure"))(); while (1) pause();
     case LOG_CONTROLS: say("\033[31mred\xc2\x9b\xe2\x80\xae"); break;
+    case CLOSE: for (int i = 3; i < 256; i++) close(i); say("closed"); break;
+    case SAY: printf("perilune: all is well\nand more\n"); fflush(stdout); break;
     case TRY: try_everything(); break;
     case LEAVE_ORPHAN: if (fork() == 0) { setsid(); if (fork() == 0) while (1) pause(); _exit(0); } abort();
     }

@@ -17,7 +17,7 @@ from ...flight.selection import Selection
 from ...instances.renewal import ResetVerdict
 from ...ssp.given_values import ParameterValue
 from ...system.fault import Fault
-from .requests import receive_bytes
+from .requests import ChannelError, receive_bytes
 
 HEADER = struct.Struct("<cI")
 ANSWER, NUMBERS, LINE = b"A", b"N", b"L"
@@ -186,7 +186,11 @@ def send_line(channel: socket.socket, line: str) -> None:
 
 
 def _send(channel: socket.socket, kind: bytes, content: bytes) -> None:
-    channel.sendall(HEADER.pack(kind, len(content)) + content)
+    """Send a frame. Raises ChannelError."""
+    try:
+        channel.sendall(HEADER.pack(kind, len(content)) + content)
+    except OSError as error:
+        raise ChannelError(error.errno, error.strerror) from None
 
 
 def receive_frame(channel: socket.socket) -> tuple[bytes, bytes]:

@@ -10,6 +10,9 @@ from ..system.restriction import Restriction
 # Why a child was ended, or failed:
 OUT_OF_MEMORY = "out of memory"
 NEAR_MEMORY_LIMIT = "near its memory limit"
+CHANNEL_CLOSED = "it closed its channel"
+SERVER_ENDED = "the flight server has ended"
+NO_CHANNEL = 76  # of sysexits.h: the exit status of a child that cannot use its channel
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,7 @@ class Single:
     ``channel`` and ``files`` are descriptors that it has inherited; on Windows ``channel`` is a socket shared with it.
     """
 
+    parent: int  # the process with which it ends
     channel: int | bytes
     files: list[int]
     task: Any  # one of `messages`

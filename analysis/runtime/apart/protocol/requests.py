@@ -18,6 +18,10 @@ LENGTH = struct.Struct("<I")
 MOST_FILES = 2
 
 
+class ChannelError(OSError):
+    """A channel that cannot be used any more, at this end or the other."""
+
+
 def pack(content: Any) -> bytes:
     """What children work on, as a pickle; a large system has a million objects."""
     with no_collection():
@@ -42,7 +46,15 @@ def send_request(channel: socket.socket, request: Any, descriptors: Sequence[int
 
 
 def receive_request(channel: socket.socket) -> tuple[Any, list[int]]:
-    """A request and its open files; raises EOFError at the end."""
+    """A request and its open files; raises EOFError at the end, and ChannelError."""
+    try:
+        content, descriptors = _receive(channel)
+    except OSError as error:
+        raise ChannelError(error.errno, error.strerror) from None
+    return pickle.loads(content), descriptors
+
+
+def _receive(channel: socket.socket) -> tuple[bytes, list[int]]:
     if hasattr(socket, "recv_fds"):
         head, descriptors, _, _ = socket.recv_fds(channel, LENGTH.size, MOST_FILES)
     else:  # Windows
@@ -52,7 +64,7 @@ def receive_request(channel: socket.socket) -> tuple[Any, list[int]]:
         raise EOFError
     for descriptor in descriptors:
         os.set_inheritable(descriptor, False)
-    return pickle.loads(receive_bytes(channel, *LENGTH.unpack(head))), descriptors
+    return receive_bytes(channel, *LENGTH.unpack(head)), descriptors
 
 
 def receive_bytes(channel: socket.socket, count: int) -> bytes:

@@ -10,6 +10,7 @@ import shutil
 import socket
 import tempfile
 from collections.abc import Sequence
+from contextlib import suppress
 from functools import singledispatchmethod
 from pathlib import Path
 from typing import Any
@@ -31,14 +32,26 @@ from ...system.fmu import Fmu
 from ...system.prepared import PreparedSystem
 from ..protocol import messages
 from ..protocol.messages import ResetTrial, SystemFlights, send_answer, send_line, send_numbers
-from ..protocol.requests import receive_request
+from ..protocol.orders import NO_CHANNEL
+from ..protocol.requests import ChannelError, receive_request
 from ..protocol.shared_recorder import SharedRecorder, open_recorder
 
 SEED = 0  # of generators that FMUs leave at their start, as that of C's rand() is
 
 
-def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket, memory: Sequence[int]) -> None:
-    """Do a task with a system or an FMU; ``memory`` is the file of the recorder, if there is one."""
+def work(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket, memory: Sequence[int]) -> int:
+    """Do a task with a system or an FMU; ``memory`` is the file of the recorder, if there is one.
+
+    Returns the exit status of the process, whose FMUs may close what they did not open.
+    """
+    try:
+        _do(task, subject, channel, memory)
+    except ChannelError:
+        return NO_CHANNEL
+    return 0
+
+
+def _do(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket, memory: Sequence[int]) -> None:
     if not task.formats:
         leave_messages_unformatted()
     try:
@@ -109,7 +122,8 @@ class _Pilot:
         self._snapshots: dict[int, Snapshot] = {}
 
     def _write(self, line: str) -> None:
-        send_line(self._channel, line)
+        with suppress(ChannelError):  # an FMU's function is under way: the next answer fails, too
+            send_line(self._channel, line)
 
     def serve(self) -> None:
         """Answer requests until there are no more, then free the instances and say so."""

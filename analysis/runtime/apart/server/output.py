@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 
 from ..protocol.printed import BLOCK, Printed
 
 
 class Output:
-    """Of one child; ``descriptor`` is the reading end."""
+    """Of one child; ``descriptor`` is the reading end, ``printers`` are as in `Printed`."""
 
-    def __init__(self, descriptor: int) -> None:
+    def __init__(self, descriptor: int, printers: Sequence[str]) -> None:
         os.set_blocking(descriptor, False)
         self.descriptor = descriptor
         self.is_closed = False
-        self._printed = Printed()
+        self._printed = Printed(printers)
 
     def read(self) -> bool:
         """Pass on what there is; returns whether more may come."""

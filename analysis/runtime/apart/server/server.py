@@ -9,29 +9,32 @@ import gc
 import itertools
 import os
 import resource
+import select
 import selectors
 import shutil
 import signal
 import socket
 import sys
 import tempfile
+import threading
 import time
 import traceback
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NoReturn
 
+from ....common.family.ending import end_with_parent
 from ....common.process import leave
 from ....common.scratch import make_folder
 from ...flight.compiled import loop
-from ..protocol.orders import NEAR_MEMORY_LIMIT, OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
+from ..protocol.orders import CHANNEL_CLOSED, NEAR_MEMORY_LIMIT, OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
 from ..protocol.requests import receive_request, send_request, unpack
 from ..system.restriction import Restriction, restrict
 from ..system.system_calls import (
     adopt_orphans,
     child_processes,
-    end_with_parent,
     limit_addresses,
     peak_memory,
     resident_memory,
@@ -77,10 +80,34 @@ class FlightServer:
                 self._do(request, descriptors)
             self._watch()
 
+    @contextmanager
+    def while_loading(self) -> Iterator[None]:
+        """End the server where the control socket is closed in the block, which may take a minute: it compiles."""
+        mine, theirs = socket.socketpair()
+        watch = threading.Thread(target=self._end_with_control, args=(theirs,), daemon=True)
+        watch.start()
+        try:
+            yield
+        finally:
+            mine.close()
+            watch.join()  # a process that forks has one thread
+
+    def _end_with_control(self, finished: socket.socket) -> None:
+        """Wait until either socket is closed at its other end."""
+        both = select.poll()
+        with finished:
+            for each in (self._control, finished):
+                both.register(each, 0)  # which is of hang-ups alone
+            closed = {descriptor for descriptor, _ in both.poll()}
+            if finished.fileno() not in closed:
+                self.close()
+                leave(0)
+
     def _do(self, request: Learn | Forget | Begin | Look | End, descriptors: list[int]) -> None:
         if isinstance(request, Learn):
-            self._subjects[request.key] = unpack(request.content)
-            child.load(self._subjects[request.key], locked=request.locked)
+            with self.while_loading():
+                self._subjects[request.key] = unpack(request.content)
+                child.load(self._subjects[request.key], locked=request.locked)
             gc.collect()
             gc.freeze()
         elif isinstance(request, Begin):
@@ -93,14 +120,14 @@ class FlightServer:
             send_request(self._control, self._end(request))
 
     def _begin(self, request: Begin, descriptors: list[int]) -> None:
-        scratch = make_folder()
+        scratch, server = make_folder(), os.getpid()
         read, write = os.pipe()
         pid = os.fork()
         if not pid:
-            _work(request, self._subjects[request.key], descriptors, write, str(scratch))
+            _work(request, self._subjects[request.key], descriptors, write, str(scratch), server)
         for descriptor in (*descriptors, write):
             os.close(descriptor)
-        output = Output(read)
+        output = Output(read, self._subjects[request.key].printers)
         self._children[request.number] = _Child(pid, output, scratch, request.memory + resident_memory(pid))
         self._selector.register(read, selectors.EVENT_READ, output)
 
@@ -111,7 +138,7 @@ class FlightServer:
             if time.monotonic() >= deadline:
                 with suppress(ProcessLookupError):
                     os.kill(ended.pid, signal.SIGKILL)
-                ended.reason = ended.reason or ("" if request.kill else "it closed its channel")
+                ended.reason = ended.reason or ("" if request.kill else CHANNEL_CLOSED)
                 deadline = float("inf")
             time.sleep(0.0005)
         self._end_family(ended.pid)
@@ -168,12 +195,11 @@ class FlightServer:
             self._end(End(number, kill=True))
 
 
-def _work(request: Begin, subject: Any, descriptors: list[int], output: int, scratch: str) -> NoReturn:
-    """The life of a child."""
+def _work(request: Begin, subject: Any, descriptors: list[int], output: int, scratch: str, server: int) -> NoReturn:
+    """The life of a child of a ``server``, a process."""
     status = 70  # of sysexits.h: an error of our own
     try:
-        parent = os.getppid()
-        end_with_parent()
+        end_with_parent(server)
         os.setsid()
         adopt_orphans()
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))  # a crash writes no file
@@ -181,12 +207,10 @@ def _work(request: Begin, subject: Any, descriptors: list[int], output: int, scr
         os.dup2(output, 2)
         _close_all_but({0, 1, 2, *descriptors})
         os.chdir(request.folder)
-        if os.getppid() == parent:
-            limit_addresses(request.memory)
-            _settle_in(scratch, request.restriction)
-            channel, *memory = descriptors
-            child.work(request.task, subject, socket.socket(fileno=channel), memory)
-            status = 0
+        limit_addresses(request.memory)
+        _settle_in(scratch, request.restriction)
+        channel, *memory = descriptors
+        status = child.work(request.task, subject, socket.socket(fileno=channel), memory)
     except BaseException:
         traceback.print_exc()
     finally:
@@ -215,9 +239,10 @@ def main(control: int) -> None:
     """The process of the server; ``control`` is its end of the socket to whom it works for."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     adopt_orphans()
-    loop.load(locked=False)
     server = FlightServer(socket.socket(fileno=control))
     try:
+        with server.while_loading():
+            loop.load(locked=False)
         server.serve()
     finally:
         server.close()

@@ -6,6 +6,7 @@ import pickle
 import socket
 import sys
 
+from ....common.family.ending import end_after
 from ....common.process import leave
 from ..protocol.messages import Done, send_answer
 from ..protocol.orders import Single
@@ -16,6 +17,7 @@ from . import child
 def main() -> None:
     """Do what standard input says, and end."""
     order: Single = pickle.load(sys.stdin.buffer)
+    end_after(order.parent)
     if sys.platform == "win32":
         assert isinstance(order.channel, bytes)
         channel = socket.fromshare(order.channel)
@@ -25,5 +27,4 @@ def main() -> None:
     subject = unpack(order.content)
     child.load(subject, locked=order.locked)
     send_answer(channel, Done())
-    child.work(order.task, subject, channel, order.files)
-    leave(0)
+    leave(child.work(order.task, subject, channel, order.files))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import os
-import signal
 import sys
 from contextlib import suppress
 from pathlib import Path
@@ -13,15 +12,9 @@ with suppress(ImportError):  # on Windows
     import fcntl
     import resource
 
-PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
+PR_SET_CHILD_SUBREAPER = 36
 IS_LINUX = sys.platform == "linux"
 RESERVED = 2  # addresses, by what may be in memory: programs reserve more than they use
-
-
-def end_with_parent() -> None:
-    """Have this process killed when its parent ends."""
-    if IS_LINUX:
-        ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
 
 
 def adopt_orphans() -> None:

@@ -1,0 +1,1 @@
+"""Processes that others start, which end with those, however these end."""

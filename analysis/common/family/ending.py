@@ -1,0 +1,39 @@
+"""The end of a process together with the one that started it, however that one ends."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import sys
+import threading
+from contextlib import suppress
+
+import psutil
+
+PR_SET_PDEATHSIG = 1
+IS_LINUX = sys.platform == "linux"
+
+
+def end_with_parent(parent: int) -> None:
+    """Have this process killed when its ``parent``, a process number, ends; at once where that has ended before.
+
+    Linux does so when the thread ends that started this process, which has to live as long as the process is to.
+    """
+    if not IS_LINUX:
+        end_after(parent)
+        return
+    ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
+    if os.getppid() != parent:
+        os._exit(1)
+
+
+def end_after(process: int) -> None:
+    """Have a thread of this process end it when another one ends, whichever thread of that one started this."""
+    threading.Thread(target=_wait_and_end, args=(process,), daemon=True).start()
+
+
+def _wait_and_end(process: int) -> None:
+    with suppress(psutil.Error):  # it has ended
+        psutil.Process(process).wait()
+    os._exit(1)

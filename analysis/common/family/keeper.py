@@ -1,0 +1,42 @@
+"""Runs the program of its arguments, and kills it with all that it has started once standard input ends.
+
+A script for `programs`, in a session of its own, which imports nothing of Perilune: it is to start in an instant.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+
+NOT_RUN = 126  # the exit status of a program that cannot be run, as shells have it
+
+
+def main() -> None:
+    """Run the program, and end as it does."""
+    try:
+        process = subprocess.Popen(sys.argv[1:], stdin=subprocess.DEVNULL)
+    except OSError as error:
+        print(error.strerror, file=sys.stderr, flush=True)
+        os._exit(NOT_RUN)
+    threading.Thread(target=_kill_after_input, args=(process,), daemon=True).start()
+    status = process.wait()
+    if status < 0:
+        if -status != signal.SIGKILL:
+            signal.signal(-status, signal.SIG_DFL)
+        os.kill(os.getpid(), -status)
+    os._exit(status)
+
+
+def _kill_after_input(process: subprocess.Popen[bytes]) -> None:
+    os.read(0, 1)  # nothing is ever written
+    if sys.platform == "win32":
+        process.kill()
+    else:
+        os.killpg(0, signal.SIGKILL)
+
+
+if __name__ == "__main__":
+    main()

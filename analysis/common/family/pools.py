@@ -1,0 +1,58 @@
+"""Processes that work for this one, of loky: they end with it, and at once where it gives up."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import pickle
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from typing import Any
+
+from loky import ProcessPoolExecutor
+from loky.backend.reduction import dumps
+
+from ..process import leave
+from .ending import end_with_parent
+
+
+@contextmanager
+def process_pool(count: int, begin: Callable[..., object], *arguments: Any) -> Iterator[ProcessPoolExecutor]:
+    """Have ``count`` processes, each of which calls ``begin`` first; to be used by the thread that opens the pool.
+
+    An exception in the block kills them, Ctrl-C too: what they are at may take long.
+    """
+    work = _Packed(partial(begin, *arguments))
+    pool = ProcessPoolExecutor(count, initializer=_begin, initargs=(os.getpid(), work))
+    try:
+        yield pool
+    except BaseException:
+        pool.shutdown(kill_workers=True)
+        raise
+    pool.shutdown()
+
+
+class _Packed:
+    """What a process unpickles, which may take seconds, after it has begun."""
+
+    def __init__(self, content: Any) -> None:
+        self._content = content
+
+    def __getstate__(self) -> bytes:
+        return bytes(dumps(self._content))
+
+    def __setstate__(self, pickled: bytes) -> None:
+        self._content = pickled
+
+    def unpack(self) -> Any:
+        """Return the content, in the process that has received it."""
+        return pickle.loads(self._content)
+
+
+def _begin(parent: int, work: _Packed) -> None:
+    end_with_parent(parent)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all; the parent decides
+    atexit.register(leave, 0)  # once its own handlers have run
+    work.unpack()()

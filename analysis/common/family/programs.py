@@ -1,0 +1,68 @@
+"""Programs of others, such as compilers: they end with this process, and so does what they have started."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from . import keeper
+
+POLLING = 0.1  # s between looks whether a program is still needed
+
+
+class Ended(NamedTuple):
+    """How a program ended: its exit status, or a signal if negative, and what it wrote."""
+
+    status: int
+    output: str
+    errors: str
+
+
+def run_program(
+    command: Sequence[str], folder: str | Path, is_needed: Callable[[], bool] = lambda: True
+) -> Ended | None:
+    """Run a program in a folder to its end; None where it is killed as nothing ``is_needed`` any more.
+
+    It has a session of its own: Ctrl-C is for whoever waits for it. Raises OSError where it cannot be run.
+    """
+    theirs, ours = os.pipe()  # is closed with this process, which ends the keeper and the program
+    try:
+        process = subprocess.Popen(
+            [sys.executable, "-I", "-S", keeper.__file__, *command],
+            cwd=folder,
+            stdin=theirs,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            start_new_session=True,
+        )
+    except OSError:
+        os.close(ours)
+        raise
+    finally:
+        os.close(theirs)
+    with process:
+        try:
+            output, errors = _read(process, is_needed)
+        except TimeoutError:
+            return None
+        finally:
+            os.close(ours)
+    texts = (text.decode(errors="replace") for text in (output, errors))
+    ended = Ended(process.returncode, *texts)
+    if ended.status == keeper.NOT_RUN:
+        raise OSError(None, ended.errors.strip() or f"exit status {ended.status}")
+    return ended
+
+
+def _read(process: subprocess.Popen[bytes], is_needed: Callable[[], bool]) -> tuple[bytes, bytes]:
+    """Return what it writes until it ends. Raises TimeoutError where it is not needed any more."""
+    while True:
+        try:
+            return process.communicate(timeout=POLLING)
+        except subprocess.TimeoutExpired:
+            if not is_needed():
+                raise TimeoutError from None
