@@ -18,6 +18,33 @@ from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
 
 pytestmark = [pytest.mark.flies, pytest.mark.skipif(bool(find_missing()), reason="the system restricts no processes")]
 REFUSED = ("home", "temporary folder", "results", "TCP", "UDP", "AF_UNIX", "io_uring", "ptrace", "signal")
+# Of the process that started it: limits end it, the others slow it down.
+SETTINGS = (
+    "prlimit64",
+    "setpriority",
+    "setpriority of a user",
+    "setpriority of a group",
+    "ioprio_set",
+    "ioprio_set of a user",
+    "sched_setaffinity",
+    "sched_setparam",
+    "sched_setscheduler",
+    "sched_setattr",
+    "migrate_pages",
+    "move_pages",
+    "kcmp",
+    "process_mrelease",
+)
+OF_ITSELF = (
+    "own prlimit64",
+    "own prlimit64 by number",
+    "own setpriority",
+    "own ioprio_set",
+    "own sched_setaffinity",
+    "own sched_setparam",
+    "own sched_setscheduler",
+    "own sched_setattr",
+)
 NO = ("Permission denied", "Operation not permitted")
 
 
@@ -30,7 +57,7 @@ def tries(folder, *options):
     command = [sys.executable, "-m", "perilune", "run", str(fmu), "--stop-time", "1", *options]
     done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment, timeout=100)
     assert done.returncode == 0, done.stderr
-    lines = [line.split(": ") for line in done.stderr.splitlines()]
+    lines = [line.removeprefix("odd: ").split(": ") for line in done.stderr.splitlines()]
     return {line[0]: line[1] for line in lines if len(line) == 2}
 
 
@@ -39,13 +66,16 @@ def test_what_is_refused(tmp_path):
     said = tries(tmp_path)
     assert {name: said[name] for name in ("own folder", "socketpair")} == {"own folder": "done", "socketpair": "done"}
     assert {name: said[name] in NO for name in REFUSED} == dict.fromkeys(REFUSED, True)
+    refused = {name for name, answer in said.items() if answer == "Operation not permitted"}
+    assert set(SETTINGS) - refused == set()
+    assert {name: said[name] for name in OF_ITSELF} == dict.fromkeys(OF_ITSELF, "done")
     assert not (tmp_path / "home" / "perilune_tried").exists()
     assert not list((tmp_path / "results").iterdir())
 
 
 def test_what_is_allowed(tmp_path):
     said = tries(tmp_path, "--allow", "network", "--allow", f"write={tmp_path / 'results'}")
-    done = ("own folder", "results", "TCP", "UDP", "AF_UNIX", "socketpair")
+    done = ("own folder", "results", "TCP", "UDP", "AF_UNIX", "socketpair", *OF_ITSELF)
     assert {name for name, answer in said.items() if answer == "done"} - {"signal to all"} == set(done)
     assert [path.name for path in (tmp_path / "results").iterdir()] == ["tried"]
 

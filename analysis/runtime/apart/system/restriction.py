@@ -15,6 +15,7 @@ import struct
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from .refused_calls import NETWORK, OTHERS, OWN, PIDFD_SEND_SIGNAL, SETTINGS, SIGNALS, Rule, Values
 from .system_calls import IS_LINUX
 
 PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 38, 22, 2
@@ -30,43 +31,13 @@ FILES = ((1, WRITE_FILE | CHANGES_FOLDERS), (2, REFER), (3, TRUNCATE), (5, IOCTL
 BIND_TCP, CONNECT_TCP = 1, 2  # from version 4 on
 SCOPE_ABSTRACT_UNIX_SOCKET, SCOPE_SIGNAL = 1, 2  # from version 6 on
 
-# System calls of x86_64, for which FMI 2.0 has a platform on Linux.
-NETWORK = {"socket": 41}
-OTHERS = {
-    "ptrace": 101,
-    "process_vm_readv": 310,
-    "process_vm_writev": 311,
-    "pidfd_getfd": 438,
-    "process_madvise": 440,
-    "io_uring_setup": 425,  # carries out calls that no filter sees
-    "io_uring_enter": 426,
-    "io_uring_register": 427,
-    "bpf": 321,
-    "perf_event_open": 298,
-    "userfaultfd": 323,
-    "init_module": 175,
-    "finit_module": 313,
-    "kexec_load": 246,
-    "reboot": 169,
-    "add_key": 248,
-    "request_key": 249,
-    "keyctl": 250,
-}
-SIGNALS = {  # their first argument is a process
-    "kill": 62,
-    "tkill": 200,
-    "tgkill": 234,
-    "rt_sigqueueinfo": 129,
-    "rt_tgsigqueueinfo": 297,
-}
-PIDFD_SEND_SIGNAL = 424
 AUDIT_ARCH_X86_64 = 0xC000003E
 X32 = 0x40000000  # the bit of calls of another interface to the same kernel
 
 # Instructions of the filter.
 LOAD, IS_EQUAL, IS_AT_LEAST, RETURN = 0x20, 0x15, 0x35, 0x06
 ALLOW, REFUSE = 0x7FFF0000, 0x00050000 | errno.EPERM
-NUMBER, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16  # where the filter's data has them
+NUMBER, ARCHITECTURE, FIRST_ARGUMENT, ARGUMENT_SIZE = 0, 4, 16, 8  # where the filter's data has them
 
 
 @dataclass(frozen=True)
@@ -159,13 +130,17 @@ class _Filter(ctypes.Structure):
 
 def _filter_calls(libc: ctypes.CDLL, restriction: Restriction, *, signals_are_free: bool) -> None:
     refused = [*OTHERS.values(), *(() if restriction.network else NETWORK.values())]
-    code = _filter_code(refused, SIGNALS.values() if signals_are_free else (), os.getpid())
+    rules = list(SETTINGS.values())
+    if signals_are_free:
+        refused.append(PIDFD_SEND_SIGNAL)
+        rules += SIGNALS.values()
+    code = _filter_code(refused, rules, os.getpid())
     whole = _Filter(len(code), b"".join(code))
     _check(libc.prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, ctypes.byref(whole), 0, 0))
 
 
-def _filter_code(refused: Sequence[int], signals: Iterable[int], process: int) -> list[bytes]:
-    """Instructions: calls of another interface and ``refused`` ones fail, ``signals`` reach this process alone."""
+def _filter_code(refused: Sequence[int], rules: Iterable[Rule], process: int) -> list[bytes]:
+    """Instructions: calls of another interface and ``refused`` ones fail, and such as break their ``rules``."""
     code = [
         _instruction(LOAD, ARCHITECTURE),
         _instruction(IS_EQUAL, AUDIT_ARCH_X86_64, 1, 0),
@@ -176,18 +151,19 @@ def _filter_code(refused: Sequence[int], signals: Iterable[int], process: int) -
     ]
     for number in refused:
         code += [_instruction(IS_EQUAL, number, 0, 1), _instruction(RETURN, REFUSE)]
-    signals = list(signals)
-    if signals:
-        code += [_instruction(IS_EQUAL, PIDFD_SEND_SIGNAL, 0, 1), _instruction(RETURN, REFUSE)]
-    for number in signals:
-        code += [
-            _instruction(IS_EQUAL, number, 0, 4),
-            _instruction(LOAD, FIRST_ARGUMENT),
-            _instruction(IS_EQUAL, process, 1, 0),
-            _instruction(RETURN, REFUSE),
-            _instruction(RETURN, ALLOW),
-        ]
+    for number, arguments in rules:
+        checks = [each for place, values in arguments.items() for each in _argument_code(place, values, process)]
+        code += [_instruction(IS_EQUAL, number, 0, len(checks) + 1), *checks, _instruction(RETURN, ALLOW)]
     return [*code, _instruction(RETURN, ALLOW)]
+
+
+def _argument_code(place: int, values: Values, process: int) -> list[bytes]:
+    """Instructions that refuse a call whose argument is none of some values."""
+    # processes and kinds of them are ints, to the kernel too: the lower half, which comes first
+    code = [_instruction(LOAD, FIRST_ARGUMENT + ARGUMENT_SIZE * place)]
+    for left, value in zip(range(len(values), 0, -1), values, strict=True):
+        code.append(_instruction(IS_EQUAL, process if value == OWN else int(value), left, 0))
+    return [*code, _instruction(RETURN, REFUSE)]
 
 
 def _instruction(code: int, operand: int, true: int = 0, false: int = 0) -> bytes:
