@@ -1,10 +1,20 @@
-"""Ctrl-C at a chosen moment, also where a shell in the background has SIGINT ignored."""
+"""Signals at a chosen moment, also where a shell in the background has SIGINT ignored; what a command has started."""
+
+from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+import psutil
+
+PATIENCE = 60.0  # s, in which a command has started what it needs
 
 
 @contextmanager
@@ -27,3 +37,63 @@ def interrupted_when(condition):
         over.set()
         thread.join()
         signal.signal(signal.SIGINT, before)
+
+
+@contextmanager
+def started(
+    words: Sequence[str], folder: Path, environment: Mapping[str, str] | None = None
+) -> Iterator[subprocess.Popen[bytes]]:
+    """A command that runs in a folder, and is killed in the end."""
+    with (folder / "errors").open("wb") as errors:
+        command = subprocess.Popen(
+            [sys.executable, "-m", "perilune", *words],
+            cwd=folder,
+            env={**os.environ, **(environment or {})},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=errors,
+            # a shell that runs the tests in the background hands SIGINT down as ignored
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        )
+        try:
+            yield command
+        finally:
+            command.kill()
+            command.wait()
+
+
+def descendants(command: subprocess.Popen[bytes]) -> list[psutil.Process]:
+    """The processes that a command has started, and those that these have."""
+    with suppress(psutil.NoSuchProcess):
+        return psutil.Process(command.pid).children(recursive=True)
+    return []
+
+
+def wait_for(command: subprocess.Popen[bytes], is_enough: Callable[[list[str]], bool]) -> list[psutil.Process]:
+    """The descendants of a command, once their command lines are enough."""
+    deadline = time.monotonic() + PATIENCE
+    while time.monotonic() < deadline and command.poll() is None:
+        family = descendants(command)
+        lines = []
+        for each in family:
+            with suppress(psutil.Error):
+                lines.append(" ".join(each.cmdline()))
+        if is_enough(lines):
+            return family
+        time.sleep(0.02)
+    raise AssertionError(f"ended with {command.poll()}, or it has started nothing")
+
+
+def seconds_until_gone(family: Sequence[psutil.Process], limit: float) -> tuple[float, list[str]]:
+    """How long (s) it takes until all have ended, and the command lines of those that have not within a limit."""
+    begun = time.monotonic()
+    while (alive := list(filter(None, map(_line, family)))) and time.monotonic() < begun + limit:
+        time.sleep(0.02)
+    return time.monotonic() - begun, alive
+
+
+def _line(process: psutil.Process) -> str:
+    """The command line of a process; empty where it has ended, though its new parent may not have asked how."""
+    with suppress(psutil.Error):
+        return "" if process.status() == psutil.STATUS_ZOMBIE else " ".join(process.cmdline())
+    return ""

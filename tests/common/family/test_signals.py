@@ -13,8 +13,8 @@ from collections.abc import Callable
 
 import pytest
 
-from tests.support.families import descendants, seconds_until_gone, started, wait_for
 from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
+from tests.support.interrupts import descendants, seconds_until_gone, started, wait_for
 from tests.support.lengths import either
 
 pytestmark = [pytest.mark.flies, pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")]
