@@ -10,7 +10,9 @@ import os
 import signal
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 
+import psutil
 import pytest
 
 from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
@@ -84,6 +86,9 @@ def test_all_descendants_end(tmp_path, slow_compiler, name, sent):
         family = descendants(command)
         command.send_signal(sent)
         seconds, alive = seconds_until_gone(family, LIMIT)
+        for each in family:
+            with suppress(psutil.NoSuchProcess):
+                each.kill()
         print(f"{name}: {sent.name}: {seconds:.2f} s")
         assert not alive
         command.wait(LIMIT)
