@@ -15,7 +15,7 @@ from ..fused.refusals import can_fuse, check_fused
 from ..instances.instance import Instance, instantiate
 from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
-from ..system.namesakes import note_loaded
+from ..system.namesakes.namesakes import note_loaded
 from ..system.options import FUSED
 from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem

@@ -27,7 +27,7 @@ from .feedthrough import find_feedthrough
 from .flattening import build_network
 from .fmu import Fmu, load_fmu
 from .inputs import Drive, check_signals, drive_inputs, find_driven, settle_open_inputs
-from .namesakes import check_namesakes
+from .namesakes.namesakes import check_namesakes
 from .network import Network
 from .options import ALGORITHMS, FUSED, OPEN_INPUTS, SystemOptions
 from .passing.settings import Settings

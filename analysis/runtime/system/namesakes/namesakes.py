@@ -11,9 +11,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
-from ...common.errors import InputError
+from ....common.errors import InputError
+from ..fmu import Fmu
 from .bundled import MODULE, Bundled, bundled_by, module_digest
-from .fmu import Fmu
 
 # The process that forks those in which foreign FMUs are loaded: they have its modules.
 SERVER = "perilune.analysis.runtime.apart.server.server"

@@ -13,7 +13,7 @@ from elftools.common.exceptions import ELFError
 from elftools.elf.dynamic import DynamicSegment
 from elftools.elf.elffile import ELFFile
 
-from .fmu import Fmu
+from ..fmu import Fmu
 
 MODULE, LIBRARY = "module", "library"
 PYTHONFMU = "pythonfmu"  # the package that every FMU of pythonfmu brings

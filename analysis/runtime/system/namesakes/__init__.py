@@ -1,0 +1,1 @@
+"""Code of one name that differs, of which a process has one only."""
