@@ -20,7 +20,7 @@ from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem
 from .protocol.orders import SERVER_ENDED, Begin, End, Ended, Forget, Learn, Look
 from .protocol.requests import pack, receive_request, send_request
-from .started import StartedChild
+from .started import SAME_HASHES, StartedChild
 from .system.restriction import Restriction
 
 SERVER_GONE = Ended(0, SERVER_ENDED)
@@ -83,6 +83,7 @@ class ServerProcess:
                 [sys.executable, "-c", f"import sys; sys.path[:] = {sys.path!r}; {start}"],
                 stdin=subprocess.DEVNULL,
                 pass_fds=[theirs.fileno()],
+                env={**os.environ, **SAME_HASHES},
                 start_new_session=True,
             )
         self._keys: dict[int, int] = {}  # by identity of what the server has

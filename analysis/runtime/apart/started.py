@@ -24,6 +24,7 @@ from .protocol.printed import BLOCK, Printed
 from .protocol.requests import pack
 
 LOADING = 60.0  # s that it has to load what a flight takes
+SAME_HASHES = {"PYTHONHASHSEED": "0"}  # so that Python FMUs go through sets in one order, whichever process they are in
 GRACE = 1.0  # s that it has to end after it has closed its channel
 
 
@@ -43,7 +44,7 @@ class StartedChild:
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
                 cwd=folder,
-                env={**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self._scratch))},
+                env={**os.environ, **SAME_HASHES, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self._scratch))},
                 pass_fds=() if sys.platform == "win32" else [theirs.fileno(), *files],
             )
             channel: int | bytes = theirs.fileno()

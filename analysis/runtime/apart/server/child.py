@@ -19,6 +19,7 @@ import numpy as np
 import numpy.random
 
 from ....common.errors import InputError
+from ....common.machine.os_errors import reason_of
 from ...flight.base_simulation import NOTHING
 from ...flight.compiled import loop
 from ...flight.compiled.floats import float_restorer
@@ -75,17 +76,29 @@ def _do(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket, 
 def _settle(subject: PreparedSystem | Fmu) -> None:
     """Have this process as every other that simulates this: files as unpacked, generators at their start.
 
-    Children of one server would share the state of Python's and numpy's generators, and those of another not.
+    Children of one server would share the state of Python's and numpy's generators, and those of another not. Raises
+    InputError where the files cannot be copied.
     """
     fmus = [subject] if isinstance(subject, Fmu) else list(subject.network.fmus.values())
     copies: dict[Path, Path] = {}
     for fmu in fmus:
         if not fmu.is_self_contained:
             if fmu.folder not in copies:
-                copies[fmu.folder] = Path(shutil.copytree(fmu.folder, Path(tempfile.mkdtemp()) / "fmu", symlinks=True))
+                copies[fmu.folder] = _copy_files(fmu)
             fmu.folder = copies[fmu.folder]
     random.seed(SEED)
     np.random.seed(SEED)
+
+
+def _copy_files(fmu: Fmu) -> Path:
+    """Return a folder of this process with the files of an FMU as unpacked. Raises InputError."""
+    folder = Path(tempfile.gettempdir())
+    try:
+        return Path(shutil.copytree(fmu.folder, Path(tempfile.mkdtemp(dir=folder)) / "fmu"))
+    except OSError as error:
+        reason = error.args[0][0][2] if isinstance(error, shutil.Error) else reason_of(error)  # of the first file
+        problem, remedy = f"its files cannot be copied to it: {reason}", "free some space there, or set TMPDIR"
+        raise InputError(fmu.label, str(folder), problem, remedy) from error
 
 
 def load(subject: object, *, locked: bool) -> None:
