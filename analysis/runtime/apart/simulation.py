@@ -137,12 +137,13 @@ class ApartSimulation(BaseSimulation):
 
     def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
         """See `BaseSimulation.announce`."""
-        self._find_verdicts()
+        with suppress(ServerEndedError):  # which the flight itself comes to, too
+            self._find_verdicts()
         is_ready = self._connection.is_open and self._renews and not self._is_halted and not self._needs_processes
         if is_ready and len(self._announced) < RECORDERS and (not self._announced or len(self._recorders) == RECORDERS):
             self.set(values)
             self.set_faults(faults)
-            with suppress(ChildEndedError, ServerEndedError):  # which the flight itself comes to, too
+            with suppress(ChildEndedError, ServerEndedError):
                 self._announced.append(self._depart(-1, self.prepared.steps, 1, NOTHING))
 
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
@@ -232,9 +233,9 @@ class ApartSimulation(BaseSimulation):
         """Let the child know what renews FMUs, once it has simulated; note whether it may do so again."""
         if self._last is None or self._knows_verdicts or not self._connection.is_open:
             return
-        self._knows_verdicts = True
         self._resets = TrialWatch()
         verdicts = find_verdicts(self.prepared, self._resets)
+        self._knows_verdicts = True
         self._connection.send(messages.KnownVerdicts(dict(verdicts)))
         self._needs_processes = any(verdict.needs_process for verdict in verdicts.values())
 

@@ -159,17 +159,17 @@ def write_instructions(
     Step n works off part n modulo the parts' number: there is one for each communication step until all ``periods``
     (of components, in communication steps, where longer than 1) have come round together.
     """
-    instructions.rows = []
+    instructions.begin()
     index = {name: position for position, name in enumerate(names)}
     instructions.reset()
-    reset_end = len(instructions.rows)
+    reset_end = instructions.end_part()
     ahead = _ahead(names, schedule, algorithm)
     behind = [] if algorithm == "jacobi" else [index[name] for name in schedule.followers]
     instructions.initialise([index[name] for name in schedule.initial_order])
     instructions.drive(-1, started=True)
     instructions.between_steps = True
     instructions.hand_over(ahead)
-    ends = [len(instructions.rows)]
+    ends = [instructions.end_part()]
     lengths = {index[name]: period for name, period in periods.items()}
     for part in range(math.lcm(*lengths.values())):
         due = [component for component in ahead if (part + 1) % lengths.get(component, 1) == 0]
@@ -177,7 +177,7 @@ def write_instructions(
         instructions.side_by_side(due, lengths)
         instructions.in_turn([n for n in behind if (part + 1) % lengths.get(n, 1) == 0], lengths)
         instructions.hand_over(due)
-        ends.append(len(instructions.rows))
+        ends.append(instructions.end_part())
     instructions.between_steps = False
     return instructions.array(), reset_end, np.array(ends, dtype=np.int64)
 
@@ -197,7 +197,7 @@ def write_renewal(
     """
     renewed = {}
     for component in _ahead(names, schedule, algorithm):
-        instructions.rows = []
+        instructions.begin()
         if part % periods.get(names[component], 1) == 0:
             instructions.connect(component, {-1})
         if instructions.rows:
@@ -212,7 +212,7 @@ def _ahead(names: Sequence[str], schedule: Schedule, algorithm: str) -> Sequence
 
 def write_ending(instructions: InstructionList, component: int) -> np.ndarray:
     """The instructions of a last row: the outputs of the FMU that asks for the end, carried on to all connectors."""
-    instructions.rows = []
+    instructions.begin()
     instructions.read(component)
     for other in range(len(instructions.orders)):
         instructions.carry(other)

@@ -25,6 +25,7 @@ MXCSR, MXCSR_SETTINGS = 0x1F80, 0xFFC0
 CONTROL_WORD, CONTROL_WORD_SETTINGS = 0x037F, 0x0F3F
 FPCR = 0  # Arm Architecture Reference Manual, C5.2.8: all bits are settings
 
+INT16 = ir.IntType(16)
 binding.initialize_native_asmparser()  # numba starts LLVM without it, and LLVM has no intrinsic for these words
 
 
@@ -43,21 +44,20 @@ def restore_floats(context: BaseContext, builder: ir.IRBuilder, _: Signature, __
 
 
 def _restore_x86_64(builder: ir.IRBuilder) -> None:
-    words = cgutils.alloca_once(builder, INT32, 2)
-    mxcsr, control = (builder.gep(words, [INT32(index)]) for index in range(2))
-    builder.store(INT32(0), control)  # the instruction writes 16 bits
+    # Each word is read as it was written, 32 and 16 bits: a wider one would wait until the store has left the processor.
+    mxcsr, control = cgutils.alloca_once(builder, INT32), cgutils.alloca_once(builder, INT16)
     _access(builder, "stmxcsr ($0)", mxcsr)
     _access(builder, "fnstcw ($0)", control)
     sse, x87 = (
-        builder.icmp_unsigned("!=", builder.and_(builder.load(word), INT32(settings)), INT32(default & settings))
+        builder.icmp_unsigned("!=", builder.and_(word, word.type(settings)), word.type(default & settings))
         for word, settings, default in (
-            (mxcsr, MXCSR_SETTINGS, MXCSR),
-            (control, CONTROL_WORD_SETTINGS, CONTROL_WORD),
+            (builder.load(mxcsr), MXCSR_SETTINGS, MXCSR),
+            (builder.load(control), CONTROL_WORD_SETTINGS, CONTROL_WORD),
         )
     )
     with builder.if_then(builder.or_(sse, x87), likely=False):
         builder.store(INT32(MXCSR), mxcsr)
-        builder.store(INT32(CONTROL_WORD), control)
+        builder.store(INT16(CONTROL_WORD), control)
         _access(builder, "ldmxcsr ($0)", mxcsr)
         _access(builder, "fldcw ($0)", control)
 

@@ -55,6 +55,7 @@ class Rows:
         self.between_steps = False  # all FMUs: what they give and take then may be in their memory
         self.fault_slots = fault_slots
         self.rows: list[list[int]] = []
+        self._ended = 0  # before this one are the instructions of other parts
 
     def array(self) -> np.ndarray:
         """What has been collected."""
@@ -64,8 +65,24 @@ class Rows:
         """A call of an FMI function on a stretch of slots or parameters, or on a stretch of the table."""
         instance, addresses = self.addresses[component]
         self.rows.append([code, addresses[function], instance, int(stretch[0]), int(stretch[1]), component, function])
+        self._restore_floats(component)
+
+    def begin(self) -> None:
+        """Begin another list."""
+        self.rows, self._ended = [], 0
+
+    def end_part(self) -> int:
+        """Return how many instructions there are: what follows is repeated, or begun, without what stands before."""
+        self._ended = len(self.rows)
+        return self._ended
+
+    def _restore_floats(self, component: int) -> None:
+        """Restore the floating-point environment, once after calls of one component that follow each other."""
         if not self._self_contained[component]:
-            self.rows.append([codes.RESTORE_FLOATS, 0, 0, 0, 0, component, 0])
+            restore = [codes.RESTORE_FLOATS, 0, 0, 0, 0, component, 0]
+            if len(self.rows) - 2 >= self._ended and self.rows[-2] == restore:
+                del self.rows[-2]
+            self.rows.append(restore)
 
     def inject(self, stretch: Stretch) -> None:
         """The faults on a stretch of slots."""
