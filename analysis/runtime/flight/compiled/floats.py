@@ -44,7 +44,7 @@ def restore_floats(context: BaseContext, builder: ir.IRBuilder, _: Signature, __
 
 
 def _restore_x86_64(builder: ir.IRBuilder) -> None:
-    # Words are read as they were written, 32 and 16 bits: a wider read would wait until the store has left the processor.
+    # Words are read as they were written, 32 and 16 bits: a wider read would wait for the store to leave the processor.
     mxcsr, control = cgutils.alloca_once(builder, INT32), cgutils.alloca_once(builder, INT16)
     _access(builder, "stmxcsr ($0)", mxcsr)
     _access(builder, "fnstcw ($0)", control)
