@@ -1,4 +1,4 @@
-/* What neither FMU of this folder can do: calls that FMI 2.0 wants to be there and lets an FMU refuse. */
+/* What no FMU of this folder can do: calls that FMI 2.0 wants to be there and lets an FMU refuse. */
 #include "fmi2Functions.h"
 
 typedef const fmi2ValueReference *References;
