@@ -51,7 +51,7 @@ def listen(tell: Tell) -> Iterator[Connection]:
 
 
 def begin(pipe: Connection) -> None:
-    """Have the steps of a worker process sent through a pipe."""
+    """Send the steps of a worker process through a pipe."""
     global _pipe
     _pipe = pipe
 

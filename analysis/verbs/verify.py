@@ -55,7 +55,7 @@ class Verifications(Sequence[Verification]):
         return [on_one_line(line) for line in lines]
 
     def problems(self) -> list[str]:
-        """What of all files is not as it was handed on, not reproduced, or compared by too little."""
+        """Problems of all files: not as they were handed on, not reproduced, or compared by too little."""
         return [on_one_line(line) for each in self.files for line in (*_problems(each), *_weaknesses(each))]
 
     def to_json(self) -> object:

@@ -1,4 +1,4 @@
-"""What Perilune built on this machine: its Python FMUs in the cache, and the list by which they are known.
+"""FMUs that Perilune built on this machine: its Python FMUs in the cache, and the list by which they are known.
 
 Truth: FMUs built elsewhere, and sha256sum's format.
 """

@@ -85,7 +85,7 @@ def wait_for(command: subprocess.Popen[bytes], is_enough: Callable[[list[str]], 
 
 
 def seconds_until_gone(family: Sequence[psutil.Process], limit: float) -> tuple[float, list[str]]:
-    """How long (s) it takes until all have ended, and the command lines of those that have not within a limit."""
+    """Return the time (s) until all have ended, and the command lines of those that have not within a limit."""
     begun = time.monotonic()
     while (alive := list(filter(None, map(_line, family)))) and time.monotonic() < begun + limit:
         time.sleep(0.02)

@@ -16,7 +16,7 @@ IS_LINUX = sys.platform == "linux"
 
 
 def end_with_parent(parent: int) -> None:
-    """Have this process killed when its ``parent``, a process number, ends; at once where that has ended before.
+    """End this process when its ``parent``, a process number, ends; at once where that has ended before.
 
     Linux does so when the thread ends that started this process, which has to live as long as the process is to.
     """
@@ -29,7 +29,7 @@ def end_with_parent(parent: int) -> None:
 
 
 def end_after(process: int) -> None:
-    """Have a thread of this process end it when another one ends, whichever thread of that one started this."""
+    """Start a thread that ends this process when another one ends, whichever thread of that one started this."""
     threading.Thread(target=_wait_and_end, args=(process,), daemon=True).start()
 
 

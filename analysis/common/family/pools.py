@@ -20,7 +20,7 @@ from .ending import end_with_parent
 
 @contextmanager
 def process_pool(count: int, begin: Callable[..., object], *arguments: Any) -> Iterator[ProcessPoolExecutor]:
-    """Have ``count`` processes, each of which calls ``begin`` first; to be used by the thread that opens the pool.
+    """Open a pool of ``count`` processes, each of which calls ``begin`` first; for the thread that opens it.
 
     An exception in the block kills them, Ctrl-C too: what they are at may take long.
     """
@@ -35,7 +35,7 @@ def process_pool(count: int, begin: Callable[..., object], *arguments: Any) -> I
 
 
 class _Packed:
-    """What a process unpickles, which may take seconds, after it has begun."""
+    """Content that a process unpickles after it has begun, which may take seconds."""
 
     def __init__(self, content: Any) -> None:
         self._content = content

@@ -15,7 +15,7 @@ POLLING = 0.1  # s between looks whether a program is still needed
 
 
 class Ended(NamedTuple):
-    """How a program ended: its exit status, or a signal if negative, and what it wrote."""
+    """Outcome of a program: its exit status, or a signal if negative, and its output."""
 
     status: int
     output: str

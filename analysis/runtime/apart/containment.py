@@ -21,7 +21,7 @@ def limits_for(fmus: Iterable[Fmu], options: SystemOptions) -> Limits:
 
 
 def _restriction_for(fmus: Iterable[Fmu], options: SystemOptions) -> Restriction | None:
-    """What foreign FMUs may do in their child, None where all are our own; they may write to the child's own files.
+    """Return what foreign FMUs may do in their child, None where all are our own; they may write to its own files.
 
     Warns where the operating system lacks something for it, or raises InputError where that is asked for.
     """

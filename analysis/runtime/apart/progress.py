@@ -12,7 +12,7 @@ def measure(recorder: FlightRecorder) -> bytes:
 
 
 def count_rows(recorder: FlightRecorder, first: int, every: int) -> int:
-    """How many rows a flight has left that began at a communication point and was not finished; every n-th is kept."""
+    """Return the number of rows that an unfinished flight from a communication point has left; every n-th is kept."""
     return min(max(-(-(recorder.point - max(first, -1) - 1) // every), 0), recorder.times.size)
 
 

@@ -230,7 +230,7 @@ class ApartSimulation(BaseSimulation):
             self._connection = self._begin()
 
     def _find_verdicts(self) -> None:
-        """Let the child know what renews FMUs, once it has simulated; note whether it may do so again."""
+        """Send the child what renews FMUs, once it has simulated; note whether it may do so again."""
         if self._last is None or self._knows_verdicts or not self._connection.is_open:
             return
         self._resets = TrialWatch()

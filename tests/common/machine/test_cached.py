@@ -17,7 +17,7 @@ CONTENT = b"what takes a minute to make"
 
 @pytest.fixture
 def said(monkeypatch):
-    """What is warned of, each in a line."""
+    """Return the warnings, each in a line."""
     monkeypatch.setattr(cached, "_warned", set())
     monkeypatch.setattr(cached, "_substitutes", {})
     with warnings.catch_warnings(record=True) as caught:

@@ -24,7 +24,7 @@ TIMES = {"stop_time": 0.5, "step": 0.25}
 
 
 def met_numbers() -> dict[object, float]:
-    """What both steps of a first instance meet in sum; the first numbers of C's generator from ctypes."""
+    """Return what both steps of a first instance meet in sum; the first numbers of C's generator from ctypes."""
     libc = ctypes.CDLL(None)
     libc.srand(1)
     generators = {seed: random.Random(seed) for seed in (0, 5)}

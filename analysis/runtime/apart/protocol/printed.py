@@ -54,7 +54,7 @@ class Printed:
 
 
 def _label(printers: Sequence[str]) -> str:
-    """What lines begin with: names of components, and never what lines of Perilune begin with."""
+    """Return the beginning of lines: names of components, and never what lines of Perilune begin with."""
     names = visible_line(", ".join(printers[:MOST_NAMES]), LONGEST_NAMES)
     if len(printers) > MOST_NAMES:
         names += f" and {len(printers) - MOST_NAMES} more"

@@ -74,7 +74,7 @@ def _do(task: SystemFlights | ResetTrial, subject: Any, channel: socket.socket, 
 
 
 def _settle(subject: PreparedSystem | Fmu) -> None:
-    """Have this process as every other that simulates this: files as unpacked, generators at their start.
+    """Bring this process to the state of every other that simulates this: files as unpacked, generators at their start.
 
     Children of one server would share the state of Python's and numpy's generators, and those of another not. Raises
     InputError where the files cannot be copied.

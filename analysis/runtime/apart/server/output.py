@@ -9,7 +9,7 @@ from ..protocol.printed import BLOCK, Printed
 
 
 class Output:
-    """Of one child; ``descriptor`` is the reading end, ``printers`` are as in `Printed`."""
+    """Output of one child; ``descriptor`` is the reading end, ``printers`` are as in `Printed`."""
 
     def __init__(self, descriptor: int, printers: Sequence[str]) -> None:
         os.set_blocking(descriptor, False)

@@ -55,7 +55,7 @@ def fmu(tmp_path, built):
 
 @pytest.fixture
 def arrival(tmp_path, fmu):
-    """What arrives of 10 in the unit of an output, and what `validate` notes on differences."""
+    """Return what arrives of 10 in the unit of an output, and the notes of `validate` on differences."""
 
     def arrive(source, target, versions=(2, 2), inner="", attributes="", ends=("output y -", "input u -")):
         fmu("a", versions[0], y=source)

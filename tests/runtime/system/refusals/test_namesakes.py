@@ -89,7 +89,7 @@ def both(folder: Path, *names: str, kind: str = "output y Real") -> Path:
 
 
 def refusal(capsys, path, *options):
-    """What `run` and `validate` say, which is the same line with exit status 2."""
+    """Return the line of `run` and `validate`, the same with exit status 2."""
     lines = []
     for verb in (["run", str(path), *options], ["validate", str(path)]):
         assert main(verb) == 2
