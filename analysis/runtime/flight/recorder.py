@@ -38,7 +38,10 @@ class FlightRecorder:
     phase: np.ndarray = field(default_factory=lambda: np.zeros(2, dtype=np.int64))
 
     def reserve(self, signals: int, rows: int, step: float) -> None:
-        """Reserve room for the rows of a simulation. Raises ExcessError, which names the ``step`` (s), where memory does not do."""
+        """Reserve room for the rows of a simulation.
+
+        Raises ExcessError, which names the ``step`` (s), where memory does not do.
+        """
         if self.times.size < rows:
             check_room(signals, rows, step)
             self._allocate(signals, rows)
