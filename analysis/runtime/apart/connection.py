@@ -34,7 +34,7 @@ from .servers import AnyChild
 
 LOOK = 0.25  # s, between looks at a child that says nothing
 FRAME = 10.0  # s in which the next bytes of an answer follow, once it has begun
-AGAIN = "simulate again, where memory ran out with fewer `workers`"
+REPEAT = "simulate again, where memory ran out with fewer `workers`"
 PATIENCE = 1.5  # s that a child has to free its instances
 
 
@@ -187,7 +187,7 @@ class Connection:
         if self._given_up:
             return ChildEndedError(HUNG, self._given_up)
         if ended is not None and ended.reason == SERVER_ENDED:
-            return ServerEndedError(f"{SERVER_ENDED}; {AGAIN}", ExitStatus.NOT_MET)
+            return ServerEndedError(f"{SERVER_ENDED}; {REPEAT}", ExitStatus.NOT_MET)
         if ended is None:
             return ChildEndedError(CRASHED, "its process has ended")
         if ended.reason == TOO_LARGE:

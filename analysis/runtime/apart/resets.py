@@ -91,7 +91,7 @@ def renewal_note(component: str, verdict: ResetVerdict) -> str | None:
             return f"{component}: instantiated anew for every simulation, as its reset fails: {verdict.reason}"
         case Renewal.PROCESS:
             return f"{component}: a process for every simulation, as no other is like the first: {verdict.reason}"
-        case Renewal.NONE:
+        case Renewal.IRREPRODUCIBLE:
             return f"{component}: simulations differ even in a process each, which every one has: {verdict.reason}"
 
 
@@ -128,7 +128,9 @@ class _Trials:
             self._digest = connection.hear(messages.Tried).digest
         finally:
             connection.kill()
-        return verdict if self._digest == first else ResetVerdict(Renewal.NONE, f"{verdict.reason}; {DIFFERS}")
+        return (
+            verdict if self._digest == first else ResetVerdict(Renewal.IRREPRODUCIBLE, f"{verdict.reason}; {DIFFERS}")
+        )
 
     def _try_formats(self) -> ResetVerdict:
         try:

@@ -14,7 +14,7 @@ class Renewal(StrEnum):
     RESET = "reset"
     INSTANCE = "instance"  # another one, in the same process
     PROCESS = "process"  # another one, which loads the FMU from files that are as unpacked
-    NONE = "none"  # it depends on what no process can renew, such as the clock
+    IRREPRODUCIBLE = "irreproducible"  # it depends on what no process can renew, such as the clock
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class ResetVerdict:
     @property
     def needs_process(self) -> bool:
         """True if a process may simulate with the FMU once only."""
-        return self.renewal in (Renewal.PROCESS, Renewal.NONE)
+        return self.renewal in (Renewal.PROCESS, Renewal.IRREPRODUCIBLE)
 
 
 RESETS = ResetVerdict(Renewal.RESET)

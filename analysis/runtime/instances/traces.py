@@ -47,7 +47,7 @@ def read_traces(folder: Path) -> Traces:
 def _environment() -> frozenset[bytes]:
     """Return the entries of C's environment, which Python's copy does not follow."""
     if sys.platform != "linux":
-        return frozenset(f"{name}={value}".encode() for name, value in os.environ.items())
+        return frozenset(f"{name}={content}".encode() for name, content in os.environ.items())
     entries = ctypes.POINTER(ctypes.c_char_p).in_dll(ctypes.CDLL(None), "environ")
     numbers = itertools.count()
     return frozenset(iter(lambda: entries[next(numbers)], None)) if entries else frozenset()

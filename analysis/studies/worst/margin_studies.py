@@ -119,14 +119,14 @@ def _margins(study: PointStudy, cells: Sequence[int], plan: BatchPlan) -> list[M
         return str(error)
 
 
-_held: tuple[PointStudy, Sequence[int]] | None = None  # of a worker process
+_begun: tuple[PointStudy, Sequence[int]] | None = None  # of a worker process
 
 
 def _begin(asked: MarginAsked, cells: Sequence[int]) -> None:
-    global _held
-    _held = asked.open_request(), cells
+    global _begun
+    _begun = asked.open_request(), cells
 
 
 def _in_process(plan: BatchPlan) -> list[Margins] | str:
-    assert _held is not None  # the process has begun with it
-    return _margins(*_held, plan)
+    assert _begun is not None  # the process has begun with it
+    return _margins(*_begun, plan)

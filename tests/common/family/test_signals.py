@@ -23,7 +23,7 @@ pytestmark = [pytest.mark.flies, pytest.mark.skipif(sys.platform != "linux", rea
 LIMIT = 30.0  # s, for a machine that is busy
 SYSTEM = ["odd.fmu", "--stop-time", "1", "--step", "0.25"]
 CAMPAIGN = [*SYSTEM, "--campaign", "c.toml", "--workers", "2"]
-HELD = ["--hold", "odd.count=1"]  # studies of draws go between values
+FIXED = ["--hold", "odd.count=1"]  # studies of draws go between values
 GAIN = """
 [draw."odd.gain"]
 distribution = "uniform"
@@ -38,9 +38,9 @@ COMMANDS = {
     "batch": (["batch", *CAMPAIGN], SERVER, 2),
     "batch into a folder": (["batch", *CAMPAIGN, "--output", "out"], SERVER, 2),
     "prepare": (["prepare", *CAMPAIGN[:-2], "--output", "out"], SERVER, 2),
-    "sensitivity": (["sensitivity", *CAMPAIGN, "--base", "64", *HELD], SERVER, 2),
-    "worst": (["worst", *CAMPAIGN, *HELD], SERVER, 2),
-    "rare": (["rare", *CAMPAIGN, *HELD, "--failure", "last < 0"], SERVER, 2),
+    "sensitivity": (["sensitivity", *CAMPAIGN, "--base", "64", *FIXED], SERVER, 2),
+    "worst": (["worst", *CAMPAIGN, *FIXED], SERVER, 2),
+    "rare": (["rare", *CAMPAIGN, *FIXED, "--failure", "last < 0"], SERVER, 2),
     "stability": (["stability", "robot_rendezvous", "--workers", "2"], WORKER, 2),
     "worst margin": (
         ["worst", "robot_rendezvous", "--loop", "attitude", "--campaign", "inertia", "--workers", "2"],

@@ -27,7 +27,7 @@ def test_space_is_the_remedy_of_full_disks_alone():
         (errno.ESTALE, "mount its file system again"),
     ],
 )
-def test_what_ends_a_campaign_has_its_own_remedy(tmp_path, number, remedy):
+def test_what_ends_a_campaign_has_its_remedy(tmp_path, number, remedy):
     with pytest.raises(EndedError, match=remedy) as ended, resume_hint(tmp_path):
         raise OSError(number, os.strerror(number), "trials/0.parquet")
     assert str(ended.value).startswith(f"trials/0.parquet: {os.strerror(number)}; ")

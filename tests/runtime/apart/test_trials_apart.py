@@ -61,7 +61,7 @@ VERDICTS = {
     Trace.FOLDER: (Renewal.PROCESS, "it changes the working folder of its process"),
     Trace.LOCALE: (Renewal.PROCESS, "it changes the locale of its process"),
     Trace.ENVIRONMENT: (Renewal.PROCESS, "it changes the environment of its process: COUPLED"),
-    Trace.CLOCK: (Renewal.NONE, "after its reset .*; a second process simulates it otherwise than the first"),
+    Trace.CLOCK: (Renewal.IRREPRODUCIBLE, "after its reset .*; a second process simulates it otherwise than the first"),
 }
 
 

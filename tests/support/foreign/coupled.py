@@ -53,15 +53,15 @@ def coupled_fmu(folder: Path, trace: Trace, *, resets: bool = True) -> Path:
 
 def coupled_system(folder: Path, trials: int = 4) -> tuple[Path, Path]:
     """``folder``/everything.ssp with an FMU for each trace but the clock, which meet each other; its campaign."""
-    parts = []
+    components = []
     for trace in Trace:
         if trace is not Trace.CLOCK:
             coupled_fmu(folder, trace).rename(folder / f"{trace.name.lower()}.fmu")
-            parts.append(component(trace.name, trace.name.lower(), "output y Real"))
+            components.append(component(trace.name, trace.name.lower(), "output y Real"))
     campaign = folder / "everything.toml"
     named = CAMPAIGN.replace('"coupled"', '"everything"').replace("coupled.", f"{Trace.ROUNDING.name}.")
     campaign.write_text(named.format(trials=trials))
-    return pack(folder / "everything.ssp", folder, document(system(*parts), stop=0.5, step=0.25)), campaign
+    return pack(folder / "everything.ssp", folder, document(system(*components), stop=0.5, step=0.25)), campaign
 
 
 # The same with a module's global, or its generator, which its own seed begins, or nothing.

@@ -29,10 +29,10 @@ OTHERS = {
     "keyctl": 250,
 }
 PIDFD_SEND_SIGNAL = 424
-# Calls that name a process: the places of arguments, counted from 0, and what each may be, OWN this process's number.
+# Calls that name a process: the places of arguments, counted from 0, and what each may be, CALLER this process's number.
 # Threads of this process have numbers that no filter knows: they set themselves, as 0.
-OWN = "own"
-ITSELF: Values = (0, OWN)
+CALLER = "own"
+ITSELF: Values = (0, CALLER)
 PRIO_PROCESS, IOPRIO_WHO_PROCESS = 0, 1
 SETTINGS: dict[str, Rule] = {  # of limits, priority, processors and pages of memory
     "prlimit64": (302, {0: ITSELF}),
@@ -46,9 +46,9 @@ SETTINGS: dict[str, Rule] = {  # of limits, priority, processors and pages of me
     "move_pages": (279, {0: ITSELF}),
 }
 SIGNALS: dict[str, Rule] = {  # to be filtered where Landlock does not
-    "kill": (62, {0: (OWN,)}),
-    "tkill": (200, {0: (OWN,)}),
-    "tgkill": (234, {0: (OWN,)}),
-    "rt_sigqueueinfo": (129, {0: (OWN,)}),
-    "rt_tgsigqueueinfo": (297, {0: (OWN,)}),
+    "kill": (62, {0: (CALLER,)}),
+    "tkill": (200, {0: (CALLER,)}),
+    "tgkill": (234, {0: (CALLER,)}),
+    "rt_sigqueueinfo": (129, {0: (CALLER,)}),
+    "rt_tgsigqueueinfo": (297, {0: (CALLER,)}),
 }

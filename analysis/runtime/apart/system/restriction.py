@@ -15,7 +15,7 @@ import struct
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from .refused_calls import NETWORK, OTHERS, OWN, PIDFD_SEND_SIGNAL, SETTINGS, SIGNALS, Rule, Values
+from .refused_calls import CALLER, NETWORK, OTHERS, PIDFD_SEND_SIGNAL, SETTINGS, SIGNALS, Rule, Values
 from .system_calls import IS_LINUX
 
 PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 38, 22, 2
@@ -152,17 +152,17 @@ def _filter_code(refused: Sequence[int], rules: Iterable[Rule], process: int) ->
     for number in refused:
         code += [_instruction(IS_EQUAL, number, 0, 1), _instruction(RETURN, REFUSE)]
     for number, arguments in rules:
-        checks = [each for place, values in arguments.items() for each in _argument_code(place, values, process)]
+        checks = [each for position, values in arguments.items() for each in _argument_code(position, values, process)]
         code += [_instruction(IS_EQUAL, number, 0, len(checks) + 1), *checks, _instruction(RETURN, ALLOW)]
     return [*code, _instruction(RETURN, ALLOW)]
 
 
-def _argument_code(place: int, values: Values, process: int) -> list[bytes]:
+def _argument_code(position: int, values: Values, process: int) -> list[bytes]:
     """Instructions that refuse a call whose argument is none of some values."""
     # processes and kinds of them are ints, to the kernel too: the lower half, which comes first
-    code = [_instruction(LOAD, FIRST_ARGUMENT + ARGUMENT_SIZE * place)]
-    for left, value in zip(range(len(values), 0, -1), values, strict=True):
-        code.append(_instruction(IS_EQUAL, process if value == OWN else int(value), left, 0))
+    code = [_instruction(LOAD, FIRST_ARGUMENT + ARGUMENT_SIZE * position)]
+    for left, number in zip(range(len(values), 0, -1), values, strict=True):
+        code.append(_instruction(IS_EQUAL, process if number == CALLER else int(number), left, 0))
     return [*code, _instruction(RETURN, REFUSE)]
 
 

@@ -22,7 +22,7 @@ from .fmi_calls import INT32, INT64, in_compiled_code
 # Intel 64 and IA-32 Architectures Software Developer's Manual, volume 1: MXCSR (10.2.3) and the control word (8.1.5),
 # their defaults and the bits that are settings.
 MXCSR, MXCSR_SETTINGS = 0x1F80, 0xFFC0
-CONTROL_WORD, CONTROL_WORD_SETTINGS = 0x037F, 0x0F3F
+X87_CONTROL, X87_CONTROL_SETTINGS = 0x037F, 0x0F3F
 FPCR = 0  # Arm Architecture Reference Manual, C5.2.8: all bits are settings
 
 INT16 = ir.IntType(16)
@@ -49,15 +49,15 @@ def _restore_x86_64(builder: ir.IRBuilder) -> None:
     _access(builder, "stmxcsr ($0)", mxcsr)
     _access(builder, "fnstcw ($0)", control)
     sse, x87 = (
-        builder.icmp_unsigned("!=", builder.and_(word, word.type(settings)), word.type(default & settings))
-        for word, settings, default in (
+        builder.icmp_unsigned("!=", builder.and_(read, read.type(settings)), read.type(default & settings))
+        for read, settings, default in (
             (builder.load(mxcsr), MXCSR_SETTINGS, MXCSR),
-            (builder.load(control), CONTROL_WORD_SETTINGS, CONTROL_WORD),
+            (builder.load(control), X87_CONTROL_SETTINGS, X87_CONTROL),
         )
     )
     with builder.if_then(builder.or_(sse, x87), likely=False):
         builder.store(INT32(MXCSR), mxcsr)
-        builder.store(INT16(CONTROL_WORD), control)
+        builder.store(INT16(X87_CONTROL), control)
         _access(builder, "ldmxcsr ($0)", mxcsr)
         _access(builder, "fldcw ($0)", control)
 
@@ -69,8 +69,8 @@ def _access(builder: ir.IRBuilder, instruction: str, address: ir.Value) -> None:
 
 
 def _restore_aarch64(builder: ir.IRBuilder) -> None:
-    word = builder.asm(ir.FunctionType(INT64, []), "mrs $0, fpcr", "=r", [], side_effect=True)
-    with builder.if_then(builder.icmp_unsigned("!=", word, INT64(FPCR)), likely=False):
+    fpcr = builder.asm(ir.FunctionType(INT64, []), "mrs $0, fpcr", "=r", [], side_effect=True)
+    with builder.if_then(builder.icmp_unsigned("!=", fpcr, INT64(FPCR)), likely=False):
         kind = ir.FunctionType(ir.VoidType(), [INT64])
         builder.asm(kind, "msr fpcr, $0", "r", [INT64(FPCR)], side_effect=True)
 

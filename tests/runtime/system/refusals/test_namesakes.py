@@ -55,7 +55,7 @@ def template() -> dict[str, str | bytes]:
 def python_fmu(folder: Path, name: str, number: float, module: str = "helper", script: str = "") -> Path:
     """``folder``/name.fmu, whose output is a number of a module that it brings."""
     script = script or f"script_{name}"
-    content = {key: value for key, value in template().items() if not key.endswith("_of_template.py")} | {
+    content = {key: file for key, file in template().items() if not key.endswith("_of_template.py")} | {
         f"resources/{module}.py": f"NUMBER = {number}\n",
         f"resources/{script}.py": SCRIPT.format(module=module),
         "resources/slavemodule.txt": script,
@@ -65,14 +65,14 @@ def python_fmu(folder: Path, name: str, number: float, module: str = "helper", s
 
 def c_fmu(folder: Path, name: str, number: float, shared_name: str) -> Path:
     """``folder``/name.fmu, a lag whose time constant is a number of a library that it brings."""
-    place = folder / f"of_{name}"
-    place.mkdir()
-    (place / "helper.c").write_text(f"double helper_number(void) {{ return {number}; }}\n")
-    (place / "helper.h").write_text("double helper_number(void);\n")
-    helper = library("helper", (f"-Wl,-soname,{shared_name}",), place)
-    (place / shared_name).write_bytes(helper)
-    linked = ("-Wl,--no-as-needed,-rpath,$ORIGIN", str(place / shared_name))
-    macros = ("-include", str(place / "helper.h"), "-DTAU=helper_number()", *linked)
+    sources = folder / f"of_{name}"
+    sources.mkdir()
+    (sources / "helper.c").write_text(f"double helper_number(void) {{ return {number}; }}\n")
+    (sources / "helper.h").write_text("double helper_number(void);\n")
+    helper = library("helper", (f"-Wl,-soname,{shared_name}",), sources)
+    (sources / shared_name).write_bytes(helper)
+    linked = ("-Wl,--no-as-needed,-rpath,$ORIGIN", str(sources / shared_name))
+    macros = ("-include", str(sources / "helper.h"), "-DTAU=helper_number()", *linked)
     binaries = f"binaries/{fmpy.platform}"
     content = {
         "modelDescription.xml": lag.DESCRIPTION,
@@ -84,8 +84,8 @@ def c_fmu(folder: Path, name: str, number: float, shared_name: str) -> Path:
 
 def both(folder: Path, *names: str, kind: str = "output y Real") -> Path:
     """A system of these FMUs."""
-    parts = (component(f"c{n}", name, kind) for n, name in enumerate(names))
-    return pack(folder / "both.ssp", folder, document(system(*parts), step=STEP))
+    components = (component(f"c{n}", name, kind) for n, name in enumerate(names))
+    return pack(folder / "both.ssp", folder, document(system(*components), step=STEP))
 
 
 def refusal(capsys, path, *options):
@@ -113,7 +113,7 @@ def test_scripts_of_one_name_are_modules_too(tmp_path, capsys):
     assert "another module model is resources/model.py of" in refusal(capsys, both(tmp_path, "one", "two"))
 
 
-def test_helpers_that_are_equal_or_have_names_of_their_own_fly(tmp_path):
+def test_helpers_that_are_equal_or_have_other_names_fly(tmp_path):
     python_fmu(tmp_path, "one", 1.0)
     python_fmu(tmp_path, "same", 1.0)
     python_fmu(tmp_path, "two", 2.0, "other")
@@ -132,7 +132,7 @@ def test_two_libraries_of_one_soname_were_one(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("other", ["libhelper.so.1", "libother.so.1"])
-def test_libraries_that_are_equal_or_have_names_of_their_own_fly(tmp_path, other):
+def test_libraries_that_are_equal_or_have_other_names_fly(tmp_path, other):
     """Each lag with its own time constant, as the closed form has it."""
     numbers = 1.0, 1.0 if other == "libhelper.so.1" else 2.0
     c_fmu(tmp_path, "one", numbers[0], "libhelper.so.1")
@@ -155,7 +155,7 @@ def test_a_module_of_perilune_that_is_equal_flies(tmp_path):
     assert perilune.simulate(both(tmp_path, "one"))["c0.y"][-1] == 3.0
 
 
-def test_variants_in_children_have_each_their_own(tmp_path):
+def test_variants_in_children_have_each_their_code(tmp_path):
     """A child's process ends with its system."""
     python_fmu(tmp_path, "one", 1.0)
     two = python_fmu(tmp_path, "two", 2.0)
