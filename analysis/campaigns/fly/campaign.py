@@ -18,6 +18,7 @@ from ..spec.checks import check_plan, prepare_variants
 from ..spec.plan import BatchPlan
 from .folder import begin, cut, resume_folder
 from .folder_lock import lock_folder
+from .identity import campaign_key
 from .manifest import FILE, Manifest, read_manifest
 from .metadata import Provenance, batch_digest, provenance
 from .plan_manifest import gather, restore
@@ -54,8 +55,9 @@ class Campaign:
     @property
     def provenance(self) -> Provenance:
         """What its numbers depend on, apart from the trials themselves."""
-        entries = provenance(self.plan, self.systems)
-        entries["manifest"] = self.manifest.key
+        is_earlier = self.manifest.identities is None
+        entries = provenance(self.flown if is_earlier else self.plan, self.systems)
+        entries["manifest" if is_earlier else "batch"] = campaign_key(self.manifest)
         return entries
 
     @property

@@ -10,7 +10,8 @@ import numpy as np
 from ...common.atomic import remove_partial
 from ...common.errors import InputError
 from ..spec.plan import BatchPlan
-from .manifest import CONTENTS, FILE, Manifest, differences, read_manifest, remove_contents, store_contents
+from .identity import differences
+from .manifest import CONTENTS, FILE, Manifest, read_manifest, remove_contents, store_contents
 from .shards.draws import read_draws
 from .shards.files import DRAWS, FOLDER, SUMMARY, clear, trace_path, write_draws
 from .shards.numbering import Numbering
@@ -39,10 +40,13 @@ def resume_folder(folder: Path, manifest: Manifest, contents: dict[str, bytes], 
         raise InputError(folder / FILE, "trials", problem, f"give `trials` {held.trials} or more")
     if not plan.is_counted:
         _check_draws(folder, held, plan)
-    if manifest.trials > held.trials:
+    resumed = replace(held, trials=manifest.trials, timeout=manifest.timeout, options=manifest.options)
+    if resumed.trials > held.trials:
         (folder / SUMMARY).unlink(missing_ok=True)
-        _write(folder, manifest, contents, plan)
-    return manifest
+        _write(folder, resumed, contents, plan)
+    elif resumed != held:
+        resumed.write(folder)
+    return resumed
 
 
 def _check_draws(folder: Path, held: Manifest, plan: BatchPlan) -> None:

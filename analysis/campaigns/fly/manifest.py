@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any, NotRequired, Required, TypedDict
@@ -21,7 +21,6 @@ from ...runtime.instances.renewal import Renewal
 FILE = "manifest.json"
 CONTENTS = "files"  # the folder beside it
 SAME_VERSION = "resume with the version of perilune that wrote it"
-MOST_DIFFERENCES = 3  # named in one line
 WRITE = "give a folder that perilune batch or prepare wrote"
 
 
@@ -80,7 +79,8 @@ class Manifest:
     component, ``resets`` the verdicts of reset tests by hash. ``until_decided`` says that it ends with the shard at
     whose end its requirements are decided. ``shard_size`` is in trials, each of which every variant flies.
     ``elementary_functions`` is their version: with another, results have other last bits. A campaign from before there
-    was one has None, and flew with those of the C library.
+    was one has None, and flew with those of the C library. ``identities`` are those of FMUs by hash, where
+    another FMU can be the same; a campaign from before there were any has None.
     """
 
     perilune: str
@@ -99,19 +99,15 @@ class Manifest:
     trials: int
     shard_size: int
     elementary_functions: int | None = None
+    identities: Mapping[str, str] | None = None
 
     def document(self) -> dict[str, object]:
-        """As JSON has it; without a version of the elementary functions where it has none, so that its key remains."""
+        """As JSON has it; without what a manifest of an earlier version lacks, so that its key remains."""
         content: dict[str, object] = json.loads(json.dumps(asdict(self)))
-        if self.elementary_functions is None:
-            del content["elementary_functions"]
+        for name in ("elementary_functions", "identities"):
+            if content[name] is None:
+                del content[name]
         return content
-
-    @property
-    def key(self) -> str:
-        """What tells a campaign from others, however many trials it has."""
-        text = json.dumps({**self.document(), "trials": None}, sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()
 
     def names(self) -> list[str]:
         """The contents that it names, each once."""
@@ -160,28 +156,6 @@ def _check_manifest(manifest: Manifest, path: Path) -> None:
     fmu = manifest.system["fmu"]
     if fmu is not None and fmu not in manifest.system["files"]:
         raise InputError(path, "system.fmu", f"no file {fmu} of the system", SAME_VERSION)
-
-
-def differences(held: Manifest, asked: Manifest) -> str:
-    """What two manifests differ in, as one phrase; empty where they differ in nothing but the number of trials."""
-    one, other = ({**manifest.document(), "trials": None} for manifest in (held, asked))
-    phrases = [f"{name} was {_short(left)}, is {_short(right)}" for name, left, right in _pairs("", one, other)]
-    more = f"; and {len(phrases) - MOST_DIFFERENCES} more" if len(phrases) > MOST_DIFFERENCES else ""
-    return "; ".join(phrases[:MOST_DIFFERENCES]) + more
-
-
-def _pairs(name: str, left: object, right: object) -> Iterator[tuple[str, object, object]]:
-    """The values in which two documents differ, by dotted name."""
-    if isinstance(left, dict) and isinstance(right, dict):
-        for key in {**left, **right}:
-            yield from _pairs(f"{name}.{key}" if name else key, left.get(key), right.get(key))
-    elif left != right:
-        yield name, left, right
-
-
-def _short(value: object) -> str:
-    text = "nothing" if value is None else value if isinstance(value, str) else json.dumps(value)
-    return text if len(text) <= 40 else f"{text[:16]}..."
 
 
 NAMED = re.compile(r"[0-9a-f]{64}(\..*)?")

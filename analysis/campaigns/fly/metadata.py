@@ -66,7 +66,10 @@ class CampaignMetadata(TypedDict, total=False):
 
 
 class Provenance(CampaignMetadata, total=False):
-    """What a batch's numbers depend on, apart from the trials themselves; ``manifest`` is its key."""
+    """What a batch's numbers depend on, apart from the trials themselves.
+
+    ``batch`` tells it from others; folders of earlier versions have a key of their ``manifest`` instead.
+    """
 
     system: str
     system_sha256: str
@@ -88,6 +91,7 @@ class Provenance(CampaignMetadata, total=False):
     timeout: float
     fmus: dict[str, dict[str, str]]
     perilune: str
+    batch: str
     manifest: str
 
 
@@ -131,10 +135,12 @@ def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Proven
 
 
 def batch_digest(provenance: Mapping[str, object]) -> str:
-    """The SHA-256 that identifies a batch: of its provenance as JSON with sorted keys.
+    """Return the SHA-256 that identifies a batch, for any number of trials, since a batch can be resumed with more.
 
-    It is the same for any number of trials, since a batch can be resumed with more.
+    In folders of earlier versions it is that of the provenance as JSON with sorted keys.
     """
+    if "batch" in provenance:
+        return str(provenance["batch"])
     return hashlib.sha256(json.dumps({**provenance, "trials": None}, sort_keys=True).encode()).hexdigest()
 
 

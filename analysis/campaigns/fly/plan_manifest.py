@@ -28,6 +28,7 @@ from ..spec.file import parse_campaign
 from ..spec.plan import BatchPlan
 from ..spec.source import CampaignSource
 from ..spec.sweeps import with_sweeps
+from .identity import identity_of
 from .manifest import (
     CONTENTS,
     FILE,
@@ -126,6 +127,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
         trials=campaign.trials,
         shard_size=shard_size(campaign.trials),
         elementary_functions=VERSION,
+        identities={digest: identity_of(fmu) for digest, fmu in fmus.items() if identity_of(fmu) != digest},
     )
     return manifest, contents
 

@@ -1,0 +1,109 @@
+"""What tells campaigns apart: what their numbers depend on, without names, limits and forms of FMUs."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ....fmus_src.export.identity import guid_of_module
+from ...runtime.system.fmu import Fmu
+from .manifest import Manifest
+
+LIMITS = ("call_timeout", "memory")  # options that end trials, and change none
+MOST_DIFFERENCES = 3  # named in one line
+SCRIPT = "resources/slavemodule.txt"  # of pythonfmu: the name of the module that an FMU runs
+
+
+def identity_of(fmu: Fmu) -> str:
+    """Return what tells an FMU from others: the GUID of the native FMU, of either flavour of Perilune's blocks.
+
+    Of others it is the SHA-256 of the file, as of Python FMUs whose block is not here, or has other sources here.
+    """
+    if not fmu.is_self_contained:
+        return fmu.digest
+    if fmu.is_native:
+        return str(fmu.description.guid)
+    module = (fmu.folder / SCRIPT).read_text(encoding="utf-8").strip()
+    return guid_of_module(fmu.name, module) or fmu.digest
+
+
+def campaign_key(manifest: Manifest) -> str:
+    """Return what tells a campaign from others, however many trials it has.
+
+    It is the same whatever its system and its files are called, whoever simulates it, with which limits of wall-clock
+    time and memory, in either flavour of Perilune's FMUs. In a manifest of an earlier version all of that counts.
+    """
+    document = {**manifest.document(), "trials": None}
+    if manifest.identities is not None:
+        document = _content(document, manifest.identities)
+    return hashlib.sha256(json.dumps(document, sort_keys=True).encode()).hexdigest()
+
+
+def differences(stored: Manifest, requested: Manifest) -> str:
+    """Return what two manifests differ in, as one phrase.
+
+    It is empty where they differ in the number of trials, names and limits alone; of an earlier version limits count.
+    """
+    one, other = ({**_without_names(manifest.document()), "trials": None} for manifest in (stored, requested))
+    for document in (one, other):
+        for name in ("identities", "resets"):  # verdicts of this machine
+            document.pop(name, None)
+        if stored.identities is not None:
+            _drop_limits(document)
+    phrases = [f"{name} was {_short(left)}, is {_short(right)}" for name, left, right in _pairs("", one, other)]
+    more = f"; and {len(phrases) - MOST_DIFFERENCES} more" if len(phrases) > MOST_DIFFERENCES else ""
+    return "; ".join(phrases[:MOST_DIFFERENCES]) + more
+
+
+def _content(document: dict[str, Any], identities: Mapping[str, str]) -> dict[str, Any]:
+    """Return a manifest's document with FMUs by their identities, and without what changes no number."""
+
+    def identify(stored: str) -> str:
+        return identities.get(stored.partition(".")[0], stored)
+
+    content = _without_names(document)
+    _drop_limits(content)
+    content["options"].pop("flavour", None)
+    del content["identities"], content["resets"], content["system"]["sha256"]
+    files = {name: identify(stored) for name, stored in content["system"]["files"].items()}
+    is_alone = content["system"].pop("fmu") is not None
+    content["system"]["files"] = sorted(files.values()) if is_alone else files
+    content["elsewhere"] = {request: identify(name) for request, name in content["elsewhere"].items()}
+    content["fmus"] = {
+        variant: {component: identify(digest) for component, digest in fmus.items()}
+        for variant, fmus in content["fmus"].items()
+    }
+    return content
+
+
+def _drop_limits(document: dict[str, Any]) -> None:
+    document["timeout"] = None
+    document["options"] = {name: value for name, value in document["options"].items() if name not in LIMITS}
+
+
+def _without_names(document: Any) -> Any:
+    """Return a manifest's document without what its user calls the system, the campaign's files and tables."""
+    if isinstance(document, list):
+        return [_without_names(each) for each in document]
+    if not isinstance(document, dict):
+        return document
+    content = {name: _without_names(each) for name, each in document.items() if name not in ("label", "compared_by")}
+    if "system" in content:
+        del content["system"]["name"]
+    return content
+
+
+def _pairs(name: str, left: object, right: object) -> Iterator[tuple[str, object, object]]:
+    """Yield the values in which two documents differ, by dotted name."""
+    if isinstance(left, dict) and isinstance(right, dict):
+        for key in {**left, **right}:
+            yield from _pairs(f"{name}.{key}" if name else key, left.get(key), right.get(key))
+    elif left != right:
+        yield name, left, right
+
+
+def _short(value: object) -> str:
+    text = "nothing" if value is None else value if isinstance(value, str) else json.dumps(value)
+    return text if len(text) <= 40 else f"{text[:16]}..."
