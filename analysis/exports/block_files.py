@@ -5,8 +5,8 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from ...fmus_src.catalogue import catalogue
-from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with, folder_of, own_blocks
+from ...fmus_src.catalogue import blocks_in_file, catalogue
+from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with, folder_of
 from ...fmus_src.export.sources import record_source, remove_outdated
 from ...fmus_src.paths import FLAVOURS, own_fmu
 from ..common.atomic import write_atomically
@@ -55,7 +55,7 @@ def export_file(file: Path, request: ExportRequest, only: str | None = None) -> 
     flavours = [flavour] if flavour else [name for name in FLAVOURS if platforms or name == "python"]
     if fmi == 3:
         flavours = ["native"]
-    blocks = [block for block in own_blocks(file) if only in (None, block.fmu_name)]
+    blocks = [block for block in blocks_in_file(file) if only in (None, block.fmu_name)]
     if requested and all(block.python_only for block in blocks):
         problem = f"{', '.join(block.fmu_name for block in blocks)}: needs Python and has no native form"
         raise InputError("`platforms`", requested[0], problem, "leave it out")
@@ -69,7 +69,7 @@ def export_file(file: Path, request: ExportRequest, only: str | None = None) -> 
         if not written:
             raise needs_python(file, only or file.stem, fmi)
         record_source(folder, file, written, files_with(file))
-        for block in own_blocks(file) if "native" in flavours else ():
+        for block in blocks_in_file(file) if "native" in flavours else ():
             if block.python_only:
                 remove_outdated(folder, file, own_fmu(block.fmu_name, "native"))
         folders = {path.parent.name for path in written}

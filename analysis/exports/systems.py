@@ -10,8 +10,8 @@ from pathlib import Path
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.archive import read_zip, write_zip
 from ...fmus_src.export.available import fmu_file
-from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
-from ...fmus_src.paths import own_fmus
+from ...fmus_src.export.ssp_package import DESCRIPTION, SSD_NAMESPACE, pack_system
+from ...fmus_src.paths import own_fmus, shipped_fmu
 from ..common.errors import InputError
 from ..evidence.system import add_system_evidence, check_studies
 from ..runtime.ssp.archive import SystemArchive
@@ -39,17 +39,21 @@ def export_system(
                 if source in archive.files or target.exists():
                     continue
                 own = fmu_file(target.stem, flavour, archive.path)
-                if target.stem in blocks:
+                paths = own_fmus(target.stem, flavour, archive.path)
+                is_users = own in paths and own != shipped_fmu(target.stem, flavour)
+                if target.stem in blocks and not is_users:
                     build_fmu(blocks[target.stem], target, flavour, platforms, request.fmi)
                 elif own is not None:
                     shutil.copyfile(own, target)
                 else:
                     element = f"{component.get('name')} (line {component.sourceline})"
-                    places = " or ".join(map(str, own_fmus(target.stem, flavour, archive.path)))
-                    problem = f"no {source} in the system, no FMU of this repository, no {places}"
+                    problem = f"no {source} in the system, no FMU of this repository, no {' or '.join(map(str, paths))}"
                     remedy = f"build your own with perilune export FILE.py and `flavour` {flavour}, or add the FMU"
                     raise InputError(f"{archive.label}/{entry}", element, problem, remedy)
         packed = pack_system(archive.path, [folder], folder / "packed")
+        if archive.description != DESCRIPTION:
+            files = read_zip(packed)
+            write_zip(packed, {**files, DESCRIPTION: files[archive.description]})
         if request.ssp == "2" or request.fmi == 3:
             write_zip(packed, convert_package(read_zip(packed), archive.label))
         write_zip(path, add_system_evidence(packed, studies))

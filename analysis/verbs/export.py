@@ -13,6 +13,7 @@ from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.compilers import CompilationFailed, CompilerMissing, available_platforms, platforms_of
 from ...fmus_src.export.judge.subset import SubsetError
 from ...fmus_src.export.own_blocks import defines
+from ...fmus_src.export.ssp_package import DESCRIPTION
 from ..common.errors import InputError, SeveralProblemsError, suggestion
 from ..common.targets import check_file
 from ..exports.block_files import check_there, export_file, find_block_file
@@ -115,11 +116,11 @@ def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
     """A system as one FMU, of a name, a folder or an .ssp."""
     request.check_one_fmu()
     name = request.name
-    if name not in system_names() and not Path(name).is_dir() and not name.endswith(".ssp"):
+    if not _names_system(name) and not name.endswith(".ssp"):
         problem = "not a system, which alone can be one FMU"
         raise InputError("`as_fmu`", name, problem, suggestion(name, system_names()))
     archive = open_system(name)
-    path = request.output or Path(f"{archive.path.resolve().name.removesuffix('.ssp')}.fmu")
+    path = request.output or Path(f"{_archive_name(name).removesuffix('.ssp')}.fmu")
     check_file("`output`", path, (".fmu",))
     platforms = request.platforms or (platforms_of(2) if zig_is_here() else available_platforms())
     if not platforms:
@@ -128,9 +129,22 @@ def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
     return Written((path,), ("native",), tuple(platforms))
 
 
+def _names_system(name: str) -> bool:
+    """True of a system's name, its folder, or an SSD in its folder."""
+    return name in system_names() or Path(name).is_dir() or (name.endswith(".ssd") and Path(name).is_file())
+
+
+def _archive_name(name: str) -> str:
+    """Return what a system's file is called: as its folder, or as an SSD beside the default one."""
+    path = Path(name).resolve()
+    if path.suffix != ".ssd":
+        return path.name
+    return path.parent.name if path.name == DESCRIPTION else path.stem
+
+
 def _export(request: ExportRequest) -> Written:
     text = request.name
-    is_system = text in system_names() or (Path(text).is_dir() and text not in catalogue())
+    is_system = _names_system(text) and (text in system_names() or text not in catalogue())
     for option, given in (("ssp", request.ssp), ("studies", ", ".join(request.studies))):
         if given and not is_system:
             raise InputError(f"`{option}`", given, f"{text} is no system, which it is for", "leave it out")
@@ -152,8 +166,8 @@ def _export_named(request: ExportRequest) -> Written:
         path = request.output or Path(f"{name}.fmu")
         check_file("`output`", path, (".fmu",))
         build_fmu(blocks[name], path, flavour, platforms, fmi)
-    elif name in system_names() or Path(name).is_dir():
-        path = request.output or Path(f"{Path(name).resolve().name}.ssp")
+    elif _names_system(name):
+        path = request.output or Path(f"{_archive_name(name)}.ssp")
         check_file("`output`", path, (".ssp",))
         if fmi == 3 and request.ssp == "1":
             problem = "FMUs of FMI 3.0 have arrays, which SSP 1.0 has not"

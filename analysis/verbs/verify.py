@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Unpack, overload
 
-from ...fmus_src.export.available import fmu_file, fmu_flavours
+from ...fmus_src.export.available import find_fmu, fmu_flavours
 from ...fmus_src.paths import FLAVOURS, names_fmu
 from ..common.errors import InputError, suggestion
 from ..common.to_json import to_json
@@ -91,10 +91,9 @@ def _path(text: str, flavour: str | None) -> Path:
     path = Path(text)
     if names_fmu(path) or path.suffix.lower() == ".ssp":
         return path
-    for candidate in FLAVOURS if flavour is None else (flavour,):
-        file = fmu_file(text, candidate)
-        if file is not None:
-            return file
+    file = find_fmu(text, FLAVOURS if flavour is None else (flavour,))
+    if file is not None:
+        return file
     is_system = text in system_names() or path.is_dir()
     remedy = f"perilune export {text} writes it with its evidence" if is_system else suggestion(text, fmu_flavours())
     raise InputError("verify", text, "neither an .fmu, an .ssp nor the name of an FMU that is built", remedy)

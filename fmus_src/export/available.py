@@ -7,7 +7,8 @@ are built when they are first asked for, which takes no compiler, and kept in th
 from __future__ import annotations
 
 import hashlib
-from functools import cache
+from collections.abc import Iterable, Iterator
+from functools import cache, partial
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -16,23 +17,43 @@ from ...analysis.common.machine.cached import cached_file
 from ...analysis.common.regular import names_file
 from ..catalogue import catalogue
 from ..own_digests import note_own
-from ..paths import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, own_fmu, own_fmus, shipped_fmu
+from ..paths import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, SYSTEMS, own_fmu, own_fmus, shipped_fmu
 from .pythonfmu_fmu import build_python_fmu
 
 
-def fmu_file(name: str, flavour: str, system: Path | None = None) -> Path | None:
-    """The FMU of this name, the repository's before one of the working folder, or of that which ``system`` lies in.
+def find_fmu(name: str, flavours: Iterable[str] = FLAVOURS, system: Path | None = None) -> Path | None:
+    """Return the FMU of this name, of the first of the flavours that there is; None where there is none.
 
-    None where there is none.
+    In a system of the user's the user's own come first: those of the working folder, then of the one that ``system``
+    lies in. Elsewhere the repository's do, so that its systems are the same in every folder.
     """
-    shipped = shipped_fmu(name, flavour)
-    if names_file(shipped):
-        return shipped
-    if not IS_CHECKOUT and flavour == "python" and name in catalogue():
-        path = cached_file(_python_folder() / f"{name}.fmu", lambda: _python_fmu(name))
-        note_own(path)  # the list may have been damaged since it was built
-        return path
-    return next((own for own in own_fmus(name, flavour, system) if names_file(own)), None)
+    flavours = tuple(flavours)
+    users, shipped = _users_files(name, flavours, system), _shipped_files(name, flavours)
+    is_users = system is not None and not system.resolve().is_relative_to(SYSTEMS.resolve())
+    first, second = (users, shipped) if is_users else (shipped, users)
+    return next(first, None) or next(second, None)
+
+
+def fmu_file(name: str, flavour: str, system: Path | None = None) -> Path | None:
+    """Return the FMU of `find_fmu` of one flavour."""
+    return find_fmu(name, (flavour,), system)
+
+
+def _users_files(name: str, flavours: Iterable[str], system: Path | None) -> Iterator[Path]:
+    for flavour in flavours:
+        yield from filter(names_file, own_fmus(name, flavour, system))
+
+
+def _shipped_files(name: str, flavours: Iterable[str]) -> Iterator[Path]:
+    """Yield the repository's; a Python FMU of an installed package is built when it is asked for."""
+    for flavour in flavours:
+        shipped = shipped_fmu(name, flavour)
+        if names_file(shipped):
+            yield shipped
+        elif not IS_CHECKOUT and flavour == "python" and name in catalogue():
+            path = cached_file(_python_folder() / f"{name}.fmu", partial(_python_fmu, name))
+            note_own(path)  # the list may have been damaged since it was built
+            yield path
 
 
 def fmu_flavours() -> dict[str, dict[str, Path | None]]:

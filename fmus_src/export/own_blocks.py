@@ -6,23 +6,12 @@ import ast
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..block import Block, snake_case
-from ..catalogue import blocks_in_file, catalogue
+from ..block import snake_case
+from ..catalogue import blocks_in_file
 from ..user_modules import modules_of
 from .closure import data_files
 from .native_fmu import build_native_fmu
 from .pythonfmu_fmu import build_python_fmu
-
-
-def own_blocks(path: Path) -> list[type[Block]]:
-    """The blocks of a file. Raises ValueError for a file without any, and for names of the repository's own."""
-    blocks = blocks_in_file(path)
-    for block in blocks:
-        if block.fmu_name in catalogue():
-            raise ValueError(
-                f"{path}: {block.__name__}: {block.fmu_name} is an FMU of this repository; rename the class"
-            )
-    return blocks
 
 
 def defines(path: Path) -> list[str]:
@@ -36,7 +25,7 @@ def defines(path: Path) -> list[str]:
 
 def files_with(path: Path) -> list[Path]:
     """The other files that the blocks of a file are built of: modules that it imports, and data."""
-    data = [file for block in own_blocks(path) for file in data_files(block)]
+    data = [file for block in blocks_in_file(path) for file in data_files(block)]
     return sorted({*modules_of(path), *data} - {path.resolve()})
 
 
@@ -56,7 +45,7 @@ def build_own_blocks(
     Raises ValueError for what is wrong in the file, `CompilerMissing` and `CompilationFailed`.
     """
     written = []
-    for block in own_blocks(path):
+    for block in blocks_in_file(path):
         for flavour in flavours if only in (None, block.fmu_name) else ():
             target = folder / folder_of(flavour, fmi) / f"{block.fmu_name}.fmu"
             if flavour == "python":

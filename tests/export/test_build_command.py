@@ -114,9 +114,31 @@ def test_a_file_that_is_not_there(tmp_path, monkeypatch, capsys):
     assert not list(tmp_path.iterdir())
 
 
-def test_a_name_of_the_repository_is_not_overwritten(built):
-    text = HEAD + 'class FormingFilter(Block):\n    """A."""\n    y = Output(0.0, description="y")\n'
-    text += "    def step(self, t: float, h: float) -> None:\n        self.y = t\n"
-    status, _, message = built(text, "--flavour", "python")
-    assert status == 2
-    assert "forming_filter is an FMU of this repository; rename the class" in message
+FILTER = (
+    HEAD
+    + '''
+class FormingFilter(Block):
+    """A block of a shipped one's name."""
+
+    y = Output(0.0, description="y")
+
+    def step(self, t: float, h: float) -> None:
+        self.y = t + h
+'''
+)
+
+
+@pytest.mark.usefixtures("fmus")
+def test_a_class_of_a_shipped_name_exports_and_the_users_system_flies_it(built, tmp_path):
+    """Also where it has another flavour than the shipped one; Perilune's own systems go on with the shipped one."""
+    import perilune
+
+    status, _, message = built(FILTER, "--flavour", "python")
+    assert (status, message) == (0, "")
+    (tmp_path / "mine").mkdir()
+    ssd = document(system(component("filter", "forming_filter", "output y Real 1")))
+    (tmp_path / "mine" / "SystemStructure.ssd").write_text(ssd)
+    assert perilune.simulate("mine")["filter.y"].tolist() == [0.0, 0.25, 0.5, 0.75, 1.0]
+    perilune.export("mine", flavour="python")
+    assert perilune.simulate("mine.ssp")["filter.y"].tolist() == [0.0, 0.25, 0.5, 0.75, 1.0]
+    assert "disturbance" in {each["name"] for each in perilune.describe("forming_filter")["variables"]}

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from ....fmus_src.export.available import fmu_file
+from ....fmus_src.export.available import find_fmu
 from ....fmus_src.export.sources import find_changed_source
 from ....fmus_src.paths import FLAVOURS, SYSTEMS, names_fmu
 from ..ssp.archive import open_system
@@ -58,7 +58,7 @@ RETIRED = {
 def find_retired(name: str, system: Path) -> Retired | None:
     """What replaces an FMU given by its block's name; None where it is not retired, or the user has one so called."""
     retired = RETIRED.get(name)
-    if retired is None or any(fmu_file(name, flavour, system) is not None for flavour in FLAVOURS):
+    if retired is None or find_fmu(name, system=system) is not None:
         return None
     return retired
 
@@ -93,8 +93,7 @@ def _file(name: str, flavour: str | None, system: Path) -> Path | None:
     """The FMU that a name means where one is flown."""
     if names_fmu(name) or Path(name).name != name:
         return Path(name) if Path(name).is_file() else None
-    files = (fmu_file(name, each, system) for each in (FLAVOURS if flavour is None else (flavour,)))
-    return next((path for path in files if path is not None), None)
+    return find_fmu(name, FLAVOURS if flavour is None else (flavour,), system)
 
 
 def _components(system: System, path: str = "") -> Iterator[tuple[str, Component]]:
