@@ -7,6 +7,7 @@ They are looked up when they are first asked for, so that building an FMU does n
 from __future__ import annotations
 
 import ast
+import sys
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -19,6 +20,8 @@ if not (HERE / "analysis").is_dir():
         f"{HERE / 'analysis'} is a file where a link is meant: this checkout has no symbolic links; "
         "run `git config core.symlinks true` and `git checkout -- perilune`, or pip install a wheel"
     )
+
+sys.meta_path.append(import_module(".fmus_src.former_names", __name__).FormerNames())
 
 
 @cache

@@ -19,6 +19,7 @@ from pathlib import Path
 from .. import __name__ as SOURCE_PACKAGE  # noqa: N812
 from ..block import Block
 from ..face import HOME_OF
+from ..former_names import FORMER, stand_in
 from ..user_modules import list_imports, module_name, modules_of
 
 FACE_PACKAGE = SOURCE_PACKAGE.rpartition(".")[0]  # from which the names of `face` may be imported, too
@@ -113,7 +114,7 @@ def _collect(module: str, files: dict[str, bytes], allowed: frozenset[str]) -> N
     key = path.relative_to(SOURCE_ROOT).as_posix()
     if key in files and not key.endswith("__init__.py"):
         return
-    files[key] = path.read_bytes()
+    files[key] = stand_in(module).encode() if module in FORMER else path.read_bytes()
     for name in _read_import(files[key], module, path, allowed):
         _collect(name, files, allowed)
 
@@ -125,7 +126,9 @@ def _with_submodules(parts: list[str], names: list[ast.alias]) -> list[str]:
     inner = [
         alias.name
         for alias in names
-        if (folder / f"{alias.name}.py").is_file() or (folder / alias.name / "__init__.py").is_file()
+        if (folder / f"{alias.name}.py").is_file()
+        or (folder / alias.name / "__init__.py").is_file()
+        or ".".join([*module, alias.name]) in FORMER
     ]
     return [".".join(module), *(".".join([*module, name]) for name in inner)]
 
