@@ -1,4 +1,4 @@
-"""What pyproject.toml cannot say of the wheel: its FMUs, its bill of materials, the same bytes wherever it is built."""
+"""What pyproject.toml cannot say of the wheel: FMUs, documentation, bill of materials, the same bytes everywhere."""
 
 import hashlib
 import json
@@ -23,14 +23,17 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).resolve().parent
 # As build_fmus.py, which a source distribution does not hold.
 BUILD_FMUS = "from perilune.fmus_src.export.command import main; raise SystemExit(main())"
+BUILD_DOCS = "from docs.reference.build import main; raise SystemExit(main())"
 EPOCH = int(os.environ.setdefault("SOURCE_DATE_EPOCH", "315532800"))  # s; of itself 1980, where the dates of zips begin
 MODE = 0o644  # of all files, whatever the umask of whoever builds
 BILL = "sboms/perilune.cdx.json"  # PEP 770: in .dist-info
 
 
 class BuildWithFmus(build_py):
-    """Packs what `build_fmus.py` and `build_web.py` build: an installed package flies without a checkout or a compiler,
-    and writes pages with their scripts without node.
+    """Packs what `build_fmus.py`, `build_web.py` and `build_docs.py` build.
+
+    An installed package flies without a checkout or a compiler, writes pages with their scripts without node, and has
+    its documentation.
 
     Python FMUs are not among them: `fmus_src/export/available.py` builds these where they are asked for. An editable
     installation flies what lies in the checkout's build folder instead.
@@ -50,6 +53,15 @@ class BuildWithFmus(build_py):
         shutil.rmtree(output / "ssp")  # holds the FMUs a second time
         scripts = ["--require", "--output", output / "web" / "bundles"]
         subprocess.run([sys.executable, ROOT / "build_web.py", *scripts], check=True)
+        self.build_site(output / "site")
+
+    def build_site(self, site: Path) -> None:
+        """Write the documentation with the package as it is going to be installed, and its FMUs."""
+        paths = os.pathsep.join(map(str, (Path(self.build_lib).resolve(), ROOT)))
+        environment = {**os.environ, "PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"}
+        command = [sys.executable, "-P", "-c", BUILD_DOCS, "--output", site]
+        subprocess.run(command, cwd=ROOT, env=environment, check=True)
+        shutil.rmtree(site.with_name("site_sources"))
 
 
 class ReproducibleWheel(bdist_wheel):

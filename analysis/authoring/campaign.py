@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import json
-import posixpath
 import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 from ..campaigns.spec.file import parse_campaign
 from ..campaigns.spec.source import read_source
 from ..campaigns.spec.table import Table
 from ..runtime.ssp.archive import open_system
-
-EXTRA = posixpath.dirname(CAMPAIGN_FOLDER)  # of an archive, where all that is not SSP's own is stored
 
 PLAIN_KEY = re.compile(r"[A-Za-z0-9_-]+")
 
@@ -68,4 +64,4 @@ def _key(name: str) -> str:
 
 def _file(label: str) -> str:
     """A file as a user of the system's folder knows it: ``campaigns/NAME.toml``; one from elsewhere by its path."""
-    return label.rpartition("!")[2].removeprefix(f"{EXTRA}/")
+    return label.rpartition("!")[2]

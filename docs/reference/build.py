@@ -12,14 +12,14 @@ from pathlib import Path
 from typing import Any
 
 from perilune.analysis.common.errors import InputError
-from perilune.fmus_src.paths import BUILD, PACKAGE, ROOT
+from perilune.fmus_src.paths import BUILD, PACKAGE
 
 from .diagrams import add_diagrams
 from .formulas import typeset
 from .links import broken_links
-from .pages import derived_pages, reference_navigation
+from .pages import TOP, derived_pages, reference_navigation
 
-DOCS = ROOT / "docs"
+DOCS = TOP / "docs"
 SETTINGS = DOCS / "site" / "site.toml"
 PYTHON = {
     "docstring_style": None,  # prose, not sections
@@ -53,7 +53,7 @@ def build_site(output: Path, sources: Path) -> None:
     settings = site_settings()
     written = {path.relative_to(sources / "docs").as_posix() for path in (sources / "docs").rglob("*.md")}
     for name in sorted(written - set(pages_of(settings["nav"]))):
-        raise InputError(name, "navigation", "the page is not in it", f"list it in {SETTINGS.relative_to(ROOT)}")
+        raise InputError(name, "navigation", "the page is not in it", f"list it in {SETTINGS.relative_to(TOP)}")
     (sources / "mkdocs.yml").write_text(json.dumps(settings), encoding="utf-8")  # JSON is YAML
     command = [sys.executable, "-m", "zensical", "build", "--strict", "--config-file", "mkdocs.yml"]
     done = subprocess.run(command, cwd=sources, capture_output=True, text=True, check=False)
@@ -91,7 +91,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--output", type=Path, default=BUILD / "site", metavar="DIR", help="default: build/site")
     options = parser.parse_args(arguments)
     try:
-        build_site(options.output, BUILD / "site_sources")
+        build_site(options.output, options.output.with_name(f"{options.output.name}_sources"))
     except InputError as error:
         print(f"build_docs.py: {error}", file=sys.stderr)
         return 2

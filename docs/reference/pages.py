@@ -8,7 +8,6 @@ from typing import Any
 
 from perilune.fmus_src.catalogue import KINDS, catalogue
 from perilune.fmus_src.export.judge.subset_table import LANGUAGE_PAGE
-from perilune.fmus_src.paths import ROOT
 
 from .blocks import block_page
 from .interface import interface_pages
@@ -16,13 +15,14 @@ from .kernel import kernel_page
 from .lists import catalogue_page, kind_of, slots_page
 from .verbs import verbs_page
 
+TOP = Path(__file__).parents[2]  # of the sources, which perilune need not be imported from
 FRONT = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}
 LINK = re.compile(r"(\]\()([\w./-]+)((?:#[\w-]*)?\))")
 
 
 def derived_pages() -> dict[str, str]:
     """Markdown by path in the site: the repository's front pages, and the reference."""
-    pages = {target: _front(ROOT / source) for source, target in FRONT.items()}
+    pages = {target: _front(TOP / source) for source, target in FRONT.items()}
     pages["reference/verbs.md"] = verbs_page()
     pages["reference/slots.md"] = slots_page()
     pages["reference/kernel.md"] = kernel_page()

@@ -107,3 +107,9 @@ def test_every_name_for_blocks_is_public() -> None:
     assert set(HOME_OF) <= set(perilune.__all__)
     for name in HOME_OF:
         assert getattr(perilune, name) is getattr(import_module(f"perilune.fmus_src.{HOME_OF[name]}"), name)
+
+
+def test_a_build_has_what_the_documentation_is_made_with() -> None:
+    """Which a wheel contains: all that Perilune depends on and the extra `docs`, of the same versions."""
+    requires = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["build-system"]["requires"]
+    assert {*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["docs"]} <= set(requires)

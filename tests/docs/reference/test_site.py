@@ -11,7 +11,7 @@ from itertools import pairwise
 import pytest
 from lxml import html
 
-from docs.reference.build import build_site
+from docs.reference.build import SETTINGS, build_site
 from docs.reference.links import broken_links
 from perilune.analysis.reports.diagram.elk import MISSING
 from perilune.analysis.runtime.ssp.archive import system_names
@@ -79,6 +79,26 @@ def test_tables_are_read_alike_everywhere(page):
         if line.lstrip().startswith("| "):
             assert not following.strip() or following.lstrip().startswith("|"), following
             assert not any("|" in code for code in line.split("`")[1::2]), line
+
+
+def test_pages_that_messages_and_templates_name_are_there():
+    titles = set(re.findall(r'"([^"]+)" = "[\w/]+\.md"', SETTINGS.read_text(encoding="utf-8")))
+    named: list[str] = []
+    files = [path for room in ("analysis", "fmus_src", "ssp_systems", "laws", "examples") for path in rglob_text(room)]
+    for path in files:
+        text = path.read_text(encoding="utf-8")
+        for words in re.findall(r"`perilune docs` (?:says how under|opens the documentation:) ([^\n\"]+)", text):
+            named += re.findall(r"\*([^*]+)\*", words) or [words]
+        for page in re.findall(r"docs/[\w/]+\.md", text):
+            assert (ROOT / page).is_file(), f"{path}: {page}"
+    assert len(named) > 3
+    assert set(named) <= titles
+
+
+def rglob_text(room):
+    return [
+        path for path in (ROOT / room).rglob("*") if path.suffix in (".py", ".jinja", ".md", ".toml", ".ssd", ".json")
+    ]
 
 
 @pytest.fixture(scope="module")
