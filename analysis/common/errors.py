@@ -126,7 +126,10 @@ def suggestion(name: str, known: Iterable[str]) -> str:
     names = sorted(set(known), key=_natural)
     if not names:
         return "there is none to choose from here"
-    likeness = {other: difflib.SequenceMatcher(None, other, name).ratio() for other in names}
+    likeness = {
+        other: 1.0 if name and other.startswith(name) else difflib.SequenceMatcher(None, other, name).ratio()
+        for other in names
+    }
     ranked = sorted(names, key=lambda other: -likeness[other])  # which keeps the order of those that are as near
     near = [other for other in ranked if likeness[other] >= NEAR][:NEAREST]
     if len(names) <= FEW:

@@ -139,3 +139,23 @@ def test_a_campaign_without_its_system_is_noted(tmp_path, capsys):
     assert main(["validate", str(tmp_path / "c.toml")]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "checked without other, which is no system of Perilune's: name the system, too, in the same command" in said
+
+
+@pytest.mark.usefixtures("fmus")
+@pytest.mark.parametrize("system", ["", 'system = "lunar_terminal_guidance"\n'])
+def test_a_campaign_that_extends_a_shipped_one_is_taken_as_by_batch(tmp_path, capsys, monkeypatch, system):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_text(f'{system}extends = "paper"\ntrials = 2\n')
+    assert main(["batch", "lunar_terminal_guidance", "--campaign", "./mine.toml", "--workers", "1"]) == 0
+    capsys.readouterr()
+    assert main(["validate", "mine.toml"]) == 0
+    assert capsys.readouterr().out == "mine.toml: OK\n"
+    (tmp_path / "wrong.toml").write_text(f'{system}extends = "papr"\n')
+    assert main(["validate", "wrong.toml"]) == 2
+
+
+def test_messages_name_no_folder_of_archives(capsys):
+    assert main(["batch", "lunar_terminal_guidance", "--campaign", "paper", "--configuration", "none"]) == 2
+    error = capsys.readouterr().err
+    assert "campaigns/paper.toml" in error
+    assert "org.perilune" not in error

@@ -9,7 +9,7 @@ from pathlib import Path
 from ....fmus_src.paths import names_fmu
 from ...common.errors import InputError
 from ...runtime.ssp.archive import OSP_DESCRIPTION, SystemArchive, open_system, system_names
-from .source import parse_toml
+from .source import EXTENDS, parse_toml
 
 FOLDERS = ("campaigns", SystemArchive.campaign_path(""))  # of a system's folder, and of an archive that was unpacked
 
@@ -18,17 +18,23 @@ def find_system(raw: bytes, path: Path, named: Sequence[str]) -> str | None:
     """Return the system that a campaign's file is checked with: the one in whose folder of campaigns it lies.
 
     Elsewhere it is that of the ``named`` ones, paths or names, whose name the file has, else their first; without any
-    it is Perilune's of this name. None where there is none. Raises InputError for a file that is not TOML.
+    it is Perilune's of this name, of a file that names none its first with a campaign that the file extends by name.
+    None where there is none. Raises InputError for a file that is not TOML.
     """
     for folder in path.resolve().parents:
         holds = any(path.resolve().is_relative_to(folder / each) for each in FOLDERS)
         if holds and (any(folder.glob("*.ssd")) or (folder / OSP_DESCRIPTION).is_file()):
             return str(folder)
-    name = str(parse_toml(raw, str(path)).get("system", ""))
+    content = parse_toml(raw, str(path))
+    name = str(content.get("system", ""))
     opened = dict(_names_of(named))
     if opened:
         return next((system for system, called in opened.items() if is_called(name, called)), next(iter(opened)))
-    return next((known for known in system_names() if is_called(name, known)), None)
+    if name:
+        return next((known for known in system_names() if is_called(name, known)), None)
+    entry = content.get(EXTENDS, [])
+    extended = {each for each in (entry if isinstance(entry, list) else [entry]) if isinstance(each, str)}
+    return next((known for known in system_names() if extended & {*open_system(known).campaign_names()}), None)
 
 
 def is_called(text: str, name: str) -> bool:

@@ -109,11 +109,11 @@ def _read_source(
 
 def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes, str]:
     """A file that the file ``origin`` extends, by its path relative to that, else a campaign of the system by name."""
-    label, mark, inside = origin.partition("!")
-    if mark and archive is not None and label == archive.label:
+    inside = None if archive is None else archive.name_of(origin)
+    if archive is not None and inside is not None:
         path = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
         if path in archive.files:
-            return archive.read(path, origin), f"{label}!{path}"
+            return archive.read(path, origin), archive.label_of(path)
     else:
         file = Path(os.path.normpath(os.path.join(os.path.dirname(origin), name)))
         if names_file(file):
@@ -122,7 +122,7 @@ def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes,
     if archive is not None:
         path = archive.campaign_path(name)  # so that a copy of a system's campaign still extends what that did
         if path in archive.files:
-            return archive.read(path, origin), f"{archive.label}!{path}"
+            return archive.read(path, origin), archive.label_of(path)
         if name in known:
             return archive.campaign(name)
     remedy = f"give a path relative to this file{', or a campaign: ' + ', '.join(known) if known else ''}"

@@ -14,9 +14,9 @@ from multiprocessing import parent_process
 from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
-from ....fmus_src.export.available import fmu_file
+from ....fmus_src.export.available import find_fmu
 from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
-from ....fmus_src.paths import IS_CHECKOUT, ROOT, SYSTEMS, names_fmu, own_fmus
+from ....fmus_src.paths import FLAVOURS, IS_CHECKOUT, ROOT, SYSTEMS, names_fmu, own_fmus
 from ...common.bounds import ARCHIVE_BYTES, bound_of
 from ...common.errors import InputError, suggestion
 from ...common.regular import names_file, read_input
@@ -28,6 +28,7 @@ HOW_TO_BUILD = (
 OSP_DESCRIPTION = "OspSystemStructure.xml"
 OSP_SUFFIX = ".xml"
 OTHER = "give another file"
+EXTRA = f"{CAMPAIGN_FOLDER.rpartition('/')[0]}/"
 DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
 
 
@@ -53,6 +54,17 @@ class SystemArchive:
     def is_fmu(self) -> bool:
         """Whether it is an FMU alone, which no SSD describes."""
         return names_fmu(self.path) and self.path.is_file()
+
+    def label_of(self, name: str) -> str:
+        """Return what messages call a file of it; campaigns have no folder of the standard's for additional files."""
+        return f"{self.label}!{name.removeprefix(EXTRA)}"
+
+    def name_of(self, label: str) -> str | None:
+        """Return the archive name of a file by its `label_of`; None of another file."""
+        name = label.removeprefix(f"{self.label}!")
+        if name == label:
+            return None
+        return f"{EXTRA}{name}" if f"{EXTRA}{name}" in self.files else name
 
     def read(self, name: str, element: str) -> bytes:
         """Content of a file the description refers to, at ``element``."""
@@ -92,11 +104,11 @@ class SystemArchive:
         content = self.files.get(name, self.path / name)
         return content if isinstance(content, bytes) else read_input(content, OTHER, bound_of(name))
 
-    def fmu(self, source: str, element: str, flavour: str) -> tuple[Callable[[], bytes], str]:
-        """What reads an FMU's content, and its name in messages.
+    def fmu(self, source: str, element: str, flavour: str | None) -> tuple[Callable[[], bytes], str]:
+        """Return what reads an FMU's content, and its name in messages.
 
-        A folder without FMUs of its own takes those of this repository, of the working folder, and of that which it
-        lies in.
+        A folder that lacks the FMU takes one of this repository, of the working folder, or of the one that it lies in,
+        in the order of `find_fmu`; without a ``flavour`` one of either.
         """
         if self.is_fmu:
             return read_fmu(self.path), self.label
@@ -104,16 +116,19 @@ class SystemArchive:
             return read_fmu(self.elsewhere[fmu_asked(source)]), source
         name = self._place(source)
         if self.has(name) or self.path.is_file() or not self._inside(name) or _goes_up(name):
-            return partial(self._content, name, element), f"{self.label}!{name}"
+            return partial(self._content, name, element), self.label_of(name)
         self.refuse_elsewhere(name, element)
-        path = fmu_file(Path(name).stem, flavour, self.path)
+        flavours = FLAVOURS if flavour is None else (flavour,)
+        path = find_fmu(Path(name).stem, flavours, self.path)
         if path is None:
-            places = " or ".join(map(str, own_fmus(Path(name).stem, flavour, self.path)))
+            places = " or ".join(map(str, own_fmus(Path(name).stem, flavours[-1], self.path)))
             if not self.path.is_relative_to(SYSTEMS.resolve()):
                 problem = f"no file {name} in the system's folder, and no FMU of this name is built ({places})"
                 remedy = "add the file or correct the source; a block of your own is built by perilune export FILE.py"
                 raise InputError(self.label, element, problem, remedy)
-            problem = f"no file {name} in the system, no {flavour} FMU of this repository, and none is built ({places})"
+            problem = (
+                f"no file {name} in the system, no {flavours[-1]} FMU of this repository, and none is built ({places})"
+            )
             raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
         return read_fmu(path), str(path)
 
@@ -165,7 +180,7 @@ class SystemArchive:
     def _find_named(self, name: str, places: tuple[str, ...], option: str, suffix: str) -> tuple[bytes, str]:
         for place in places:
             if place in self.files:
-                content, label = self._content(place, option), f"{self.label}!{place}"
+                content, label = self._content(place, option), self.label_of(place)
                 _warn_of_another(name, content, label, option, suffix)
                 return content, label
         if parameters_asked(name) in self.elsewhere:
@@ -241,6 +256,9 @@ def open_system(system: str | Path) -> SystemArchive:
     if path.suffix == ".py":
         remedy = f"perilune export {text} builds them; fly the folder of a system that names them"
         raise InputError(text, "", "a file of blocks is no system", remedy)
+    if path.suffix == ".toml":
+        remedy = f"perilune batch SYSTEM --campaign {text} simulates it with its system"
+        raise InputError(text, "", "a campaign is no system", remedy)
     if path.is_file():
         return SystemArchive(path.stem, text, path, ZippedFiles(read_input(path, OTHER, ARCHIVE_BYTES), text))
     raise InputError(text, "system", "neither a system, a folder nor a file", suggestion(text, system_names()))

@@ -28,6 +28,12 @@ def unfit(slot: str, fmu: str, component: Component, error: InputError) -> Input
     return InputError("`use`", f"{slot}={fmu}", f"it does not fit {slot}: {reason}: {error.problem}", remedy)
 
 
+def missing_fmu(slot: str, fmu: str, component: Component) -> InputError:
+    """That there is no FMU of this name for a slot, with the nearest of those that fit it."""
+    remedy = f"of those that fit {slot} {suggestion(fmu, _fitting(component))}; or build your own"
+    return InputError("`use`", f"{slot}={fmu}", "no such FMU is built", remedy)
+
+
 def _fitting(component: Component) -> Iterator[str]:
     """The FMUs that have all connectors of a component, by name."""
     wanted = {(connector.name, connector.kind) for connector in component.connectors.values()}

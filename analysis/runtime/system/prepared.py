@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from pathlib import Path
 
-from ....fmus_src.export.available import fmu_file, fmu_flavours
+from ....fmus_src.export.available import find_fmu, fmu_flavours
 from ....fmus_src.paths import FLAVOURS, names_fmu
 from ...common.collection import no_collection
 from ...common.errors import InputError, suggestion
@@ -19,10 +19,11 @@ from ..ssp.description import Component, System
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
 from .alone import describe_alone
+from .arrays.crosswise import crosswise_notes
 from .arrays.elements import expand_arrays
 from .arrays.sizes import Sizes, given_values
 from .assignments import collect_settings, single_value
-from .checks import check_aliases, check_samples, check_shared, unfit
+from .checks import check_aliases, check_samples, check_shared, missing_fmu, unfit
 from .feedthrough import find_feedthrough
 from .flattening import build_network
 from .fmu import Fmu, load_fmu
@@ -133,10 +134,6 @@ def _prepare(
 
     used: dict[str, Component] = {}
 
-    @cache
-    def flavour_of(block: str) -> str:
-        return options.build or ("native" if fmu_file(block, "native", archive.path) is not None else "python")
-
     replaced: dict[str, tuple[str, Retired]] = {}  # by component: the name asked for, and what replaces it
 
     def current(component: str, name: str) -> str:
@@ -155,14 +152,15 @@ def _prepare(
                 read, label = read_fmu(archive.elsewhere[key]), options.use[name]
             else:
                 archive.refuse_elsewhere(options.use[name], f"`use` {name}")
+                if is_missing(block, options.build, archive.path):
+                    raise missing_fmu(name, block, component)
                 read, label = locate_fmu(block, options.build, system=archive.path)
             elsewhere[key] = read
         else:
             source = component.source
             if not (archive.is_own_file(source) or fmu_asked(source) in archive.elsewhere):
                 source = Path(source).with_stem(current(name, Path(source).stem)).as_posix()
-            flavour = flavour_of(Path(source).stem)
-            read, label = archive.fmu(source, f"{name} (line {component.line})", flavour)
+            read, label = archive.fmu(source, f"{name} (line {component.line})", options.build)
             if not archive.is_own_file(source):
                 elsewhere[fmu_asked(source)] = read
         return sized(open_fmu(read, label), name)
@@ -223,7 +221,7 @@ def _prepare(
     check_aliases(network)
     for fmu in {fmu.label: fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
-    network.notes += filter(None, [archive.note()])
+    network.notes += [*filter(None, [archive.note()]), *crosswise_notes(network)]
     algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]
     feedthrough = find_feedthrough(network, options, algorithm, is_alone=archive.is_fmu)
     schedule = make_schedule(network, feedthrough, algorithm)
@@ -260,6 +258,15 @@ def _refuse_seconds(network: Network) -> None:
         first.setdefault(fmu.digest, name)
 
 
+def is_missing(name: str, flavour: str | None, system: Path | None) -> bool:
+    """True of a name by which no FMU is built; not of paths."""
+    return Path(name).name == name and not names_fmu(name) and find_fmu(name, _flavours(flavour), system) is None
+
+
+def _flavours(flavour: str | None) -> tuple[str, ...]:
+    return FLAVOURS if flavour is None else (flavour,)
+
+
 def locate_fmu(
     name: str, flavour: str | None, option: str = "`use`", system: Path | None = None
 ) -> tuple[Callable[[], bytes], str]:
@@ -269,10 +276,9 @@ def locate_fmu(
         if not names_file(path):
             raise InputError(option, name, "no such file", "give a block's name or the path of an .fmu")
         return read_fmu(path), name
-    for candidate in FLAVOURS if flavour is None else (flavour,):
-        file = fmu_file(name, candidate, system)
-        if file is not None:
-            return read_fmu(file), str(file)
+    file = find_fmu(name, _flavours(flavour), system)
+    if file is not None:
+        return read_fmu(file), str(file)
     raise InputError(option, name, "no such FMU is built", f"{suggestion(name, fmu_flavours())}; {HOW_TO_BUILD}")
 
 

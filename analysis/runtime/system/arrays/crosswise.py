@@ -1,0 +1,44 @@
+"""Elements of vectors that are connected crosswise, though others of the same two vectors go straight."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import pairwise
+
+from ..network import Link, Network
+
+ELEMENT = re.compile(r"(.+)\[([\d, ]+)\]")
+Index = tuple[int, ...]
+
+
+def crosswise_notes(network: Network) -> list[str]:
+    """Return a note for each connection x[2] -> y[1] where other elements of x and y of one index are connected.
+
+    Elements that are picked in their order (x[1] -> y[1], x[3] -> y[2]) and one that all of y have are meant so.
+    """
+    by_vectors: dict[tuple[str, str], list[tuple[Index, Index, Link]]] = {}
+    for link in network.driver.values():
+        source, target = (ELEMENT.fullmatch(node.name) for node in (link.source, link.target))
+        if source and target:
+            pairs = by_vectors.setdefault((source[1], target[1]), [])
+            pairs.append((_index(target[2]), _index(source[2]), link))
+    return [f"{network.file}: {note}" for pairs in by_vectors.values() for note in _notes(sorted(pairs, key=_key))]
+
+
+def _notes(pairs: list[tuple[Index, Index, Link]]) -> Iterator[str]:
+    straight = next((link for target, source, link in pairs if target == source), None)
+    sources = [source for _, source, _ in pairs]
+    is_in_order = all(one < other for one, other in pairwise(sources)) or len(set(sources)) == 1
+    for target, source, link in () if straight is None or is_in_order else pairs:
+        if target != source:
+            others = f"{straight.source.name} -> {straight.target.name}" if straight else ""
+            yield f"{link.where}: goes crosswise, while {others} goes straight"
+
+
+def _index(text: str) -> Index:
+    return tuple(int(part) for part in text.split(","))
+
+
+def _key(pair: tuple[Index, Index, Link]) -> Index:
+    return pair[0]
