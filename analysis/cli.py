@@ -44,8 +44,10 @@ def _carry_out(given: Sequence[str]) -> int:
     parser = parser_of(given)
     if COMPLETES in os.environ:
         importlib.import_module("argcomplete").autocomplete(parser)
-    parsed = parser.parse_args(given)
+    parsed, unknown = parser.parse_known_args(given)
     verb = VERBS[f"{parsed.verb} {parsed.second}" if parsed.verb in GROUPS else parsed.verb]
+    if unknown:
+        Parser(prog=f"perilune {verb.name}").error(f"unrecognized arguments: {' '.join(unknown)}")
     flags = flags_of(verb)
     try:
         _check_names(verb, given)

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure as Plot
 
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.tables import faults_line
+from ..common.errors import InputError
 from ..common.visible import on_one_line
 from ..reports.common.notebook import Grid, notebook_view, value_text
 from ..reports.diagram.diagram import make_diagram
@@ -63,9 +64,16 @@ class Result(results.Result):
         diagram = make_diagram(self.prepared, faults_of(self.faults))
         write_run_report(self, Path(path), self.system, self.figures, diagram)
 
-    def plot(self, name: str, *more: str) -> Plot:
-        """Signals over time, a panel for each name; a vector's elements share one. Raises KeyError."""
-        return signal_plot(self, [name, *more])
+    def plot(self, *names: str) -> Plot:
+        """Plot signals over time, a panel for each name; a vector's elements share one.
+
+        Raises KeyError for an unknown name, InputError without any.
+        """
+        if not names:
+            displayed = ", ".join(list(self.signals)[:3])
+            remedy = f"give one or more of `signals`: {displayed}, ..."
+            raise InputError("plot", "", "no signal is named", remedy)
+        return signal_plot(self, names)
 
     def plot_trajectory(self) -> Plot:
         """The path of whatever has a position: ground track and side view. Raises ValueError where nothing has one."""

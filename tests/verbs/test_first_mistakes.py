@@ -131,7 +131,6 @@ def working(tmp_path, monkeypatch):
         ),
         "twice.py": block() + block().partition("import Block")[2].partition("\n")[2],
         "two_cases.py": block().replace("Mine", "AxisMine") + '\n\nclass Axis_Mine(AxisMine):\n    """Two."""\n',
-        "taken_name.py": block().replace("Mine", "AstarGuidance"),
         "here.py": "mine\n",
         "file": "mine",
     }.items():
@@ -166,6 +165,13 @@ CASES = {
     "a system with a typo": (["run", "lunar_landings"], ["lunar_landings", "nearest of", ": lunar_landing"]),
     "a system that is an FMU": (["run", "astar_guidance"], ["astar_guidance", "neither a system"]),
     "an FMU with a typo": ([*RUN, "--use", "guidance=astar_guidence"], ["--use", "astar_guidence", "astar_guidance"]),
+    "the first letters of an FMU": (
+        [*RUN, "--use", "guidance=astar"],
+        ["guidance=astar: no such FMU", "fit guidance", "astar_guidance, astar_modified_guidance, astar_robust"],
+    ),
+    "an option with a typo": ([*RUN, "--sett", "x=1"], ["run: ", "--sett", "see perilune run --help"]),
+    "an option of design with a typo": (["design", "law", "x", "--no"], ["--no", "see perilune design law --help"]),
+    "a campaign as a system": (["run", "mine.toml"], ["a campaign is no system", "--campaign mine.toml"]),
     "a slot with a typo": ([*RUN, "--use", "guidence=astar_guidance"], ["--use", "guidence", "use one of", "guidance"]),
     "an FMU that does not fit": (
         [*RUN, "--use", "guidance=kalman_navigation"],
@@ -239,7 +245,7 @@ CASES = {
     ),
     "a comparison of one that is not there": (
         [*BATCH, "--compare", "guidance=analytic_guidance,astar_guidnce"],
-        ["--compare: astar_guidnce", "astar_guidance"],
+        ["--compare: guidance=astar_guidnce", "astar_guidance"],
     ),
     "a draw that is set, too": (
         [*BATCH, "--set", "plant.initial_position[3]=15e3"],
@@ -342,7 +348,6 @@ CASES = {
     "something to export that is nothing near": (["export", "f.html"], ["f.html", "and", "more"]),
     "a unit that is none": (["export", "no_unit.py"], ["no_unit.py", "Mine.w", "furlong", "write it of m, kg"]),
     "a variable without words": (["export", "no_words.py"], ["no_words.py", "Mine.w", "give a description"]),
-    "a name of ours": (["export", "taken_name.py"], ["taken_name.py", "astar_guidance", "rename the class"]),
     "something to export with a typo": (["export", "astar_guidence"], ["astar_guidence", "astar_guidance"]),
     "a block over a file": (["new", "block", "here"], ["here.py", "not written over", "another name"]),
     "a system over a folder": (["new", "system", "folder"], ["folder", "not written over", "another name"]),

@@ -80,6 +80,11 @@ class Declared:
     choices: tuple[str, ...]
 
     @property
+    def takes_paths(self) -> bool:
+        """True of pairs whose values are names or paths alone."""
+        return self.kind is Kind.PAIRS and any(os.PathLike in _origins(member) for member in _members(self.annotation))
+
+    @property
     def flag(self) -> str:
         """Its name on the command line, without dashes."""
         return (self.option.flag or self.name).replace("_", "-")
@@ -117,6 +122,11 @@ def _choices(annotation: object) -> tuple[str, ...]:
         inner = get_args(members[0])
         choices = list(_choices(inner[0])) if inner and get_origin(members[0]) is Sequence_ else []
     return tuple(choices)
+
+
+def _origins(mapping: object) -> set[object]:
+    """Return what the values of a mapping can be."""
+    return {get_origin(each) or each for value in get_args(mapping)[1:] for each in _members(value)}
 
 
 Sequence_ = get_origin(Sequence[str])

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from numbers import Real
 from typing import Any
 
 from ...common.errors import InputError, suggestion
@@ -79,22 +80,72 @@ def check_value(declared: Declared, value: Any) -> object:
     """
     if value is None:
         return declared.option.default
-    if declared.kind is Kind.LIST:
-        if isinstance(value, str | os.PathLike):
-            text = os.fspath(value)
-            raise InputError(
-                f"`{declared.name}`", text, "one name where a list is meant", f'give {declared.name}=["{text}"]'
-            )
-        for each in value if declared.choices else ():
-            _check_choice(declared, each)
-        return (value,) if isinstance(value, int | float) else tuple(value)
-    if declared.kind is Kind.PAIRS and isinstance(value, Mapping):
-        return dict(value)
-    if declared.choices:
+    check = CHECKS.get(declared.kind)
+    checked = value if check is None else check(declared, value)
+    if declared.choices and declared.kind is not Kind.LIST:
         _check_choice(declared, value)
-    if declared.kind in (Kind.NUMBER, Kind.INTEGER) and isinstance(value, int | float):
-        return check_number(declared, value)
-    return value
+    return checked
+
+
+def _check_list(declared: Declared, value: Any) -> tuple[object, ...]:
+    if isinstance(value, str | os.PathLike):
+        text = os.fspath(value)
+        remedy = f'give {declared.name}=["{text}"]'
+        raise InputError(f"`{declared.name}`", text, "one name where a list is meant", remedy)
+    is_number = isinstance(value, Real) and not isinstance(value, bool)
+    if is_number and declared.element in (Kind.NUMBER, Kind.INTEGER):
+        return (value,)
+    if not isinstance(value, Iterable) or isinstance(value, Mapping):
+        raise InputError(f"`{declared.name}`", repr(value), "no list", f"give {declared.name}=[...]")
+    elements = tuple(value)
+    for each in elements if declared.choices else ():
+        _check_choice(declared, each)
+    return elements
+
+
+def _check_pairs(declared: Declared, value: Any) -> dict[str, object]:
+    if not isinstance(value, Mapping):
+        name, _, text = str(value).partition("=")
+        example = f'give {declared.name}={{"{name}": {text if _is_number(text) else repr(text)}}}'
+        remedy = example if text and isinstance(value, str) else f"give {declared.name}={{NAME: VALUE, ...}}"
+        raise InputError(f"`{declared.name}`", repr(value), "no dictionary", remedy)
+    for name, each in value.items():
+        if declared.takes_paths and not isinstance(each, str | os.PathLike | list | tuple):
+            raise InputError(f"`{declared.name}`", f"{name}: {each!r}", "no name and no path", "give one, in quotes")
+    return dict(value)
+
+
+def _check_number(declared: Declared, value: Any) -> float | int:
+    kind = declared.kind
+    is_number = isinstance(value, Real) and not isinstance(value, bool)
+    if not is_number or (kind is Kind.INTEGER and not float(value).is_integer()):
+        what = "a whole number" if kind is Kind.INTEGER else f"a number{_of_unit(declared)}"
+        is_text = isinstance(value, str) and _is_number(value)
+        remedy = f"give {declared.name}={value}" if is_text else "give one"
+        raise InputError(f"`{declared.name}`", repr(value), f"not {what}", remedy)
+    return check_number(declared, int(value) if kind is Kind.INTEGER else float(value))
+
+
+def _check_flag(declared: Declared, value: Any) -> bool:
+    if value not in (True, False):
+        raise InputError(f"`{declared.name}`", repr(value), "neither True nor False", "give one of them")
+    return bool(value)
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
+CHECKS: Mapping[Kind, Callable[[Declared, Any], object]] = {
+    Kind.LIST: _check_list,
+    Kind.PAIRS: _check_pairs,
+    Kind.NUMBER: _check_number,
+    Kind.INTEGER: _check_number,
+    Kind.FLAG: _check_flag,
+}
 
 
 def _check_choice(declared: Declared, value: object) -> None:

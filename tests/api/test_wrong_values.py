@@ -1,0 +1,68 @@
+"""Values of the wrong kind in Python: one line that names the option and says what to write.
+
+Truth: the texts that a user would write on the command line, and the values that Python wants in their place.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import perilune
+from perilune.analysis.common.errors import InputError
+from tests.api.test_flights import SYSTEM
+
+WRONG = {
+    "set": ("plant.initial_mass=950", 'give set={"plant.initial_mass": 950}'),
+    "use": ("guidance=astar_guidance", """give use={"guidance": 'astar_guidance'}"""),
+    "stop_time": ("5", "not a number of seconds; give stop_time=5"),
+    "timeout": ("soon", "not a number of seconds; give one"),
+    "parameters": (3, "no list; give parameters=[...]"),
+    "record": (5, "no list; give record=[...]"),
+    "strict": ("yes", "neither True nor False"),
+}
+WRONG_CAMPAIGN = {
+    "trials": ("20", "not a whole number; give trials=20"),
+    "seed": (2.5, "not a whole number; give one"),
+    "workers": (True, "not a whole number; give one"),
+    "compare": ("guidance=a,b", "no dictionary; give compare="),
+}
+
+
+def refused(call):
+    with pytest.raises(InputError) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_options_of_a_simulation(name):
+    value, expected = WRONG[name]
+    text = refused(lambda: perilune.simulate(SYSTEM, **{name: value}))
+    assert text.startswith(f"{name}: ")
+    assert expected in text
+
+
+@pytest.mark.parametrize("name", WRONG_CAMPAIGN)
+def test_options_of_a_campaign(name):
+    value, expected = WRONG_CAMPAIGN[name]
+    text = refused(lambda: perilune.batch(SYSTEM, "paper", **{"trials": 2} | {name: value}))
+    assert text.startswith(f"{name}: ")
+    assert expected in text
+
+
+def test_an_fmu_that_is_no_name():
+    assert "use: guidance: 3: no name and no path" in refused(lambda: perilune.simulate(SYSTEM, use={"guidance": 3}))
+
+
+@pytest.mark.usefixtures("fmus")
+def test_numbers_of_numpy_are_numbers():
+    flight = perilune.simulate(SYSTEM, stop_time=np.float64(1.0), strict=np.bool_(False), step=np.int64(1))
+    assert flight.time.tolist() == [0.0, 1.0]
+
+
+@pytest.mark.usefixtures("fmus")
+def test_a_plot_of_nothing_names_signals():
+    flight = perilune.simulate(SYSTEM, stop_time=1.0)
+    assert "give one or more of signals: plant.thrust, " in refused(flight.plot)
