@@ -19,7 +19,7 @@ from ..common.errors import InputError
 from ..common.visible import first_ones
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.ssp.reading import read_description
-from ..runtime.system.options import SystemOptions
+from ..runtime.system.options import SystemOptions, Watch
 from ..stability.request.reading import read_declaration
 from ..stability.request.request import read_request
 from ..stability.results.document import document
@@ -40,19 +40,24 @@ def known_studies(archive: SystemArchive) -> list[str]:
     return [*sorted(archive.campaign_names()), *([STABILITY] if has_loops else [])]
 
 
-def make_report(system: Path, name: str, options: SystemOptions) -> bytes:
-    """The report of a study as JSON: a campaign by name, or `STABILITY`. Raises InputError for no such study."""
-    report = _margins(system, options) if name == STABILITY else _verdicts(system, name, options)
+def make_report(system: Path, name: str, options: SystemOptions, timeout: float | None = None) -> bytes:
+    """Return the report of a study as JSON: a campaign by name, or `STABILITY`. Raises InputError for no such study.
+
+    ``timeout`` (s, wall clock) is of each trial of a campaign; the steps of a stability study have none.
+    """
+    report = _margins(system, options) if name == STABILITY else _verdicts(system, name, options, timeout)
     return f"{json.dumps({'perilune': version('perilune'), **report}, indent=1)}\n".encode()
 
 
-def compare_report(stored: bytes, system: Path, name: str, options: SystemOptions, file: str) -> list[str]:
-    """Where a study made anew differs from its stored report, a line each. Raises InputError."""
+def compare_report(
+    stored: bytes, system: Path, name: str, options: SystemOptions, file: str, timeout: float | None
+) -> list[str]:
+    """Return where a repeated study differs from its stored report, a line each. Raises InputError."""
     try:
         numbers = dict(_leaves(json.loads(stored), ""))
     except (ValueError, RecursionError) as error:
         raise InputError(file, "", f"not JSON: {error}", "export the system again") from error
-    now = dict(_leaves(json.loads(make_report(system, name, options)), ""))
+    now = dict(_leaves(json.loads(make_report(system, name, options, timeout)), ""))
     relative = LAPACK if name == STABILITY else 0.0
     differences = [
         f"{key}: {numbers.get(key, 'absent')} in the report, {now.get(key, 'absent')} now"
@@ -62,8 +67,8 @@ def compare_report(stored: bytes, system: Path, name: str, options: SystemOption
     return [f"{name}: {line}" for line in first_ones(differences, NAMED)]
 
 
-def _verdicts(system: Path, name: str, options: SystemOptions) -> dict[str, object]:
-    plan = read_plan(system, name, options)
+def _verdicts(system: Path, name: str, options: SystemOptions, timeout: float | None) -> dict[str, object]:
+    plan = read_plan(system, name, options, watch=Watch(timeout))
     with chdir(Path.cwd()):  # an FMU may change the folder
         campaign = open_campaign(plan, None)
         made = BatchResult.finish(campaign, fly_campaign(campaign, campaign.missing())).document()

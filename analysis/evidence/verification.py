@@ -42,8 +42,9 @@ def verify_archive(
 ) -> Verification:
     """Check the files of an .fmu or .ssp against its evidence, and simulate its experiments again.
 
-    ``relative`` as of `reproduce`, ``timeout`` (s) of each simulation. Raises InputError where there is no evidence,
-    some that cannot be read, or an experiment that takes more than a bound permits.
+    ``relative`` as of `reproduce`, ``timeout`` (s) of each simulation and of each trial of repeated campaigns. Raises
+    InputError where there is no evidence, some that cannot be read, or an experiment that takes more than a bound
+    permits.
     """
     files = ZippedFiles(read_input(archive.path, "give an .fmu or .ssp", ARCHIVE_BYTES), archive.label)
     manifest = read_manifest(files, archive.label)
@@ -65,7 +66,7 @@ def verify_archive(
             raise InputError(archive.label, element, error.problem, error.remedy) from error
         except InputError as error:
             problems.append(f"{experiment.name}: {error.text}")
-    studies, reproduced, differences = _repeat_studies(archive, manifest, files, options)
+    studies, reproduced, differences = _repeat_studies(archive, manifest, files, options, timeout)
     problems += differences
     if not plan.experiments and not studies:
         problems.append("holds no trajectory: nothing to reproduce")
@@ -73,7 +74,11 @@ def verify_archive(
 
 
 def _repeat_studies(
-    archive: SystemArchive, manifest: Manifest, files: Mapping[str, bytes], options: SystemOptions
+    archive: SystemArchive,
+    manifest: Manifest,
+    files: Mapping[str, bytes],
+    options: SystemOptions,
+    timeout: float | None,
 ) -> tuple[tuple[str, ...], tuple[str, ...], list[str]]:
     """The studies that were repeated, those of them that equal their reports, and where others differ."""
     studies, reproduced, problems = [], [], []
@@ -84,7 +89,7 @@ def _repeat_studies(
             problems.append(f"{related.name}: reports {related.study}, which is no study of the archive")
             continue
         where = f"{archive.label}!{related.name}"
-        differences = compare_report(files[related.name], archive.path, related.study, options, where)
+        differences = compare_report(files[related.name], archive.path, related.study, options, where, timeout)
         problems += differences
         studies.append(related.study)
         reproduced += [] if differences else [related.study]

@@ -26,6 +26,7 @@ from .options.verb import verb
 from .run import STUCK, Result
 
 METRIC = "metric."
+SYSTEM_JUDGES = "the system's description"
 OF_A_FOLDER = {
     "configuration",
     "log",
@@ -111,8 +112,12 @@ class ReplayResult(Result):
     def problems(self) -> list[str]:
         """As of `Result`; that the trial is no success, and how it differs from the stored one."""
         name, lines = f"{self.source}: trial {self.trial}", super().problems()
+        success = self.replayed.plan.campaign.success.text
         if self.complete and not self.success:
-            lines.append(f"{name}: no success: {self.replayed.plan.campaign.success.text} is not met")
+            lines.append(f"{name}: no success: {success} is not met")
+        elif self.complete and lines:
+            judges = " and ".join([SYSTEM_JUDGES, *(["`require`"] if self.requirements else [])])
+            lines.append(f"{name}: a success of the campaign: {success} is met; the lines above are of {judges}")
         remedy = "; the campaign ran with another version of Perilune, or foreign FMUs on another machine"
         return lines + [f"{name}: {each}{'' if self.replayed.is_cut_off else remedy}" for each in self.differences]
 

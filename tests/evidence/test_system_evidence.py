@@ -148,3 +148,9 @@ def test_a_system_that_cannot_be_simulated_as_it_stands(tiny_folder, tmp_path, m
         perilune.export(folder, output=tmp_path / "open.ssp")
     (verified,) = perilune.verify(tmp_path / "open.ssp")
     assert verified.problems == ("holds no trajectory: nothing to reproduce",)
+
+
+def test_timeout_is_of_repeated_campaigns_too(exported):
+    (verified,) = perilune.verify(exported[0], timeout=1e-9)
+    assert verified.studies == ("few",)
+    assert verified.reproduced == ()

@@ -11,10 +11,11 @@ from ...runtime.apart.opening import flies_here, open_simulation
 from ...runtime.flight.base_simulation import BaseSimulation
 from ...runtime.flight.group import FlightGroup
 from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
-from ...runtime.flight.results import CRASHED, LOST, Flight, Result
+from ...runtime.flight.results import CRASHED, LOST, NONFINITE, Flight, Result
 from ...runtime.instances.instance import Log
 from ...runtime.instances.library import LOADING
 from ...runtime.ssp.given_values import ParameterValue
+from ...runtime.system.prepared import PreparedSystem
 from ..spec.checks import VariantNames, variant_names
 from ..spec.plan import BatchPlan, DrawnTrials
 from ..trials import Trials
@@ -145,16 +146,31 @@ class Flyer:
         return self._look_at(self._flight(variant, trial, overlay), trial, self.simulation(variant)[1])
 
     def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
-        """Fly one trial with every signal recorded; same bits as in the batch."""
+        """Fly one trial with every signal recorded; same bits as in the batch.
+
+        Where an output that the batch does not read is not finite, only what the batch reads is recorded.
+        """
         prepared = self.plan.prepare(self.variants[variant])
         names = variant_names(self.plan, prepared)
-        faults, log = self.plan.list_faults(), self._log_of(variant)
-        sampled = self.values_for(trial)
-        with open_simulation(prepared, apart=self._apart, varied=names.varied, faults=faults, log=log) as simulation:
+        result = self._fly_recorded(variant, prepared, trial, names, None)
+        if result.status == NONFINITE and self.plan.campaign.record.traces == "none":
+            read = self._fly_recorded(variant, prepared, trial, names, {*names.signals, *names.statuses})
+            if read.status != NONFINITE:
+                self._warn_once(variant, f"trial {trial}: {result.message}; the campaign does not read it: left out")
+                result = read
+        return result, self._look_at(result, trial, names)
+
+    def _fly_recorded(
+        self, variant: str, prepared: PreparedSystem, trial: int, names: VariantNames, wanted: set[str] | None
+    ) -> Result:
+        """Return a trial with the wanted signals recorded, None for all."""
+        faults, log, sampled = self.plan.list_faults(), self._log_of(variant), self.values_for(trial)
+        with open_simulation(
+            prepared, apart=self._apart, varied=names.varied, wanted=wanted, faults=faults, log=log
+        ) as simulation:
             simulation.set_faults(sampled.faults_of(trial))
             simulation.set(sampled.parameters(prepared, trial))
-            result = fly(simulation, self.plan.watch.timeout)
-        return result, self._look_at(result, trial, names)
+            return fly(simulation, self.plan.watch.timeout)
 
     def _look_at(self, flight: Flight, trial: int, names: VariantNames) -> TrialResult:
         judge = Judge(self.plan.campaign, names)

@@ -56,7 +56,8 @@ def flights_view(scene: Scene, flights: Sequence[RecordedFlight]) -> FlightsView
         for each, of_bodies in zip(flights, tracks, strict=True)
         for body, track in zip(located, of_bodies, strict=True)
     ]
-    sites = {site: _position_of(site, flights) for site in scene.sites}
+    at_origin = [Site(body.name, (0.0, 0.0, 0.0)) for body in scene.bodies if body.position is None]
+    sites = {site: _position_of(site, flights) for site in (*scene.sites, *at_origin)}
     view = SceneView(
         title=scene.title,
         axes=scene.axes,
@@ -72,7 +73,7 @@ def flights_view(scene: Scene, flights: Sequence[RecordedFlight]) -> FlightsView
         ],
         lines=[],
     )
-    without_position = [body.name for body in scene.bodies if body not in located]
+    without_position = [body.name for body in scene.bodies if body.position is not None and body not in located]
     notes = [
         frame_note(scene),
         *([size_note(oriented)] if (oriented := [body for body in located if _has_attitude(body, flights)]) else []),

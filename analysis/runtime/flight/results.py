@@ -29,6 +29,7 @@ from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
 from .parameters import Parameters
 
+NONFINITE = "nonfinite"
 TIMED_OUT = "timed_out"
 CRASHED, HUNG, OUT_OF_MEMORY = LOST = "crashed", "hung", "out_of_memory"  # with the process, or the thread, of a flight
 COMPLETE = ("finished", "stop_time", "terminated")

@@ -3,6 +3,8 @@
 Truth: the positions and attitudes of each flight at its own samples, from its signals by scipy; straight lines between.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -70,6 +72,15 @@ def test_what_is_not_recorded_is_left_out_and_named():
     assert "The attitude of ship is not recorded." in view.notes
     assert "The position of goal differs between trials or is not recorded." in view.notes
     assert not any(note.startswith("To scale") for note in view.notes)
+
+
+def test_a_body_at_the_origin_is_there_and_not_missing():
+    _, scene = descent(rows=20)
+    target = replace(scene.bodies[0], name="target", position=None)
+    view = flights_view(replace(scene, bodies=(*scene.bodies, target)), [recorded(0, 20)])
+    assert not [note for note in view.notes if "target" in note]
+    (site,) = [site for site in view.scene.sites if site.name == "target"]
+    np.testing.assert_array_equal(np.stack(site.position)[:, 0], -np.array(view.scene.origin))
 
 
 def test_without_positions_there_is_no_scene():

@@ -202,3 +202,58 @@ def test_pages_print_the_short_command_where_there_is_a_folder(folder, tmp_path,
     assert "identical to the stored trial, bit for bit" in capsys.readouterr().out
     alone = perilune.batch(SYSTEM, "noisy", trials=2, workers=1, compare={"guidance": ["analytic_guidance"]})
     assert all(row.command.startswith("perilune replay ") for row in extremes_to_replay(alone))
+
+
+GROWING = """
+from perilune import Block, Output
+
+
+class Growing(Block):
+    \"\"\"Its second output, which no campaign reads, overflows.\"\"\"
+
+    y = Output(0.0, description="time")
+    z = Output(1.0, description="grows beyond all numbers")
+
+    def step(self, t: float, h: float) -> None:
+        self.y = t + h
+        self.z = self.z * 1e200
+"""
+READS_Y = """
+system = "growing"
+trials = 2
+seed = 1
+[metric.last]
+expression = "growing.y"
+reduction = "final"
+[success]
+expression = "last > 0"
+"""
+
+
+def test_an_output_that_the_campaign_does_not_read_may_overflow(tmp_path, monkeypatch):
+    """Status and metrics of the replay are those of the batch."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "growing.py").write_text(GROWING)
+    perilune.export("growing.py", flavour="python", output="growing.fmu")
+    (tmp_path / "reads_y.toml").write_text(READS_Y)
+    options = {"stop_time": 4.0, "step": 1.0}
+    batch = perilune.batch("growing.fmu", "reads_y.toml", workers=1, output="out", **options)
+    assert {status for trials in batch.trials.values() for status in trials.statuses} == {"stop_time"}
+    with pytest.warns(UserWarning, match=r"growing\.z .*; the campaign does not read it: left out"):
+        actual = perilune.replay("out", 1)
+    assert (actual.status, actual.differences, actual.metrics) == ("stop_time", (), {"last": 4.0})
+    assert actual["growing.y"].tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
+    assert actual.problems() == []
+
+
+def test_a_success_that_violates_limits_says_who_judges(tmp_path, capsys):
+    """The campaign's success is a flight of 3 s, at whose end the system's limits are not kept."""
+    campaign = tmp_path / "short.toml"
+    campaign.write_text('extends = "paper"\ntrials = 1\nsuccess.expression = "flight_time > 0"\n')
+    options = ["--configuration", "analytic_guidance", "--stop-time", "3"]
+    assert main(["replay", SYSTEM, "0", "--campaign", str(campaign), *options]) == 1
+    lines = capsys.readouterr().err.splitlines()
+    assert any("limits violated: " in line for line in lines)
+    assert lines[-1].endswith(
+        ": trial 0: a success of the campaign: flight_time > 0 is met; the lines above are of the system's description"
+    )
