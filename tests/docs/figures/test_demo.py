@@ -3,14 +3,12 @@
 import numpy as np
 import pyarrow.parquet
 import pytest
-from lxml import etree
 
 from docs.figures.demo import fly, fly_mission
 from docs.figures.page import PUBLISHED
 from docs.figures.readme_figure import draw_readme_figure
 from perilune.fmus_src.paths import ROOT
 from tests.papers.test_fomichev_li import TABLE
-from tests.support.lengths import LONG
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 
 TRIALS = 12
@@ -74,15 +72,9 @@ def test_the_landing_arrives(demo):
     assert step == 0.1
 
 
-def test_figure_of_the_readme_is_reproduced(fmus, tmp_path):
-    draw_readme_figure(tmp_path / "a.svg")
-    first = (tmp_path / "a.svg").read_bytes()
-    if LONG:
-        draw_readme_figure(tmp_path / "b.svg")
-        assert first == (tmp_path / "b.svg").read_bytes()
-    assert b"<dc:date>" not in first
-    retained, sampled = (etree.parse(path).getroot() for path in (ROOT / "docs/images/landing.svg", tmp_path / "a.svg"))
-    assert retained.get("viewBox") == sampled.get("viewBox")
-    assert [element.get("id") for element in retained.iter("{*}g")] == [
-        element.get("id") for element in sampled.iter("{*}g")
-    ]
+def test_figure_of_the_readme_is_what_make_demo_draws(fmus, tmp_path):
+    """To the last digit of a path: marks are named after the file, which has to have the same name."""
+    retained = ROOT / "docs" / "images" / "landing.svg"
+    draw_readme_figure(tmp_path / retained.name)
+    assert (tmp_path / retained.name).read_bytes() == retained.read_bytes()
+    assert b"<dc:date>" not in retained.read_bytes()

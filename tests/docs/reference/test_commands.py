@@ -19,7 +19,7 @@ import pytest
 from perilune.analysis.cli import main
 from perilune.analysis.verbs.options.verbs import VERBS
 from perilune.fmus_src.paths import ROOT
-from tests.support.documented import documented, page_text, saved_files
+from tests.support.documented import documented, first_difference, page_text, printed_by, saved_files
 from tests.support.lengths import LONG
 from tests.support.pages.system_page import write_system
 
@@ -75,8 +75,8 @@ TAKES_LONG = {
     "attitude --parameters paper.ssv --report good.html": "what first_flight.md does, too",
     "attitude_control.lead_time=": "a thin and an unstable loop with their pages, 20 s",
     "--campaign inertia --trials 20": "twenty linearisations",
-    "--optimum": "direct multiple shooting",
-    "--direct": "a direct method",
+    "--optimum": "direct multiple shooting; those with what they print take 2 s",
+    "--direct": "a direct method; likewise",
     "perilune worst robot_rendezvous": "a hundred linearisations",
     "modal_comparison": "two minutes of random plants",
     "perilune benchmark": "importers that take a minute each",
@@ -86,9 +86,21 @@ TAKES_LONG = {
     "hover_transfer --parameters ideal.ssv --report": "a flight and its page",
     "guidance=analytic_guidance,neural_guidance": "twenty flights of a guidance in Python",
 }
+# Of commands whose pages show what they print, `make test` carries out all but those that take more than 10 s, ...
+OUTPUT_TAKES_LONG = {
+    "perilune worst robot_rendezvous": "a hundred linearisations, 14 s",
+    "python train_network.py": "tests/test_neural_guidance.py trains it",
+    "neural_guidance": "needs the network that the page trains",
+    "python read_loop.py": "needs the data of a study before it",
+    "export lunar_terminal_guidance --as-fmu": "compiles for all platforms",
+    "lunar_terminal_guidance.fmu": "the FMU of the former",
+}
+# ... and of some all but the page.
+PAGE_TAKES_LONG = ("perilune run landing_mission --parameters ideal.ssv", "perilune run lunar_landing --report")
 FAILS = (  # exit status 1
     "attitude_control.lead_time=",  # the thin and the unstable loop
     "--fault 'pulses.pulse_lengths[2]=override:0@60'",  # limits at the end
+    "perilune replay results 7 --configuration network_operator_guidance",  # a limit of the system
     "--fault 'gyros.measured_angular_velocity[1]=bias:1e-4@100..200'",
 )
 # What begins the work of a verb, once all that it was given has been looked at.
@@ -122,7 +134,7 @@ def _beginning(command: str, table) -> str | None:
 
 
 OF_SYSTEMS = "docs/systems/"  # pages whose commands are alike: `make test` takes every third of them
-# Of these the commands take a third of a minute each: `make long` alone.
+# Of these the commands take a third of a minute each: `make long` alone, but for those with what they print.
 LONG_PAGES = (
     "docs/stability.md",
     "docs/guides/neural_network_guidance.md",
@@ -133,7 +145,7 @@ TAKEN = (
     PLACES
     if LONG
     else [
-        *(place for place in PLACES if not place.startswith(OF_SYSTEMS) and place not in LONG_PAGES),
+        *(page for page in PLACES if not page.startswith(OF_SYSTEMS)),
         *[place for place in PLACES if place.startswith(OF_SYSTEMS)][::3],
     ]
 )
@@ -147,22 +159,35 @@ def test_the_commands(place, tmp_path, monkeypatch, capsys):
     if place == SYSTEM_BY_HAND:
         write_system(tmp_path)
     here = tmp_path
+    printed = printed_by(page_text(place))
     for command in PLACES[place]:
         if any(command.startswith(words) for words in ELSEWHERE):
             continue
+        expected = printed.get(command, [])
+        is_compared = bool(expected) if command.startswith("perilune ") else command in printed
+        if not LONG and place in LONG_PAGES and (not is_compared or _beginning(command, OUTPUT_TAKES_LONG)):
+            continue
         brief = not LONG and not command.startswith("perilune describe") and _beginning(command, TAKES_LONG) is not None
         if not command.startswith("perilune "):
-            here = here if brief else _shell(command, here)
+            if not brief:
+                here, output = _shell(command, here)
+                assert not expected or first_difference(expected, output, "") is None, f"{command}\n{output}"
             continue
         words = shlex.split(command)[1:]
-        if brief:
+        if brief and _beginning(command, PAGE_TAKES_LONG):
+            words, expected = _without_page(words, expected)
+        elif brief and not expected:
             _prepare(words, monkeypatch)
             continue
         if command in _done:
             continue
-        _done.update([command] if words[0] in ALIKE and "linear_guidance" not in command else [])
-        expected = 1 if _beginning(command, FAILS) else 0
-        assert main(words) == expected, f"{command}\n{capsys.readouterr().err}"
+        _done.update([command] if words[0] in ALIKE and "linear_guidance" not in command and not expected else [])
+        status = 1 if _beginning(command, FAILS) else 0
+        capsys.readouterr()
+        assert main(words) == status, f"{command}\n{capsys.readouterr().err}"
+        captured = capsys.readouterr()
+        difference = first_difference(expected, captured.out, captured.err) if expected else None
+        assert difference is None, f"{command}: {difference!r}\n{captured.err}{captured.out}"
         for option, value in pairwise(words):
             if option in ("--output", "--report", "--graph", "--json"):
                 assert Path(value).exists(), command
@@ -179,12 +204,18 @@ def _prepare(words: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
             main(words)
 
 
-def _shell(command: str, here: Path) -> Path:
-    """Carry out a line of a shell in a folder; returns the folder it ends in."""
+def _without_page(words: list[str], expected: list[str]) -> tuple[list[str], list[str]]:
+    """The command without its page, and what it then prints."""
+    at = words.index("--report")
+    return words[:at] + words[at + 2 :], [line for line in expected if line != f"written: {words[at + 1]}"]
+
+
+def _shell(command: str, here: Path) -> tuple[Path, str]:
+    """Carry out a line of a shell in a folder; returns the folder it ends in, and its standard output."""
     line = f"set -e; python() {{ '{sys.executable}' \"$@\"; }}; {command}; pwd > '{here}/.place'"
     done = subprocess.run(["bash", "-c", line], cwd=here, capture_output=True, text=True, check=False)
     assert done.returncode == 0, f"{command}\n{done.stderr}"
-    return Path((here / ".place").read_text(encoding="utf-8").strip())
+    return Path((here / ".place").read_text(encoding="utf-8").strip()), done.stdout
 
 
 def test_every_verb_has_an_example():
@@ -201,5 +232,5 @@ def test_the_targets_of_make():
 
 def test_what_is_left_out_is_there_to_be_left_out():
     commands = [command for commands in PLACES.values() for command in commands]
-    for words in (*ELSEWHERE, *TAKES_LONG, *FAILS):
+    for words in (*ELSEWHERE, *TAKES_LONG, *OUTPUT_TAKES_LONG, *PAGE_TAKES_LONG, *FAILS):
         assert any(words in command for command in commands), words
