@@ -29,7 +29,7 @@ OTHERS = {
     "keyctl": 250,
 }
 PIDFD_SEND_SIGNAL = 424
-# Calls that name a process: the places of arguments, counted from 0, and what each may be, CALLER this process's number.
+# Calls that name a process: positions of arguments, from 0, and what each may be, CALLER this process's number.
 # Threads of this process have numbers that no filter knows: they set themselves, as 0.
 CALLER = "own"
 ITSELF: Values = (0, CALLER)
