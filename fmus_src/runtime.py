@@ -7,14 +7,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from .block import Block, Output, State
+from .block import Block, Input, Output, Parameter, State
 from .kernel.matrix_types import Matrix
 from .kernel.records import Record
 from .kernel.vector_types import vector
+from .start_values import StartError, describe_violation, start_range
 
 # How far a communication point may miss a sample instant: importers round t0 + n h, or add up h.
 SAMPLE_TOLERANCE = 1e-6  # of a sample period
 TIME_TOLERANCE = 1e-15  # of the time
+MOST_STEPS = 1_000_000  # of a block's own integration in a communication step
+INTEGRATION_STEPS = ("longest_step", "internal_step")  # names of the longest of them (s): the first that a block has
 POINT_TOLERANCE = 1e-3  # of a step: communication points carry the rounding of whoever adds them up
 
 SCALAR, VECTOR, LIST, RECORD, MATRIX = -1, -2, -3, -4, -5  # in place of an element's number: all of a variable
@@ -29,20 +32,27 @@ class StateError(ValueError):
     """A block's state cannot be saved; the message says why."""
 
 
+def integration_step(block_class: type[Block]) -> str | None:
+    """Return the name of the variable that is the longest step of a block's own integration, if it has one."""
+    return next((name for name in INTEGRATION_STEPS if name in block_class.variables), None)
+
+
 class Component:
     """One instance of a block, driven as an FMI importer drives an FMU.
 
     Setting a variable during initialisation marks the instance; the next `settle` puts states
-    and outputs back to their declared starts and runs `Block.initialize` again. Value
+    and outputs back to their declared starts, checks parameters and inputs and runs `Block.initialize` again. Value
     references number the elements of all variables in order of declaration.
 
     Raises what the block's arithmetic raises (ZeroDivisionError, ValueError, OverflowError) and
-    `StepError` when more than one sample falls into a communication step.
+    `StepError` when more than one sample, or too many integration steps, fall into a communication step; `StartError`
+    where a parameter is outside its bounds, or a parameter or an input is not finite.
     """
 
     def __init__(self, block_class: type[Block]) -> None:
         self.block: Any = block_class()
         self.sampled = "sample_period" in block_class.variables
+        self.integration_step = integration_step(block_class)
         self.initialising = True
         self.unsettled = True
         self.start_time = 0.0
@@ -52,6 +62,14 @@ class Component:
             for name, variable in block_class.variables.items()
             for index in range(variable.size)
         ]
+        self.checked: list[int] = []  # value references of parameters and inputs that are numbers
+        self.ranges: list[tuple[str, float, float]] = []  # their names, least and largest values
+        first = 0
+        for variable in block_class.variables.values():
+            if isinstance(variable, Parameter | Input) and variable.type_name != "Boolean":
+                self.checked += range(first, first + variable.size)
+                self.ranges += [(name, *start_range(variable)) for name in variable.element_names()]
+            first += variable.size
         # For each list of value references that was asked for: the variables behind it. Importers repeat theirs.
         self.known: dict[tuple[int, ...], list[Access]] = {}
 
@@ -143,12 +161,19 @@ class Component:
         for name, variable in self.block.variables.items():
             if isinstance(variable, State | Output):
                 setattr(self.block, name, variable.start)
+        self.check_start_values()
         self.block.drop_external()  # before others are made: two simulations at once would take twice the memory
         self.tick = 0
         if "start_time" in self.block.variables:
             self.block.start_time = self.start_time
         self.block.initialize()
         self.unsettled = False
+
+    def check_start_values(self) -> None:
+        """Refuse parameters outside their bounds, and parameters and inputs that are not finite."""
+        for value, (name, low, high) in zip(self.read(self.checked), self.ranges, strict=True):
+            if not low <= value <= high:
+                raise StartError(describe_violation(name, value, low, high))
 
     def start(self) -> None:
         """Leave initialisation."""
@@ -164,6 +189,12 @@ class Component:
                 "go on from there, or restore its state of then"
             )
 
+    def check_end(self, t: float, h: float, stop: float) -> None:
+        """Refuse a step from t (s) over h (s) past the stop time (s; infinite: the importer has not said it)."""
+        end = t + h
+        if end > stop and end > stop + POINT_TOLERANCE * h + TIME_TOLERANCE * abs(end):
+            raise StepError(f"the step ends at {end!r} s, after the stop time of {stop!r} s")
+
     def do_step(self, t: float, h: float) -> None:
         """Advance from t to t + h (s); a sampled block steps at its sample instants only."""
         if self.sampled and self.block.sample_period > 0.0:
@@ -178,6 +209,13 @@ class Component:
                     "use a communication step no longer than the period, or a longer period"
                 )
             self.tick += 1
+        if self.integration_step is not None:
+            longest = getattr(self.block, self.integration_step)
+            if h > MOST_STEPS * longest:
+                raise StepError(
+                    f"communication step {h!r} s holds more than {MOST_STEPS} integration steps of {longest!r} s; "
+                    "use a shorter communication step, or a longer internal_step"
+                )
         self.block.step(t, h)
 
     def get_state(self) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import linecache
+import math
 import sys
 import traceback
 from typing import Any, ClassVar
@@ -42,6 +43,7 @@ class BlockSlave(Fmi2Slave):
         self.component = Component(self.block_class)
         self.component.block.fmu_resources = self.resources
         self.time: float | None = None  # end of the last step; not known of a state put back
+        self.stop_time = math.inf
         self.get_real = self.get_integer = self.get_boolean = self.get_values
         self.set_real = self.set_integer = self.set_boolean = self.component.set
 
@@ -57,10 +59,11 @@ class BlockSlave(Fmi2Slave):
         """Send the traceback under way to the importer's log, a printf format as FMI 2.0 has it."""
         self.log(traceback.format_exc().replace("%", "%%"), Fmi2Status.error)
 
-    def setup_experiment(self, start_time: float, *_: object) -> None:
+    def setup_experiment(self, start_time: float, stop_time: float | None, *_: object) -> None:
         # All is imported by now; left on the path, this FMU's folder would answer for other FMUs' imports.
         sys.path[:] = [entry for entry in sys.path if entry != self.resources]
         self.component.start_time = self.time = start_time
+        self.stop_time = math.inf if stop_time is None else stop_time
 
     def exit_initialization_mode(self) -> None:
         try:
@@ -73,6 +76,7 @@ class BlockSlave(Fmi2Slave):
         try:
             if self.time is not None:
                 self.component.check_point(current_time, step_size, self.time)
+            self.component.check_end(current_time, step_size, self.stop_time)
             self.component.do_step(current_time, step_size)
             self.time = current_time + step_size
         except Exception:  # whatever a block raises ends the run with its traceback

@@ -12,6 +12,8 @@ from typing import Any, TypeVar
 from .records import Field, Record
 from .vector_types import Vector3
 
+STEP_ROUNDING = 1e-9  # of a longest step, by which a step may exceed it
+
 State = TypeVar("State")  # a float, a vector or a record
 Derivatives = Callable[..., Any]  # (t, state, *inputs) -> rate of the state
 
@@ -32,6 +34,11 @@ def runge_kutta_4_from(k1: Any, derivatives: Derivatives, t: float, state: State
     k3 = derivatives(t + half, state + half * k2, *inputs)
     k4 = derivatives(t + h, state + h * k3, *inputs)
     return state + h * (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
+
+
+def count_steps(h: float, longest: float) -> int:
+    """Return the number of equal steps in h (s), none longer than ``longest`` (s) but for rounding."""
+    return int(h / longest - STEP_ROUNDING) + 1
 
 
 class Translation(Record):

@@ -4,12 +4,10 @@ import math
 
 from ..block import Block, Parameter, State
 from ..interfaces.ports import body
-from ..kernel.integrators import runge_kutta_4
+from ..kernel.integrators import count_steps, runge_kutta_4
 from ..kernel.matrices import inverse
 from ..mathlib.orbits.attitude import AttitudeState, angle_rates, angular_acceleration, evaluate_angles
 from ..mathlib.vectors import Vector3, vector
-
-STEP_ROUNDING = 1e-9  # of a longest step, by which a step may exceed it
 
 
 class OrbitalBody(Block, interface=True):
@@ -75,7 +73,7 @@ class OrbitalBody(Block, interface=True):
                 if length > time and length < end:
                     end = length
             torque = self.torque_at(pulses, time) + constant_torque
-            pieces = int((end - time) / longest - STEP_ROUNDING) + 1
+            pieces = count_steps(end - time, longest)
             for _ in range(pieces):
                 s = runge_kutta_4(self.derivatives, time, s, (end - time) / float(pieces), torque)
             time = end

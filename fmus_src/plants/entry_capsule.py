@@ -6,7 +6,7 @@ from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, entry, landing, sampling
 from ..kernel.enumerations import Enumeration, member
 from ..kernel.functions import atan2
-from ..kernel.integrators import runge_kutta_4
+from ..kernel.integrators import count_steps, runge_kutta_4
 from ..kernel.matrices import Matrix, inverse
 from ..kernel.records import replace
 from ..mathlib.actuators.pulses import left_after, lengths_of, next_switch_off
@@ -29,7 +29,6 @@ from ..units import deg
 KNOTS = 13
 MACHS = 10
 ANGLE_STEP = deg(5.0)  # between the knots
-STEP_ROUNDING = 1e-9
 HEAD_ON = 1e-9  # sine of the spatial angle of attack below which the aerodynamic roll is taken as 0
 MACH_NUMBERS = [1.2, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0, 30.0]
 AXIAL, NORMAL = cap_tables(1.1, 2.235, MACH_NUMBERS, [5.0 * k for k in range(KNOTS)])
@@ -220,7 +219,7 @@ class EntryCapsule(Block):
             y = self.jet(2, 3, self.left.y, time)
             z = self.jet(4, 5, self.left.z, time)
             torque = vector(x, y, z) + self.mean_torque
-            pieces = int((end - time) / self.internal_step - STEP_ROUNDING) + 1
+            pieces = count_steps(end - time, self.internal_step)
             for _ in range(pieces):
                 self.state = runge_kutta_4(self.derivatives, t + time, self.state, (end - time) / float(pieces), torque)
             time = end

@@ -2,7 +2,7 @@
 
 from ..block import Block, Parameter, State
 from ..interfaces.ports import landing, sampling
-from ..kernel.integrators import Translation, simpson
+from ..kernel.integrators import Translation, count_steps, simpson
 from ..mathlib.vectors import Vector3, norm, vector
 
 
@@ -74,7 +74,7 @@ class FlatMoonLander(Block):
             burning = h
         moving = h
         if not self.latched:
-            pieces = int(burning / self.internal_step - 1e-9) + 1
+            pieces = count_steps(burning, self.internal_step)
             piece = burning / pieces
             for k in range(pieces):
                 self.burn(t + k * piece, piece)

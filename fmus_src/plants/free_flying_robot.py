@@ -4,6 +4,7 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, landing, robot, sampling
+from ..kernel.integrators import count_steps
 from ..kernel.records import Field, Record
 from ..mathlib.actuators.gyros import ISOTROPIC_ANGLES, cluster_momentum
 from ..mathlib.actuators.jets import JETS, JetStrength, jet_strength, jet_wrench
@@ -153,7 +154,7 @@ class FreeFlyingRobot(Block):
         wrench = jet_wrench(self.strength, thrust)
         self.jet_force = wrench.force
         self.jet_torque = wrench.torque
-        pieces = int(h / self.internal_step - 1e-9) + 1
+        pieces = count_steps(h, self.internal_step)
         piece = h / pieces
         for _ in range(pieces):
             self.move(piece)

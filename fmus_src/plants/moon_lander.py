@@ -5,7 +5,7 @@ import math
 from ..block import Block, Output, State
 from ..interfaces.ports import landing, sampling
 from ..kernel.functions import log1p
-from ..kernel.integrators import Forcing, Translation, gain_of, runge_kutta_nystrom
+from ..kernel.integrators import Forcing, Translation, count_steps, gain_of, runge_kutta_nystrom
 from ..kernel.records import Field, Record
 from ..mathlib.actuators.lagged_thrust import lagged_thrust
 from ..mathlib.lunar.gravity import STANDARD_GRAVITY, altitude_of, central_gravity
@@ -157,7 +157,7 @@ class MoonLander(Block, interface=True):
     def fly(self, t: float, h: float, commanded: float) -> None:
         """Move from t to t + h (s) under a commanded thrust (N), and set what follows from the motion."""
         gained = vector(0.0, 0.0, 0.0)
-        pieces = int(h / self.longest_step - 1e-9) + 1
+        pieces = count_steps(h, self.longest_step)
         piece = h / pieces
         for k in range(pieces):
             start = t + k * piece

@@ -5,7 +5,7 @@ import math
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import landing, sampling
 from ..kernel.functions import atan2, cos, sin
-from ..kernel.integrators import runge_kutta_4
+from ..kernel.integrators import count_steps, runge_kutta_4
 from ..kernel.records import Field, Record
 from ..mathlib.lunar.gravity import STANDARD_GRAVITY
 
@@ -106,7 +106,7 @@ class PlanarMoonLander(Block):
         self.ground_contact = self.altitude <= 0.0
 
     def step(self, t: float, h: float) -> None:
-        pieces = int(h / self.internal_step - 1e-9) + 1
+        pieces = count_steps(h, self.internal_step)
         for _ in range(pieces):
             if not self.ground_contact:
                 self.move(h / pieces)

@@ -3,7 +3,7 @@
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, robot, sampling, satellite
 from ..kernel.enumerations import Enumeration, member
-from ..kernel.integrators import runge_kutta_4
+from ..kernel.integrators import count_steps, runge_kutta_4
 from ..kernel.matrices import Matrix, inverse, zeros
 from ..kernel.records import Field, Record
 from ..mathlib.actuators.wheels import WHEELS, drag_torque, unit_axes
@@ -167,6 +167,6 @@ class WheelSatellite(Block):
         if self.status == WheelSatelliteStatus.NO_INERTIA:
             return
         self.status = WheelSatelliteStatus.GOOD
-        steps = int(h / self.internal_step - 1e-9) + 1
+        steps = count_steps(h, self.internal_step)
         for k in range(steps):
             self.move(t + float(k) * h / float(steps), h / float(steps))

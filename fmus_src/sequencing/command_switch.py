@@ -1,6 +1,6 @@
 """Passes on the command of the guidance that is in charge."""
 
-from ..block import Block, Input, Inputs, Outputs
+from ..block import Block, Input, Inputs, Outputs, State
 from ..interfaces.ports import landing
 from ..interfaces.ports.landing import CommandSource, ThrustCommand
 from ..mathlib.vectors import vector
@@ -26,16 +26,18 @@ class CommandSwitch(Block):
     hover_angular_acceleration_feed = landing.ANGULAR_ACCELERATION.input("the hover guidance: of its plan")
     command = Outputs(ThrustCommand, direct=True)
     angular_acceleration_feed = landing.ANGULAR_ACCELERATION.output("that the command itself needs", direct=True)
+    passed_thrust_acceleration = State(0.0, unit="m/s2", description="thrust of the last command, engine on or off")
 
     def initialize(self) -> None:
         self.switch()
 
     def switch(self) -> None:
-        """Pass on the command in charge; until the requested plan is answered, the outputs stay."""
+        """Pass on the command in charge; until the requested plan is answered, the last one is held."""
         if self.source != CommandSource.HOVER or self.hover_plan == self.plan_number:
             self.pass_on()
-        if not self.engine_on or self.source < CommandSource.OWN or self.source > CommandSource.HOVER:
-            self.command.thrust_acceleration = 0.0
+        self.command.thrust_acceleration = 0.0
+        if self.engine_on:
+            self.command.thrust_acceleration = self.passed_thrust_acceleration
 
     def pass_on(self) -> None:
         """Put the command of the source on the outputs."""
@@ -48,8 +50,10 @@ class CommandSwitch(Block):
             self.command = self.hover
             self.angular_acceleration_feed = self.hover_angular_acceleration_feed
         else:
+            self.command.thrust_acceleration = 0.0
             self.command.thrust_direction = vector(0.0, 0.0, 0.0)
             self.command.thrust_direction_rate = vector(0.0, 0.0, 0.0)
+        self.passed_thrust_acceleration = self.command.thrust_acceleration
 
     def step(self, t: float, h: float) -> None:
         self.switch()

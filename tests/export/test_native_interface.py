@@ -41,6 +41,15 @@ class Walk(Block):
         self.samples = self.samples + 1
 
 
+class Unlike(Block):
+    """Has one variable."""
+
+    y = Output(0.0, description="nothing")
+
+    def step(self, t: float, h: float) -> None:
+        self.y = 0.0
+
+
 NAMES = list(Walk.variables)
 REFERENCE = {name: number for number, name in enumerate(NAMES)}
 ALL = list(range(len(NAMES)))
@@ -166,6 +175,22 @@ def test_foreign_states_are_refused(walk: NativeInstance) -> None:
     small = (ctypes.c_char * 8)()
     assert walk.call("fmi2SerializeFMUstate", state, small, c_size_t(8)) == ERROR
     walk.free_state(state)
+
+
+def test_a_state_is_not_saved_into_one_of_another_fmu_which_has_other_room(walk: NativeInstance) -> None:
+    """Walk's state would be written beyond the end of the smaller FMU's."""
+    other = NativeInstance(Unlike, dll=library(Unlike, "{other}"), guid="{other}")
+    theirs, ours = other.get_state(), walk.get_state()
+    before, text = other.serialised(theirs), walk.serialised(ours)
+    assert walk.call("fmi2GetFMUstate", byref(theirs)) == ERROR
+    assert walk.log[-1].startswith("fmi2GetFMUstate: FMUstate is one of another FMU")
+    assert walk.call("fmi2DeSerializeFMUstate", text, c_size_t(len(text)), byref(theirs)) == ERROR
+    assert walk.log[-1].startswith("fmi2DeSerializeFMUstate: FMUstate is one of another FMU")
+    assert other.serialised(theirs) == before
+    assert walk.call("fmi2GetFMUstate", byref(ours)) == OK  # into a state of its own
+    walk.free_state(ours)
+    other.free_state(theirs)
+    other.free()
 
 
 def test_error_ends_the_run_until_state_or_reset(walk: NativeInstance) -> None:

@@ -13,13 +13,14 @@ import sys
 
 import numpy as np
 import pytest
+from fmpy.fmi1 import FMICallException
 
 from perilune.analysis.runtime.instances.instance import instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.own_blocks import build_own_blocks
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.paths import ROOT
+from perilune.fmus_src.paths import ROOT, shipped_fmu
 from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
 from perilune.fmus_src.runtime import Component
 from tests.support.builders import component, document, fly, pack, system
@@ -209,6 +210,30 @@ def test_an_exception_in_a_step_comes_with_its_traceback(tiny_folder, tmp_path):
     result = fly(path, set={"trouble.kind": 4})  # the module was imported from a folder that is gone by now
     for words in ("Traceback", "ZeroDivisionError", "in initialize", "self.y = 1.0 / 0.0"):
         assert words in result.message, result.message
+
+
+def test_a_step_past_the_stop_time_is_refused_in_the_words_of_the_native_fmu(fmus):
+    """Rounded sums of steps, which end a little after it, are not; without a stop time there is no end."""
+    said = {}
+    for flavour in ("python", "native"):
+        path = shipped_fmu("flat_moon_lander", flavour)
+        fmu = load_fmu(path.read_bytes(), str(path))
+        for stop in (0.3, None):
+            instance = instantiate(fmu, "plant")
+            instance.slave.setupExperiment(startTime=0.0, stopTime=stop)
+            instance.slave.enterInitializationMode()
+            instance.slave.exitInitializationMode()
+            for t, h in ((0.0, 0.1), (0.1, 0.1), (0.2, 0.1)):
+                instance.slave.doStep(t, h)
+            if stop is None:
+                instance.slave.doStep(0.2 + 0.1, 0.1)
+            else:
+                with pytest.raises(FMICallException):
+                    instance.slave.doStep(0.2 + 0.1, 0.1)
+                said[flavour] = instance.messages[-1].strip().splitlines()[-1]
+            instance.free()
+    assert said["native"] == "StepError: the step ends at 0.4 s, after the stop time of 0.3 s"
+    assert said["python"].endswith(said["native"])
 
 
 PERCENT = '''

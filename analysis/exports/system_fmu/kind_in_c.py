@@ -35,6 +35,10 @@ static void {prefix}advance({type} *self, Fault *fault, double start_time, doubl
             fault->what = "StepError: the step holds more than one sample of its sample_period; use a longer period";
             return;
     }}
+    if (h > MOST_STEPS * {prefix}model_integration_step(&self->block)) {{
+        fault->what = "StepError: the step holds more than a million integration steps; use a longer internal_step";
+        return;
+    }}
     {prefix}model_step(&self->block, fault, t, h);
 }}
 

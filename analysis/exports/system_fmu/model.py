@@ -220,7 +220,15 @@ class SystemModel:
 def _macros() -> set[str]:
     """Names that mean something else to the preprocessor, wherever they stand."""
     texts = [text.decode() for text in read_wrapper(2, "system").values()]
-    ours = {"SAMPLE_TOLERANCE", "TIME_TOLERANCE", "POINT_TOLERANCE", "SYSTEM_STEP", "MODEL_GUID", "HAS_FINISHED"}
+    ours = {
+        "SAMPLE_TOLERANCE",
+        "TIME_TOLERANCE",
+        "POINT_TOLERANCE",
+        "MOST_STEPS",
+        "SYSTEM_STEP",
+        "MODEL_GUID",
+        "HAS_FINISHED",
+    }
     return {*ours, *(name for text in texts for name in DEFINE.findall(text))}
 
 

@@ -7,15 +7,23 @@ from collections.abc import Sequence
 
 from ....fmus_src.export.write.layout import Lines
 from ....fmus_src.export.write.names import comment, literal
-from ....fmus_src.runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
+from ....fmus_src.runtime import MOST_STEPS, POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
 from ...runtime.flight.instructions import write_renewal
 from ...runtime.ssp.kinds import PARAMETERS
 from .choices import parameter_chain
 from .kind_in_c import file_name
 from .model import ChoiceProgram, SystemModel
 from .statements import Statements, quoted
+from .tables_in_c import write_tables
 from .variables import FmuVariable, Variables
-from .variables_in_c import pass_along, write_parameters, write_signals, write_starts, write_struct, write_tables
+from .variables_in_c import (
+    pass_along,
+    write_parameters,
+    write_signals,
+    write_starts,
+    write_struct,
+    write_use,
+)
 
 SIGNALS = "double *const s = self->signal;\n    (void)s;"  # the first statements of a step
 HEADER = """\
@@ -32,6 +40,7 @@ HEADER = """\
 #define SAMPLE_TOLERANCE {sample!r} /* of a sample period */
 #define TIME_TOLERANCE {time!r} /* of the time */
 #define POINT_TOLERANCE {point!r} /* of a step */
+#define MOST_STEPS {most_steps} /* of integration in a step */
 #define SYSTEM_STEP {step} /* s */
 
 #include "sampling.h"
@@ -56,6 +65,7 @@ def write_system(name: str, about: str, guid: str, model: SystemModel, variables
         sample=SAMPLE_TOLERANCE,
         time=TIME_TOLERANCE,
         point=POINT_TOLERANCE,
+        most_steps=MOST_STEPS,
         step=literal(model.first.step),
         includes="\n".join(f'#include "{file_name(source)}"' for source in model.sources),
     )
@@ -67,6 +77,7 @@ def write_system(name: str, about: str, guid: str, model: SystemModel, variables
             write_tables(guid, model, variables),
             write_starts(model, variables),
             write_parameters(model, variables),
+            write_use(model, variables),
             *(text for program in model.programs for text in _functions(program, model, variables)),
             _entry_points(model, variables),
             FOOTER,
@@ -185,16 +196,8 @@ def _entry_points(model: SystemModel, variables: Variables) -> str:
     lines.add("self->start_time = start_time;")
     lines.close("}")
     lines.text.append("")
-    for function, before in (("initialize", True), ("step", False)):
+    for function in ("initialize", "step"):
         lines.open(f"static void model_{function}(Block *self, Fault *fault)\n{{")
-        if before:
-            for slot in slots:
-                why = quoted(f"there is no such candidate; give 1 to {len(slot.items)}")
-                lines.open(f"if (self->{slot.path} < 1 || self->{slot.path} > {len(slot.items)}) {{")
-                lines.add(f"FAIL({quoted(slot.name)}, {why})")
-                lines.close("}")
-            lines.add("pass_parameters(self, fault);")
-            lines.add("if (fault->what != NULL) return;")
         _dispatch(lines, function, model.programs, slots)
         lines.close("}")
         lines.text.append("")

@@ -125,6 +125,8 @@ class Variables:
             path,
             about,
             default,
+            minimum="1",
+            maximum=str(len(candidates)),
             items=tuple(candidates),
             items_name=f"{name}.use.Candidate",
         )

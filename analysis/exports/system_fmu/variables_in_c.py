@@ -1,4 +1,4 @@
-"""The C of a system's variables: the struct with its components, the tables by value reference, starts, parameters."""
+"""The C of a system's variables: the struct with its components, starts, parameters."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ....fmus_src.export.write.names import comment, literal
 from ...runtime.system.network import Link, Network
 from ...runtime.system.passing.parameters import numbers
 from .model import SystemModel
-from .statements import map_value, quoted
+from .statements import map_value
 from .variables import C_TYPES, Passed, Variables
 
 
@@ -48,48 +48,6 @@ def write_struct(model: SystemModel, variables: Variables) -> str:
     return "\n".join([*lines.text, "", "typedef System Block;", ""])
 
 
-def _hidden(model: SystemModel, variables: Variables) -> list[tuple[str, str, str]]:
-    """Name, path and kind of what the state has and modelDescription.xml does not declare."""
-    declared = {each.path for each in variables.declared}
-    hidden = []
-    for candidate in model.candidates:
-        for variable in candidate.fmu.variables.values():
-            if candidate.path_of(variable.name) not in declared:
-                kind = candidate.member(variable.name).kind
-                hidden.append((f"{candidate.label}.{variable.name}", candidate.path_of(variable.name), kind))
-        hidden.append((f"{candidate.label}, its samples", f"{candidate.identifier}.tick", "KIND_INTEGER"))
-    hidden += [(f"signal {name}", f"signal[{constant}]", "KIND_REAL") for name, constant in model.signals.items()]
-    for number, name in enumerate(model.faulty):
-        hidden.append((f"{name}, frozen", f"fault[{number}].frozen", "KIND_REAL"))
-        hidden.append((f"{name}, kind of the last step", f"fault[{number}].last_kind", "KIND_INTEGER"))
-        hidden.append((f"{name}, value of the last step", f"fault[{number}].last_value", "KIND_REAL"))
-    return [
-        *hidden,
-        ("start time", "start_time", "KIND_REAL"),
-        ("steps", "point", "KIND_INTEGER"),
-        ("end", "has_finished", "KIND_BOOLEAN"),
-    ]
-
-
-def write_tables(guid: str, model: SystemModel, variables: Variables) -> str:
-    """What the wrapper needs to know: GUID, and tables by value reference, of what is not declared last."""
-    rows = [(each.name, each.path, each.kind, each.role) for each in variables.declared]
-    rows += [(name, path, kind, "ROLE_STATE") for name, path, kind in _hidden(model, variables)]
-    lines = Lines()
-    lines.add(f'#define MODEL_GUID "{guid}"')
-    lines.text.append("")
-    lines.comment(f"By value reference; those from {len(variables.declared)} on belong to the state alone.")
-    lines.open("static const Element ELEMENTS[] = {")
-    for _, path, kind, role in rows:
-        lines.add(f"{{offsetof(Block, {path}), {kind} | {role}, 1}},")
-    lines.close("};")
-    lines.text.append("")
-    lines.comment("For messages.")
-    names = ", ".join(quoted(name) for name, *_ in rows)
-    lines.add(f"static const char *const NAMES[] = {{{names}}};")
-    return "\n".join([*lines.text, ""])
-
-
 def write_starts(model: SystemModel, variables: Variables) -> str:
     lines = Lines()
     lines.open("static void get_starts(Block *self)\n{")
@@ -119,6 +77,26 @@ def write_parameters(model: SystemModel, variables: Variables) -> str:
             lines.add(line)
         lines.add(f"self->{passed.path} = {_converted(passed)};")
         lines.close("}")
+    lines.close("}")
+    return "\n".join([*lines.text, ""])
+
+
+def write_use(model: SystemModel, variables: Variables) -> str:
+    """Return the function that says of which candidates in slots the variables are simulated."""
+    slots = {each.name: each for each in variables.declared if each.items and each.causality == "parameter"}
+    lines = Lines()
+    lines.comment("True where the variable there is of what is simulated, and not of a candidate that is not chosen.")
+    lines.open("static bool is_used(const Block *self, uint32_t offset)\n{")
+    for candidate in model.candidates:
+        slot = slots.get(f"{candidate.component}.use")
+        if slot is None:
+            continue
+        number = slot.items.index(candidate.label.removeprefix(f"{candidate.component}.")) + slot.first_item
+        begin = f"offsetof(Block, {candidate.identifier})"
+        inside = f"offset >= {begin} && offset < {begin} + sizeof self->{candidate.identifier}"
+        lines.add(f"if ({inside}) return self->{slot.path} == {number};")
+    lines.add("(void)self, (void)offset;")
+    lines.add("return true;")
     lines.close("}")
     return "\n".join([*lines.text, ""])
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from ...block import Block
 from ...kernel import vector_types
 from ...kernel.records import Record
-from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
+from ...runtime import MOST_STEPS, POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
+from ...start_values import LARGEST, start_range
+from ...variables import Input, Parameter
 from ..description.variables import list_variables
 from .layout import Lines
 from .names import identifier, literal, member
@@ -48,6 +51,7 @@ def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) 
             f"#define SAMPLE_TOLERANCE {SAMPLE_TOLERANCE!r} /* of a sample period */",
             f"#define TIME_TOLERANCE {TIME_TOLERANCE!r} /* of the time */",
             f"#define POINT_TOLERANCE {POINT_TOLERANCE!r} /* of a step */",
+            f"#define MOST_STEPS {MOST_STEPS} /* of integration in a communication step */",
             "",
             "/* Declared start values. */",
             *starts.text,
@@ -55,10 +59,37 @@ def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) 
             "/* In order of declaration. */",
             *elements.text,
             "",
+            *_ranges(block_class),
+            "",
             *_references(block_class, fmi),
             "",
         ]
     )
+
+
+def _ranges(block_class: type[Block]) -> list[str]:
+    """Return the ranges of Real parameters and inputs, and of Integers that have bounds, a row for each variable."""
+    rows: list[tuple[int, int, float, float]] = []
+    first = 0
+    for variable in block_class.variables.values():
+        if isinstance(variable, Parameter | Input) and variable.type_name != "Boolean":
+            low, high = start_range(variable)
+            if variable.type_name == "Real" or (low, high) != (-LARGEST, LARGEST):
+                rows.append((first, variable.size, low, high))
+        first += variable.size
+    return write_ranges(rows)
+
+
+def write_ranges(rows: Iterable[tuple[int, int, float, float]]) -> list[str]:
+    """Return the table of ranges: first element, number of elements, least and largest value."""
+    lines = Lines()
+    lines.comment("Of parameters and inputs where a simulation starts.")
+    lines.open("static const Range RANGES[] = {")
+    for first, count, low, high in rows:
+        lines.add(f"{{{first}, {count}, {literal(float(low))}, {literal(float(high))}}},")
+    lines.add("{0, 0, 0.0, 0.0},")
+    lines.close("};")
+    return lines.text
 
 
 def _references(block_class: type[Block], fmi: int) -> list[str]:
@@ -69,7 +100,8 @@ def _references(block_class: type[Block], fmi: int) -> list[str]:
         lines.open("static const Variable VARIABLES[] = {")
         variables = list_variables(block_class)
         for variable in variables:
-            lines.add(f"{{{variable.first}, {variable.size}, TYPE_{variable.type_name.upper()}}},")
+            columns = (variable.declared.columns or 1) if variable.dimensions else 0
+            lines.add(f"{{{variable.first}, {variable.size}, TYPE_{variable.type_name.upper()}, {columns}}},")
         lines.close("};")
         lines.text.append("")
         names = [variable.name for variable in variables]

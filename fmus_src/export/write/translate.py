@@ -9,6 +9,7 @@ from pathlib import Path
 from ...block import Block
 from ...kernel import vector_types
 from ...kernel.functions import DOMAIN_ERROR, EITHER_ERROR, FAULTS, RANGE_ERROR
+from ...runtime import integration_step
 from ...variables import Variable
 from ..judge.expressions import SCALARS, type_of_variable
 from ..judge.kernel import FLOAT, INT, Function, Kernel, List, Matrix, Several, Vector
@@ -206,6 +207,14 @@ def _entry_points(kernel: Kernel, names: Names) -> str:
     if not sampled:
         lines.add("(void)self;")
     lines.add(f"return {'self->sample_period' if sampled else '0.0'};")
+    lines.close("}")
+    lines.text.append("")
+    name = integration_step(kernel.block_class)
+    lines.comment("Longest step of the block's own integration (s); infinite where it has none.")
+    lines.open("static double model_integration_step(const Block *self)\n{")
+    if name is None:
+        lines.add("(void)self;")
+    lines.add(f"return {'INFINITY' if name is None else f'self->{name}'};")
     lines.close("}")
     lines.text.append("")
     lines.comment("Tell a block that has a state start_time when it starts (s).")

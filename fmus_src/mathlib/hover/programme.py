@@ -14,6 +14,7 @@ from .solution import HoverSolution, PlanKind, propellant_fraction, solve
 
 STRAIGHT = 1.0  # m; nearer to the vertical the vertical programme is flown
 FIRST_WIDTH = 0.05  # s, from which Newton's method finds that of a first burn
+WIDENING = 1.3  # of a first burn, from one programme to the next
 SECTION = 0.6180339887498949  # golden
 TIME_SETTLED = 1e-3  # s, of the best end
 LARGEST_PATH = 60  # programmes
@@ -51,7 +52,7 @@ def programme(x: float, y: float, vehicle: HoverVehicle) -> PlannedProgramme:
     reached = aside(x, y, vehicle, down.programme)
     if reached.x >= x:
         p = reached.programme
-        burning = solve(PlanKind.WITH_FIRST_BURN, replace(p, width=FIRST_WIDTH, t7=p.t7 + 0.2), vehicle, x, y)
+        burning = begin_first_burn(x, y, vehicle, p)
         if not propellant_fraction(p, vehicle) - propellant_of(burning, vehicle) > 0.0:
             return PlannedProgramme(kind=PlanKind.WITHOUT_FIRST_BURN, programme=p)
     else:
@@ -61,6 +62,35 @@ def programme(x: float, y: float, vehicle: HoverVehicle) -> PlannedProgramme:
         if not burning.is_feasible:
             return nothing_planned()
     return PlannedProgramme(kind=PlanKind.WITH_FIRST_BURN, programme=least_propellant(x, y, vehicle, burning.programme))
+
+
+def begin_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
+    """Return a programme with first burn near p, which has none."""
+    later = replace(p, width=FIRST_WIDTH, t7=p.t7 + 0.2)
+    burning = solve(PlanKind.WITH_FIRST_BURN, later, vehicle, x, y)
+    if not burning.is_feasible:
+        burning = grow_first_burn(x, y, vehicle, p)
+    return burning
+
+
+def grow_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
+    """From p without first burn to longer ones, as long as that takes less propellant.
+
+    The end follows from the width: it may be earlier, change fast with the width, and turn back.
+    """
+    best = HoverSolution(programme=p, is_feasible=False)
+    minimum = propellant_fraction(p, vehicle)
+    width = FIRST_WIDTH
+    for _ in range(LARGEST_PATH):
+        trial = solve(PlanKind.WITHOUT_FIRST_BURN, replace(p, width=width), vehicle, x, y)
+        value = propellant_of(trial, vehicle)
+        if not value < minimum:
+            return best
+        minimum = value
+        best = trial
+        p = trial.programme
+        width = WIDENING * width
+    return best
 
 
 def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVehicle) -> PlannedProgramme:

@@ -57,5 +57,23 @@ def test_a_command_is_held_until_the_requested_plan_is_answered():
     assert switch.thrust_acceleration == 0.0
 
 
+def test_an_engine_that_comes_back_while_a_plan_is_awaited_gives_the_thrust_of_the_command_that_is_held():
+    switch = CommandSwitch(source=2, engine_on=True, braking_thrust_acceleration=5.0)
+    switch.initialize()
+    switch.source, switch.plan_number, switch.hover_plan = 3, 4, 3
+    for step, (engine_on, thrust) in enumerate([(True, 5.0), (False, 0.0), (False, 0.0), (True, 5.0)]):
+        switch.engine_on = engine_on
+        switch.step(0.1 * step, 0.1)
+        assert switch.thrust_acceleration == thrust
+
+
+def test_an_engine_that_was_off_when_the_hover_guidance_took_over_gives_the_last_command_too():
+    switch = CommandSwitch(source=2, engine_on=False, braking_thrust_acceleration=5.0)
+    switch.initialize()
+    switch.source, switch.plan_number, switch.hover_plan, switch.engine_on = 3, 4, 3, True
+    switch.step(0.0, 0.1)
+    assert switch.thrust_acceleration == 5.0
+
+
 def test_every_output_is_direct():
     assert all(variable.direct for variable in CommandSwitch.variables.values() if variable.causality == "output")

@@ -56,6 +56,27 @@ def test_best_duration():
         assert planned(1600.0, duration=p.t7 + other)[2] > mu
 
 
+LIGHT = HoverVehicle.of_elements([2.43, 0.27, 2942.0, 1.62, 0.2])
+WEAK = HoverVehicle.of_elements([2.57259, 0.28468, 3526.84, 1.622, 0.032691])
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "vehicle", "ends"),
+    [
+        (39.0, -58.0, LIGHT, (16.5, 16.6, 16.8, 17.0)),
+        (40.0, -58.0, LIGHT, (16.5, 16.6, 16.8, 17.0)),
+        (42.0, -58.0, LIGHT, (16.6, 16.8, 17.0)),
+        (1713.8, -2065.1, WEAK, (92.6, 92.8, 93.5, 94.5)),  # where the end turns back as the first burn gets longer
+    ],
+)
+def test_no_plan_of_another_duration_is_cheaper_where_the_first_burn_begins_abruptly(x, y, vehicle, ends):
+    kind, _, mu = planned(x, y, vehicle)
+    assert kind == PlanKind.WITH_FIRST_BURN
+    others = [planned(x, y, vehicle, end) for end in ends]
+    assert PlanKind.WITH_FIRST_BURN in [other[0] for other in others]
+    assert mu < min(other[2] for other in others if other[0] != PlanKind.NONE)
+
+
 def test_published_pitch():
     _, p, _ = planned(1600.0)
     planned_shape = shape_of(p, PAPER.swing)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import struct
 import traceback
@@ -13,6 +14,7 @@ from perilune.fmus_src.export.judge.source import label
 from perilune.fmus_src.kernel import functions, matrix_types, records, vector_types
 from perilune.fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
 from perilune.fmus_src.runtime import Component, StepError
+from perilune.fmus_src.start_values import StartError
 from perilune.fmus_src.variables import Input, Parameter, Variable
 from tests.support.kernels.native_instance import ERROR, OK, NativeInstance
 
@@ -118,7 +120,8 @@ class Pair:
             for (_, variable, position), value in zip(chosen, before, strict=True)
         ]
         if self.wild and kind is Input:
-            values = [self.random.choice(WILD) if self.wild_now(value) else value for value in values]
+            wild = WILD if drift else [each for each in WILD if math.isfinite(each)]  # others are refused at the start
+            values = [self.random.choice(wild) if self.wild_now(value) else value for value in values]
         self.plain.set(numbers, values)
         assert self.native.set(numbers, values) == OK
 
@@ -140,8 +143,8 @@ class Pair:
             return True
         assert status == ERROR, f"Python raised {error!r}"
         message = self.native.log[-1]
-        if isinstance(error, StepError):
-            assert message == f"StepError: {error}"
+        if isinstance(error, StepError | StartError):
+            assert message == f"{type(error).__name__}: {error}"
         else:
             frames = traceback.extract_tb(error.__traceback__)
             frame = [each for each in frames if each.filename not in LANGUAGE_FILES][-1]

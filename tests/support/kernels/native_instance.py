@@ -59,9 +59,9 @@ def opened(file: Path) -> ctypes.CDLL:
 
 
 @cache
-def library(block_class: type[Block]) -> ctypes.CDLL:
-    """The loaded library of a block."""
-    return load(native_sources(block_class, GUID), f"{block_class.fmu_name}.c")
+def library(block_class: type[Block], guid: str = GUID) -> ctypes.CDLL:
+    """Return the loaded library of a block."""
+    return load(native_sources(block_class, guid), f"{block_class.fmu_name}.c")
 
 
 @cache

@@ -10,6 +10,18 @@ static void get_starts(Block *block)
     *block = STARTS;
 }
 
+/* A block's parameters are all set from outside, and all are used. */
+static void pass_parameters(Block *block, Fault *fault)
+{
+    (void)block, (void)fault;
+}
+
+static bool is_used(const Block *block, uint32_t offset)
+{
+    (void)block, (void)offset;
+    return true;
+}
+
 static COLD Status refuse_step(Component *component, double h, double period)
 {
     char h_text[REPR_SIZE];
@@ -19,6 +31,17 @@ static COLD Status refuse_step(Component *component, double h, double period)
         "StepError: communication step %s s holds more than one sample of sample_period %s s; "
         "use a communication step no longer than the period, or a longer period",
         python_repr(h, h_text), python_repr(period, period_text));
+}
+
+static COLD Status refuse_integration(Component *component, double h, double longest)
+{
+    char h_text[REPR_SIZE];
+    char longest_text[REPR_SIZE];
+    component->now.mode = MODE_ERROR;
+    return fail(component,
+        "StepError: communication step %s s holds more than %d integration steps of %s s; "
+        "use a shorter communication step, or a longer internal_step",
+        python_repr(h, h_text), MOST_STEPS, python_repr(longest, longest_text));
 }
 
 /* Advance from t to t + h; a sampled block steps at its sample instants only. */
@@ -31,6 +54,8 @@ static Status advance(Component *component, double t, double h)
         case SEVERAL_SAMPLES: return refuse_step(component, h, period);
         case ONE_SAMPLE: break;
     }
+    const double longest = model_integration_step(&now->block);
+    if (h > MOST_STEPS * longest) return refuse_integration(component, h, longest);
     Fault fault = NO_FAULT;
     model_step(&now->block, &fault, t, h);
     return fault.what == NULL ? STATUS_OK : end_step_with_fault(component, &fault, t, h);

@@ -5,6 +5,8 @@
 #include "fmi2Functions.h"
 #include "kernel_math.h"
 
+#include <stdio.h>
+
 /* This copy of fmi2Functions.h adds no prefix to the names of functions, so ask its macros to do so. */
 #ifdef FMI2_FUNCTION_PREFIX
 #undef fmi2FullName
@@ -19,6 +21,12 @@
 typedef fmi2Status Status;
 typedef fmi2CallbackLogger Logger;
 typedef fmi2ComponentEnvironment Environment;
+
+/* The name of an element. */
+static COLD void name_element(uint32_t element, char name[NAME_SIZE])
+{
+    snprintf(name, NAME_SIZE, "%s", NAMES[element]);
+}
 
 /* Hand a message to the importer. */
 static COLD void log_error(Logger logger, Environment environment, const char *instance_name, const char *message)

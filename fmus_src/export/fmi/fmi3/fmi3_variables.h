@@ -12,6 +12,7 @@ typedef struct Variable {
     uint32_t first; /* of its elements, which follow one another in ELEMENTS and in the block's struct */
     uint32_t size;
     VariableType type;
+    uint32_t columns; /* of a matrix whose elements are named by row and column; 1: numbered through, 0: a scalar */
 } Variable;
 
 #endif

@@ -4,6 +4,8 @@
 
 #include "kernel_vectors.h"
 
+#define NAME_SIZE 512 /* of an element, in messages */
+
 /* What an element is and when it may be set; bits, so that one test covers a whole list of elements. */
 typedef enum Trait {
     KIND_REAL = 1,    /* double in the block's struct */
@@ -27,5 +29,14 @@ typedef struct Element {
     uint16_t traits;
     uint16_t alike; /* so many from this one on, itself included, have its traits and lie side by side */
 } Element;
+
+/* What parameters and inputs may be where a simulation starts. A table apart from ELEMENTS, which every step reads; a
+ * row whose count is 0 ends it. */
+typedef struct Range {
+    uint32_t first; /* element */
+    uint32_t count; /* of elements from there on, which lie side by side */
+    double minimum;
+    double maximum;
+} Range;
 
 #endif

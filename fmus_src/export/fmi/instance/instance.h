@@ -53,8 +53,11 @@ typedef struct Component {
     char instance_name[];
 } Component;
 
-/* What the file around the wrapper provides: a block with `single_block.h`, a system of blocks with `system_steps.h`. */
+/* What the file around the wrapper provides: a block with `single_block.h`, a system of blocks with `system_steps.h` and
+ * its own C. */
 static void get_starts(Block *block); /* declared starts of all variables */
+static void pass_parameters(Block *block, Fault *fault); /* set those that follow from others */
+static bool is_used(const Block *block, uint32_t offset); /* true where the element there is of what is simulated */
 static Status advance(Component *component, double t, double h);
 
 /* Log an error and return it. */
@@ -126,35 +129,6 @@ static void restart(Component *component)
     component->now.unsettled = true;
     component->last_step = STATUS_OK;
     component->stop_time = INFINITY;
-}
-
-/* An element from one block to another. */
-static void copy_element(Block *to, const Block *from, const Element *element)
-{
-    void *target = (char *)to + element->offset;
-    const void *source = (const char *)from + element->offset;
-    switch (element->traits & KIND_ANY) {
-        case KIND_REAL: *(double *)target = *(const double *)source; break;
-        case KIND_INTEGER: *(int64_t *)target = *(const int64_t *)source; break;
-        case KIND_BOOLEAN: *(bool *)target = *(const bool *)source; break;
-    }
-}
-
-/* Run the block's initialize from the declared starts of states and outputs. */
-static Status settle(Component *component)
-{
-    Block starts;
-    get_starts(&starts);
-    for (size_t i = 0; i < ELEMENT_COUNT; i++) {
-        if (ELEMENTS[i].traits & COMPUTED) copy_element(&component->now.block, &starts, &ELEMENTS[i]);
-    }
-    component->now.tick = 0;
-    model_set_start_time(&component->now.block, component->now.start_time);
-    Fault fault = NO_FAULT;
-    model_initialize(&component->now.block, &fault);
-    if (fault.what != NULL) return end_with_fault(component, &fault, ", during initialisation");
-    component->now.unsettled = false;
-    return STATUS_OK;
 }
 
 static COLD Status refuse_point(Component *component, double point)

@@ -4,6 +4,7 @@
 
 #include "instance.h"
 #include "kernel_self_test.h"
+#include "start_values.h"
 
 /* A new instance, or NULL with a message where the arguments or `refusal` are against it. Memory comes from calloc. */
 static Component *create_instance(const char *function, const char *instance_name, const char *token,
@@ -43,6 +44,39 @@ static Status set_start(
     component->stop_time = stop_time_defined ? stop_time : INFINITY;
     component->now.start_time = start_time;
     component->now.time = start_time;
+    return STATUS_OK;
+}
+
+/* An element from one block to another. */
+static void copy_element(Block *to, const Block *from, const Element *element)
+{
+    void *target = (char *)to + element->offset;
+    const void *source = (const char *)from + element->offset;
+    switch (element->traits & KIND_ANY) {
+        case KIND_REAL: *(double *)target = *(const double *)source; break;
+        case KIND_INTEGER: *(int64_t *)target = *(const int64_t *)source; break;
+        case KIND_BOOLEAN: *(bool *)target = *(const bool *)source; break;
+    }
+}
+
+/* Run the block's initialize from the declared starts of states and outputs. */
+static Status settle(Component *component)
+{
+    Block starts;
+    get_starts(&starts);
+    for (size_t i = 0; i < ELEMENT_COUNT; i++) {
+        if (ELEMENTS[i].traits & COMPUTED) copy_element(&component->now.block, &starts, &ELEMENTS[i]);
+    }
+    component->now.tick = 0;
+    model_set_start_time(&component->now.block, component->now.start_time);
+    Fault fault = NO_FAULT;
+    pass_parameters(&component->now.block, &fault);
+    if (fault.what != NULL) return end_with_fault(component, &fault, ", during initialisation");
+    const Status status = check_start_values(component);
+    if (status != STATUS_OK) return status;
+    model_initialize(&component->now.block, &fault);
+    if (fault.what != NULL) return end_with_fault(component, &fault, ", during initialisation");
+    component->now.unsettled = false;
     return STATUS_OK;
 }
 

@@ -42,11 +42,18 @@ static Status check_state(const Component *component, const char *function, cons
     return STATUS_OK;
 }
 
-/* Space for a state: the one given, or a new one. NULL when there is no memory. */
-static SavedState *state_space(void **place)
+/* Space for a state: the one at `place`, or a new one. NULL with a message where there is none: the state of another FMU
+ * has other room. */
+static SavedState *state_space(const Component *component, const char *function, void **place)
 {
-    if (*place == NULL) *place = calloc(1, sizeof(SavedState));
-    return *place;
+    SavedState *state = *place;
+    if (state != NULL && state->model != model_hash()) {
+        fail(component, "%s: FMUstate is one of another FMU, which cannot be overwritten; pass a NULL state", function);
+        return NULL;
+    }
+    if (state == NULL) *place = state = calloc(1, sizeof(SavedState));
+    if (state == NULL) fail(component, "%s: out of memory", function);
+    return state;
 }
 
 static Status save_state(Component *component, const char *function, void **place)
@@ -54,8 +61,8 @@ static Status save_state(Component *component, const char *function, void **plac
     const Status status = check_mode(component, function, MODE_ANY);
     if (status != STATUS_OK) return status;
     if (place == NULL) return fail(component, "%s: FMUstate is NULL", function);
-    SavedState *state = state_space(place);
-    if (state == NULL) return fail(component, "%s: out of memory", function);
+    SavedState *state = state_space(component, function, place);
+    if (state == NULL) return STATUS_ERROR;
     state->model = model_hash();
     state->snapshot = component->now;
     return STATUS_OK;
@@ -161,8 +168,8 @@ static Status deserialise(
     if (size != WORD_COUNT * WORD_SIZE || !is_header(bytes)) {
         return fail(component, "%s: the bytes are not a state of this FMU", function);
     }
-    SavedState *state = state_space(place);
-    if (state == NULL) return fail(component, "%s: out of memory", function);
+    SavedState *state = state_space(component, function, place);
+    if (state == NULL) return STATUS_ERROR;
     Snapshot *snapshot = &state->snapshot;
     state->model = model_hash();
     snapshot->mode = (Mode)int_at(bytes, 1);

@@ -13,12 +13,12 @@ def unit_vectors(random, rows):
 
 
 def command_switch():
-    """Each source, none, the engine off, and a hover plan that is answered two rows late: the last command is held."""
+    """Each source, none, the engine off, a hover plan that is answered two rows late: the last command is held."""
     random = np.random.default_rng(281)
     source = np.array([0, 1, 1, 1, 2, 2, 2, 3, 3, 3, 3, 3, 1, 1, 0, 0, 2, 2])
     hover_plan = np.where(np.arange(len(source)) < 9, PLAN - 1, PLAN)
     engine_on = np.ones(len(source), dtype=bool)
-    engine_on[[2, 5, 11]] = False
+    engine_on[[2, 5, 7, 11]] = False
     rows = len(source)
     commands = {
         name: {

@@ -1,0 +1,85 @@
+"""The tables by value reference of a system's C: elements, their ranges at the start, names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ....fmus_src.export.write.layout import Lines
+from ....fmus_src.export.write.tables import write_ranges
+from ....fmus_src.start_values import LARGEST
+from .model import SystemModel
+from .statements import quoted
+from .variables import FmuVariable, Variables
+
+
+@dataclass(frozen=True)
+class Row:
+    """An element of the system's struct: what the wrapper lets be done with it, and where it may lie at the start."""
+
+    name: str
+    path: str
+    kind: str
+    role: str = "ROLE_STATE"
+    range: tuple[float, float] | None = None
+
+
+def _declared(each: FmuVariable) -> Row:
+    """Return the row of a variable that modelDescription.xml declares."""
+    within = None
+    if each.causality == "parameter":
+        within = _range(each.kind, each.minimum, each.maximum)
+    elif each.causality == "input":
+        within = _range(each.kind, None, None)
+    return Row(each.name, each.path, each.kind, each.role, within)
+
+
+def _range(kind: str, minimum: str | None, maximum: str | None) -> tuple[float, float] | None:
+    """Return the least and the largest value of a Real, or of an Integer that has bounds."""
+    if kind == "KIND_BOOLEAN" or (kind == "KIND_INTEGER" and minimum is None and maximum is None):
+        return None
+    return (-LARGEST if minimum is None else float(minimum), LARGEST if maximum is None else float(maximum))
+
+
+def _hidden(model: SystemModel, variables: Variables) -> list[Row]:
+    """Return the rows of what the state has and modelDescription.xml does not declare."""
+    declared = {each.path for each in variables.declared}
+    hidden = []
+    for candidate in model.candidates:
+        for variable in candidate.fmu.variables.values():
+            if candidate.path_of(variable.name) not in declared:
+                name, path = f"{candidate.label}.{variable.name}", candidate.path_of(variable.name)
+                kind = candidate.member(variable.name).kind
+                is_parameter = variable.causality == "parameter"
+                within = _range(kind, variable.minimum, variable.maximum) if is_parameter else None
+                hidden.append(Row(name, path, kind, range=within))
+        hidden.append(Row(f"{candidate.label}, its samples", f"{candidate.identifier}.tick", "KIND_INTEGER"))
+    hidden += [Row(f"signal {name}", f"signal[{constant}]", "KIND_REAL") for name, constant in model.signals.items()]
+    for number, name in enumerate(model.faulty):
+        hidden.append(Row(f"{name}, frozen", f"fault[{number}].frozen", "KIND_REAL"))
+        hidden.append(Row(f"{name}, kind of the last step", f"fault[{number}].last_kind", "KIND_INTEGER"))
+        hidden.append(Row(f"{name}, value of the last step", f"fault[{number}].last_value", "KIND_REAL"))
+    return [
+        *hidden,
+        Row("start time", "start_time", "KIND_REAL"),
+        Row("steps", "point", "KIND_INTEGER"),
+        Row("end", "has_finished", "KIND_BOOLEAN"),
+    ]
+
+
+def write_tables(guid: str, model: SystemModel, variables: Variables) -> str:
+    """What the wrapper needs to know: GUID, and tables by value reference, of what is not declared last."""
+    rows = [*map(_declared, variables.declared), *_hidden(model, variables)]
+    lines = Lines()
+    lines.add(f'#define MODEL_GUID "{guid}"')
+    lines.text.append("")
+    lines.comment(f"By value reference; those from {len(variables.declared)} on belong to the state alone.")
+    lines.open("static const Element ELEMENTS[] = {")
+    for row in rows:
+        lines.add(f"{{offsetof(Block, {row.path}), {row.kind} | {row.role}, 1}},")
+    lines.close("};")
+    ranges = write_ranges((number, 1, *row.range) for number, row in enumerate(rows) if row.range is not None)
+    lines.text += ["", *ranges, ""]
+    lines.comment("For messages.")
+    names = ", ".join(quoted(row.name) for row in rows)
+    lines.add(f"static const char *const NAMES[] = {{{names}}};")
+    return "\n".join([*lines.text, ""])
