@@ -22,7 +22,7 @@ HOMES = {
         *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "exp2", "expm1"),
         *("log", "log2", "log10", "log1p", "pow", "sinh", "cosh", "tanh", "cbrt", "fmod"),
     ),
-    "kernel.integrators": ("Forcing", "Translation", "runge_kutta_4", "runge_kutta_nystrom", "simpson"),
+    "kernel.integrators": ("Forcing", "Translation", "count_steps", "runge_kutta_4", "runge_kutta_nystrom", "simpson"),
     "kernel.matrices": ("Matrix", "block", "identity", "matrix", "zeros"),
     "kernel.records": ("Field", "Record", "replace"),
     "mathlib.vectors": ("Vector", "Vector2", "Vector3", "Vector4", "cross", "dot", "norm", "vector"),

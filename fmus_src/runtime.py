@@ -171,9 +171,9 @@ class Component:
 
     def check_start_values(self) -> None:
         """Refuse parameters outside their bounds, and parameters and inputs that are not finite."""
-        for value, (name, low, high) in zip(self.read(self.checked), self.ranges, strict=True):
-            if not low <= value <= high:
-                raise StartError(describe_violation(name, value, low, high))
+        for number, (name, low, high) in zip(self.read(self.checked), self.ranges, strict=True):
+            if not low <= number <= high:
+                raise StartError(describe_violation(name, number, low, high))
 
     def start(self) -> None:
         """Leave initialisation."""

@@ -23,9 +23,9 @@ def start_range(variable: Variable) -> tuple[float, float]:
     return (-LARGEST if low is None else max(low, -LARGEST), LARGEST if high is None else min(high, LARGEST))
 
 
-def describe_violation(name: str, value: float, low: float, high: float) -> str:
+def describe_violation(name: str, number: float, low: float, high: float) -> str:
     """Return what is wrong with the value of an element, which is a float or an int, outside its range."""
-    if not math.isfinite(value):
-        return f"{name} = {value!r} is not finite"
-    side, bound = ("below its minimum", low) if value < low else ("above its maximum", high)
-    return f"{name} = {value!r} is {side} {type(value)(bound)!r}"
+    if not math.isfinite(number):
+        return f"{name} = {number!r} is not finite"
+    side, bound = ("below its minimum", low) if number < low else ("above its maximum", high)
+    return f"{name} = {number!r} is {side} {type(number)(bound)!r}"

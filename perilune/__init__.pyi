@@ -142,6 +142,9 @@ from .fmus_src.kernel.integrators import (
     Translation as Translation,
 )
 from .fmus_src.kernel.integrators import (
+    count_steps as count_steps,
+)
+from .fmus_src.kernel.integrators import (
     runge_kutta_4 as runge_kutta_4,
 )
 from .fmus_src.kernel.integrators import (

@@ -23,7 +23,7 @@ from perilune.fmus_src.export.judge.subset_table import (
     RULES,
     MathFunction,
 )
-from perilune.fmus_src.kernel.integrators import runge_kutta_4, runge_kutta_nystrom, simpson
+from perilune.fmus_src.kernel.integrators import count_steps, runge_kutta_4, runge_kutta_nystrom, simpson
 
 from .markdown import escaped, table
 
@@ -39,7 +39,7 @@ SYMBOLS = {
     ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.MatMult: "@", ast.Div: "/", ast.FloorDiv: "//", ast.Mod: "%",
     ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
 }  # fmt: skip
-INTEGRATORS = (runge_kutta_4, runge_kutta_nystrom, simpson)
+INTEGRATORS = (runge_kutta_4, runge_kutta_nystrom, simpson, count_steps)
 FREE = ("{", "}")  # of words that a message fills in
 
 

@@ -83,10 +83,10 @@ def grow_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme
     width = FIRST_WIDTH
     for _ in range(LARGEST_PATH):
         trial = solve(PlanKind.WITHOUT_FIRST_BURN, replace(p, width=width), vehicle, x, y)
-        value = propellant_of(trial, vehicle)
-        if not value < minimum:
+        spent = propellant_of(trial, vehicle)
+        if not spent < minimum:
             return best
-        minimum = value
+        minimum = spent
         best = trial
         p = trial.programme
         width = WIDENING * width

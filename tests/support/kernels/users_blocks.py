@@ -1,4 +1,4 @@
-"""Blocks as a user writes them: with every integrator, and with bundles of connectors."""
+"""Blocks as a user writes them: with every integrator, with bundles of connectors, with bounds of all kinds."""
 
 from __future__ import annotations
 
@@ -8,12 +8,15 @@ from perilune import (
     Forcing,
     Input,
     Inputs,
+    Output,
     Outputs,
+    Parameter,
     Port,
     State,
     Translation,
     Vector3,
     cos,
+    count_steps,
     exp,
     norm,
     runge_kutta_4,
@@ -103,3 +106,24 @@ class Bundles(Block):
         else:
             self.commanded_thrust = self.thrust + self.second_thrust  # the variables by their own names
             self.last.thrust = self.command.thrust
+
+
+class Bounded(Block):
+    """Has parameters of all kinds with bounds, and integrates in steps of its own."""
+
+    internal_step = Parameter(0.1, unit="s", minimum=1e-4, description="longest integration step")
+    fraction = Parameter(0.5, unit="1", minimum=0.0, maximum=1.0, description="a fraction")
+    axes = Parameter([1.0, 1.0, 1.0], unit="1", minimum=-1.0, maximum=1.0, description="a vector")
+    table = Parameter([0.0] * 4, columns=2, unit="1", maximum=9.0, description="a matrix")
+    free = Parameter(0.0, unit="1", description="without bounds")
+    count = Parameter(2, minimum=0, maximum=5, description="an Integer")
+    u = Input(0.0, unit="1", minimum=0.0, maximum=1.0, description="an input, whose bounds its source may leave")
+    w = Input([0.0, 0.0], unit="1", description="another")
+    y = Output(0.0, unit="1", description="steps taken")
+    starts = State(0, description="initialisations")
+
+    def initialize(self) -> None:
+        self.starts = self.starts + 1
+
+    def step(self, t: float, h: float) -> None:
+        self.y = self.y + float(count_steps(h, self.internal_step))

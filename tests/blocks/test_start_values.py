@@ -1,7 +1,7 @@
 """FMUs refuse parameters outside their declared bounds, values that are not finite, and steps that would never end.
 
 Truth: the declarations, the numbers that are set, and one wording for all faces: Python object, pythonfmu FMU, native
-FMUs of FMI 2.0 and 3.0. Systems as one FMU: system_fmu/test_start_values.py.
+FMUs of FMI 2.0 and 3.0. Systems as one FMU: export/system_fmu/test_start_values.py.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.paths import CACHE
 from perilune.fmus_src.runtime import Component, StepError
 from perilune.fmus_src.start_values import StartError
-from tests.support.kernels.bounded import Bounded
 from tests.support.kernels.native_instance import ERROR, OK, NativeInstance, library
+from tests.support.kernels.users_blocks import Bounded
 
 NAMES = [name for variable in Bounded.variables.values() for name in variable.element_names()]
 WRONG = {
     ("internal_step", 1e-6): "internal_step = 1e-06 is below its minimum 0.0001",
     ("internal_step", 0.0): "internal_step = 0.0 is below its minimum 0.0001",
-    ("share", 1.5): "share = 1.5 is above its maximum 1.0",
+    ("fraction", 1.5): "fraction = 1.5 is above its maximum 1.0",
     ("axes[2]", -2.0): "axes[2] = -2.0 is below its minimum -1.0",
     ("table[2,1]", 10.0): "table[2,1] = 10.0 is above its maximum 9.0",
     ("table[1,2]", -math.inf): "table[1,2] = -inf is not finite",
@@ -42,7 +42,7 @@ WRONG = {
     ("u", math.inf): "u = inf is not finite",
     ("w[2]", math.nan): "w[2] = nan is not finite",
 }
-RIGHT = {"u": 7.0, "share": 1.0, "axes[1]": -1.0, "free": 1e300, "count": 0, "internal_step": 1e-4}
+RIGHT = {"u": 7.0, "fraction": 1.0, "axes[1]": -1.0, "free": 1e300, "count": 0, "internal_step": 1e-4}
 
 
 @pytest.fixture(scope="module")
@@ -69,15 +69,15 @@ def plain_with(**values: float) -> Component:
     return component
 
 
-@pytest.mark.parametrize(("name", "value"), WRONG)
+@pytest.mark.parametrize(("name", "number"), WRONG)
 def test_a_block_does_not_start_with_a_wrong_value_and_says_which(
-    name: str, value: float, native: NativeInstance
+    name: str, number: float, native: NativeInstance
 ) -> None:
-    message = WRONG[name, value]
+    message = WRONG[name, number]
     with pytest.raises(StartError) as error:
-        plain_with(**{name: value}).start()
+        plain_with(**{name: number}).start()
     assert str(error.value) == message
-    assert native.set([NAMES.index(name)], [value]) == OK
+    assert native.set([NAMES.index(name)], [number]) == OK
     native.enter()
     assert native.start() == ERROR
     assert native.log == [f"StartError: {message}"]
@@ -103,8 +103,8 @@ def test_bounds_themselves_and_inputs_beyond_theirs_are_taken(native: NativeInst
     native.enter()
     assert native.start() == OK
     assert native.get(list(range(len(NAMES)))) == component.values()
-    for value in (math.inf, math.nan):  # between steps inputs cost no comparison
-        assert native.set([NAMES.index("u")], [value]) == OK
+    for number in (math.inf, math.nan):  # between steps inputs cost no comparison
+        assert native.set([NAMES.index("u")], [number]) == OK
 
 
 def test_the_python_fmu_says_the_same(tmp_path: Path) -> None:
@@ -119,8 +119,8 @@ def test_the_python_fmu_says_the_same(tmp_path: Path) -> None:
     instance.abandon()  # pythonfmu's error is fmi2Fatal, after which no call is allowed
 
 
-@pytest.mark.parametrize(("name", "value"), WRONG)
-def test_the_fmu_of_fmi_3_says_the_same(name: str, value: float, fmi3: tuple[Any, str]) -> None:
+@pytest.mark.parametrize(("name", "number"), WRONG)
+def test_the_fmu_of_fmi_3_says_the_same(name: str, number: float, fmi3: tuple[Any, str]) -> None:
     description, folder = fmi3
     log: list[str] = []
     slave = FMU3Slave(
@@ -133,12 +133,12 @@ def test_the_fmu_of_fmi_3_says_the_same(name: str, value: float, fmi3: tuple[Any
     variable = next(each for each in description.modelVariables if each.name == name.partition("[")[0])
     declared = Bounded.variables[variable.name]
     values = list(declared.elements)
-    values[declared.element_names().index(name)] = value
+    values[declared.element_names().index(name)] = number
     getattr(slave, f"set{variable.type}")([variable.valueReference], values)
     slave.enterInitializationMode(startTime=0.0)
     with pytest.raises(FMICallException):
         slave.exitInitializationMode()
-    assert log == [f"StartError: {WRONG[name, value]}"]
+    assert log == [f"StartError: {WRONG[name, number]}"]
     slave.freeInstance()
 
 
