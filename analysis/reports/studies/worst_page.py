@@ -55,6 +55,7 @@ def write_worst_page(
     how the worst case is flown again.
     """
     objective = objective_of(result)
+    largest = result.worst_realisation
     write_study_page(
         path,
         "worst.html",
@@ -62,6 +63,7 @@ def write_worst_page(
         result,
         is_margin=not objective.rising,
         worst=with_unit(result.worst["value"], result.unit),
+        largest=None if largest is None else with_unit(result.as_json(largest), result.unit),
         random=with_unit(result.worst_random["value"], result.unit),
         inside=result.worst_random["inside"],
         search=search_figure(result),

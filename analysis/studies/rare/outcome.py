@@ -17,7 +17,7 @@ from ..flown import FlightDocument, StudyResult, strict
 from ..noise import noise_line
 from ..units import unit_of_expression, with_unit
 from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
-from .uncertainty import CONFIDENCE
+from .uncertainty import CONFIDENCE, shown_digits
 
 TOLD = 5  # failures
 APART = 1.0  # standard deviations: a failure nearer to a more probable one is not listed
@@ -75,14 +75,11 @@ class RareResult(StudyResult):
         """Why no level follows the last one, where that is the noise; else empty."""
         if not self.simulation.noise_ends:
             return ""
-        level = self.simulation.levels[-1]
-        assert level.noise_acceptance is not None
-        rate, minimum = short_percent(level.noise_acceptance), short_percent(LEAST_ACCEPTED)
-        lowest = ""
-        if level.source is not None and level.least_acceptance is not None:
-            lowest = f" (least of {self.noise.sources[level.source]}, {short_percent(level.least_acceptance)} %)"
-        place = len(self.simulation.levels)
-        return f"levels end at level {place}: {rate} % of the noise moves are accepted, below {minimum} %{lowest}"
+        level, place = self.simulation.levels[-1], len(self.simulation.levels)
+        assert level.least_renewed is not None
+        rate, minimum = short_percent(level.least_renewed), short_percent(LEAST_ACCEPTED)
+        source = "" if level.source is None else f" of {self.noise.sources[level.source]}"
+        return f"levels end at level {place}: {rate} % of the noise moves{source} are accepted, below {minimum} %"
 
     @cached_property
     def failures(self) -> list[FailedFlight]:
@@ -154,17 +151,31 @@ class RareResult(StudyResult):
 
     def headline(self) -> str:
         """The failure, its probability and what that is conditional on."""
+        return f"{self.failure.text}: {self.estimate_text()}{self.conditions}"
+
+    @property
+    def digits(self) -> int:
+        """How many digits of the probability its interval leaves."""
+        return shown_digits(*self.interval)
+
+    def estimate_text(self) -> str:
+        """The probability with its interval, or what bounds it; no more digits than the interval leaves."""
         percent, (low, high) = f"{100 * CONFIDENCE:g} %", self.interval
-        estimate = f"not reached; probability below {high:.3g}, {percent}"
-        if self.probability is not None:
-            estimate = f"probability {self.probability:.3g}, {percent} interval {low:.3g} to {high:.3g}"
-        return f"{self.failure.text}: {estimate}{self.conditions}"
+        ends = max(self.digits, 2)
+        if self.probability is None:
+            return f"not reached; probability below {high:.{ends}g}, {percent}"
+        estimate = f"{self.probability:.{self.digits}g}"
+        if self.simulation.noise_ends:
+            return f"probability below {high:.{ends}g}, {percent} bound; estimate {estimate}"
+        return f"probability {estimate}, {percent} interval {low:.{ends}g} to {high:.{ends}g}"
 
     def text(self, folder: Path | None = None) -> str:
         """The result for a terminal; ``folder`` as in `document`."""
         under, simulation = self.conditions, self.simulation
         levels, trials = simulation.levels, simulation.equivalent_trials
         cost = f"{simulation.evaluations} flights in {len(levels)} level{'s' if len(levels) > 1 else ''}"
+        count = simulation.families
+        cost += f", {count} independent {'family' if count == 1 else 'families'}"
         cost += "" if trials is None else f"; equivalent Monte Carlo sample size: {trials:.2g}{under}"
         lines = [self.headline(), cost]
         lines += [line for line in (noise_line(self.noise), self.bound_text()) if line]

@@ -2,7 +2,7 @@
 
 The failure is the last of nested events, each of which a tenth of the points of the one before are in: its probability
 is the product of theirs. Points of an event are had by chains (`conditional_sampling`) from those of the one before.
-Where chains cannot renew the noise of a level, levels end, and what is left is bounded (`_bound`).
+Where chains cannot renew the noise of one source, levels end, and what is left is bounded (`_bound`).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from .uncertainty import (
 
 SHARE = 0.1  # of a level's points that are in the next event (Au and Beck 2001, section 5)
 MOST_TIED = 0.5  # of a level's points, above which they share one margin rather than approach the failure
-LEAST_ACCEPTED = 0.05  # of the noise moves, below which a level's points are not trusted
+LEAST_ACCEPTED = 0.05  # of the noise moves of any one source, below which a level's points are not trusted
 FEW = 20  # moves of one noise source, below which its own acceptance rate says nothing
 
 
@@ -53,9 +53,15 @@ class Level:
     deviation: float | None = None
 
     @property
+    def least_renewed(self) -> float | None:
+        """The acceptance rate of the source that is renewed least; of all where no single one is known; None without
+        noise moves."""
+        return self.noise_acceptance if self.least_acceptance is None else self.least_acceptance
+
+    @property
     def trusted(self) -> bool:
-        """Whether its chains renewed their noise often enough."""
-        return self.noise_acceptance is None or self.noise_acceptance >= LEAST_ACCEPTED
+        """True if its chains renewed the noise of every source often enough."""
+        return self.least_renewed is None or self.least_renewed >= LEAST_ACCEPTED
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,16 @@ class Interval(NamedTuple):
     variation: float
 
 
+FINE, COARSE = 2.0, 10.0  # the ratio of an interval's ends up to which three and two digits of an estimate are shown
+
+
+def shown_digits(low: float, high: float) -> int:
+    """Return how many digits of an estimate say something where its interval is from ``low`` to ``high``."""
+    if high <= FINE * low:
+        return 3
+    return 2 if high <= COARSE * low else 1
+
+
 def binomial_interval(failures: int, samples: int, confidence: float) -> Interval:
     """Clopper and Pearson's interval, of independent samples."""
     ends = binomtest(failures, samples).proportion_ci(confidence, method="exact")

@@ -13,7 +13,7 @@ from ..flown import FlightDocument, StudyResult
 from ..noise import noise_line
 from ..units import unit_of_expression, with_unit
 from .objective import Objective
-from .realisations import Fresh, Realisations
+from .realisations import ONE, Fresh, Realisations
 from .search import Phase
 
 
@@ -72,6 +72,23 @@ class WorstResult(StudyResult):
         value = self.as_json(float(self.flown.values[self.random]))
         return {"trial": 1, "value": value, "inside": inside, **self.flown.fact(self.random, self.badness.fact)}
 
+    @property
+    def flown_text(self) -> str:
+        """What of the noise the value of the worst point is; empty where the noise is not random."""
+        if self.over is None:
+            return ""
+        return ONE if self.noise_matters is False else self.over.text
+
+    @property
+    def worst_realisation(self) -> float | None:
+        """The worst value of the worst point under the noise of the search; None where its own value is that."""
+        if self.over is None or self.over.count == 1 or self.over.quantile == 1.0 or self.noise_matters is False:
+            return None
+        fresh = 0 if self.fresh is None else self.fresh.values.size
+        searched = slice(0, self.flown.values.size - fresh)
+        same = np.all(self.flown.points[searched] == self.flown.points[self.row], axis=1)
+        return float(self.flown.values[searched][same].max())
+
     def as_json(self, value: float) -> float | str | None:
         """A value as JSON has it: null where it failed, of a margin a word where it is no number."""
         return self.badness.fact(self.badness.size(value))
@@ -105,7 +122,7 @@ class WorstResult(StudyResult):
             **self._condition_document(),
             "unit": self.unit,
             "units": dict(self.units),
-            **({} if self.over is None else {"objective": self.over.text, "realisations": self.over.count}),
+            **self._noise_document(),
             **({} if self.fresh is None else {"fresh": self.fresh.document(self.as_json)}),
             **({} if self.noise_matters is None else {"noise_matters": self.noise_matters}),
             "flights": self.flights,
@@ -115,6 +132,14 @@ class WorstResult(StudyResult):
             **({"reason": self.reason} if self.reason else {}),
             **({"replay": replay} if replay else {}),
         }
+
+    def _noise_document(self) -> dict[str, object]:
+        """What the value of a point is under random noise; empty where the noise is not random."""
+        if self.over is None:
+            return {}
+        facts = {"objective": self.flown_text, "quantile": self.over.quantile, "realisations": self.over.count}
+        largest = self.worst_realisation
+        return facts if largest is None else facts | {"worst_realisation": self.as_json(largest)}
 
     def text(self, folder: Path | None = None) -> str:
         """The result for a terminal; ``folder`` as in `document`."""
@@ -138,8 +163,12 @@ class WorstResult(StudyResult):
         outside = "" if random["inside"] else ", outside the box"
         unit, under = f" {self.unit}" if self.unit else "", self.conditions
         of = "" if self.over is None else f" ({self.over.text})"
+        largest = self.worst_realisation
+        beside = "" if largest is None else f"; worst of them {_format(self.as_json(largest))}{unit}"
+        flown = "" if self.over is None else f" ({self.flown_text}{beside})"
         return [
-            f"{self.badness.text}: worst {_format(case['value'])}{unit}{of} in {self.flights} flights, {within}{under}",
+            f"{self.badness.text}: worst {_format(case['value'])}{unit}{flown} in {self.flights} flights, "
+            f"{within}{under}",
             f"worst of {self.random_trials} random trials: {_format(random['value'])}{unit}{of}{outside}{under}",
             *self._fresh_lines(unit),
         ]

@@ -15,6 +15,7 @@ from .search import LEAST
 
 REALISATIONS = 5
 QUANTILE = 0.5
+ONE = "one noise realisation"
 FRESH = 10  # times as many realisations fly for the point that wins
 
 
@@ -37,7 +38,10 @@ class Realisations:
 
     @property
     def text(self) -> str:
-        return "one noise realisation" if self.count == 1 else f"{self.name} of {self.count} noise realisations"
+        if self.count == 1:
+            return ONE
+        quantile = f", quantile {self.quantile:g}," if self.quantile == QUANTILE else ""
+        return f"{self.name}{quantile} of {self.count} noise realisations"
 
     def objective(self, values: np.ndarray) -> np.ndarray:
         """The quantile of values (points, realisations) over the realisations."""

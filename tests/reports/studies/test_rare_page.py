@@ -142,6 +142,24 @@ def test_a_failure_that_was_not_reached_is_a_bound(rare_result, tmp_path):
     assert "Failure not reached: probability below" in text_of(page)
 
 
+def test_a_wide_interval_leaves_one_digit_and_a_bound_no_interval(rare_result, tmp_path):
+    interval = rare_result.simulation.interval._replace(low=1.234e-12, high=0.0012345)
+    simulation = replace(rare_result.simulation, probability=2.345e-7, interval=interval, families=1)
+    wide = replace(rare_result, simulation=simulation)
+    head = f"total > {LIMIT}: probability"
+    assert wide.headline() == f"{head} 2e-07, 95 % interval 1.2e-12 to 0.0012"
+    assert ", 1 independent family; equivalent" in wide.text()
+    words = text_of(page_of(wide, tmp_path))
+    assert "Failure probability 2e-7, 95 % interval 1.2e-12 to 0.0012" in words
+    assert {repr(2.345e-7), repr(1.234e-12)} <= set(data_values(page_of(wide, tmp_path)))
+    ended = replace(simulation.levels[-1], noise_acceptance=0.2, least_acceptance=0.01, source=0)
+    levels = (*simulation.levels[:-1], ended)
+    bound = replace(wide, simulation=replace(simulation, levels=levels, noise_ends=True), noise=Noise(("imu",), 1, 7))
+    assert bound.headline().startswith(f"{head} below 0.0012, 95 % bound; estimate 2e-07")
+    assert bound.why_levels_ended == "levels end at level 3: 1 % of the noise moves of imu are accepted, below 5 %"
+    assert "Failure probability below 0.0012, a 95 % bound; estimate 2e-7" in text_of(page_of(bound, tmp_path))
+
+
 def test_levels_that_end_for_the_noise_are_a_bound(rare_result, tmp_path):
     """The last level has no probability, and its simulations are those that are left."""
     simulation = rare_result.simulation
@@ -157,7 +175,7 @@ def test_levels_that_end_for_the_noise_are_a_bound(rare_result, tmp_path):
     assert_self_contained(page)
     words = text_of(page)
     assert "Failure not reached: probability below" in words
-    assert "4 % of the noise moves are accepted, below 5 %" in words
+    assert "Levels end at level 3: 1 % of the noise moves are accepted, below 5 %" in words
     assert "a bound ten times lower, by Monte Carlo: perilune batch" in words
     assert "--trials 5000" in words
 

@@ -113,7 +113,17 @@ def test_a_point_has_the_median_of_its_realisations(worst_result, matters, tmp_p
     assert (median, worst) == (np.median(flown[-9:]), flown[-9:].max())
     words = text_of(page_of(result, tmp_path))
     assert "under 9 fresh noise realisations" in words
-    assert "(median of 3 noise realisations)" in words
+    if matters:
+        same = np.all(result.flown.points[:-9] == result.flown.points[result.row], axis=1)
+        largest = flown[:-9][same].max()
+        assert result.worst_realisation == largest
+        assert f"(median, quantile 0.5, of 3 noise realisations; worst of them {largest:.6g})" in words
+        assert f" (median, quantile 0.5, of 3 noise realisations; worst of them {largest:.6g}) in " in result.text()
+        document = result.document()
+        assert (document["quantile"], document["worst_realisation"]) == (0.5, largest)
+    else:
+        assert "(one noise realisation), of" in words
+        assert " (one noise realisation) in " in result.text()
 
 
 def test_a_margin_is_worse_where_it_is_smaller(worst_result):

@@ -82,6 +82,20 @@ def test_one_source_alone_is_bounded(probability):
             assert result.interval.high == pytest.approx(nothing, rel=0.35)
 
 
+@pytest.mark.parametrize("weights", [[1.0, 0.1, 0.1, 0.1, 0.1, 0.1], [1.0, 0.3, 0.3, 0.3]])
+def test_a_source_that_is_not_renewed_ends_levels_whatever_the_others_do(weights):
+    """The mean acceptance rate stays above 5 % for the weak sources' sake, and the chains have one noise."""
+    actual = simulate(weights, 0.0, 1e-3, either(400, 12))
+    lows, highs = np.array([result.interval[:2] for result in actual]).T
+    covered = np.mean((lows <= 1e-3) & (highs >= 1e-3))
+    print(f"{weights}: {covered:.3f} cover, bounds in {np.mean([result.noise_ends for result in actual]):.3f}")
+    assert covered >= COVERED
+    assert np.mean([result.noise_ends for result in actual]) > 0.8
+    for last in (result.levels[-1] for result in actual if result.noise_ends):
+        assert last.noise_acceptance > 0.05 > last.least_acceptance
+        assert last.source == 0
+
+
 def test_noise_of_failures_is_distributed_as_noise_of_failures():
     """Given failure the sum is a truncated normal, and what is across it is as ever."""
     noise = np.concatenate(
