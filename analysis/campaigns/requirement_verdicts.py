@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..common.to_json import optional
 from .spec.requirements import SUCCESS, Requirement
 from .trials import TrialRows, blocks
 from .verdicts.acceptance import FURTHER, FixedSize, Verdict
@@ -39,7 +40,8 @@ class RequirementVerdict:
     ``text`` is the requirement as declared: a fraction ``share`` of all flights satisfies it, shown with
     ``confidence``. ``rule`` is `FIXED_SIZE` or `UNTIL_DECIDED`. ``decided_after`` is a number of flights, None where
     undecided. ``flights_to_decide`` are the additional flights that would meet it with 0, 1 and 2 failures among them;
-    None where decided. ``bound`` is None where the requirement is not on one metric.
+    None where decided. ``bound`` is None where the requirement is not on one metric. ``unevaluated`` are the metrics of
+    the requirement that no flight has a value of; None where there are none of them.
     """
 
     text: str
@@ -53,6 +55,7 @@ class RequirementVerdict:
     decided_after: int | None
     flights_to_decide: Mapping[int, int | None]
     bound: ToleranceBound | None
+    unevaluated: tuple[str, ...] | None = optional()
 
 
 def satisfies(requirement: Requirement, trials: TrialRows) -> np.ndarray:
@@ -90,7 +93,16 @@ def requirement_verdict(requirement: Requirement, trials: TrialRows, until_decid
         decided_after=decision.flights if is_decided else None,
         flights_to_decide=dict.fromkeys(FURTHER) if is_decided else rule.flights_to_meet(flights, failures),
         bound=None if requirement.metric is None else _bound(requirement, requirement.metric, trials, flights, rule),
+        unevaluated=_unevaluated(requirement, trials) if failures == flights > 0 else None,
     )
+
+
+def _unevaluated(requirement: Requirement, trials: TrialRows) -> tuple[str, ...] | None:
+    """The metrics of a requirement that are nan in every trial."""
+    names = sorted(requirement.expression.names - {SUCCESS})
+    parts = list(trials.parts(*(f"metric.{name}" for name in names)))
+    missing = [name for name in names if all(np.isnan(part[f"metric.{name}"]).all() for part in parts)]
+    return tuple(missing) or None
 
 
 def _bound(

@@ -61,6 +61,9 @@ def requirement_lines(summary: Summary) -> list[str]:
         more = ", ".join("-" if number is None else str(number) for number in result.flights_to_decide.values())
         text, risk = f"{name}: {result.text}", percent(result.consumer_risk)
         cells.append([text, variant, str(result.flights), str(result.failures), risk, str(result.verdict), more])
+        if result.unevaluated:
+            bounds.append(f"{variant}: {unevaluated_text(result)}")
+            continue
         if result.bound is not None:
             unit = summary[variant].metrics[result.bound.metric].unit
             value = f"{_cell(result.bound.value)} {'' if unit == '1' else unit}".strip()
@@ -105,12 +108,22 @@ def unmet_lines(summary: Summary) -> list[str]:
 
 def verdict_text(result: RequirementVerdict) -> str:
     """A verdict in words: its flights and failures and, where undecided, what would decide it."""
+    if result.unevaluated:
+        return f"{result.verdict}: {unevaluated_text(result)}"
     text = f"{result.verdict}: {result.failures} of {result.flights} flights fail it"
     if result.verdict is not Verdict.UNDECIDED:
         return text
     more = result.flights_to_decide
     trials = f"{more[0]}, {more[1]} or {more[2]} additional trials"
     return f"{text}; {trials} with 0, 1 or 2 further failures would meet it"
+
+
+def unevaluated_text(result: RequirementVerdict) -> str:
+    """Which metrics of a requirement no flight has a value of; empty where there are none of them."""
+    if not result.unevaluated:
+        return ""
+    names, verb = " and ".join(result.unevaluated), "are" if len(result.unevaluated) > 1 else "is"
+    return f"{names} {verb} evaluated in none of {result.flights} flights"
 
 
 def faults_line(faults: Iterable[object]) -> str:

@@ -15,7 +15,7 @@ from ..runtime.system.schedule import origin
 from .point.bench import StudyError
 from .request.request import Request, Subject
 from .results.report import JointReport, LoopReport, Orders, StabilityReport, Unstudied
-from .results.requirement import Requirement
+from .results.requirement import Requirement, Verdict
 from .results.varied import Dispersion
 
 # notes of requirements without a verdict
@@ -110,8 +110,19 @@ def _merge_verdicts(report: StabilityReport, orders: Orders) -> StabilityReport:
         joint=tuple(
             replace(joint, requirements=_both(joint, joints.get((joint.name, joint.point)))) for joint in report.joint
         ),
+        unstudied=tuple(_withhold(lost, orders.report) for lost in report.unstudied),
         orders=orders,
     )
+
+
+def _withhold(lost: Unstudied, other: StabilityReport) -> Unstudied:
+    """A loop that fails without figures in one order only is withheld."""
+    here = (lost.name, lost.point)
+    fails = any((item.name, item.point) == here and item.verdict is Verdict.FAIL for item in other.unstudied)
+    unstable = any((loop.name, loop.point) == here and loop.margins.unstable for loop in other.loops)
+    if lost.verdict is not Verdict.FAIL or fails or unstable:
+        return lost
+    return replace(lost, verdict=Verdict.WITHHELD)
 
 
 def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:

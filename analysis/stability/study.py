@@ -17,7 +17,8 @@ from ..runtime.system.options import Layer
 from ..runtime.system.prepared import PreparedSystem
 from .dispersion import disperse
 from .orders import in_both_orders
-from .point.bench import StudyError
+from .point.bench import LoopError, StudyError
+from .point.held_plan import check_held
 from .point.limit_cycles import element_report
 from .point.point_study import PointStudy
 from .progress import Tell, begin, listen, show_progress, tell_parent
@@ -97,6 +98,7 @@ def study_point(request: Request, point: Point, tell: Tell) -> PointResult:
     subject = Subject(request.system, request.options)
     loops, limits = request.loops_at(point), request.declaration.limits
     with PointStudy(subject, point, loops) as work:
+        check_held(work.prepared, point)
         tell(1 + len(work.channels), 0)
         work.linearise()
         tell(0, 1)
@@ -107,7 +109,8 @@ def study_point(request: Request, point: Point, tell: Tell) -> PointResult:
             try:
                 reports.append(_loop(request, subject, work, channel))
             except StudyError as error:
-                unstudied.append(Unstudied(channel.name, point.name, "loop", str(error)))
+                verdict = error.verdict if isinstance(error, LoopError) else None
+                unstudied.append(Unstudied(channel.name, point.name, "loop", str(error), verdict))
             tell(0, 1)
         lost = {item.name for item in unstudied}
         for loop in loops:
@@ -137,6 +140,7 @@ def _loop(request: Request, subject: Subject, point: PointStudy, channel: Channe
     work = point.loop_study(channel, request.declaration.limits)
     work.measure()
     work.refuse_what_is_no_loop()
+    work.refine()
     report = work.report([item.name for item in point.channels if item is not channel])
     crossings = [crossing.frequency for crossing in report.classical.phase]
     amplitudes = work.amplitudes(min(crossings, default=0.1 * work.nyquist))

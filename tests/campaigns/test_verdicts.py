@@ -172,6 +172,20 @@ def test_lines_name_variant_requirement_and_figures(summary):
     ]
 
 
+def test_a_metric_that_no_flight_has_is_named():
+    """As of an instant that is never reached: it read `60 of 60 flights fail it`."""
+    requirements = [NEAR, HEAVY]
+    never = summarise({"never": columns(np.full(60, np.nan))}, METRICS, requirements=requirements)
+    assert unmet_lines(never)[0].endswith(": not met: miss is evaluated in none of 60 flights")
+    assert "never: miss is evaluated in none of 60 flights" in summary_text(never)
+    assert "no upper bound of miss" not in summary_text(never)
+    assert to_json(never)["never"]["requirements"]["near"]["unevaluated"] == ["miss"]
+    assert never["never"].requirements["heavy"].unevaluated is None
+    once = summarise({"once": columns([*[np.nan] * 59, 2.0])}, METRICS, requirements=requirements)
+    assert unmet_lines(once)[0].endswith("not met: 60 of 60 flights fail it")
+    assert "unevaluated" not in to_json(once)["once"]["requirements"]["near"]
+
+
 def test_text(summary):
     lines = summary_text(summary).splitlines()
     start = next(index for index, line in enumerate(lines) if line.startswith("requirement"))

@@ -97,26 +97,30 @@ def test_exit_status_1_and_one_line_per_failed_requirement(path, capsys):
     ]
 
 
-@pytest.mark.parametrize(
-    ("gain", "words"),
-    [
-        (
-            10.05,
-            "frequency-response test: the answer still changes by",
-        ),  # slowly: g is 1.005, the square of the poles' size
-        (21.0, "frequency-response test: the flight for point t = 1 s ended early (nonfinite"),
-    ],
-)
-def test_an_unstable_loop_that_injection_cannot_measure(path, capsys, gain, words):
-    """z (z - 1) + g = 0 has its roots outside of the unit circle for g above 1: nothing settles."""
+@pytest.mark.parametrize("gain", [10.05, 10.5, 21.0])
+def test_an_unstable_loop_reads_unstable_with_its_growth(path, capsys, gain):
+    """z (z - 1) + g = 0 has its roots outside of the unit circle for g above 1, at the distance sqrt(g) from 0.
+
+    The last one overflows, the others have grown by up to 1e35 when the flight ends.
+    """
     report = perilune.stability(path, loops=["law.y"], at=1.0, set={"law.gain": gain}, feedthrough=["law"])
     (lost,) = report.unstudied
-    assert (report.loops, lost.name, lost.what) == ((), "law.y", "loop")
-    assert lost.reason.startswith("law.y: linearisation: ")
-    assert words in lost.reason
+    words = f"unstable, grows {math.sqrt(gain * STEP):.5g}-fold a sample"
+    assert (report.loops, lost.name, lost.what, lost.reason) == ((), "law.y", "loop", words)
+    assert (lost.verdict, report.verdict) == ("fail", "fail")
+    assert report.document()["unstudied"][0]["verdict"] == "fail"
     assert main(["stability", str(path), "--loop", "law.y", "--at", "1", "--set", f"law.gain={gain}", *DIRECT]) == 1
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line == f"perilune: loop law.y at t = 1 s: not studied: {lost.reason}"
+    captured = capsys.readouterr()
+    assert captured.err.splitlines() == [f"perilune: loop law.y at t = 1 s: {words}"]
+    assert captured.out.splitlines()[0] == f"law.y at t = 1 s: {words}: fail"
+
+
+def test_a_loop_that_is_unstable_in_one_order_only_is_withheld(path):
+    """Without its feedthrough the law is a step later: z^2 (z - 1) + g = 0 is stable below g = 0.618."""
+    report = perilune.stability(path, loops=["law.y"], at=1.0, set={"law.gain": 7.0})
+    (lost,) = report.unstudied
+    assert (lost.verdict, report.verdict) == ("withheld", "withheld")
+    assert "not known in the other order" in report.problems()[0]
 
 
 @pytest.mark.parametrize(

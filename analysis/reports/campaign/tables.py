@@ -18,7 +18,7 @@ from ...campaigns.requirement_verdicts import RequirementVerdict
 from ...campaigns.spec.campaign import Campaign
 from ...campaigns.statistics import QUANTILES, STATISTICS
 from ...campaigns.summary import Summary, SummaryRow, summary_rows
-from ...campaigns.tables import bound_text, requirement_rows
+from ...campaigns.tables import bound_text, requirement_rows, unevaluated_text
 from ...campaigns.trials import TrialRows
 from ...studies.sobol import rank_correlations
 from ..common.page import exact
@@ -38,7 +38,7 @@ def group_rows(summary: Summary) -> list[SummaryRow]:
 
 
 class RequirementRow(NamedTuple):
-    """A requirement of a variant: its verdict in the summary, and its tolerance bound as text."""
+    """A requirement of a variant: its verdict in the summary, and as text its bound, or the metrics that no trial has."""
 
     variant: str
     name: str
@@ -58,8 +58,8 @@ def verdict_rows(summary: Summary, campaign: Campaign) -> list[RequirementRow]:
 
 
 def _bound(result: RequirementVerdict, units: Mapping[str, str]) -> str:
-    if result.bound is None:
-        return ""
+    if result.unevaluated or result.bound is None:
+        return unevaluated_text(result)
     unit = units[result.bound.metric]
     return bound_text(result, f"{number(in_shown_unit(result.bound.value, unit))} {display_unit(unit)}".strip())
 

@@ -39,14 +39,16 @@ def error_section(error: Error, result: Result, name: str) -> Section:
     """The section of an error; ``name`` must differ between the figures of a page."""
     chosen, rows = select_rows(error.rows, result)
     time = result.time[rows]
-    values = np.where(chosen, error.estimate.values(result) - error.truth.values(result), np.nan)[:, rows]
+    estimate = error.estimate.values(result)
+    values = np.where(chosen, estimate - error.truth.values(result), np.nan)[:, rows]
+    changed = np.append(True, np.any(estimate[:, 1:] != estimate[:, :-1], axis=0))[rows]
     stated = np.zeros_like(values) if error.sigma is None else error.sigma.values(result)[:, rows]
     sigma = np.where(stated > 0.0, stated, np.nan)
     panels: list[Panel] = []
     findings: list[Markup] = []
     for index, label in enumerate(error.labels):
         panels += _panels(error, label, time, values[index], sigma[index], f"{name}-{index}")
-        findings += _findings(error, label, time, values[index], sigma[index])
+        findings += _findings(error, label, time, values[index], sigma[index], changed)
     return Section(
         title=error.title,
         panels=panels,
@@ -90,15 +92,26 @@ def _final_range(values: np.ndarray, sigma: np.ndarray) -> float | None:
     return 1.1 * float(np.nanmax(later))
 
 
-def _findings(error: Error, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray) -> list[Markup]:
-    """Fractions of the samples within 1 and 3 sigma; none without a sigma."""
+def _findings(
+    error: Error, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, changed: np.ndarray
+) -> list[Markup]:
+    """Fractions of the samples within 1 and 3 sigma, those at which the estimate ``changed``; none without a sigma."""
     start = time[0] if error.after is None else error.after
     counted = np.isfinite(sigma) & np.isfinite(values) & (time >= start - ROUNDING * abs(start))
+    held = bool(np.any(counted & ~changed))
+    counted &= changed
     if not np.any(counted):
         return []
     fractions = [float(np.mean(np.abs(values[counted]) <= times * sigma[counted])) for times in SIGMAS]
-    text = Markup("{}from {}, {} of the samples within 1 sigma (normal distribution: {}), {} within 3 sigma").format(
-        f"{label}: " if label else "", seconds(start), *map(_percent, (fractions[1], _normal(1.0), fractions[0]))
+    number = exact(int(np.count_nonzero(counted)))
+    samples = Markup("{} samples at which the estimate changed").format(number) if held else "samples"
+    text = Markup("{}from {}, {} of the {} within 1 sigma (normal distribution: {}), {} within 3 sigma").format(
+        f"{label}: " if label else "",
+        seconds(start),
+        _percent(fractions[1]),
+        samples,
+        _percent(_normal(1.0)),
+        _percent(fractions[0]),
     )
     return [sentence(text)]
 

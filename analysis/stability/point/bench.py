@@ -12,11 +12,12 @@ import numpy as np
 from ...common.errors import InputError, suggestion
 from ...runtime.apart.opening import open_simulation
 from ...runtime.flight.base_memory import Cell
-from ...runtime.flight.results import COMPLETE
+from ...runtime.flight.results import COMPLETE, NONFINITE
 from ...runtime.ssp.given_values import ParameterValue
 from ...runtime.system.prepared import PreparedSystem
 from ..request.channels import Channel
 from ..request.declaration import Point
+from ..results.requirement import Verdict
 
 LONGEST = 50_000  # communication points of a hyperperiod
 LOOKS = 20  # communication points on the way to the operating point at which sizes are looked at
@@ -29,16 +30,38 @@ class StudyError(RuntimeError):
     """A flight that a study needs broke off; the message says how."""
 
 
+class OverflowedError(StudyError):
+    """A flight whose numbers grew beyond all bounds; ``signals`` are those up to there."""
+
+    def __init__(self, message: str, signals: dict[str, np.ndarray]) -> None:
+        super().__init__(message)
+        self.signals = signals
+
+
+class LoopError(StudyError):
+    """What decides on a loop without margins: its ``verdict``, and why in the message."""
+
+    def __init__(self, message: str, verdict: Verdict) -> None:
+        super().__init__(message)
+        self.verdict = verdict
+
+
 class Bench:
     """One operating point's simulation with everything that can be excited or is read.
 
     ``period`` is the hyperperiod in communication points: the least common multiple of the channels' and of the
     FMUs' sample periods. ``origin`` is the communication point just before the operating point, which is a
-    multiple of it. ``varied`` names parameters that `set` may change. To be closed.
+    multiple of it. ``varied`` names parameters that `set` may change, ``recorded`` further variables to
+    return with those of the channels. To be closed.
     """
 
     def __init__(
-        self, prepared: PreparedSystem, point: Point, channels: Sequence[Channel], varied: Sequence[str] = ()
+        self,
+        prepared: PreparedSystem,
+        point: Point,
+        channels: Sequence[Channel],
+        varied: Sequence[str] = (),
+        recorded: Sequence[str] = (),
     ) -> None:
         self.prepared = prepared
         self.point = point
@@ -51,7 +74,7 @@ class Bench:
                 raise InputError(prepared.network.file, f"point {point.name}", f"no signal {point.signal}", known)
             wanted.add(point.signal)
         self.simulation = open_simulation(
-            prepared, varied=varied, wanted=wanted, excited=self.connectors, open_end=True
+            prepared, varied=varied, wanted=wanted, more=recorded, excited=self.connectors, open_end=True
         )
         self.period = self._hyperperiod()
         self.origin = self._origin()
@@ -78,7 +101,10 @@ class Bench:
         if flight.status not in COMPLETE or flight.time.size < last - first:
             end = f"{flight.status} at t = {flight.time[-1]:g} s" if flight.time.size else flight.status
             reason = flight.message or "the system ended by itself"
-            raise StudyError(f"the flight for point {self.point.name} ended early ({end}): {reason}")
+            message = f"the flight for point {self.point.name} ended early ({end}): {reason}"
+            if flight.status == NONFINITE:
+                raise OverflowedError(message, {name: values.copy() for name, values in flight.signals.items()})
+            raise StudyError(message)
         return {name: values.copy() for name, values in flight.signals.items()}
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:

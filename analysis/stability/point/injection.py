@@ -9,21 +9,25 @@ show what is not linear).
 
 from __future__ import annotations
 
+import copy
 import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..loops.curves import quotient
-from ..loops.multisine import Multisine, fraction_unexcited, line_spectrum, multisine
+from ..loops.growth import WINDOWS, growth_to_overflow, steady_growth
+from ..loops.multisine import Multisine, fraction_unexcited, line_spectrum, multisine, single_line
 from ..loops.readings import Curve
 from ..request.channels import Channel
+from ..results.requirement import Verdict
 from ..results.responses import Measured
-from .bench import Bench
+from .bench import Bench, LoopError, OverflowedError
 
 SEED = 1  # of the multisine's phases
 PERIODS = 1  # measured at least, after those that the transient takes
 MOST_ROUNDS = 12  # samples of a loop in a hyperperiod up to which the window is a whole number of hyperperiods
+FIRST = 2  # periods in which a transient may look like growth
 PATIENCE = 8  # periods of transient at most
 SETTLED = 1e-5  # relative difference of two windows one period apart
 STILL_MOVING = 1e-2  # and that above which a loop counts as unstable, or as one that does not repeat itself
@@ -35,6 +39,14 @@ FLIGHT_POINTS = 2_000_000  # communication points of one flight at most
 
 class NotMeasurableError(RuntimeError):
     """A loop cannot be measured here; the message says why."""
+
+
+class UnstableError(LoopError):
+    """What a disturbance has changed grows without end, by ``growth`` a sample."""
+
+    def __init__(self, growth: float) -> None:
+        super().__init__(f"unstable, grows {growth:.5g}-fold a sample", Verdict.FAIL)
+        self.growth = growth
 
 
 @dataclass
@@ -60,11 +72,11 @@ class Injector:
         self.periods = rounds * math.ceil(PERIODS / rounds) if rounds <= MOST_ROUNDS else PERIODS
         self.signal: Multisine = multisine(samples, 1.0, (samples - 1) // 2, SEED, per_decade=PER_DECADE)
         self.frequency = 2.0 * np.pi * self.signal.lines / (self.samples * self.seconds)
-        self._transient = 1
+        self._transient, self.patience = 1, PATIENCE
         self._base: dict[str, np.ndarray] = {}
 
     def measure(self) -> Measured:
-        """L with the declared amplitude and with half of it. Raises NotMeasurableError, StudyError."""
+        """L with the declared amplitude and with half of it. Raises NotMeasurableError, StudyError, UnstableError."""
         peak = self.peak()
         value, unexcited = self.spectrum(peak)
         half, _ = self.spectrum(0.5 * peak)
@@ -86,9 +98,14 @@ class Injector:
         size = float(np.max(abs(self.channel.injection_for(self._simulate_undisturbed()))))
         return DEFAULT_SHARE * (size or 1.0)
 
+    def wave(self, peak: float | None = None) -> tuple[np.ndarray, float]:
+        """Return one period of the signal [samples] and its largest value, by default `peak`. Raises as `measure`."""
+        size = self.peak() if peak is None else peak
+        return self.signal.signal * (size / float(np.max(abs(self.signal.signal)))), size
+
     def spectrum(self, peak: float) -> tuple[np.ndarray, float]:
         """L on the lines with a multisine of this largest value, and the largest answer on unexcited lines."""
-        wave = self.signal.signal * (peak / float(np.max(abs(self.signal.signal))))
+        wave, _ = self.wave(peak)
         window = self.periods * self.samples
         while True:
             u, v = self._answer(np.tile(wave, self._transient + self.periods + 1))
@@ -97,7 +114,11 @@ class Injector:
                 for start in (len(u) - window, len(u) - window - self.samples)
             )
             change = float(np.max(abs(inside - before)) / np.max(abs(inside)))
-            if change < SETTLED or self._transient >= PATIENCE:
+            if change > STILL_MOVING and len(u) >= (WINDOWS + FIRST) * self.samples:
+                rate = steady_growth(u[-WINDOWS * self.samples :])
+                if rate is not None:
+                    raise UnstableError(rate)
+            if change < SETTLED or self._transient >= self.patience:
                 break
             self._transient *= 2
         if change > STILL_MOVING:
@@ -107,6 +128,25 @@ class Injector:
         if not np.all(abs(inside) > 0.0):
             raise NotMeasurableError("nothing of what is added arrives behind the cut")
         return -back / inside, fraction_unexcited(u[-window:], self.signal)
+
+    def near(self, frequency: float) -> tuple[float, complex]:
+        """Return a frequency (rad/s) next to the one that is asked for, and L there, by a sine of the same peak.
+
+        Raises as `measure`.
+        """
+        share = frequency * self.seconds / (2.0 * np.pi)  # of a period in a sample
+        rounds = self.bench.period // self.channel.period
+        lengths = np.arange(max(FEWEST, math.ceil(1.0 / share)), max(FEWEST, self.samples, math.ceil(2.0 / share)) + 1)
+        lengths = lengths[np.gcd(lengths, rounds) == 1]
+        lines = np.maximum(1, np.round(share * lengths).astype(int))
+        best = int(np.argmin(abs(lines / lengths / share - 1.0)))
+        probe = copy.copy(self)
+        probe.samples = int(lengths[best])
+        probe.signal = single_line(probe.samples, int(lines[best]))
+        probe.patience = math.ceil(PATIENCE * self.samples / probe.samples)
+        probe._transient = math.ceil(self._transient * self.samples / probe.samples)
+        value, _ = probe.spectrum(self.peak())
+        return float(2.0 * np.pi * lines[best] / (probe.samples * self.seconds)), complex(value[0])
 
     def _points(self) -> int:
         """Communication points behind the operating point that a measurement takes."""
@@ -125,7 +165,10 @@ class Injector:
         """Signals from the operating point on without anything added."""
         points = self._points()
         if not self._base or len(next(iter(self._base.values()))) < points:
-            self._base = self._behind(self.bench.fly(-1, self.bench.origin + points))
+            try:
+                self._base = self._behind(self.bench.fly(-1, self.bench.origin + points))
+            except OverflowedError as error:
+                raise self._overflow(error, {}) from error
         return {name: values[:points] for name, values in self._base.items()}
 
     def _behind(self, signals: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -138,9 +181,24 @@ class Injector:
         mine = channel.excitation(base, added)
         excitation = np.zeros((added.size, len(self.bench.connectors)))
         excitation[:, self.bench.columns(channel)] = mine
-        signals = self._behind(self.bench.fly(-1, self.bench.origin + added.size, excitation))
+        try:
+            signals = self._behind(self.bench.fly(-1, self.bench.origin + added.size, excitation))
+        except OverflowedError as error:
+            raise self._overflow(error, base) from error
         nothing = np.zeros_like(mine)
         rows = slice(0, None, channel.period)
         u = channel.injection_for(signals) - channel.injection_for(base)
         v = channel.back(signals, mine) - channel.back(base, nothing)
         return u[rows], v[rows]
+
+    def _overflow(self, error: OverflowedError, base: dict[str, np.ndarray]) -> Exception:
+        """What an overflow says of the loop: that what was added, or the flight itself where no ``base`` is known, grew
+        until then; the error itself where it did not."""
+        signals = self._behind(error.signals)
+        reached = len(next(iter(signals.values())))
+        with np.errstate(all="ignore"):
+            deviation = self.channel.injection_for(signals)
+            if base:
+                deviation = deviation - self.channel.injection_for({name: base[name][:reached] for name in signals})
+        rate = growth_to_overflow(deviation[:: self.channel.period])
+        return error if rate is None else UnstableError(rate)

@@ -4,27 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from ..loops.curves import Response, interpolate, quotient
-from ..loops.readings import decibels
+from ..loops.readings import Classical, Curve, Robust, decibels
+from ..loops.refinement import refine
 from ..request.channels import Channel
 from ..request.declaration import Limits
 from ..results.report import LoopReport
+from ..results.requirement import Verdict
 from ..results.responses import AmplitudePoint, Measured
 from .assessment import Assessment, assess, requirements
-from .bench import Bench, StudyError
-from .injection import Injector, NotMeasurableError
+from .bench import Bench, LoopError, StudyError
+from .injection import Injector, NotMeasurableError, UnstableError
 from .modes import structure
 from .open_loop import open_loop
 from .responses import NOT_LINEAR, LoopModel, agreement, disagreement
+from .silence import silence_of
 
 SILENT = "nothing of what is added comes back: L is 0"
+LEAST_RETURN = 1e-9  # gain below which nothing comes back
 FACTORS = (0.25, 4.0, 16.0)  # of the declared amplitude, beside itself
 FIRST_LOOK = 1e-3  # of the Nyquist frequency: where a measurement without a linearisation begins
+LOOKS = 40  # frequencies at which a model is looked at
 LOOP_GAIN = 5.0  # a measurement begins low enough when the gain of its lowest line is at least this
 LINES_FROM = 10.0  # of the lowest frequency that is looked at: a fifth of the lowest gain crossover
 STEP_LENGTH = 12.0  # over the lowest crossover: length of a step response
@@ -41,6 +46,8 @@ class LoopStudy:
     notes: dict[str, str] = field(default_factory=dict)
     injector: Injector | None = None
     measured: Measured | None = None
+    refined: Curve | None = None  # the measured response with lines at its crossings
+    unstable: UnstableError | None = None  # as the flight of a measurement has it
 
     def __post_init__(self) -> None:
         self.seconds = self.channel.period * self.bench.prepared.step
@@ -55,12 +62,34 @@ class LoopStudy:
             lowest = FIRST_LOOK * self.nyquist
             while True:
                 measured = self._measure_from(lowest)
-                if abs(measured.curve.value[0]) > LOOP_GAIN:
+                if abs(measured.curve.value[0]) > LOOP_GAIN or self._measurement_silent:
                     return
                 lowest *= 0.25
         except (NotMeasurableError, StudyError) as error:
+            if isinstance(error, UnstableError):
+                self.unstable = error
             if self.measured is None:
                 self.notes["frequency-response test"] = str(error)
+
+    def refine(self) -> None:
+        """Measure at the crossings too, where margins are those of the frequency-response test."""
+        if self.measured is None or self.injector is None or not self._by_measurement or self._silent:
+            return
+
+        def margins_of(curve: Curve) -> tuple[Classical, Robust]:
+            assessment = self._assess_measured(curve)[0]
+            return assessment.classical, assessment.robust
+
+        try:
+            refined = refine(self.measured.curve, margins_of, self.injector.near)
+        except ValueError:  # a curve without margins: what says so is `assessed`
+            return
+        except (NotMeasurableError, StudyError) as error:
+            self.notes["margins"] = f"they lie between test frequencies: {error}"
+            return
+        self.refined = refined.curve
+        if refined.remainder:
+            self.notes["margins"] = refined.remainder
 
     def _measure_from(self, lowest: float) -> Measured:
         injector = Injector(self.bench, self.channel, lowest)
@@ -73,24 +102,53 @@ class LoopStudy:
         return self.model is not None and not self.model.has_plateau
 
     @property
+    def _model_silent(self) -> bool:
+        return self.model is not None and bool(np.max(abs(self.model.response(self._look))) < LEAST_RETURN)
+
+    @property
+    def _measurement_silent(self) -> bool:
+        return self.measured is not None and bool(np.max(abs(self.measured.curve.value)) < LEAST_RETURN)
+
+    @property
+    def _look(self) -> np.ndarray:
+        """Frequencies (rad/s) at which a linear model is looked at as a measurement looks at a loop."""
+        return np.geomspace(FIRST_LOOK, 1.0, LOOKS) * self.nyquist
+
+    @property
+    def _silent(self) -> bool:
+        """True if nothing comes back by every method that ran."""
+        if self.model is None and self.measured is None:
+            return False
+        return (self.model is None or self._model_silent) and (self.measured is None or self._measurement_silent)
+
+    @property
+    def _by_measurement(self) -> bool:
+        """True if margins are those of the frequency-response test: linear, where no linearisation is to be trusted."""
+        if self.measured is None:
+            return False
+        overlooked = self._model_silent and not self._measurement_silent
+        return self.model is None or ((self._doubtful or overlooked) and not self._bent)
+
+    @property
     def _bent(self) -> bool:
         return self.measured is not None and self.measured.half_amplitude_change > NOT_LINEAR
 
     def refuse_what_is_no_loop(self) -> None:
-        """Raises StudyError where nothing comes back and no pole is known, or where neither method finds it linear.
+        """Raise StudyError where nothing comes back, a flight grows without end, or neither method finds a linear loop.
 
         Of what is not linear the error has L over the amplitude.
         """
-        if self.model is None and self.measured is not None and not np.any(self.measured.curve.value):
-            raise StudyError(
-                f"{SILENT}, and no poles are known without a linearisation ({self.notes['linearisation']})"
-            )
+        if self.unstable is not None and (self.model is None or self._doubtful):
+            raise self.unstable
+        if self._silent:
+            self._refuse_silence()
         if self._doubtful and self.measured is None:
             assert self.model is not None
             names = ", ".join(self.model.facts.doubtful)
             reason = self.notes.get("frequency-response test", "it is not measured")
             raise StudyError(f"its derivatives have no plateau ({names}), and there is no measurement: {reason}")
-        if (self._doubtful or self.model is None) and self._bent:
+        overlooked = self._model_silent and self.measured is not None and not self._measurement_silent
+        if (self._doubtful or self.model is None or overlooked) and self._bent:
             assert self.injector is not None
             amplitudes = self.amplitudes(float(np.sqrt(self.injector.frequency[0] * self.injector.frequency[-1])))
             assert amplitudes is not None
@@ -100,6 +158,23 @@ class LoopStudy:
                 for item in points
             )
             raise StudyError(f"not applicable, since it is not linear: at {frequency:.3g} rad/s L is {sizes}")
+
+    def _refuse_silence(self) -> None:
+        """Raise LoopError, unless what the model knows to grow does grow in a flight."""
+        injector = self.injector or Injector(self.bench, self.channel, LINES_FROM * FIRST_LOOK * self.nyquist)
+        try:
+            wave, peak = injector.wave()
+        except (NotMeasurableError, StudyError) as error:
+            raise LoopError(f"{SILENT} ({error})", Verdict.NOT_APPLICABLE) from error
+        measured = self.measured is not None
+        silence = silence_of(self.bench.prepared, self.bench, self.channel, peak, wave, measured)
+        if silence.growth is not None and self.model is None:
+            raise UnstableError(silence.growth)
+        if silence.growth is not None and self.model is not None and not self.model.stable:
+            return
+        untried = self.notes.get("frequency-response test")
+        why = f", by linearisation alone: {untried}" if untried else ""
+        raise LoopError(silence.reason + why, Verdict.NOT_APPLICABLE)
 
     @cached_property
     def assessed(self) -> tuple[Assessment, Response]:
@@ -113,7 +188,7 @@ class LoopStudy:
             raise StudyError(f"{self.channel.name}: {error}") from error
 
     def _assess(self) -> tuple[Assessment, Response]:
-        if self.model is not None and not (self._doubtful and self.measured is not None and not self._bent):
+        if self.model is not None and not self._by_measurement:
             undamped, include = self.model.lightly_damped()
             assessment = assess(
                 self.model.response,
@@ -130,10 +205,11 @@ class LoopStudy:
             raise StudyError(f"{self.channel.name}: " + "; ".join(f"{name}: {why}" for name, why in self.notes.items()))
         if self.model is not None:
             names = ", ".join(self.model.facts.doubtful)
-            self.notes["linearisation"] = (
-                f"its derivatives have no plateau ({names}), so margins are those of the frequency-response test"
-            )
-        curve = self.measured.curve
+            why = f"its derivatives have no plateau ({names})" if self._doubtful else "it sees nothing come back"
+            self.notes["linearisation"] = f"{why}, so margins are those of the frequency-response test"
+        return self._assess_measured(self.refined or self.measured.curve)
+
+    def _assess_measured(self, curve: Curve) -> tuple[Assessment, Response]:
         response = interpolate(curve.frequency, curve.value, self.seconds)
         return assess(response, curve.frequency[0], curve.frequency[-1], self.seconds, None), response
 
@@ -169,7 +245,7 @@ class LoopStudy:
             structure=structure(model.model, model.port, model.facts.states) if model else None,
             open_loop=open_loop(model.model, (model.port,)) if model and "linearisation" not in self.notes else None,
             linearised=self.model.facts if self.model else None,
-            measured_response=self.measured,
+            measured_response=self._measured_response(),
             not_applicable={**self.notes, **assessment.notes},
             step=self._step(assessment) if model and stable else None,
         )
@@ -180,6 +256,12 @@ class LoopStudy:
             if not compared.agrees:
                 report.not_applicable["agreement"] = disagreement(compared, self.model.facts, self.measured)
         return report
+
+    def _measured_response(self) -> Measured | None:
+        """The measurement with the lines at its crossings."""
+        if self.measured is None or self.refined is None:
+            return self.measured
+        return replace(self.measured, curve=self.refined, lines=len(self.refined.frequency))
 
     def _step(self, assessment: Assessment) -> tuple[np.ndarray, np.ndarray]:
         """Response of T, what comes back over what is added, to a step at the cut."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..loops.margin_values import Margins
 from ..loops.readings import Classical, Curve, Robust
-from .requirement import Requirement, Verdict, combine
+from .requirement import Requirement, Verdict, combine, combine_verdicts
 from .responses import Agreement, AmplitudePoint, Linearised, Measured, Mode, Nonlinearity, StateSpace, Structure
 from .varied import Dispersion, Sampled, SweepReport
 
@@ -120,12 +120,26 @@ class PointReport:
 
 @dataclass(frozen=True)
 class Unstudied:
-    """Something that was asked for and could not be had: a loop at a point, its channels at once, a sweep."""
+    """Something that was asked for and could not be had: a loop at a point, its channels at once, a sweep.
+
+    ``verdict`` is what the ``reason`` decides without figures: that a loop fails, or that nothing applies to it; None
+    where it was not studied.
+    """
 
     name: str
     point: str
     what: str
     reason: str
+    verdict: Verdict | None = None
+
+    @property
+    def text(self) -> str:
+        """The reason with what it comes to."""
+        if self.verdict is Verdict.FAIL:
+            return self.reason
+        if self.verdict is Verdict.WITHHELD:
+            return f"withheld: {self.reason}, not known in the other order"
+        return f"{self.verdict or 'not studied'}: {self.reason}"
 
 
 class Judged(NamedTuple):
@@ -187,6 +201,7 @@ class StabilityReport:
     @property
     def verdict(self) -> Verdict:
         """What could not be studied, or what linearised and measured responses differ on, is not passed."""
-        verdict = combine([item.requirement for item in self.judgements()])
+        requirements = [item.requirement.verdict for item in self.judgements()]
+        verdict = combine_verdicts([*requirements, *(item.verdict for item in self.unstudied if item.verdict)])
         open_to_doubt = self.unstudied or any(loop.doubted for loop in self.loops)
         return Verdict.NOT_APPLICABLE if verdict is Verdict.PASS and open_to_doubt else verdict

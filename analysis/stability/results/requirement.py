@@ -69,10 +69,16 @@ class Requirement:
 
 
 def combine(requirements: Iterable[Requirement]) -> Verdict:
+    """The verdict of all requirements."""
+    return combine_verdicts(requirement.verdict for requirement in requirements)
+
+
+def combine_verdicts(verdicts: Iterable[Verdict]) -> Verdict:
     """Fail if one fails, withheld if one is, pass if one passes; what is not applicable decides nothing."""
-    verdicts = [requirement.verdict for requirement in requirements]
-    decisive = (Verdict.FAIL, Verdict.WITHHELD, Verdict.PASS)
-    return next((token for token in decisive if token in verdicts), Verdict.NOT_APPLICABLE)
+    known = set(verdicts)
+    return next(
+        (token for token in (Verdict.FAIL, Verdict.WITHHELD, Verdict.PASS) if token in known), Verdict.NOT_APPLICABLE
+    )
 
 
 def grows(outside: Sequence[str], most: int = 4) -> str:

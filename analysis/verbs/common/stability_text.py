@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ...reports.stability.orders import order_loops, order_sentences, withheld_line
 from ...stability.loops.margin_values import MARGINS, UNLIMITED, Quantity
-from ...stability.results.report import JointReport, LoopReport, StabilityReport
+from ...stability.results.report import JointReport, LoopReport, StabilityReport, Unstudied
 from ...stability.results.requirement import Requirement, Verdict
 from ...stability.results.varied import SweepCrossing, SweepReport
 
@@ -19,6 +19,7 @@ def stability_lines(report: StabilityReport) -> list[str]:
         lines += _lines(loop)
         if (other := others.get((loop.name, loop.point))) is not None:
             lines.append(f"  as feedthrough: {_margins(other)}")
+    lines += [_verdict_line(lost) for lost in report.unstudied if lost.verdict is not None]
     lines += [f"note: {sentence}" for sentence in order_sentences(report)]
     lines += [_crossing_line(sweep, crossing) for sweep in report.sweeps for crossing in sweep.crossings]
     return [*lines, f"{report.system}: {report.verdict}, {report.seconds:.1f} s"]
@@ -39,10 +40,16 @@ def stability_problems(report: StabilityReport) -> list[str]:
         if loop.doubted and loop.verdict is Verdict.NOT_APPLICABLE:
             why = f"linearised and measured responses differ, {loop.not_applicable['agreement']}"
             lines.append(f"loop {loop.name} at {loop.point}: not passed: {why}")
-    lines += [f"{lost.what} {lost.name} at {lost.point}: not studied: {lost.reason}" for lost in report.unstudied]
+    lines += [f"{lost.what} {lost.name} at {lost.point}: {lost.text}" for lost in report.unstudied]
     if not lines and report.verdict is not Verdict.PASS:
         lines.append(f"{report.system}: {report.verdict}")
     return lines
+
+
+def _verdict_line(lost: Unstudied) -> str:
+    """A loop without margins that has a verdict all the same."""
+    verdict = f": {lost.verdict}" if lost.verdict is Verdict.FAIL else ""
+    return f"{lost.name} at {lost.point}: {lost.text}{verdict}"
 
 
 def _failure_line(subject: LoopReport | JointReport, item: Requirement) -> str:

@@ -215,6 +215,23 @@ def test_an_error_within_its_sigma():
     assert captions(actual) == ["Time history", "Scaled to the last quarter"]  # 11.5 deg first, then 0.35 deg
 
 
+def test_an_estimate_that_is_held_counts_where_it_changed():
+    """A filter of every fourth row: in between the truth moves on, and the error says nothing of the filter.
+
+    Of 40 samples that are taken every fifth is off by two sigma, the first of them included.
+    """
+    steps = np.arange(ROWS)
+    sampled = steps // 10
+    off = np.where(sampled % 5 == 0, 2.0, 0.5)
+    truth = 1e-3 * steps
+    signals = {"truth": truth, "estimate": 1e-2 * sampled + 1e-3 * off, "sigma": np.full(ROWS, 1e-3)}
+    (finding,) = findings(one(replace(ERROR, after=None), flown(**signals)))
+    count = sampled[-1] + 1
+    within = 100.0 * np.mean(np.arange(count) % 5 != 0)
+    assert f"{within:.3g} % of the {count} samples at which the estimate changed within 1 sigma" in finding
+    assert finding.endswith("100 % within 3 sigma.")
+
+
 def test_an_error_without_sigma():
     signals = errors()
     actual = one(ERROR, flown(**(signals | {"sigma": 0.0 * TIME})))

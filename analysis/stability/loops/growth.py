@@ -1,0 +1,41 @@
+"""How fast what a disturbance has changed grows, where it grows steadily: the sign of an unstable loop in a flight."""
+
+from __future__ import annotations
+
+import numpy as np
+
+WINDOWS = 4  # of equal length, in which a deviation's size is compared
+LEAST = 0.05  # of the logarithm from window to window
+STEADY = 0.05  # spread of these over their mean; that of a power of time is 0.3 over the fifth to the eighth window
+HUGE = 1e100  # the size of a deviation that overflows, whether or not it has grown steadily before
+
+
+def steady_growth(deviation: np.ndarray) -> float | None:
+    """Return the factor a sample by which a deviation (n,) has grown over its last three quarters.
+
+    None where it has not grown, or not by the same factor from quarter to quarter.
+    """
+    width = len(deviation) // WINDOWS
+    if width < 1 or not np.all(np.isfinite(deviation)):
+        return None
+    sizes = np.abs(deviation[len(deviation) - WINDOWS * width :]).reshape(WINDOWS, width).max(axis=1)
+    if sizes.min() <= 0.0:
+        return None
+    steps = np.diff(np.log(sizes))
+    if steps.min() < LEAST or np.ptp(steps) > STEADY * steps.mean():
+        return None
+    return float(np.exp(steps.mean() / width))
+
+
+def growth_to_overflow(deviation: np.ndarray) -> float | None:
+    """Return the factor a sample of a deviation (n,) up to an overflow; None where it neither grew nor got huge."""
+    finite = deviation[np.isfinite(deviation)]
+    rate = steady_growth(finite)
+    if rate is not None or not finite.size:
+        return rate
+    sizes = np.abs(finite)
+    moved = np.flatnonzero(sizes > 0.0)
+    if not moved.size or sizes.max() < HUGE:
+        return None
+    first, last = int(moved[0]), int(np.argmax(sizes))
+    return float(np.exp((np.log(sizes[last]) - np.log(sizes[first])) / max(last - first, 1)))

@@ -1,0 +1,103 @@
+"""Margins between measured lines: the crossings themselves become test frequencies, until they stay where they are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from .readings import Classical, Crossing, Curve, Robust, decibels
+
+ROUNDS = 4
+GAIN_STAYS = 0.01  # dB
+PHASE_STAYS = 0.02  # deg
+MOST = 12  # crossings of one kind, the nearest, that are measured
+SAME = 3e-4  # relative distance of frequencies that are one
+ENDS = 1e-3  # likewise, from the end of the lines
+
+
+@dataclass(frozen=True)
+class Refined:
+    """A curve with lines at its crossings. ``gain`` (dB) and ``phase`` (deg) are what its margins still moved in the
+    last of ``rounds`` rounds."""
+
+    curve: Curve
+    rounds: int
+    gain: float
+    phase: float
+
+    @property
+    def settled(self) -> bool:
+        """True if the margins stay where they are."""
+        return self.gain < GAIN_STAYS and self.phase < PHASE_STAYS
+
+    @property
+    def remainder(self) -> str:
+        """What is left, in words; empty where the margins are settled."""
+        if self.settled:
+            return ""
+        if not (np.isfinite(self.gain) and np.isfinite(self.phase)):
+            return f"crossings still appear and vanish after {self.rounds} rounds of test frequencies at the crossings"
+        moved = f"{self.gain:.2g} dB and {self.phase:.2g} deg"
+        return f"they still move by {moved} after {self.rounds} rounds of test frequencies at the crossings"
+
+
+def refine(
+    curve: Curve,
+    margins_of: Callable[[Curve], tuple[Classical, Robust]],
+    measure: Callable[[float], tuple[float, complex]],
+) -> Refined:
+    """Return the curve with further lines where its margins are decided: at crossings and nearest to -1.
+
+    ``measure`` takes a frequency (rad/s) and returns that of a line next to it with its value of L. Raises as it does.
+    """
+    classical, robust = margins_of(curve)
+    gain = phase = np.inf
+    rounds = 0
+    while rounds < ROUNDS and not (gain < GAIN_STAYS and phase < PHASE_STAYS):
+        wanted = [frequency for frequency in _decisive(classical, robust) if _is_new(curve, frequency)]
+        if not wanted:
+            return Refined(curve, rounds, 0.0, 0.0)
+        for frequency in wanted:
+            if _is_new(curve, frequency):  # behind the lines of this round, too
+                curve = _with_line(curve, *measure(frequency))
+        before = classical
+        classical, robust = margins_of(curve)
+        gain, phase = _moved(before, classical)
+        rounds += 1
+    return Refined(curve, rounds, gain, phase)
+
+
+def _decisive(classical: Classical, robust: Robust) -> list[float]:
+    """Frequencies (rad/s) of the nearest crossings, and of the points nearest to -1."""
+    gains = sorted(classical.gain, key=lambda crossing: abs(np.log(crossing.value)))[:MOST]
+    phases = sorted(classical.phase, key=lambda crossing: abs(crossing.value))[:MOST]
+    crossings = [crossing.frequency for crossing in (*gains, *phases)]
+    return [*crossings, robust.sensitivity_frequency, robust.disk_frequency]
+
+
+def _is_new(curve: Curve, frequency: float) -> bool:
+    """True if a frequency lies between the lines, and next to none of them."""
+    low, high = curve.frequency[0] * (1.0 + ENDS), curve.frequency[-1] * (1.0 - ENDS)
+    return bool(low < frequency < high and np.min(abs(curve.frequency / frequency - 1.0)) > SAME)
+
+
+def _with_line(curve: Curve, frequency: float, value: complex) -> Curve:
+    place = int(np.searchsorted(curve.frequency, frequency))
+    return Curve(np.insert(curve.frequency, place, frequency), np.insert(curve.value, place, value))
+
+
+def _moved(before: Classical, after: Classical) -> tuple[float, float]:
+    """How far the crossings have moved (dB, deg): inf where one has appeared or vanished."""
+    gain = _largest(before.gain, after.gain, lambda old, new: abs(decibels(old.value) - decibels(new.value)))
+    phase = _largest(before.phase, after.phase, lambda old, new: abs(np.degrees(old.value - new.value)))
+    return gain, phase
+
+
+def _largest(
+    before: tuple[Crossing, ...], after: tuple[Crossing, ...], distance: Callable[[Crossing, Crossing], float]
+) -> float:
+    if len(before) != len(after):
+        return np.inf
+    return max((float(distance(old, new)) for old, new in zip(before, after, strict=True)), default=0.0)

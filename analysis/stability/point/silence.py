@@ -1,0 +1,147 @@
+"""A loop of which nothing comes back: the component behind which it ends, and whether what is added still grows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...runtime.system.network import Network
+from ...runtime.system.prepared import PreparedSystem
+from ...runtime.system.schedule import origin
+from ..loops.growth import WINDOWS, growth_to_overflow, steady_growth
+from ..request.channels import Channel
+from .bench import Bench, OverflowedError, StudyError
+
+PERIODS = 4  # hyperperiods in which a component's outputs are to move
+SMALL = 1e-6  # of a signal's size: what the linearisation changes
+NUMBERS = ("Real", "Integer", "Boolean", "Enumeration")  # types of outputs that can move
+MOVED = 1e-12  # of an output's size, below which it is rounding
+
+
+@dataclass(frozen=True)
+class Silence:
+    """Where it ends: ``component`` is the first on the path whose outputs do not move; None where that is not known.
+
+    ``growth`` is the factor a sample by which an output parts from the undisturbed flight, None where none does.
+    """
+
+    component: str | None
+    growth: float | None
+
+    @property
+    def reason(self) -> str:
+        """Where the loop ends, in words."""
+        if self.component is None:
+            return "nothing comes back"
+        return f"nothing comes back behind {self.component}"
+
+
+def silence_of(
+    prepared: PreparedSystem, bench: Bench, channel: Channel, peak: float, wave: np.ndarray, measured: bool
+) -> Silence:
+    """Return where a silent loop ends, by flights that record all outputs behind the cut.
+
+    ``wave`` [samples] with its largest value ``peak`` is added for some periods to see what grows. Components are
+    judged by it, too, where it was ``measured``; else by changes as small as those of the linearisation.
+    """
+    path = _path(prepared.network, channel)
+    names = [name for group in path.outputs.values() for name in group]
+    ear = Bench(prepared, bench.point, [channel], recorded=names)
+    try:
+        grown, moved = _disturb(ear, channel, np.tile(wave, 2 * WINDOWS), names)
+        if not measured:
+            length = PERIODS * ear.period // channel.period
+            size = SMALL * (peak or 1.0)
+            _, moved = _disturb(ear, channel, np.full(max(length, 1), size), names)
+    finally:
+        ear.close()
+    return Silence(None if moved is None else path.first_still(moved), grown)
+
+
+def _disturb(
+    bench: Bench, channel: Channel, samples: np.ndarray, names: list[str]
+) -> tuple[float | None, dict[str, bool] | None]:
+    """By what factor a sample an output parts from the undisturbed flight, and of all outputs whether they do."""
+    added = np.repeat(samples, channel.period)
+    last = bench.origin + added.size
+    with suppress(StudyError):
+        base = bench.fly(-1, last)
+        here = {name: values[bench.origin + 1 :] for name, values in base.items()}
+        excitation = np.zeros((added.size, len(bench.connectors)))
+        excitation[:, bench.columns(channel)] = channel.excitation(here, added)
+        own = dict(zip(channel.connectors, channel.excitation(here, added).T, strict=True))
+        overflowed = False
+        try:
+            disturbed = bench.fly(-1, last, excitation)
+        except OverflowedError as error:
+            disturbed, overflowed = error.signals, True
+        rates: list[float | None] = []
+        moved: dict[str, bool] = {}
+        for name in names:
+            values = disturbed[name]
+            deviation = (values - base[name][: len(values)])[bench.origin + 1 :]
+            if name in own:  # what was added is not what comes back
+                deviation = deviation - own[name][: len(deviation)]
+            deviation = deviation[:: channel.period]
+            size = float(np.max(abs(base[name]), initial=0.0))
+            moved[name] = bool(np.max(abs(deviation), initial=0.0) > MOVED * size)
+            rates.append(
+                growth_to_overflow(deviation) if overflowed else steady_growth(deviation[len(deviation) // 2 :])
+            )
+        return max((rate for rate in rates if rate is not None), default=None), moved
+    return None, None
+
+
+@dataclass(frozen=True)
+class _Path:
+    """The components from a cut to its return signal: ``first`` read the cut, ``readers`` each output by its name.
+
+    ``outputs`` are those of all components on the way, by component.
+    """
+
+    first: set[str]
+    readers: Mapping[str, set[str]]
+    outputs: Mapping[str, list[str]]
+
+    def first_still(self, moved: Mapping[str, bool]) -> str | None:
+        """Return the component nearest to the cut that is moved and moves nothing on the way."""
+        queue, known = sorted(self.first & self.outputs.keys()), set[str]()
+        while queue:
+            component = queue.pop(0)
+            known.add(component)
+            moving = [name for name in self.outputs[component] if moved.get(name, False)]
+            if not moving:
+                return component
+            reached = {reader for name in moving for reader in self.readers.get(name, ())}
+            queue += sorted((reached & self.outputs.keys()) - known - set(queue))
+        return None
+
+
+def _path(network: Network, channel: Channel) -> _Path:
+    """The way from a channel's cut to its return signal."""
+    readers: dict[str, set[str]] = {}
+    sources: dict[str, str | None] = {}
+    for link in network.links():
+        if link.target.component is not None and not link.is_parameter:
+            source = origin(network, link)
+            readers.setdefault(source.name, set()).add(link.target.component)
+            sources[link.target.name] = source.component
+    outputs: dict[str, list[str]] = {}
+    for node in network.nodes.values():
+        if node.component is not None and node.kind == "output" and node.type_name in NUMBERS:
+            outputs.setdefault(node.component, []).append(node.name)
+    first: set[str] = set()
+    for connector in channel.connectors:  # an output, or an input, which its own component reads
+        first |= readers.get(connector) or {connector.partition(".")[0]}
+    back = channel.returned or channel.connectors[0]
+    end = sources.get(back, back.partition(".")[0])
+    drives = {
+        name: {reader for output in group for reader in readers.get(output, ())} for name, group in outputs.items()
+    }
+    leading = {end}
+    while more := {name for name, reached in drives.items() if reached & leading} - leading:
+        leading |= more
+    return _Path(first, readers, {name: group for name, group in outputs.items() if name in leading})
