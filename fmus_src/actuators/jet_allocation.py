@@ -5,7 +5,7 @@ from ..interfaces.ports import body, inertial, robot, sampling
 from ..interfaces.ports.robot import LARGEST
 from ..kernel.enumerations import Enumeration, member
 from ..mathlib.actuators.jets import JETS, JetStrength, Wrench, jet_strength, jet_wrench
-from ..mathlib.attitude.quaternion import normalise, to_body
+from ..mathlib.attitude.quaternion import is_attitude, normalise, to_body
 
 ROUNDING = 1e-9  # s, allowed for in times of communication points
 
@@ -17,6 +17,7 @@ class JetAllocationStatus(Enumeration):
     SATURATED = member("saturated")
     TORQUE_LEFT_OUT = member("a torque or what the geometry cannot give left out")
     NOT_FINITE = member("command unusable")
+    NO_ATTITUDE = member("no attitude: a quaternion shorter than 0.5, no thrust")
 
 
 class JetAllocation(Block, interface=True):
@@ -65,11 +66,11 @@ class JetAllocation(Block, interface=True):
         """Set new_thrust (N) and status from wanted."""
 
     def want(self) -> bool:
-        """attitude and wanted (body) from the command; returns whether it is finite, with an attitude."""
+        """attitude and wanted (body) from the command; returns whether it is finite."""
         finite = self.translation_period > 0.0 and self.translation_period < LARGEST
         q = self.quaternion
         length = abs(q.w) + abs(q.x) + abs(q.y) + abs(q.z)
-        if not (length > 0.0 and length < LARGEST):
+        if not length < LARGEST:
             finite = False
         self.attitude = normalise(q)
         self.wanted = Wrench(force=to_body(self.attitude, self.force_command), torque=self.torque_command)
@@ -83,12 +84,14 @@ class JetAllocation(Block, interface=True):
         self.counted = self.command_count
         self.waiting = True
         finite = self.want()
-        if finite:
+        if finite and is_attitude(self.quaternion):
             self.status = JetAllocationStatus.GOOD
             self.due_time = time + self.delay_fraction * self.translation_period
             self.allocate()
         else:
             self.status = JetAllocationStatus.NOT_FINITE
+            if finite:
+                self.status = JetAllocationStatus.NO_ATTITUDE
             self.due_time = time
             for p in range(JETS):
                 self.new_thrust[p] = 0.0

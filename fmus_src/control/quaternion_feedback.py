@@ -6,8 +6,8 @@ from ..block import Block, Inputs, Output, Parameter, State
 from ..interfaces.ports import body, robot, sampling, satellite
 from ..interfaces.ports.satellite import AttitudeReference
 from ..kernel.enumerations import Enumeration, member
-from ..mathlib.attitude.quaternion import difference, normalise, to_body
-from ..mathlib.vectors import Vector3, cross, is_finite, limit_length, norm
+from ..mathlib.attitude.quaternion import difference, is_attitude, normalise, to_body
+from ..mathlib.vectors import Vector3, cross, is_finite, limit_length, norm, vector
 
 
 class QuaternionFeedbackStatus(Enumeration):
@@ -15,6 +15,7 @@ class QuaternionFeedbackStatus(Enumeration):
 
     GOOD = member("good")
     NOT_FINITE = member("last inputs not finite, torque held")
+    NO_ATTITUDE = member("no attitude: a quaternion shorter than 0.5, no torque")
 
 
 class QuaternionFeedback(Block):
@@ -27,7 +28,8 @@ class QuaternionFeedback(Block):
     wheel_momentum. With the natural frequency w0 and the damping z, k = w0^2 and c = 2 z w0. An integral_time T > 0
     adds the pole -1/T: k = w0^2 + 2 z w0/T, c = 2 z w0 + 1/T and i' = w0^2/T 2 q, where 2 |q| is below
     integral_band. error_limit bounds 2 |q| in k 2 q, and so the rate of a turn without reference to k error_limit/c.
-    The torque stays until the next sample. Inputs that are not finite leave it as it is.
+    The torque stays until the next sample. Inputs that are not finite leave it as it is; without an attitude, estimated
+    or to follow, it is 0.
     Frame: body. Equations and margins: docs/systems/satellite_pointing.md. Assumes a rigid body with inertia as known.
     Source: Wie, Weiss and Arapostathis 1989; Wie 1998, section 7.
     """
@@ -80,6 +82,10 @@ class QuaternionFeedback(Block):
         """Command a new torque."""
         if not self.finite():
             self.status = QuaternionFeedbackStatus.NOT_FINITE
+            return
+        if not (is_attitude(self.estimated_quaternion) and is_attitude(self.reference.reference_quaternion)):
+            self.status = QuaternionFeedbackStatus.NO_ATTITUDE
+            self.torque_command = vector(0.0, 0.0, 0.0)
             return
         self.status = QuaternionFeedbackStatus.GOOD
         rotation = difference(normalise(self.reference.reference_quaternion), normalise(self.estimated_quaternion))

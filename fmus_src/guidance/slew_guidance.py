@@ -5,7 +5,14 @@ from ..interfaces.ports import robot, sampling
 from ..interfaces.ports.satellite import AttitudeReference
 from ..kernel.enumerations import Enumeration, member
 from ..kernel.records import Field, Record
-from ..mathlib.attitude.quaternion import difference, from_rotation_vector, multiply, normalise, to_rotation_vector
+from ..mathlib.attitude.quaternion import (
+    difference,
+    from_rotation_vector,
+    is_attitude,
+    multiply,
+    normalise,
+    to_rotation_vector,
+)
 from ..mathlib.vectors import norm, vector
 
 ROUNDING = 1e-9  # s, allowed for in times of communication points
@@ -17,6 +24,7 @@ class SlewPhase(Enumeration):
     WAITING = member("waiting")
     SLEWING = member("slewing")
     HOLDING = member("holding")
+    NO_ATTITUDE = member("no attitude: a quaternion shorter than 0.5, nothing planned")
 
 
 class SlewProgress(Record):
@@ -32,6 +40,7 @@ class SlewGuidance(Block, interface=True):
     The axis e and the angle are those of the shorter rotation from start to target: the reference is start * rotation
     (angle e), its angular velocity rate e, both in axes of its body, in which e stays. It waits until slew_start. The
     angular acceleration is the mean over the sample_period that follows, so that a torque in steps meets the rate.
+    Without an estimated and a target attitude the reference is no attitude either; times count from the first on.
     A guidance writes `plan`, which sets duration from slew_angle, and `follow`, which sets progress within it.
     Equations: docs/systems/satellite_pointing.md. Source: Wie 1998, section 7.
     Assumes a satellite at rest at the start.
@@ -94,6 +103,15 @@ class SlewGuidance(Block, interface=True):
         self.reference.reference_angular_acceleration = acceleration * self.eigenaxis
 
     def initialize(self) -> None:
+        self.begin(self.start_time, self.sample_period)
+
+    def begin(self, time: float, period: float) -> None:
+        """Plan the turn at a time (s), from which all others count, if there is an attitude; ``period`` is in s."""
+        self.phase = SlewPhase.NO_ATTITUDE
+        self.reference.reference_quaternion = vector(0.0, 0.0, 0.0, 0.0)
+        if not (is_attitude(self.estimated_quaternion) and is_attitude(self.target_quaternion)):
+            return
+        self.start_time = time
         self.start_quaternion = normalise(self.estimated_quaternion)
         turn = to_rotation_vector(difference(self.start_quaternion, normalise(self.target_quaternion)))
         self.slew_angle = norm(turn)
@@ -101,10 +119,13 @@ class SlewGuidance(Block, interface=True):
         if self.slew_angle > 0.0:
             self.eigenaxis = turn / self.slew_angle
         self.plan()
-        self.refer(self.start_time, self.sample_period)
+        self.refer(time, period)
 
     def step(self, t: float, h: float) -> None:
         period = self.sample_period
         if period <= 0.0:
             period = h
-        self.refer(t + h, period)
+        if self.phase == SlewPhase.NO_ATTITUDE:
+            self.begin(t + h, period)
+        else:
+            self.refer(t + h, period)

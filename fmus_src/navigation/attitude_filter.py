@@ -10,6 +10,7 @@ from ..mathlib.attitude.quaternion import (
     angle_error,
     difference,
     from_rotation_vector,
+    is_attitude,
     multiply,
     normalise,
     to_body,
@@ -34,8 +35,9 @@ class AttitudeFilter(Block):
     it is taken to change by jet_torque_error times the change of force (about 0.2 m times the
     relative error of a jet), and process_noise and disturbance_noise are what else happens.
 
-    A sample that is not finite is left out and reported. sample_period is how often the filter looks; new samples are
-    told by their count. Frames: body, quaternions from body to inertial. Equations: docs/systems/robot_rendezvous.md.
+    A sample that is not finite, or no attitude, is left out and reported; without a planned attitude errors stay.
+    sample_period is how often the filter looks; new samples are told by their count.
+    Frames: body, quaternions from body to inertial. Equations: docs/systems/robot_rendezvous.md.
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2; Lefferts, Markley and Shuster 1982 (error in body axes).
     Assumes small errors against the plan, and inertia and jets as declared.
     """
@@ -103,7 +105,8 @@ class AttitudeFilter(Block):
         self.mean_time = self.start_time
         self.last_momentum = self.gyro_momentum
         self.angular_velocity = self.planned_angular_velocity
-        self.quaternion = self.planned_quaternion
+        if is_attitude(self.planned_quaternion):
+            self.quaternion = self.planned_quaternion
         self.covariance[RATE, RATE] = self.first_rate_sigma * self.first_rate_sigma
         self.covariance[DISTURBANCE, DISTURBANCE] = self.first_disturbance_sigma * self.first_disturbance_sigma
         self.take_sample()
@@ -138,6 +141,10 @@ class AttitudeFilter(Block):
         self.counted = self.sample_count
         if not (math.isfinite(self.measured_quaternion.w) and is_finite(self.measured_quaternion[1:4])):
             self.status = SampleStatus.NOT_FINITE
+            return
+        compared = self.method != FilterMethod.MEAN or is_attitude(self.planned_quaternion)
+        if not (compared and is_attitude(self.measured_quaternion)):
+            self.status = SampleStatus.NO_ATTITUDE
             return
         self.status = SampleStatus.GOOD
         self.samples_taken = self.samples_taken + 1
@@ -177,6 +184,9 @@ class AttitudeFilter(Block):
 
     def publish(self) -> None:
         """Put errors and standard deviations on the outputs."""
+        if not is_attitude(self.planned_quaternion):
+            self.status = SampleStatus.NO_ATTITUDE
+            return
         if self.method == FilterMethod.MEAN:
             # the attitude is the planned one turned by the error
             self.quaternion = multiply(self.planned_quaternion, from_rotation_vector(self.attitude_error))

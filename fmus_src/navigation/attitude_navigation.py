@@ -11,6 +11,7 @@ class AttitudeNavigationStatus(Enumeration):
     GOOD = member("good")
     NO_GYROS = member("last gyro sample not finite, last rate used")
     NO_STARS = member("last star sample not finite and left out")
+    NO_ATTITUDE = member("no attitude: last star sample shorter than 0.5 and left out")
 
 
 class AttitudeNavigation(Block, interface=True):

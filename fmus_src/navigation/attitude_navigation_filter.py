@@ -8,6 +8,7 @@ from ..kernel.matrices import identity, zeros
 from ..mathlib.attitude.quaternion import (
     difference,
     from_rotation_vector,
+    is_attitude,
     multiply,
     normalise,
     to_rotation_vector,
@@ -24,7 +25,7 @@ class AttitudeNavigationFilter(AttitudeNavigation):
     The attitude turns with the mean of the last two gyro samples less the bias, or with the last one until the next.
     A star sample corrects it by a small rotation in body axes, and the bias; the first one is the first attitude. The
     covariance is 6 x 6; three components are taken in one after another, as exact as at once. A sample that is not
-    finite is left out and reported. Assumes errors as declared, alike about all axes.
+    finite, or no attitude, is left out and reported. Assumes errors as declared, alike about all axes.
     Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2.
     """
 
@@ -73,6 +74,8 @@ class AttitudeNavigationFilter(AttitudeNavigation):
         self.star_counted = self.star_count
         if not (math.isfinite(self.measured_quaternion.w) and is_finite(self.measured_quaternion[1:4])):
             self.status = AttitudeNavigationStatus.NO_STARS
+        elif not is_attitude(self.measured_quaternion):
+            self.status = AttitudeNavigationStatus.NO_ATTITUDE
         elif self.begun:
             self.correct()
         else:

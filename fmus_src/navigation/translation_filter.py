@@ -6,7 +6,7 @@ from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, landing, robot, sampling
 from ..interfaces.ports.robot import FilterMethod, SampleStatus
 from ..kernel.matrices import zeros
-from ..mathlib.attitude.quaternion import normalise, to_reference
+from ..mathlib.attitude.quaternion import is_attitude, normalise, to_reference
 from ..mathlib.estimation.tracking import RATE, TRACKED, measure_chain, predict_pair
 from ..mathlib.vectors import Vector3, is_finite, norm, vector
 
@@ -31,8 +31,9 @@ class TranslationFilter(Block):
     less the planned change of velocity. The force is wrong by force_error of its size, for about
     force_error_time; process_noise is what else disturbs. A measured range below near_range has near_sigma.
 
-    A sample that is not finite is left out and reported. sample_period is how often the filter looks; new samples
-    are told by their count. Frames: inertial, except for the force. Equations: docs/systems/robot_rendezvous.md.
+    A sample that is not finite is left out and reported; without an attitude the force acts along the last one.
+    sample_period is how often the filter looks; new samples are told by their count.
+    Frames: inertial, except for the force. Equations: docs/systems/robot_rendezvous.md.
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2.
     Assumes errors that are alike in all axes, and a mass as declared.
     """
@@ -94,12 +95,17 @@ class TranslationFilter(Block):
         self.tick_time = self.start_time
         self.ticks = self.translation_count
         self.last_velocity = self.planned_velocity
-        self.last_quaternion = self.quaternion
+        self.remember_attitude()
         self.covariance[RATE, RATE] = self.first_velocity_sigma * self.first_velocity_sigma
         self.take_sample()
         if self.method == FilterMethod.MEAN:
             self.put_out_mean(self.start_time)
         self.publish()
+
+    def remember_attitude(self) -> None:
+        """Keep the attitude for the next step, if there is one."""
+        if is_attitude(self.quaternion):
+            self.last_quaternion = self.quaternion
 
     def sigma_now(self) -> float:
         """Standard deviation (m) of a sample as near as the last one."""
@@ -109,7 +115,9 @@ class TranslationFilter(Block):
 
     def predict(self, h: float) -> None:
         """Move estimate and covariance by h (s)."""
-        middle = normalise(self.last_quaternion + self.quaternion)
+        middle = normalise(self.last_quaternion)
+        if is_attitude(self.quaternion):
+            middle = normalise(self.last_quaternion + self.quaternion)
         force = to_reference(middle, self.allocated_force)
         uncertain = self.force_error * norm(force) / self.mass
         density = self.process_noise + uncertain * uncertain * self.force_error_time
@@ -180,7 +188,9 @@ class TranslationFilter(Block):
             self.ticks = self.translation_count
             if self.method == FilterMethod.MEAN:
                 self.put_out_mean(t + h)
+        if self.method != FilterMethod.MEAN and not is_attitude(self.quaternion):
+            self.status = SampleStatus.NO_ATTITUDE
         self.last_velocity = self.planned_velocity
-        self.last_quaternion = self.quaternion
+        self.remember_attitude()
         self.last_time = t + h
         self.publish()

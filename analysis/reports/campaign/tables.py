@@ -38,7 +38,7 @@ def group_rows(summary: Summary) -> list[SummaryRow]:
 
 
 class RequirementRow(NamedTuple):
-    """A requirement of a variant: its verdict in the summary, and as text its bound, or the metrics that no trial has."""
+    """A requirement of a variant: its verdict in the summary; as text its bound, or the metrics that no trial has."""
 
     variant: str
     name: str

@@ -52,3 +52,4 @@ class SampleStatus(Enumeration):
 
     GOOD = member("good")
     NOT_FINITE = member("last sample not finite and left out")
+    NO_ATTITUDE = member("no attitude: a quaternion shorter than 0.5 left out")

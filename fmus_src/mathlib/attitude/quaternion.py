@@ -10,6 +10,8 @@ import math
 from ...kernel.functions import atan2, cos, sin
 from ..vectors import Vector3, Vector4, cross, norm, vector
 
+LEAST_LENGTH = 0.5  # of a quaternion, below which it is no attitude: a tracker that is lost gives zeros
+
 
 def quaternion(scalar: float, e: Vector3) -> Vector4:
     """The quaternion of its two parts."""
@@ -42,6 +44,14 @@ def normalise(q: Vector4) -> Vector4:
         r = q / largest  # so that no square overflows
         return r / math.sqrt(r.w * r.w + r.x * r.x + r.y * r.y + r.z * r.z)
     return vector(1.0, 0.0, 0.0, 0.0)
+
+
+def is_attitude(q: Vector4) -> bool:
+    """True if a finite q is at least `LEAST_LENGTH` long."""
+    for i in range(4):
+        if abs(q[i]) >= LEAST_LENGTH:
+            return True  # so that no square overflows
+    return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z >= LEAST_LENGTH * LEAST_LENGTH
 
 
 def turn(scalar: float, e: Vector3, v: Vector3) -> Vector3:
