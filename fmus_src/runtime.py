@@ -16,7 +16,7 @@ from .start_values import StartError, describe_violation, start_range
 # How far a communication point may miss a sample instant: importers round t0 + n h, or add up h.
 SAMPLE_TOLERANCE = 1e-6  # of a sample period
 TIME_TOLERANCE = 1e-15  # of the time
-MOST_STEPS = 1_000_000  # of a block's own integration in a communication step
+STEP_LIMIT = 1_000_000  # of a block's own integration in a communication step
 INTEGRATION_STEPS = ("longest_step", "internal_step")  # names of the longest of them (s): the first that a block has
 POINT_TOLERANCE = 1e-3  # of a step: communication points carry the rounding of whoever adds them up
 
@@ -211,9 +211,9 @@ class Component:
             self.tick += 1
         if self.integration_step is not None:
             longest = getattr(self.block, self.integration_step)
-            if h > MOST_STEPS * longest:
+            if h > STEP_LIMIT * longest:
                 raise StepError(
-                    f"communication step {h!r} s holds more than {MOST_STEPS} integration steps of {longest!r} s; "
+                    f"communication step {h!r} s holds more than {STEP_LIMIT} integration steps of {longest!r} s; "
                     "use a shorter communication step, or a longer internal_step"
                 )
         self.block.step(t, h)

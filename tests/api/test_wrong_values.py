@@ -32,22 +32,22 @@ WRONG_CAMPAIGN = {
 def refused(call):
     with pytest.raises(InputError) as caught:
         call()
-    assert "\n" not in str(caught.value)
-    return str(caught.value)
+    assert "\n" not in str(caught.argument)
+    return str(caught.argument)
 
 
 @pytest.mark.parametrize("name", WRONG)
 def test_options_of_a_simulation(name):
-    value, expected = WRONG[name]
-    text = refused(lambda: perilune.simulate(SYSTEM, **{name: value}))
+    argument, expected = WRONG[name]
+    text = refused(lambda: perilune.simulate(SYSTEM, **{name: argument}))
     assert text.startswith(f"{name}: ")
     assert expected in text
 
 
 @pytest.mark.parametrize("name", WRONG_CAMPAIGN)
 def test_options_of_a_campaign(name):
-    value, expected = WRONG_CAMPAIGN[name]
-    text = refused(lambda: perilune.batch(SYSTEM, "paper", **{"trials": 2} | {name: value}))
+    argument, expected = WRONG_CAMPAIGN[name]
+    text = refused(lambda: perilune.batch(SYSTEM, "paper", **{"trials": 2} | {name: argument}))
     assert text.startswith(f"{name}: ")
     assert expected in text
 

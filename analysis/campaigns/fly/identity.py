@@ -80,7 +80,7 @@ def _content(document: dict[str, Any], identities: Mapping[str, str]) -> dict[st
 
 def _drop_limits(document: dict[str, Any]) -> None:
     document["timeout"] = None
-    document["options"] = {name: value for name, value in document["options"].items() if name not in LIMITS}
+    document["options"] = {name: content for name, content in document["options"].items() if name not in LIMITS}
 
 
 def _without_names(document: Any) -> Any:
@@ -104,6 +104,6 @@ def _pairs(name: str, left: object, right: object) -> Iterator[tuple[str, object
         yield name, left, right
 
 
-def _short(value: object) -> str:
-    text = "nothing" if value is None else value if isinstance(value, str) else json.dumps(value)
+def _short(content: object) -> str:
+    text = "nothing" if content is None else content if isinstance(content, str) else json.dumps(content)
     return text if len(text) <= 40 else f"{text[:16]}..."

@@ -35,7 +35,7 @@ static void {prefix}advance({type} *self, Fault *fault, double start_time, doubl
             fault->what = "StepError: the step holds more than one sample of its sample_period; use a longer period";
             return;
     }}
-    if (h > MOST_STEPS * {prefix}model_integration_step(&self->block)) {{
+    if (h > STEP_LIMIT * {prefix}model_integration_step(&self->block)) {{
         fault->what = "StepError: the step holds more than a million integration steps; use a longer internal_step";
         return;
     }}

@@ -224,7 +224,7 @@ def _macros() -> set[str]:
         "SAMPLE_TOLERANCE",
         "TIME_TOLERANCE",
         "POINT_TOLERANCE",
-        "MOST_STEPS",
+        "STEP_LIMIT",
         "SYSTEM_STEP",
         "MODEL_GUID",
         "HAS_FINISHED",

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from ....fmus_src.export.write.layout import Lines
 from ....fmus_src.export.write.names import comment, literal
-from ....fmus_src.runtime import MOST_STEPS, POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
+from ....fmus_src.runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, STEP_LIMIT, TIME_TOLERANCE
 from ...runtime.flight.instructions import write_renewal
 from ...runtime.ssp.kinds import PARAMETERS
 from .choices import parameter_chain
@@ -40,7 +40,7 @@ HEADER = """\
 #define SAMPLE_TOLERANCE {sample!r} /* of a sample period */
 #define TIME_TOLERANCE {time!r} /* of the time */
 #define POINT_TOLERANCE {point!r} /* of a step */
-#define MOST_STEPS {most_steps} /* of integration in a step */
+#define STEP_LIMIT {most_steps} /* of integration in a step */
 #define SYSTEM_STEP {step} /* s */
 
 #include "sampling.h"
@@ -65,7 +65,7 @@ def write_system(name: str, about: str, guid: str, model: SystemModel, variables
         sample=SAMPLE_TOLERANCE,
         time=TIME_TOLERANCE,
         point=POINT_TOLERANCE,
-        most_steps=MOST_STEPS,
+        most_steps=STEP_LIMIT,
         step=literal(model.first.step),
         includes="\n".join(f'#include "{file_name(source)}"' for source in model.sources),
     )

@@ -13,7 +13,7 @@ from .option import Declared, Kind
 
 
 def read_value(declared: Declared, texts: Sequence[str]) -> object:
-    """The value that the texts of a command line give an option; several where it is repeated. Raises InputError."""
+    """The argument that the texts of a command line give an option; several where it is repeated. Raises InputError."""
     if declared.kind is Kind.PAIRS:
         return _read_pairs(declared, texts)
     if declared.kind is Kind.LIST:
@@ -37,18 +37,18 @@ def _parse_number(declared: Declared, kind: Kind, text: str, name: str = "") -> 
         raise InputError(f"`{declared.name}`", element, f"not {whole}", "give one") from None
 
 
-def check_number(declared: Declared, value: float | int, text: str = "") -> float | int:
+def check_number(declared: Declared, argument: float | int, text: str = "") -> float | int:
     """The number, if it is finite and within the bounds of its option. Raises InputError."""
-    option, text = declared.option, text or f"{value:g}"
-    if not math.isfinite(value):
+    option, text = declared.option, text or f"{argument:g}"
+    if not math.isfinite(argument):
         raise InputError(f"`{declared.name}`", repr(text), f"not a finite number{_of_unit(declared)}", "give one")
-    if option.above is not None and value <= option.above:
+    if option.above is not None and argument <= option.above:
         raise InputError(f"`{declared.name}`", text, f"not above {option.above:g}", "give a larger number")
-    if option.minimum is not None and value < option.minimum:
+    if option.minimum is not None and argument < option.minimum:
         raise InputError(f"`{declared.name}`", text, f"below {option.minimum:g}", f"give {option.minimum:g} or more")
-    if option.maximum is not None and value > option.maximum:
+    if option.maximum is not None and argument > option.maximum:
         raise InputError(f"`{declared.name}`", text, f"above {option.maximum:g}", f"give {option.maximum:g} or less")
-    return value
+    return argument
 
 
 def _of_unit(declared: Declared) -> str:
@@ -59,77 +59,77 @@ def _read_pairs(declared: Declared, texts: Sequence[str]) -> dict[str, object]:
     """``NAME=VALUE`` of a repeated option by name, ``NAME=A,B`` as a list where it takes several; no name twice."""
     pairs: dict[str, object] = {}
     for text in texts:
-        name, equals, value = text.partition("=")
-        if not equals or not name.strip() or not value.strip():
+        name, equals, argument = text.partition("=")
+        if not equals or not name.strip() or not argument.strip():
             form = declared.option.metavar or declared.option.form
             raise InputError(f"`{declared.name}`", text, f"not of the form {form}", "write it so")
         if name.strip() in pairs:
             raise InputError(f"`{declared.name}`", text, f"{name.strip()} is given twice", "give it once")
         if declared.element is Kind.NUMBER:
-            pairs[name.strip()] = _parse_number(declared, Kind.NUMBER, value.strip(), name.strip())
+            pairs[name.strip()] = _parse_number(declared, Kind.NUMBER, argument.strip(), name.strip())
         else:
-            several = [part.strip() for part in value.split(",")]
-            pairs[name.strip()] = several if declared.option.comma else value.strip()
+            several = [part.strip() for part in argument.split(",")]
+            pairs[name.strip()] = several if declared.option.comma else argument.strip()
     return pairs
 
 
-def check_value(declared: Declared, value: Any) -> object:
-    """A value that a Python caller gives, as the function gets it. Raises InputError.
+def check_value(declared: Declared, argument: Any) -> object:
+    """An argument that a Python caller gives, as the function gets it. Raises InputError.
 
     None stands for the default; lists and mappings are copied, so that nobody changes them afterwards.
     """
-    if value is None:
+    if argument is None:
         return declared.option.default
     check = CHECKS.get(declared.kind)
-    checked = value if check is None else check(declared, value)
+    checked = argument if check is None else check(declared, argument)
     if declared.choices and declared.kind is not Kind.LIST:
-        _check_choice(declared, value)
+        _check_choice(declared, argument)
     return checked
 
 
-def _check_list(declared: Declared, value: Any) -> tuple[object, ...]:
-    if isinstance(value, str | os.PathLike):
-        text = os.fspath(value)
+def _check_list(declared: Declared, argument: Any) -> tuple[object, ...]:
+    if isinstance(argument, str | os.PathLike):
+        text = os.fspath(argument)
         remedy = f'give {declared.name}=["{text}"]'
         raise InputError(f"`{declared.name}`", text, "one name where a list is meant", remedy)
-    is_number = isinstance(value, Real) and not isinstance(value, bool)
+    is_number = isinstance(argument, Real) and not isinstance(argument, bool)
     if is_number and declared.element in (Kind.NUMBER, Kind.INTEGER):
-        return (value,)
-    if not isinstance(value, Iterable) or isinstance(value, Mapping):
-        raise InputError(f"`{declared.name}`", repr(value), "no list", f"give {declared.name}=[...]")
-    elements = tuple(value)
+        return (argument,)
+    if not isinstance(argument, Iterable) or isinstance(argument, Mapping):
+        raise InputError(f"`{declared.name}`", repr(argument), "no list", f"give {declared.name}=[...]")
+    elements = tuple(argument)
     for each in elements if declared.choices else ():
         _check_choice(declared, each)
     return elements
 
 
-def _check_pairs(declared: Declared, value: Any) -> dict[str, object]:
-    if not isinstance(value, Mapping):
-        name, _, text = str(value).partition("=")
+def _check_pairs(declared: Declared, argument: Any) -> dict[str, object]:
+    if not isinstance(argument, Mapping):
+        name, _, text = str(argument).partition("=")
         example = f'give {declared.name}={{"{name}": {text if _is_number(text) else repr(text)}}}'
-        remedy = example if text and isinstance(value, str) else f"give {declared.name}={{NAME: VALUE, ...}}"
-        raise InputError(f"`{declared.name}`", repr(value), "no dictionary", remedy)
-    for name, each in value.items():
+        remedy = example if text and isinstance(argument, str) else f"give {declared.name}={{NAME: VALUE, ...}}"
+        raise InputError(f"`{declared.name}`", repr(argument), "no dictionary", remedy)
+    for name, each in argument.items():
         if declared.takes_paths and not isinstance(each, str | os.PathLike | list | tuple):
             raise InputError(f"`{declared.name}`", f"{name}: {each!r}", "no name and no path", "give one, in quotes")
-    return dict(value)
+    return dict(argument)
 
 
-def _check_number(declared: Declared, value: Any) -> float | int:
+def _check_number(declared: Declared, argument: Any) -> float | int:
     kind = declared.kind
-    is_number = isinstance(value, Real) and not isinstance(value, bool)
-    if not is_number or (kind is Kind.INTEGER and not float(value).is_integer()):
+    is_number = isinstance(argument, Real) and not isinstance(argument, bool)
+    if not is_number or (kind is Kind.INTEGER and not float(argument).is_integer()):
         what = "a whole number" if kind is Kind.INTEGER else f"a number{_of_unit(declared)}"
-        is_text = isinstance(value, str) and _is_number(value)
-        remedy = f"give {declared.name}={value}" if is_text else "give one"
-        raise InputError(f"`{declared.name}`", repr(value), f"not {what}", remedy)
-    return check_number(declared, int(value) if kind is Kind.INTEGER else float(value))
+        is_text = isinstance(argument, str) and _is_number(argument)
+        remedy = f"give {declared.name}={argument}" if is_text else "give one"
+        raise InputError(f"`{declared.name}`", repr(argument), f"not {what}", remedy)
+    return check_number(declared, int(argument) if kind is Kind.INTEGER else float(argument))
 
 
-def _check_flag(declared: Declared, value: Any) -> bool:
-    if value not in (True, False):
-        raise InputError(f"`{declared.name}`", repr(value), "neither True nor False", "give one of them")
-    return bool(value)
+def _check_flag(declared: Declared, argument: Any) -> bool:
+    if argument not in (True, False):
+        raise InputError(f"`{declared.name}`", repr(argument), "neither True nor False", "give one of them")
+    return bool(argument)
 
 
 def _is_number(text: str) -> bool:
@@ -148,31 +148,33 @@ CHECKS: Mapping[Kind, Callable[[Declared, Any], object]] = {
 }
 
 
-def _check_choice(declared: Declared, value: object) -> None:
-    if value not in declared.choices:
-        raise InputError(f"`{declared.name}`", str(value), "no such choice", suggestion(str(value), declared.choices))
+def _check_choice(declared: Declared, argument: object) -> None:
+    if argument not in declared.choices:
+        raise InputError(
+            f"`{declared.name}`", str(argument), "no such choice", suggestion(str(argument), declared.choices)
+        )
 
 
-def value_texts(declared: Declared, value: Any) -> list[str]:
-    """The text after each occurrence of the option's flag; for a flag without value one empty text."""
+def value_texts(declared: Declared, argument: Any) -> list[str]:
+    """The text after each occurrence of the option's flag; for a flag without argument one empty text."""
     if declared.kind is Kind.FLAG:
-        return [""] if value else []
+        return [""] if argument else []
     if declared.kind is Kind.PAIRS:
-        return [f"{name}={_text(each)}" for name, each in value.items()]
+        return [f"{name}={_text(each)}" for name, each in argument.items()]
     if declared.kind is Kind.LIST:
-        texts = [_text(each) for each in value]
+        texts = [_text(each) for each in argument]
         return [",".join(texts)] if declared.option.comma and texts else texts
-    return [_text(value)]
+    return [_text(argument)]
 
 
-def _text(value: object) -> str:
-    """A value as the command line reads it back, to the last bit."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, float):
-        return repr(float(value))
-    if isinstance(value, os.PathLike):
-        return os.fspath(value)
-    if isinstance(value, Iterable) and not isinstance(value, str):
-        return ",".join(map(_text, value))
-    return str(value)
+def _text(argument: object) -> str:
+    """An argument as the command line reads it back, to the last bit."""
+    if isinstance(argument, bool):
+        return str(argument).lower()
+    if isinstance(argument, float):
+        return repr(float(argument))
+    if isinstance(argument, os.PathLike):
+        return os.fspath(argument)
+    if isinstance(argument, Iterable) and not isinstance(argument, str):
+        return ",".join(map(_text, argument))
+    return str(argument)

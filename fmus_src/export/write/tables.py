@@ -8,7 +8,7 @@ from typing import Any
 from ...block import Block
 from ...kernel import vector_types
 from ...kernel.records import Record
-from ...runtime import MOST_STEPS, POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
+from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, STEP_LIMIT, TIME_TOLERANCE
 from ...start_values import LARGEST, start_range
 from ...variables import Input, Parameter
 from ..description.variables import list_variables
@@ -51,7 +51,7 @@ def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) 
             f"#define SAMPLE_TOLERANCE {SAMPLE_TOLERANCE!r} /* of a sample period */",
             f"#define TIME_TOLERANCE {TIME_TOLERANCE!r} /* of the time */",
             f"#define POINT_TOLERANCE {POINT_TOLERANCE!r} /* of a step */",
-            f"#define MOST_STEPS {MOST_STEPS} /* of integration in a communication step */",
+            f"#define STEP_LIMIT {STEP_LIMIT} /* of integration in a communication step */",
             "",
             "/* Declared start values. */",
             *starts.text,

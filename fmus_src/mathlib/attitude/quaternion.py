@@ -10,7 +10,7 @@ import math
 from ...kernel.functions import atan2, cos, sin
 from ..vectors import Vector3, Vector4, cross, norm, vector
 
-LEAST_LENGTH = 0.5  # of a quaternion, below which it is no attitude: a tracker that is lost gives zeros
+SHORTEST = 0.5  # of a quaternion, below which it is no attitude: a tracker that is lost gives zeros
 
 
 def quaternion(scalar: float, e: Vector3) -> Vector4:
@@ -47,11 +47,11 @@ def normalise(q: Vector4) -> Vector4:
 
 
 def is_attitude(q: Vector4) -> bool:
-    """True if a finite q is at least `LEAST_LENGTH` long."""
+    """True if a finite q is at least `SHORTEST` long."""
     for i in range(4):
-        if abs(q[i]) >= LEAST_LENGTH:
+        if abs(q[i]) >= SHORTEST:
             return True  # so that no square overflows
-    return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z >= LEAST_LENGTH * LEAST_LENGTH
+    return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z >= SHORTEST * SHORTEST
 
 
 def turn(scalar: float, e: Vector3, v: Vector3) -> Vector3:

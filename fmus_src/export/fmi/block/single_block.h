@@ -41,7 +41,7 @@ static COLD Status refuse_integration(Component *component, double h, double lon
     return fail(component,
         "StepError: communication step %s s holds more than %d integration steps of %s s; "
         "use a shorter communication step, or a longer internal_step",
-        python_repr(h, h_text), MOST_STEPS, python_repr(longest, longest_text));
+        python_repr(h, h_text), STEP_LIMIT, python_repr(longest, longest_text));
 }
 
 /* Advance from t to t + h; a sampled block steps at its sample instants only. */
@@ -55,7 +55,7 @@ static Status advance(Component *component, double t, double h)
         case ONE_SAMPLE: break;
     }
     const double longest = model_integration_step(&now->block);
-    if (h > MOST_STEPS * longest) return refuse_integration(component, h, longest);
+    if (h > STEP_LIMIT * longest) return refuse_integration(component, h, longest);
     Fault fault = NO_FAULT;
     model_step(&now->block, &fault, t, h);
     return fault.what == NULL ? STATUS_OK : end_step_with_fault(component, &fault, t, h);

@@ -117,8 +117,8 @@ def test_helpers_that_are_equal_or_have_other_names_fly(tmp_path):
     python_fmu(tmp_path, "one", 1.0)
     python_fmu(tmp_path, "same", 1.0)
     python_fmu(tmp_path, "two", 2.0, "other")
-    result = perilune.simulate(both(tmp_path, "one", "same", "two", "one"))
-    assert [result[f"c{n}.y"][-1] for n in range(4)] == [1.0, 1.0, 2.0, 1.0]
+    flight = perilune.simulate(both(tmp_path, "one", "same", "two", "one"))
+    assert [flight[f"c{n}.y"][-1] for n in range(4)] == [1.0, 1.0, 2.0, 1.0]
 
 
 def test_two_libraries_of_one_soname_were_one(tmp_path, capsys):
@@ -138,9 +138,9 @@ def test_libraries_that_are_equal_or_have_other_names_fly(tmp_path, other):
     c_fmu(tmp_path, "one", numbers[0], "libhelper.so.1")
     c_fmu(tmp_path, "two", numbers[1], other)
     path = both(tmp_path, "one", "two", kind="input u Real; output y Real")
-    result = perilune.simulate(path, open_inputs="start", set={"c0.u": 1.0, "c1.u": 1.0})
+    flight = perilune.simulate(path, open_inputs="start", set={"c0.u": 1.0, "c1.u": 1.0})
     for n, constant in enumerate(numbers):
-        assert result[f"c{n}.y"][-1] == pytest.approx(1.0 - math.exp(-1.0 / constant), rel=1e-14)
+        assert flight[f"c{n}.y"][-1] == pytest.approx(1.0 - math.exp(-1.0 / constant), rel=1e-14)
 
 
 def test_an_fmu_that_brings_a_module_of_perilune_got_ours(tmp_path, capsys):
