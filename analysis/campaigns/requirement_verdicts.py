@@ -100,8 +100,8 @@ def requirement_verdict(requirement: Requirement, trials: TrialRows, until_decid
 def _unevaluated(requirement: Requirement, trials: TrialRows) -> tuple[str, ...] | None:
     """The metrics of a requirement that are nan in every trial."""
     names = sorted(requirement.expression.names - {SUCCESS})
-    shards = list(trials.parts(*(f"metric.{name}" for name in names)))
-    missing = [name for name in names if all(np.isnan(part[f"metric.{name}"]).all() for part in shards)]
+    parts = list(trials.parts(*(f"metric.{name}" for name in names)))
+    missing = [name for name in names if all(np.isnan(part[f"metric.{name}"]).all() for part in parts)]
     return tuple(missing) or None
 
 

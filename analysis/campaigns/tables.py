@@ -118,12 +118,12 @@ def verdict_text(result: RequirementVerdict) -> str:
     return f"{text}; {trials} with 0, 1 or 2 further failures would meet it"
 
 
-def unevaluated_text(verdict: RequirementVerdict) -> str:
+def unevaluated_text(result: RequirementVerdict) -> str:
     """Which metrics of a requirement no flight has a value of; empty where there are none of them."""
-    if not verdict.unevaluated:
+    if not result.unevaluated:
         return ""
-    names, verb = " and ".join(verdict.unevaluated), "are" if len(verdict.unevaluated) > 1 else "is"
-    return f"{names} {verb} evaluated in none of {verdict.flights} flights"
+    names, verb = " and ".join(result.unevaluated), "are" if len(result.unevaluated) > 1 else "is"
+    return f"{names} {verb} evaluated in none of {result.flights} flights"
 
 
 def faults_line(faults: Iterable[object]) -> str:

@@ -12,14 +12,14 @@ from .readings import Classical, Crossing, Curve, Robust, decibels
 ROUNDS = 4
 GAIN_STAYS = 0.01  # dB
 PHASE_STAYS = 0.02  # deg
-CROSSINGS = 12  # crossings of one kind, the nearest, that are measured
+MOST = 12  # crossings of one kind, the nearest, that are measured
 SAME = 3e-4  # relative distance of frequencies that are one
 ENDS = 1e-3  # likewise, from the end of the lines
 
 
 @dataclass(frozen=True)
 class Refined:
-    """A curve with lines at its crossings. ``gain`` (dB) and ``phase`` (deg) are what its margins still shift in the
+    """A curve with lines at its crossings. ``gain`` (dB) and ``phase`` (deg) are what its margins still moved in the
     last of ``rounds`` rounds."""
 
     curve: Curve
@@ -39,8 +39,8 @@ class Refined:
             return ""
         if not (np.isfinite(self.gain) and np.isfinite(self.phase)):
             return f"crossings still appear and vanish after {self.rounds} rounds of test frequencies at the crossings"
-        shift = f"{self.gain:.2g} dB and {self.phase:.2g} deg"
-        return f"they still move by {shift} after {self.rounds} rounds of test frequencies at the crossings"
+        moved = f"{self.gain:.2g} dB and {self.phase:.2g} deg"
+        return f"they still move by {moved} after {self.rounds} rounds of test frequencies at the crossings"
 
 
 def refine(
@@ -64,15 +64,15 @@ def refine(
                 curve = _with_line(curve, *measure(frequency))
         before = classical
         classical, robust = margins_of(curve)
-        gain, phase = _shift(before, classical)
+        gain, phase = _moved(before, classical)
         rounds += 1
     return Refined(curve, rounds, gain, phase)
 
 
 def _decisive(classical: Classical, robust: Robust) -> list[float]:
     """Frequencies (rad/s) of the nearest crossings, and of the points nearest to -1."""
-    gains = sorted(classical.gain, key=lambda crossing: abs(np.log(crossing.value)))[:CROSSINGS]
-    phases = sorted(classical.phase, key=lambda crossing: abs(crossing.value))[:CROSSINGS]
+    gains = sorted(classical.gain, key=lambda crossing: abs(np.log(crossing.value)))[:MOST]
+    phases = sorted(classical.phase, key=lambda crossing: abs(crossing.value))[:MOST]
     crossings = [crossing.frequency for crossing in (*gains, *phases)]
     return [*crossings, robust.sensitivity_frequency, robust.disk_frequency]
 
@@ -84,12 +84,12 @@ def _is_new(curve: Curve, frequency: float) -> bool:
 
 
 def _with_line(curve: Curve, frequency: float, value: complex) -> Curve:
-    index = int(np.searchsorted(curve.frequency, frequency))
-    return Curve(np.insert(curve.frequency, index, frequency), np.insert(curve.value, index, value))
+    place = int(np.searchsorted(curve.frequency, frequency))
+    return Curve(np.insert(curve.frequency, place, frequency), np.insert(curve.value, place, value))
 
 
-def _shift(before: Classical, after: Classical) -> tuple[float, float]:
-    """How far the crossings have shift (dB, deg): inf where one has appeared or vanished."""
+def _moved(before: Classical, after: Classical) -> tuple[float, float]:
+    """How far the crossings have moved (dB, deg): inf where one has appeared or vanished."""
     gain = _largest(before.gain, after.gain, lambda old, new: abs(decibels(old.value) - decibels(new.value)))
     phase = _largest(before.phase, after.phase, lambda old, new: abs(np.degrees(old.value - new.value)))
     return gain, phase

@@ -30,7 +30,7 @@ MOST_ROUNDS = 12  # samples of a loop in a hyperperiod up to which the window is
 FIRST = 2  # periods in which a transient may look like growth
 PATIENCE = 8  # periods of transient at most
 SETTLED = 1e-5  # relative difference of two windows one period apart
-UNSETTLED = 1e-2  # and that above which a loop counts as unstable, or as one that does not repeat itself
+STILL_MOVING = 1e-2  # and that above which a loop counts as unstable, or as one that does not repeat itself
 PER_DECADE = 20
 FEWEST, MOST = 128, 65536  # samples in a period
 DEFAULT_SHARE = 0.01  # amplitude where none is declared, of the signal's own size
@@ -114,14 +114,14 @@ class Injector:
                 for start in (len(u) - window, len(u) - window - self.samples)
             )
             change = float(np.max(abs(inside - before)) / np.max(abs(inside)))
-            if change > UNSETTLED and len(u) >= (WINDOWS + FIRST) * self.samples:
+            if change > STILL_MOVING and len(u) >= (WINDOWS + FIRST) * self.samples:
                 rate = steady_growth(u[-WINDOWS * self.samples :])
                 if rate is not None:
                     raise UnstableError(rate)
             if change < SETTLED or self._transient >= self.patience:
                 break
             self._transient *= 2
-        if change > UNSETTLED:
+        if change > STILL_MOVING:
             periods = self._transient
             raise NotMeasurableError(f"the answer still changes by {change:.2g} of itself after {periods} periods")
         back = line_spectrum(v[-window:], self.samples, self.signal.lines)
@@ -134,12 +134,12 @@ class Injector:
 
         Raises as `measure`.
         """
-        ratio = frequency * self.seconds / (2.0 * np.pi)  # of a period in a sample
+        share = frequency * self.seconds / (2.0 * np.pi)  # of a period in a sample
         rounds = self.bench.period // self.channel.period
-        lengths = np.arange(max(FEWEST, math.ceil(1.0 / ratio)), max(FEWEST, self.samples, math.ceil(2.0 / ratio)) + 1)
+        lengths = np.arange(max(FEWEST, math.ceil(1.0 / share)), max(FEWEST, self.samples, math.ceil(2.0 / share)) + 1)
         lengths = lengths[np.gcd(lengths, rounds) == 1]
-        lines = np.maximum(1, np.round(ratio * lengths).astype(int))
-        best = int(np.argmin(abs(lines / lengths / ratio - 1.0)))
+        lines = np.maximum(1, np.round(share * lengths).astype(int))
+        best = int(np.argmin(abs(lines / lengths / share - 1.0)))
         probe = copy.copy(self)
         probe.samples = int(lengths[best])
         probe.signal = single_line(probe.samples, int(lines[best]))

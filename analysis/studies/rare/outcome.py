@@ -17,7 +17,7 @@ from ..flown import FlightDocument, StudyResult, strict
 from ..noise import noise_line
 from ..units import unit_of_expression, with_unit
 from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
-from .uncertainty import CONFIDENCE, significant_digits
+from .uncertainty import CONFIDENCE, shown_digits
 
 TOLD = 5  # failures
 APART = 1.0  # standard deviations: a failure nearer to a more probable one is not listed
@@ -156,7 +156,7 @@ class RareResult(StudyResult):
     @property
     def digits(self) -> int:
         """How many digits of the probability its interval leaves."""
-        return significant_digits(*self.interval)
+        return shown_digits(*self.interval)
 
     def estimate_text(self) -> str:
         """The probability with its interval, or what bounds it; no more digits than the interval leaves."""

@@ -50,8 +50,8 @@ def test_the_headline_states_the_estimate_and_its_conditions(rare_result, tmp_pa
 
 
 def test_noise_of_one_trial_stands_in_every_section(rare_result, tmp_path):
-    fixed = replace(rare_result, noise=Noise(("imu", "star"), 4, 7))
-    words = text_of(page_of(fixed, tmp_path))
+    held = replace(rare_result, noise=Noise(("imu", "star"), 4, 7))
+    words = text_of(page_of(held, tmp_path))
     assert "Noise of imu, star: that of trial 4 in all simulations, not random." in words
     assert "All numbers: conditional on the noise realisation of trial 4." in words
     lead = words[words.index("Failure probability") : words.index("Failure: total")]
@@ -160,8 +160,8 @@ def test_a_wide_interval_leaves_one_digit_and_a_bound_no_interval(rare_result, t
     assert bound.headline().startswith(f"{head} below 0.0012, 95 % bound; estimate 2e-07")
     assert bound.why_levels_ended == "levels end at level 3: 1 % of the noise moves of imu are accepted, below 5 %"
     unnamed = replace(bound.simulation, levels=(*levels[:-1], replace(ended, source=None)))
-    fixed = replace(bound, simulation=unnamed, noise=Noise(("imu",), 1, 7))  # so that failures need no streams
-    assert "Failure probability below 0.0012, a 95 % bound; estimate 2e-7" in text_of(page_of(fixed, tmp_path))
+    held = replace(bound, simulation=unnamed, noise=Noise(("imu",), 1, 7))  # so that failures need no streams
+    assert "Failure probability below 0.0012, a 95 % bound; estimate 2e-7" in text_of(page_of(held, tmp_path))
 
 
 def test_levels_that_end_for_the_noise_are_a_bound(rare_result, tmp_path):
@@ -175,7 +175,7 @@ def test_levels_that_end_for_the_noise_are_a_bound(rare_result, tmp_path):
     result = replace(rare_result, simulation=simulation)
     assert level_spans(result)[-1].last == rare_result.flights
     assert level_spans(result)[-1].reached is None
-    page = page_of(replace(result, noise=Noise(("imu",), 1, 7)), tmp_path)  # fixed, so that failures need no streams
+    page = page_of(replace(result, noise=Noise(("imu",), 1, 7)), tmp_path)  # held, so that failures need no streams
     assert_self_contained(page)
     words = text_of(page)
     assert "Failure not reached: probability below" in words

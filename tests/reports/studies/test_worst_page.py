@@ -28,8 +28,8 @@ CORNER = 0.5 * (3.6 + 3.0 * np.sqrt(2.0 * 1.28))
 REACH = 3.0 * (np.sqrt(1.28) + np.sqrt(0.72)) / np.sqrt(2.0)  # of b and c from their means, one at a time
 
 
-def page_of(outcome, folder):
-    outcome.report(folder / "page.html")
+def page_of(result, folder):
+    result.report(folder / "page.html")
     return (folder / "page.html").read_text(encoding="utf-8")
 
 
@@ -79,51 +79,51 @@ def test_the_flight_is_that_of_the_worst_case(worst_result):
     assert final["a.y"] + final["b.y"] + final["c.y"] - 6.0 == worst_result.value
 
 
-def noisy(outcome, matters):
+def noisy(result, matters):
     """The first 30 simulations as 10 random trials of 3 realisations, the rest as the search, 9 fresh ones."""
     flown = Flown()
     later = 3 if matters else 1
-    count = 30 + later * ((outcome.flown.values.size - 30 - 9) // later) + 9
+    count = 30 + later * ((result.flown.values.size - 30 - 9) // later) + 9
     plotted = {
-        **{name: column[:count] for name, column in outcome.flown.draws.items()},
+        **{name: column[:count] for name, column in result.flown.draws.items()},
         "streams_of.imu": np.zeros(count),
     }
-    metrics = {name: column[:count] for name, column in outcome.flown.metrics.items()}
-    flown.add(outcome.flown.points[:count], plotted, metrics, outcome.flown.values[:count])
-    fresh = Fresh(outcome.flown.values[count - 9 : count], 0.5)
+    metrics = {name: column[:count] for name, column in result.flown.metrics.items()}
+    flown.add(result.flown.points[:count], plotted, metrics, result.flown.values[:count])
+    fresh = Fresh(result.flown.values[count - 9 : count], 0.5)
     return replace(
-        outcome, flown=flown.whole(), over=Realisations(3, 0.5), fresh=fresh, noise_matters=matters, random_trials=10,
+        result, flown=flown.whole(), over=Realisations(3, 0.5), fresh=fresh, noise_matters=matters, random_trials=10,
         noise=Noise(("imu",), None, 7), plan=None, phases=(),
     )  # fmt: skip
 
 
 @pytest.mark.parametrize("matters", [True, False])
 def test_a_point_has_the_median_of_its_realisations(worst_result, matters, tmp_path):
-    outcome = noisy(worst_result, matters)
-    flown = outcome.flown.values
-    actual = point_values(outcome)
+    result = noisy(worst_result, matters)
+    flown = result.flown.values
+    actual = point_values(result)
     np.testing.assert_array_equal(actual[:10], np.median(flown[:30].reshape(10, 3), axis=1))
     remainder = flown[30:-9]
     np.testing.assert_array_equal(actual[10:], np.median(remainder.reshape(-1, 3), axis=1) if matters else remainder)
-    assert objective_of(outcome).random == int(np.argmax(actual[:10]))
+    assert objective_of(result).random == int(np.argmax(actual[:10]))
     axes = Figure().subplots()
-    draw_fresh(axes, outcome)
+    draw_fresh(axes, result)
     assert axes.lines[0].get_ydata()[-1] == 1.0
     median, worst, _ = (line.get_xdata()[0] for line in axes.lines[1:])
     assert (median, worst) == (np.median(flown[-9:]), flown[-9:].max())
-    words = text_of(page_of(outcome, tmp_path))
+    words = text_of(page_of(result, tmp_path))
     assert "under 9 fresh noise realisations" in words
     if matters:
-        same = np.all(outcome.flown.points[:-9] == outcome.flown.points[outcome.row], axis=1)
+        same = np.all(result.flown.points[:-9] == result.flown.points[result.row], axis=1)
         largest = flown[:-9][same].max()
-        assert outcome.worst_realisation == largest
+        assert result.worst_realisation == largest
         assert f"(median, quantile 0.5, of 3 noise realisations; worst of them {largest:.6g})" in words
-        assert f" (median, quantile 0.5, of 3 noise realisations; worst of them {largest:.6g}) in " in outcome.text()
-        document = outcome.document()
+        assert f" (median, quantile 0.5, of 3 noise realisations; worst of them {largest:.6g}) in " in result.text()
+        document = result.document()
         assert (document["quantile"], document["worst_realisation"]) == (0.5, largest)
     else:
         assert "(one noise realisation), of" in words
-        assert " (one noise realisation) in " in outcome.text()
+        assert " (one noise realisation) in " in result.text()
 
 
 def test_a_margin_is_worse_where_it_is_smaller(worst_result):
