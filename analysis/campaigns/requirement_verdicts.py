@@ -100,8 +100,8 @@ def requirement_verdict(requirement: Requirement, trials: TrialRows, until_decid
 def _unevaluated(requirement: Requirement, trials: TrialRows) -> tuple[str, ...] | None:
     """The metrics of a requirement that are nan in every trial."""
     names = sorted(requirement.expression.names - {SUCCESS})
-    parts = list(trials.parts(*(f"metric.{name}" for name in names)))
-    missing = [name for name in names if all(np.isnan(part[f"metric.{name}"]).all() for part in parts)]
+    read = list(trials.parts(*(f"metric.{name}" for name in names)))
+    missing = [name for name in names if all(np.isnan(columns[f"metric.{name}"]).all() for columns in read)]
     return tuple(missing) or None
 
 

@@ -118,12 +118,12 @@ def verdict_text(result: RequirementVerdict) -> str:
     return f"{text}; {trials} with 0, 1 or 2 further failures would meet it"
 
 
-def unevaluated_text(result: RequirementVerdict) -> str:
+def unevaluated_text(judged: RequirementVerdict) -> str:
     """Which metrics of a requirement no flight has a value of; empty where there are none of them."""
-    if not result.unevaluated:
+    if not judged.unevaluated:
         return ""
-    names, verb = " and ".join(result.unevaluated), "are" if len(result.unevaluated) > 1 else "is"
-    return f"{names} {verb} evaluated in none of {result.flights} flights"
+    names, verb = " and ".join(judged.unevaluated), "are" if len(judged.unevaluated) > 1 else "is"
+    return f"{names} {verb} evaluated in none of {judged.flights} flights"
 
 
 def faults_line(faults: Iterable[object]) -> str:

@@ -118,7 +118,7 @@ def _merge_verdicts(report: StabilityReport, orders: Orders) -> StabilityReport:
 def _withhold(lost: Unstudied, other: StabilityReport) -> Unstudied:
     """A loop that fails without figures in one order only is withheld."""
     here = (lost.name, lost.point)
-    fails = any((item.name, item.point) == here and item.verdict is Verdict.FAIL for item in other.unstudied)
+    fails = any((each.name, each.point) == here and each.verdict is Verdict.FAIL for each in other.unstudied)
     unstable = any((loop.name, loop.point) == here and loop.margins.unstable for loop in other.loops)
     if lost.verdict is not Verdict.FAIL or fails or unstable:
         return lost

@@ -18,7 +18,7 @@ from ..runtime.system.prepared import PreparedSystem
 from .dispersion import disperse
 from .orders import in_both_orders
 from .point.bench import LoopError, StudyError
-from .point.held_plan import check_held
+from .point.frozen_plan import check_frozen_plan
 from .point.limit_cycles import element_report
 from .point.point_study import PointStudy
 from .progress import Tell, begin, listen, show_progress, tell_parent
@@ -98,7 +98,7 @@ def study_point(request: Request, point: Point, tell: Tell) -> PointResult:
     subject = Subject(request.system, request.options)
     loops, limits = request.loops_at(point), request.declaration.limits
     with PointStudy(subject, point, loops) as work:
-        check_held(work.prepared, point)
+        check_frozen_plan(work.prepared, point)
         tell(1 + len(work.channels), 0)
         work.linearise()
         tell(0, 1)

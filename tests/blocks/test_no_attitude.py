@@ -22,7 +22,7 @@ from perilune.fmus_src.navigation.attitude_navigation import AttitudeNavigationS
 from perilune.fmus_src.navigation.attitude_navigation_filter import AttitudeNavigationFilter
 from perilune.fmus_src.navigation.translation_filter import TranslationFilter
 
-TURNED = [math.cos(0.1), math.sin(0.1), 0.0, 0.0]
+ATTITUDE = [math.cos(0.1), math.sin(0.1), 0.0, 0.0]
 LOST = [[0.0] * 4, [0.3, 0.2, -0.2, 0.1]]
 lost = pytest.mark.parametrize("quaternion", LOST)
 
@@ -30,7 +30,7 @@ lost = pytest.mark.parametrize("quaternion", LOST)
 @pytest.mark.parametrize(
     ("quaternion", "expected"),
     [
-        (TURNED, True),
+        (ATTITUDE, True),
         ([0.0, 0.0, 0.0, -0.5], True),
         ([0.3] * 4, True),
         ([1e300] * 4, True),
@@ -47,7 +47,7 @@ def test_what_is_an_attitude(quaternion, expected):
 @pytest.mark.parametrize("connector", ["estimated_quaternion", "reference.reference_quaternion"])
 def test_quaternion_feedback_gives_no_torque(quaternion, connector):
     control = QuaternionFeedback()
-    control.estimated_quaternion = TURNED
+    control.estimated_quaternion = ATTITUDE
     control.initialize()
     assert np.linalg.norm(control.torque_command) > 0.0
     holder, name = (control.reference, connector.partition(".")[2]) if "." in connector else (control, connector)
@@ -66,7 +66,7 @@ def test_a_lost_star_sample_is_no_update(quaternion):
     with_it, without = (AttitudeNavigationFilter() for _ in range(2))
     for block in (with_it, without):
         block.star_count = 1
-        block.measured_quaternion = TURNED
+        block.measured_quaternion = ATTITUDE
         block.initialize()
         block.measured_angular_velocity = [1e-3, 0.0, 0.0]
         block.gyro_count = 1
@@ -85,10 +85,10 @@ def test_the_first_attitude_is_the_first_that_is_one(quaternion):
     block.star_count, block.measured_quaternion = 1, quaternion
     block.initialize()
     assert block.status == AttitudeNavigationStatus.NO_ATTITUDE
-    block.star_count, block.measured_quaternion = 2, TURNED
+    block.star_count, block.measured_quaternion = 2, ATTITUDE
     block.step(0.0, 0.125)
     assert block.status == AttitudeNavigationStatus.GOOD
-    assert list(block.estimated_quaternion) == pytest.approx(TURNED, abs=1e-15)
+    assert list(block.estimated_quaternion) == pytest.approx(ATTITUDE, abs=1e-15)
 
 
 @lost
@@ -96,7 +96,7 @@ def test_the_first_attitude_is_the_first_that_is_one(quaternion):
 def test_the_robots_attitude_filter_leaves_it_out(quaternion, method):
     with_it, without = (AttitudeFilter(method=method, mean_samples=1) for _ in range(2))
     for block in (with_it, without):
-        block.sample_count, block.measured_quaternion = 1, TURNED
+        block.sample_count, block.measured_quaternion = 1, ATTITUDE
         block.initialize()
     with_it.sample_count, with_it.measured_quaternion = 2, quaternion
     for block in (with_it, without):
@@ -106,7 +106,7 @@ def test_the_robots_attitude_filter_leaves_it_out(quaternion, method):
         assert list(getattr(with_it, name)) == list(getattr(without, name))
     error = list(with_it.attitude_error)
     with_it.planned_quaternion = quaternion
-    with_it.sample_count, with_it.measured_quaternion = 3, TURNED
+    with_it.sample_count, with_it.measured_quaternion = 3, ATTITUDE
     with_it.step(0.125, 0.125)
     assert with_it.status == SampleStatus.NO_ATTITUDE
     assert list(with_it.attitude_error) == error
@@ -116,7 +116,7 @@ def test_the_robots_attitude_filter_leaves_it_out(quaternion, method):
 def test_a_force_acts_along_the_last_attitude(quaternion):
     with_it, without = (TranslationFilter() for _ in range(2))
     for block in (with_it, without):
-        block.sample_count, block.quaternion = 1, TURNED
+        block.sample_count, block.quaternion = 1, ATTITUDE
         block.initialize()
         block.allocated_force = [0.0, 10.0, 0.0]
     with_it.quaternion = quaternion
@@ -141,13 +141,13 @@ def test_jets_give_no_thrust(quaternion):
 @lost
 def test_a_slew_waits_for_an_attitude(quaternion):
     late, early = (SlewQuintic(slew_start=1.0) for _ in range(2))
-    late.estimated_quaternion, early.estimated_quaternion = quaternion, TURNED
+    late.estimated_quaternion, early.estimated_quaternion = quaternion, ATTITUDE
     for block in (late, early):
         block.initialize()
     assert (late.phase, early.phase) == (SlewPhase.NO_ATTITUDE, SlewPhase.WAITING)
     assert list(late.reference.reference_quaternion) == [0.0] * 4
     late.step(0.0, 0.125)
-    late.estimated_quaternion = TURNED
+    late.estimated_quaternion = ATTITUDE
     late.step(0.125, 0.125)
     assert late.phase == SlewPhase.WAITING
     for n in range(20):

@@ -181,9 +181,9 @@ def test_a_metric_that_no_flight_has_is_named():
     assert "no upper bound of miss" not in summary_text(never)
     assert to_json(never)["never"]["requirements"]["near"]["unevaluated"] == ["miss"]
     assert never["never"].requirements["heavy"].unevaluated is None
-    once = summarise({"once": columns([*[np.nan] * 59, 2.0])}, METRICS, requirements=requirements)
-    assert unmet_lines(once)[0].endswith("not met: 60 of 60 flights fail it")
-    assert "unevaluated" not in to_json(once)["once"]["requirements"]["near"]
+    single = summarise({"single": columns([*[np.nan] * 59, 2.0])}, METRICS, requirements=requirements)
+    assert unmet_lines(single)[0].endswith("not met: 60 of 60 flights fail it")
+    assert "unevaluated" not in to_json(single)["single"]["requirements"]["near"]
 
 
 def test_text(summary):

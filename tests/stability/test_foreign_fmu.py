@@ -105,14 +105,14 @@ def test_an_unstable_loop_reads_unstable_with_its_growth(path, capsys, gain):
     """
     report = perilune.stability(path, loops=["law.y"], at=1.0, set={"law.gain": gain}, feedthrough=["law"])
     (lost,) = report.unstudied
-    words = f"unstable, grows {math.sqrt(gain * STEP):.5g}-fold a sample"
-    assert (report.loops, lost.name, lost.what, lost.reason) == ((), "law.y", "loop", words)
+    expected = f"unstable, grows {math.sqrt(gain * STEP):.5g}-fold a sample"
+    assert (report.loops, lost.name, lost.what, lost.reason) == ((), "law.y", "loop", expected)
     assert (lost.verdict, report.verdict) == ("fail", "fail")
     assert report.document()["unstudied"][0]["verdict"] == "fail"
     assert main(["stability", str(path), "--loop", "law.y", "--at", "1", "--set", f"law.gain={gain}", *DIRECT]) == 1
     captured = capsys.readouterr()
-    assert captured.err.splitlines() == [f"perilune: loop law.y at t = 1 s: {words}"]
-    assert captured.out.splitlines()[0] == f"law.y at t = 1 s: {words}: fail"
+    assert captured.err.splitlines() == [f"perilune: loop law.y at t = 1 s: {expected}"]
+    assert captured.out.splitlines()[0] == f"law.y at t = 1 s: {expected}: fail"
 
 
 def test_a_loop_that_is_unstable_in_one_order_only_is_withheld(path):

@@ -98,13 +98,13 @@ def _findings(
     """Fractions of the samples within 1 and 3 sigma, those at which the estimate ``changed``; none without a sigma."""
     start = time[0] if error.after is None else error.after
     counted = np.isfinite(sigma) & np.isfinite(values) & (time >= start - ROUNDING * abs(start))
-    held = bool(np.any(counted & ~changed))
+    repeats = bool(np.any(counted & ~changed))
     counted &= changed
     if not np.any(counted):
         return []
     fractions = [float(np.mean(np.abs(values[counted]) <= times * sigma[counted])) for times in SIGMAS]
     number = exact(int(np.count_nonzero(counted)))
-    samples = Markup("{} samples at which the estimate changed").format(number) if held else "samples"
+    samples = Markup("{} samples at which the estimate changed").format(number) if repeats else "samples"
     text = Markup("{}from {}, {} of the {} within 1 sigma (normal distribution: {}), {} within 3 sigma").format(
         f"{label}: " if label else "",
         seconds(start),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 WINDOWS = 4  # of equal length, in which a deviation's size is compared
-LEAST = 0.05  # of the logarithm from window to window
+MINIMUM = 0.05  # of the logarithm from window to window
 STEADY = 0.05  # spread of these over their mean; that of a power of time is 0.3 over the fifth to the eighth window
 HUGE = 1e100  # the size of a deviation that overflows, whether or not it has grown steadily before
 
@@ -22,7 +22,7 @@ def steady_growth(deviation: np.ndarray) -> float | None:
     if sizes.min() <= 0.0:
         return None
     steps = np.diff(np.log(sizes))
-    if steps.min() < LEAST or np.ptp(steps) > STEADY * steps.mean():
+    if steps.min() < MINIMUM or np.ptp(steps) > STEADY * steps.mean():
         return None
     return float(np.exp(steps.mean() / width))
 
@@ -34,8 +34,8 @@ def growth_to_overflow(deviation: np.ndarray) -> float | None:
     if rate is not None or not finite.size:
         return rate
     sizes = np.abs(finite)
-    moved = np.flatnonzero(sizes > 0.0)
-    if not moved.size or sizes.max() < HUGE:
+    changed = np.flatnonzero(sizes > 0.0)
+    if not changed.size or sizes.max() < HUGE:
         return None
-    first, last = int(moved[0]), int(np.argmax(sizes))
+    first, last = int(changed[0]), int(np.argmax(sizes))
     return float(np.exp((np.log(sizes[last]) - np.log(sizes[first])) / max(last - first, 1)))

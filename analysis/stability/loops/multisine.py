@@ -65,8 +65,8 @@ def multisine(
 
 def single_line(samples: int, line: int) -> Multisine:
     """One period of a cosine of amplitude 1 at one line; no line counts as unexcited."""
-    phase, none = np.zeros(1), np.zeros(0, dtype=int)
-    return Multisine(_unit_signal(samples, np.array([line]), phase), 1.0, np.array([line]), none, phase)
+    phase, unexcited = np.zeros(1), np.zeros(0, dtype=int)
+    return Multisine(_unit_signal(samples, np.array([line]), phase), 1.0, np.array([line]), unexcited, phase)
 
 
 def _unit_signal(samples: int, lines: np.ndarray, phases: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ from .readings import Classical, Crossing, Curve, Robust, decibels
 ROUNDS = 4
 GAIN_STAYS = 0.01  # dB
 PHASE_STAYS = 0.02  # deg
-MOST = 12  # crossings of one kind, the nearest, that are measured
+CROSSINGS = 12  # crossings of one kind, the nearest, that are measured
 SAME = 3e-4  # relative distance of frequencies that are one
 ENDS = 1e-3  # likewise, from the end of the lines
 
@@ -39,8 +39,8 @@ class Refined:
             return ""
         if not (np.isfinite(self.gain) and np.isfinite(self.phase)):
             return f"crossings still appear and vanish after {self.rounds} rounds of test frequencies at the crossings"
-        moved = f"{self.gain:.2g} dB and {self.phase:.2g} deg"
-        return f"they still move by {moved} after {self.rounds} rounds of test frequencies at the crossings"
+        shift = f"{self.gain:.2g} dB and {self.phase:.2g} deg"
+        return f"they still move by {shift} after {self.rounds} rounds of test frequencies at the crossings"
 
 
 def refine(
@@ -64,15 +64,15 @@ def refine(
                 curve = _with_line(curve, *measure(frequency))
         before = classical
         classical, robust = margins_of(curve)
-        gain, phase = _moved(before, classical)
+        gain, phase = _shift(before, classical)
         rounds += 1
     return Refined(curve, rounds, gain, phase)
 
 
 def _decisive(classical: Classical, robust: Robust) -> list[float]:
     """Frequencies (rad/s) of the nearest crossings, and of the points nearest to -1."""
-    gains = sorted(classical.gain, key=lambda crossing: abs(np.log(crossing.value)))[:MOST]
-    phases = sorted(classical.phase, key=lambda crossing: abs(crossing.value))[:MOST]
+    gains = sorted(classical.gain, key=lambda crossing: abs(np.log(crossing.value)))[:CROSSINGS]
+    phases = sorted(classical.phase, key=lambda crossing: abs(crossing.value))[:CROSSINGS]
     crossings = [crossing.frequency for crossing in (*gains, *phases)]
     return [*crossings, robust.sensitivity_frequency, robust.disk_frequency]
 
@@ -83,12 +83,12 @@ def _is_new(curve: Curve, frequency: float) -> bool:
     return bool(low < frequency < high and np.min(abs(curve.frequency / frequency - 1.0)) > SAME)
 
 
-def _with_line(curve: Curve, frequency: float, value: complex) -> Curve:
-    place = int(np.searchsorted(curve.frequency, frequency))
-    return Curve(np.insert(curve.frequency, place, frequency), np.insert(curve.value, place, value))
+def _with_line(curve: Curve, frequency: float, response: complex) -> Curve:
+    index = int(np.searchsorted(curve.frequency, frequency))
+    return Curve(np.insert(curve.frequency, index, frequency), np.insert(curve.value, index, response))
 
 
-def _moved(before: Classical, after: Classical) -> tuple[float, float]:
+def _shift(before: Classical, after: Classical) -> tuple[float, float]:
     """How far the crossings have moved (dB, deg): inf where one has appeared or vanished."""
     gain = _largest(before.gain, after.gain, lambda old, new: abs(decibels(old.value) - decibels(new.value)))
     phase = _largest(before.phase, after.phase, lambda old, new: abs(np.degrees(old.value - new.value)))

@@ -92,7 +92,7 @@ class Injector:
         )
 
     def peak(self) -> float:
-        """The largest value of the multisine: the declared amplitude or a share of the signal's own size."""
+        """The largest value of the multisine: the declared amplitude or a cycles of the signal's own size."""
         if self.channel.amplitude is not None:
             return self.channel.amplitude
         size = float(np.max(abs(self.channel.injection_for(self._simulate_undisturbed()))))
@@ -134,19 +134,21 @@ class Injector:
 
         Raises as `measure`.
         """
-        share = frequency * self.seconds / (2.0 * np.pi)  # of a period in a sample
+        cycles = frequency * self.seconds / (2.0 * np.pi)  # of a period in a sample
         rounds = self.bench.period // self.channel.period
-        lengths = np.arange(max(FEWEST, math.ceil(1.0 / share)), max(FEWEST, self.samples, math.ceil(2.0 / share)) + 1)
+        lengths = np.arange(
+            max(FEWEST, math.ceil(1.0 / cycles)), max(FEWEST, self.samples, math.ceil(2.0 / cycles)) + 1
+        )
         lengths = lengths[np.gcd(lengths, rounds) == 1]
-        lines = np.maximum(1, np.round(share * lengths).astype(int))
-        best = int(np.argmin(abs(lines / lengths / share - 1.0)))
+        lines = np.maximum(1, np.round(cycles * lengths).astype(int))
+        best = int(np.argmin(abs(lines / lengths / cycles - 1.0)))
         probe = copy.copy(self)
         probe.samples = int(lengths[best])
         probe.signal = single_line(probe.samples, int(lines[best]))
         probe.patience = math.ceil(PATIENCE * self.samples / probe.samples)
         probe._transient = math.ceil(self._transient * self.samples / probe.samples)
-        value, _ = probe.spectrum(self.peak())
-        return float(2.0 * np.pi * lines[best] / (probe.samples * self.seconds)), complex(value[0])
+        response, _ = probe.spectrum(self.peak())
+        return float(2.0 * np.pi * lines[best] / (probe.samples * self.seconds)), complex(response[0])
 
     def _points(self) -> int:
         """Communication points behind the operating point that a measurement takes."""

@@ -26,10 +26,10 @@ from .responses import NOT_LINEAR, LoopModel, agreement, disagreement
 from .silence import silence_of
 
 SILENT = "nothing of what is added comes back: L is 0"
-LEAST_RETURN = 1e-9  # gain below which nothing comes back
+RETURN_LIMIT = 1e-9  # gain below which nothing comes back
 FACTORS = (0.25, 4.0, 16.0)  # of the declared amplitude, beside itself
 FIRST_LOOK = 1e-3  # of the Nyquist frequency: where a measurement without a linearisation begins
-LOOKS = 40  # frequencies at which a model is looked at
+TEST_POINTS = 40  # frequencies at which a model is looked at
 LOOP_GAIN = 5.0  # a measurement begins low enough when the gain of its lowest line is at least this
 LINES_FROM = 10.0  # of the lowest frequency that is looked at: a fifth of the lowest gain crossover
 STEP_LENGTH = 12.0  # over the lowest crossover: length of a step response
@@ -103,16 +103,16 @@ class LoopStudy:
 
     @property
     def _model_silent(self) -> bool:
-        return self.model is not None and bool(np.max(abs(self.model.response(self._look))) < LEAST_RETURN)
+        return self.model is not None and bool(np.max(abs(self.model.response(self._test_frequencies))) < RETURN_LIMIT)
 
     @property
     def _measurement_silent(self) -> bool:
-        return self.measured is not None and bool(np.max(abs(self.measured.curve.value)) < LEAST_RETURN)
+        return self.measured is not None and bool(np.max(abs(self.measured.curve.value)) < RETURN_LIMIT)
 
     @property
-    def _look(self) -> np.ndarray:
+    def _test_frequencies(self) -> np.ndarray:
         """Frequencies (rad/s) at which a linear model is looked at as a measurement looks at a loop."""
-        return np.geomspace(FIRST_LOOK, 1.0, LOOKS) * self.nyquist
+        return np.geomspace(FIRST_LOOK, 1.0, TEST_POINTS) * self.nyquist
 
     @property
     def _silent(self) -> bool:

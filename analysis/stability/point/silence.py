@@ -18,7 +18,7 @@ from .bench import Bench, OverflowedError, StudyError
 PERIODS = 4  # hyperperiods in which a component's outputs are to move
 SMALL = 1e-6  # of a signal's size: what the linearisation changes
 NUMBERS = ("Real", "Integer", "Boolean", "Enumeration")  # types of outputs that can move
-MOVED = 1e-12  # of an output's size, below which it is rounding
+ROUNDING = 1e-12  # of an output's size, below which it is rounding
 
 
 @dataclass(frozen=True)
@@ -51,14 +51,14 @@ def silence_of(
     names = [name for group in path.outputs.values() for name in group]
     ear = Bench(prepared, bench.point, [channel], recorded=names)
     try:
-        grown, moved = _disturb(ear, channel, np.tile(wave, 2 * WINDOWS), names)
+        grown, responses = _disturb(ear, channel, np.tile(wave, 2 * WINDOWS), names)
         if not measured:
             length = PERIODS * ear.period // channel.period
             size = SMALL * (peak or 1.0)
-            _, moved = _disturb(ear, channel, np.full(max(length, 1), size), names)
+            _, responses = _disturb(ear, channel, np.full(max(length, 1), size), names)
     finally:
         ear.close()
-    return Silence(None if moved is None else path.first_still(moved), grown)
+    return Silence(None if responses is None else path.first_still(responses), grown)
 
 
 def _disturb(
@@ -69,29 +69,29 @@ def _disturb(
     last = bench.origin + added.size
     with suppress(StudyError):
         base = bench.fly(-1, last)
-        here = {name: values[bench.origin + 1 :] for name, values in base.items()}
+        here = {name: signal[bench.origin + 1 :] for name, signal in base.items()}
         excitation = np.zeros((added.size, len(bench.connectors)))
         excitation[:, bench.columns(channel)] = channel.excitation(here, added)
-        own = dict(zip(channel.connectors, channel.excitation(here, added).T, strict=True))
+        injected = dict(zip(channel.connectors, channel.excitation(here, added).T, strict=True))
         overflowed = False
         try:
             disturbed = bench.fly(-1, last, excitation)
         except OverflowedError as error:
             disturbed, overflowed = error.signals, True
         rates: list[float | None] = []
-        moved: dict[str, bool] = {}
+        responses: dict[str, bool] = {}
         for name in names:
-            values = disturbed[name]
-            deviation = (values - base[name][: len(values)])[bench.origin + 1 :]
-            if name in own:  # what was added is not what comes back
-                deviation = deviation - own[name][: len(deviation)]
+            signal = disturbed[name]
+            deviation = (signal - base[name][: len(signal)])[bench.origin + 1 :]
+            if name in injected:  # what was added is not what comes back
+                deviation = deviation - injected[name][: len(deviation)]
             deviation = deviation[:: channel.period]
             size = float(np.max(abs(base[name]), initial=0.0))
-            moved[name] = bool(np.max(abs(deviation), initial=0.0) > MOVED * size)
+            responses[name] = bool(np.max(abs(deviation), initial=0.0) > ROUNDING * size)
             rates.append(
                 growth_to_overflow(deviation) if overflowed else steady_growth(deviation[len(deviation) // 2 :])
             )
-        return max((rate for rate in rates if rate is not None), default=None), moved
+        return max((rate for rate in rates if rate is not None), default=None), responses
     return None, None
 
 
@@ -106,16 +106,16 @@ class _Path:
     readers: Mapping[str, set[str]]
     outputs: Mapping[str, list[str]]
 
-    def first_still(self, moved: Mapping[str, bool]) -> str | None:
-        """Return the component nearest to the cut that is moved and moves nothing on the way."""
+    def first_still(self, responses: Mapping[str, bool]) -> str | None:
+        """Return the component nearest to the cut that is responses and moves nothing on the way."""
         queue, known = sorted(self.first & self.outputs.keys()), set[str]()
         while queue:
             component = queue.pop(0)
             known.add(component)
-            moving = [name for name in self.outputs[component] if moved.get(name, False)]
-            if not moving:
+            responding = [name for name in self.outputs[component] if responses.get(name, False)]
+            if not responding:
                 return component
-            reached = {reader for name in moving for reader in self.readers.get(name, ())}
+            reached = {reader for name in responding for reader in self.readers.get(name, ())}
             queue += sorted((reached & self.outputs.keys()) - known - set(queue))
         return None
 

@@ -202,6 +202,6 @@ class StabilityReport:
     def verdict(self) -> Verdict:
         """What could not be studied, or what linearised and measured responses differ on, is not passed."""
         requirements = [item.requirement.verdict for item in self.judgements()]
-        verdict = combine_verdicts([*requirements, *(item.verdict for item in self.unstudied if item.verdict)])
+        verdict = combine_verdicts([*requirements, *(lost.verdict for lost in self.unstudied if lost.verdict)])
         open_to_doubt = self.unstudied or any(loop.doubted for loop in self.loops)
         return Verdict.NOT_APPLICABLE if verdict is Verdict.PASS and open_to_doubt else verdict

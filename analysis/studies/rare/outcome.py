@@ -17,7 +17,7 @@ from ..flown import FlightDocument, StudyResult, strict
 from ..noise import noise_line
 from ..units import unit_of_expression, with_unit
 from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
-from .uncertainty import CONFIDENCE, shown_digits
+from .uncertainty import CONFIDENCE, significant_digits
 
 TOLD = 5  # failures
 APART = 1.0  # standard deviations: a failure nearer to a more probable one is not listed
@@ -76,8 +76,8 @@ class RareResult(StudyResult):
         if not self.simulation.noise_ends:
             return ""
         level, place = self.simulation.levels[-1], len(self.simulation.levels)
-        assert level.least_renewed is not None
-        rate, minimum = short_percent(level.least_renewed), short_percent(LEAST_ACCEPTED)
+        assert level.renewal_rate is not None
+        rate, minimum = short_percent(level.renewal_rate), short_percent(LEAST_ACCEPTED)
         source = "" if level.source is None else f" of {self.noise.sources[level.source]}"
         return f"levels end at level {place}: {rate} % of the noise moves{source} are accepted, below {minimum} %"
 
@@ -156,7 +156,7 @@ class RareResult(StudyResult):
     @property
     def digits(self) -> int:
         """How many digits of the probability its interval leaves."""
-        return shown_digits(*self.interval)
+        return significant_digits(*self.interval)
 
     def estimate_text(self) -> str:
         """The probability with its interval, or what bounds it; no more digits than the interval leaves."""

@@ -53,7 +53,7 @@ class Level:
     deviation: float | None = None
 
     @property
-    def least_renewed(self) -> float | None:
+    def renewal_rate(self) -> float | None:
         """The acceptance rate of the source that is renewed least; of all where no single one is known; None without
         noise moves."""
         return self.noise_acceptance if self.least_acceptance is None else self.least_acceptance
@@ -61,7 +61,7 @@ class Level:
     @property
     def trusted(self) -> bool:
         """True if its chains renewed the noise of every source often enough."""
-        return self.least_renewed is None or self.least_renewed >= LEAST_ACCEPTED
+        return self.renewal_rate is None or self.renewal_rate >= LEAST_ACCEPTED
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,7 +21,7 @@ class Interval(NamedTuple):
 FINE, COARSE = 2.0, 10.0  # the ratio of an interval's ends up to which three and two digits of an estimate are shown
 
 
-def shown_digits(low: float, high: float) -> int:
+def significant_digits(low: float, high: float) -> int:
     """Return how many digits of an estimate say something where its interval is from ``low`` to ``high``."""
     if high <= FINE * low:
         return 3

@@ -137,9 +137,9 @@ class WorstResult(StudyResult):
         """What the value of a point is under random noise; empty where the noise is not random."""
         if self.over is None:
             return {}
-        facts = {"objective": self.flown_text, "quantile": self.over.quantile, "realisations": self.over.count}
+        entries = {"objective": self.flown_text, "quantile": self.over.quantile, "realisations": self.over.count}
         largest = self.worst_realisation
-        return facts if largest is None else facts | {"worst_realisation": self.as_json(largest)}
+        return entries if largest is None else entries | {"worst_realisation": self.as_json(largest)}
 
     def text(self, folder: Path | None = None) -> str:
         """The result for a terminal; ``folder`` as in `document`."""
@@ -164,8 +164,8 @@ class WorstResult(StudyResult):
         unit, under = f" {self.unit}" if self.unit else "", self.conditions
         of = "" if self.over is None else f" ({self.over.text})"
         largest = self.worst_realisation
-        beside = "" if largest is None else f"; worst of them {_format(self.as_json(largest))}{unit}"
-        flown = "" if self.over is None else f" ({self.flown_text}{beside})"
+        extreme = "" if largest is None else f"; worst of them {_format(self.as_json(largest))}{unit}"
+        flown = "" if self.over is None else f" ({self.flown_text}{extreme})"
         return [
             f"{self.badness.text}: worst {_format(case['value'])}{unit}{flown} in {self.flights} flights, "
             f"{within}{under}",

@@ -160,8 +160,8 @@ def test_a_wide_interval_leaves_one_digit_and_a_bound_no_interval(rare_result, t
     assert bound.headline().startswith(f"{head} below 0.0012, 95 % bound; estimate 2e-07")
     assert bound.why_levels_ended == "levels end at level 3: 1 % of the noise moves of imu are accepted, below 5 %"
     unnamed = replace(bound.simulation, levels=(*levels[:-1], replace(ended, source=None)))
-    held = replace(bound, simulation=unnamed, noise=Noise(("imu",), 1, 7))  # so that failures need no streams
-    assert "Failure probability below 0.0012, a 95 % bound; estimate 2e-7" in text_of(page_of(held, tmp_path))
+    fixed = replace(bound, simulation=unnamed, noise=Noise(("imu",), 1, 7))  # so that failures need no streams
+    assert "Failure probability below 0.0012, a 95 % bound; estimate 2e-7" in text_of(page_of(fixed, tmp_path))
 
 
 def test_levels_that_end_for_the_noise_are_a_bound(rare_result, tmp_path):

@@ -99,31 +99,31 @@ def noisy(result, matters):
 
 @pytest.mark.parametrize("matters", [True, False])
 def test_a_point_has_the_median_of_its_realisations(worst_result, matters, tmp_path):
-    result = noisy(worst_result, matters)
-    flown = result.flown.values
-    actual = point_values(result)
+    study = noisy(worst_result, matters)
+    flown = study.flown.values
+    actual = point_values(study)
     np.testing.assert_array_equal(actual[:10], np.median(flown[:30].reshape(10, 3), axis=1))
     remainder = flown[30:-9]
     np.testing.assert_array_equal(actual[10:], np.median(remainder.reshape(-1, 3), axis=1) if matters else remainder)
-    assert objective_of(result).random == int(np.argmax(actual[:10]))
+    assert objective_of(study).random == int(np.argmax(actual[:10]))
     axes = Figure().subplots()
-    draw_fresh(axes, result)
+    draw_fresh(axes, study)
     assert axes.lines[0].get_ydata()[-1] == 1.0
     median, worst, _ = (line.get_xdata()[0] for line in axes.lines[1:])
     assert (median, worst) == (np.median(flown[-9:]), flown[-9:].max())
-    words = text_of(page_of(result, tmp_path))
+    words = text_of(page_of(study, tmp_path))
     assert "under 9 fresh noise realisations" in words
     if matters:
-        same = np.all(result.flown.points[:-9] == result.flown.points[result.row], axis=1)
+        same = np.all(study.flown.points[:-9] == study.flown.points[study.row], axis=1)
         largest = flown[:-9][same].max()
-        assert result.worst_realisation == largest
+        assert study.worst_realisation == largest
         assert f"(median, quantile 0.5, of 3 noise realisations; worst of them {largest:.6g})" in words
-        assert f" (median, quantile 0.5, of 3 noise realisations; worst of them {largest:.6g}) in " in result.text()
-        document = result.document()
+        assert f" (median, quantile 0.5, of 3 noise realisations; worst of them {largest:.6g}) in " in study.text()
+        document = study.document()
         assert (document["quantile"], document["worst_realisation"]) == (0.5, largest)
     else:
         assert "(one noise realisation), of" in words
-        assert " (one noise realisation) in " in result.text()
+        assert " (one noise realisation) in " in study.text()
 
 
 def test_a_margin_is_worse_where_it_is_smaller(worst_result):

@@ -36,10 +36,10 @@ def margins_of(curve):
 def test_margins_at_a_resonance_between_lines(rate, damping, gain):
     """Splines of the lines alone are wrong by 0.2 to 1.9 dB."""
     truth = resonant(rate, damping, gain)
-    asked = []
+    requests = []
 
     def measure(frequency):
-        asked.append(frequency)
+        requests.append(frequency)
         return frequency, complex(truth(np.array([frequency]))[0])
 
     lines = Curve(LINES, truth(LINES))
@@ -53,7 +53,7 @@ def test_margins_at_a_resonance_between_lines(rate, damping, gain):
     assert closest.disk_margin == pytest.approx(distance.disk_margin, abs=1e-3)
     assert refined.settled
     assert refined.remainder == ""
-    assert len(asked) <= 4 * ROUNDS
+    assert len(requests) <= 4 * ROUNDS
 
 
 def test_what_is_left_is_said():

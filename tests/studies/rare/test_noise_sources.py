@@ -86,12 +86,12 @@ def test_one_source_alone_is_bounded(probability):
 def test_a_source_that_is_not_renewed_ends_levels_whatever_the_others_do(weights):
     """The mean acceptance rate stays above 5 % for the weak sources' sake, and the chains have one noise."""
     actual = simulate(weights, 0.0, 1e-3, either(400, 12))
-    lows, highs = np.array([result.interval[:2] for result in actual]).T
+    lows, highs = np.array([study.interval[:2] for study in actual]).T
     covered = np.mean((lows <= 1e-3) & (highs >= 1e-3))
-    print(f"{weights}: {covered:.3f} cover, bounds in {np.mean([result.noise_ends for result in actual]):.3f}")
+    print(f"{weights}: {covered:.3f} cover, bounds in {np.mean([study.noise_ends for study in actual]):.3f}")
     assert covered >= COVERED
-    assert np.mean([result.noise_ends for result in actual]) > 0.8
-    for last in (result.levels[-1] for result in actual if result.noise_ends):
+    assert np.mean([study.noise_ends for study in actual]) > 0.8
+    for last in (study.levels[-1] for study in actual if study.noise_ends):
         assert last.noise_acceptance > 0.05 > last.least_acceptance
         assert last.source == 0
 

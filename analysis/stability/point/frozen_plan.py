@@ -11,39 +11,39 @@ PREFIX = "frozen_"
 SAME = 1e-6  # relative, of a value that is held
 
 
-def held_outputs(prepared: PreparedSystem) -> dict[str, tuple[str, float]]:
-    """Return the outputs that parameters of a system fix, each with its parameter and value."""
-    held: dict[str, tuple[str, float]] = {}
+def frozen_outputs(prepared: PreparedSystem) -> dict[str, tuple[str, float]]:
+    """Return the outputs that parameters of a system fix, each with its parameter and setting."""
+    frozen: dict[str, tuple[str, float]] = {}
     for component, fmu in prepared.network.fmus.items():
         for name, variable in fmu.variables.items():
             output = fmu.variables.get(name.removeprefix(PREFIX))
             if not name.startswith(PREFIX) or output is None or output.causality != "output":
                 continue
-            value = float(prepared.settings.variables.get((component, name), variable.start_text) or 0.0)
-            if value > 0.0:
-                held[f"{component}.{output.name}"] = (f"{component}.{name}", value)
-    return held
+            setting = float(prepared.settings.variables.get((component, name), variable.start_text) or 0.0)
+            if setting > 0.0:
+                frozen[f"{component}.{output.name}"] = (f"{component}.{name}", setting)
+    return frozen
 
 
-def check_held(prepared: PreparedSystem, point: Point) -> None:
+def check_frozen_plan(prepared: PreparedSystem, point: Point) -> None:
     """Fly to the operating point and refuse a component that does not hold its plan on the way.
 
     Raises InputError, and StudyError where the point is not found.
     """
-    held = held_outputs(prepared)
-    if not held:
+    frozen = frozen_outputs(prepared)
+    if not frozen:
         return
-    bench = Bench(prepared, point, [], recorded=tuple(held))
+    bench = Bench(prepared, point, [], recorded=tuple(frozen))
     try:
         flight = bench.simulation.advance(-1, bench.origin)  # also one that ends early
-        last = {output: float(flight.signals[output][-1]) for output in held} if flight.time.size else {}
+        last = {output: float(flight.signals[output][-1]) for output in frozen} if flight.time.size else {}
     finally:
         bench.close()
     for output, actual in last.items():
-        parameter, value = held[output]
-        if not abs(actual - value) <= SAME * value:
+        parameter, setting = frozen[output]
+        if not abs(actual - setting) <= SAME * setting:
             component = output.partition(".")[0]
             where = f"point {point.name}, {component} ({prepared.network.fmus[component].name})"
-            problem = f"{parameter} is {value:g}, and {output} is {actual:.4g} at t = {flight.time[-1]:g} s"
+            problem = f"{parameter} is {setting:g}, and {output} is {actual:.4g} at t = {flight.time[-1]:g} s"
             remedy = "choose an FMU that holds its plan (a law in Python: by planned_time), or leave it at 0"
             raise InputError(prepared.network.file, where, problem, remedy)
