@@ -50,12 +50,12 @@ class Curves {
   }
 
   attachDiagrams(): void {
-    const time = this.share({ label: TIME, ends: [0, 0] });
+    const time = this.share({ label: TIME });
     for (const picture of document.querySelectorAll<SVGElement>("svg.diagram")) new Diagram(picture, this.page, time);
   }
 
   private async attach(picture: SVGElement): Promise<Figure | null> {
-    const time = () => this.share({ label: TIME, ends: [0, 0] });
+    const time = () => this.share({ label: TIME });
     const figure = await Figure.load(picture, this.page, (axis) => this.share(axis), time);
     for (const plot of figure?.plots ?? []) {
       const choice = { plot, figure: figure! };
@@ -73,7 +73,7 @@ class Curves {
     return figure;
   }
 
-  private share({ label = "", logarithmic = false }: Axis): SharedAxis {
+  private share({ label = "", logarithmic = false }: Pick<Axis, "label" | "logarithmic">): SharedAxis {
     let axis = this.axes.get(label);
     if (!axis) {
       axis = new SharedAxis(label, logarithmic);

@@ -37,7 +37,7 @@ export class Diagram {
     document.body.append(this.card);
     page.figures.forEach((charts, figure) =>
       charts.forEach((chart, index) => {
-        if (chart?.x.label !== time.label) return;
+        if (chart.x.label !== time.label) return;
         chart.curves?.forEach(({ name }, position) => {
           if (name && !this.known.has(name)) this.known.set(name, { figure, chart: index, position });
         });

@@ -2,10 +2,10 @@
 
 import type uPlot from "uplot";
 
-import type { Chart, Page, Rule, Values } from "../page/document";
+import type { Chart, Marker, Note, Page, Rule, Values } from "../page/document";
 import { type Series, lowerBound } from "./series";
+import { fontOf } from "./ticks";
 
-const POINT = 1.25; // px of a pt, as figures fill the page
 const NEAR = 0.4; // px, nearer points of a path are one
 
 export type Shape = { x: Values; y: Values };
@@ -28,16 +28,22 @@ export class Positions {
   }
 }
 
+// A fraction of the axes is from the left or the bottom, the other way round only what is of the data.
+
 function placing(scale: uPlot.Scale, begin: number, length: number): (value: number, ofAxes?: boolean) => number {
   const logarithmic = scale.distr === 3;
   const [low, high] = [scale.min!, scale.max!].map((end) => (logarithmic ? Math.log10(end) : end)) as [number, number];
-  const slope = length / (high - low);
+  const turned = scale.dir === -1;
+  const slope = (turned ? -length : length) / (high - low);
+  const origin = turned ? begin + length : begin;
   return (value, ofAxes = false) =>
-    ofAxes ? begin + value * length : begin + ((logarithmic ? Math.log10(value) : value) - low) * slope;
+    ofAxes ? begin + value * length : origin + ((logarithmic ? Math.log10(value) : value) - low) * slope;
 }
 
-export function drawBelow(plot: uPlot, chart: Chart, shapes: Shape[]): void {
-  clipped(plot, (context, ratio) => {
+// ``point``: px of a pt of the figure.
+export function drawBelow(plot: uPlot, chart: Chart, shapes: Shape[], point: number): void {
+  clipped(plot, (context) => {
+    const size = point * devicePixelRatio;
     const to = new Positions(plot);
     (chart.areas ?? []).forEach((area, index) => {
       const { x, y } = shapes[index]!;
@@ -49,8 +55,7 @@ export function drawBelow(plot: uPlot, chart: Chart, shapes: Shape[]): void {
         else context.lineTo(...place);
       }
       if (area.stroke > 0) {
-        context.strokeStyle = area.colour;
-        context.lineWidth = area.stroke * POINT * ratio;
+        stroke(context, area.colour, area.stroke, area.dashes, size);
         context.stroke();
       } else {
         context.fillStyle = area.colour;
@@ -58,13 +63,13 @@ export function drawBelow(plot: uPlot, chart: Chart, shapes: Shape[]): void {
       }
     });
     context.globalAlpha = 1;
-    for (const rule of chart.rules ?? []) drawRule(context, plot, to, rule, ratio);
+    for (const rule of chart.rules ?? []) drawRule(context, plot, to, rule, size);
   });
 }
 
-function drawRule(context: CanvasRenderingContext2D, plot: uPlot, to: Positions, rule: Rule, ratio: number): void {
+function drawRule(context: CanvasRenderingContext2D, plot: uPlot, to: Positions, rule: Rule, size: number): void {
   const { left, top, width, height } = plot.bbox;
-  stroke(context, rule.colour, rule.width, rule.dashes, ratio);
+  stroke(context, rule.colour, rule.width, rule.dashes, size);
   context.beginPath();
   if (rule.upright) {
     context.moveTo(to.x(rule.at), top);
@@ -76,33 +81,64 @@ function drawRule(context: CanvasRenderingContext2D, plot: uPlot, to: Positions,
   context.stroke();
 }
 
-export type Layer = (context: CanvasRenderingContext2D, to: Positions, ratio: number) => void;
+// ``size``: px of the canvas, a pt of the figure.
+export type Layer = (context: CanvasRenderingContext2D, to: Positions, size: number) => void;
 
-export function drawAbove(plot: uPlot, chart: Chart, all: Series[], layers: Layer[], whole: boolean): void {
-  clipped(plot, (context, ratio) => {
-    const to = new Positions(plot);
-    for (const draw of layers) draw(context, to, ratio);
-    for (const series of all) {
-      if (series.hidden) continue;
-      const { colour, width, dashes, joined, marker } = series.curve;
-      stroke(context, colour, width, dashes, ratio);
+export function drawAbove(plot: uPlot, chart: Chart, all: Series[], layers: Layer[], point: number, isWhole: boolean): void {
+  const size = point * devicePixelRatio;
+  const to = new Positions(plot);
+  const shown = all.filter((series) => !series.hidden);
+  clipped(plot, (context) => {
+    for (const draw of layers) draw(context, to, size);
+    for (const series of shown) {
+      const { colour, opacity, width, dashes, joined, marker, beyond } = series.curve;
+      context.globalAlpha = opacity;
+      stroke(context, colour, width, dashes, size);
       if (joined) traceLine(context, plot, series, to);
-      if (marker > 0) drawMarkers(context, series, to, marker, ratio);
+      if (marker && !beyond) drawMarkers(plot, series, to, marker, size);
     }
+    context.globalAlpha = 1;
   });
-  for (const note of chart.notes ?? []) {
-    if (note.of_axes && !whole) continue; // it speaks of the range as drawn
-    const { context, ratio } = { context: plot.ctx, ratio: devicePixelRatio };
-    const to = new Positions(plot);
-    const x = to.x(note.at[0], note.of_axes) + note.offset[0] * POINT * ratio;
-    const y = to.y(note.at[1], note.of_axes) - note.offset[1] * POINT * ratio;
-    if (!inside(plot, to.x(note.at[0], note.of_axes), to.y(note.at[1], note.of_axes))) continue;
-    context.font = `${note.bold ? "bold " : ""}${10.5 * ratio}px "DejaVu Sans", Verdana, sans-serif`;
-    context.fillStyle = note.colour;
-    context.textAlign = note.align[0] as CanvasTextAlign;
-    context.textBaseline = note.align[1] === "top" ? "top" : note.align[1] === "center" ? "middle" : "alphabetic";
-    context.fillText(note.text, x, y);
+  for (const series of shown) {
+    const { marker, beyond, opacity } = series.curve;
+    plot.ctx.save();
+    plot.ctx.globalAlpha = opacity;
+    if (marker && beyond) drawMarkers(plot, series, to, marker, size);
+    plot.ctx.restore();
   }
+  for (const note of chart.notes ?? []) {
+    const ofRange = note.of_axes[0] && note.of_axes[1]; // it speaks of the range as drawn
+    if (!ofRange || isWhole) drawNote(plot, note, to, size);
+  }
+}
+
+function drawNote(plot: uPlot, note: Note, to: Positions, size: number): void {
+  const context = plot.ctx;
+  const at = [to.x(note.at[0], note.of_axes[0]), to.y(note.at[1], note.of_axes[1])] as const;
+  const { left, top } = plot.bbox;
+  if (!inside(plot, note.of_axes[0] ? left : at[0], note.of_axes[1] ? top : at[1])) return;
+  const x = at[0] + note.offset[0] * size;
+  const y = at[1] - note.offset[1] * size;
+  context.save();
+  context.font = fontOf(note.size * size, note.bold ? "bold" : "normal");
+  context.textAlign = note.align[0] as CanvasTextAlign;
+  context.textBaseline = note.align[1] === "top" ? "top" : note.align[1] === "center" ? "middle" : "alphabetic";
+  if (note.backing) {
+    const box = context.measureText(note.text);
+    const tall = context.measureText(`lp${note.text}`); // matplotlib's least height of a line
+    const margin = note.backing.margin * size;
+    context.globalAlpha = note.backing.opacity;
+    context.fillStyle = note.backing.colour;
+    context.fillRect(
+      x - box.actualBoundingBoxLeft - margin, y - tall.actualBoundingBoxAscent - margin,
+      box.actualBoundingBoxLeft + box.actualBoundingBoxRight + 2 * margin,
+      tall.actualBoundingBoxAscent + tall.actualBoundingBoxDescent + 2 * margin,
+    );
+    context.globalAlpha = 1;
+  }
+  context.fillStyle = note.colour;
+  context.fillText(note.text, x, y);
+  context.restore();
 }
 
 function inside(plot: uPlot, x: number, y: number): boolean {
@@ -162,32 +198,39 @@ function traceColumns(context: CanvasRenderingContext2D, series: Series, to: Pos
   }
 }
 
-function drawMarkers(context: CanvasRenderingContext2D, series: Series, to: Positions, size: number, ratio: number): void {
+function drawMarkers(plot: uPlot, series: Series, to: Positions, marker: Marker, size: number): void {
+  const context = plot.ctx;
+  const scale = marker.size * size;
   context.setLineDash([]);
-  context.fillStyle = series.curve.filled ? series.curve.colour : "#fff";
+  context.fillStyle = marker.fill ?? "";
+  context.strokeStyle = marker.edge ?? "";
+  context.lineWidth = marker.width * size;
   for (let row = 0; row < series.x.length; row++) {
-    const value = series.y(row);
-    if (Number.isNaN(value)) continue;
+    const [x, y] = [to.x(series.x[row]!), to.y(series.y(row))];
+    if (Number.isNaN(x) || Number.isNaN(y) || !inside(plot, x, y)) continue;
     context.beginPath();
-    context.arc(to.x(series.x[row]!), to.y(value), (size / 2) * POINT * ratio, 0, 2 * Math.PI);
-    context.fill();
-    context.stroke();
+    if (!marker.outline) context.arc(x, y, scale / 2, 0, 2 * Math.PI);
+    for (const line of marker.outline ?? []) {
+      for (let each = 0; each < line.length; each += 2) context[each ? "lineTo" : "moveTo"](x + scale * line[each]!, y - scale * line[each + 1]!);
+    }
+    if (marker.fill) context.fill();
+    if (marker.edge) context.stroke();
   }
 }
 
-function stroke(context: CanvasRenderingContext2D, colour: string, width: number, dashes: number[] | undefined, ratio: number): void {
+function stroke(context: CanvasRenderingContext2D, colour: string, width: number, dashes: number[] | undefined, size: number): void {
   context.strokeStyle = colour;
-  context.lineWidth = Math.max(width * POINT * ratio, 1);
+  context.lineWidth = Math.max(width * size, 1);
   context.lineJoin = "round";
-  context.setLineDash((dashes ?? []).map((length) => length * width * POINT * ratio));
+  context.setLineDash((dashes ?? []).map((length) => length * width * size));
 }
 
-function clipped(plot: uPlot, draw: (context: CanvasRenderingContext2D, ratio: number) => void): void {
+function clipped(plot: uPlot, draw: (context: CanvasRenderingContext2D) => void): void {
   const { left, top, width, height } = plot.bbox;
   plot.ctx.save();
   plot.ctx.beginPath();
   plot.ctx.rect(left, top, width, height);
   plot.ctx.clip();
-  draw(plot.ctx, devicePixelRatio);
+  draw(plot.ctx);
   plot.ctx.restore();
 }

@@ -4,10 +4,12 @@ import type { Axis, Chart, Page } from "../page/document";
 import type { SharedAxis } from "./axis";
 import { markCursor } from "./marker";
 import { type Place, Plot } from "./plot";
+import { fontOf, widthOf } from "./ticks";
 
-const GAP = 18; // px above axes, for a title
+const GAP = 18; // px above axes
 const LABELS = 44; // px at least, left of axes
-const TICKS = 24; // px below axes, and for a label as much again
+const TICKS = 24; // px at least, below axes
+const BESIDE = 4; // px, from a text to the edge, pt for strokes of ticks alone
 const MARGIN = { rootMargin: "400px 0px" }; // around the screen, within which figures get their canvases
 
 export class Figure {
@@ -32,10 +34,10 @@ export class Figure {
     for (const plot of plots) plot.time.followCursor(() => this.showValues());
   }
 
-  // Figures of bars and bands alone remain pictures; all axes of the others become plots.
+  // Null where the figure remains a picture.
   static async load(picture: SVGElement, page: Page, sharing: (axis: Axis) => SharedAxis, time: () => SharedAxis): Promise<Figure | null> {
-    const charts = page.figures[Number(picture.dataset.figure)]!.filter((chart) => chart !== null);
-    if (!charts.every((chart) => chart.curves || chart.dots || chart.areas?.some((area) => area.stroke))) {
+    const charts = page.figures[Number(picture.dataset.figure)]!;
+    if (charts.some((chart) => chart.picture)) {
       markCursor(picture, charts, sharing);
       return null;
     }
@@ -61,7 +63,11 @@ export class Figure {
     const { width, height } = this.size;
     if (!width || !height) return;
     if (this.isDrawn) for (const plot of this.plots) plot.redraw();
-    else this.plots.forEach((plot, index) => plot.place(placeOf(this.charts, index, width, height)));
+    else {
+      const { viewBox } = this.picture as SVGSVGElement;
+      const point = width / viewBox.baseVal.width;
+      this.plots.forEach((plot, index) => plot.place(placeOf(this.charts, index, width, height, point)));
+    }
     this.isDrawn = true;
     this.frame.classList.add("drawn"); // from now on the picture is hidden
   }
@@ -110,19 +116,19 @@ export function describePlot(plot: Plot, at: number): [text: string, colour: str
   });
 }
 
+const measuring = document.createElement("canvas").getContext("2d")!;
+
 // Where a chart's element lies in the figure: the axes' area is that of the picture, the margins reach to its neighbours.
-function placeOf(charts: Chart[], index: number, width: number, height: number): Place {
-  const box = charts[index]!.box;
-  const [left, top, right, bottom] = [
-    Math.max(box[0] * width, LABELS), box[1] * height, (box[0] + box[2]) * width, (box[1] + box[3]) * height,
-  ];
-  const isLast = !charts.some(({ box: other }) => other[1] > box[1] + box[3] && overlaps(other, box));
+function placeOf(charts: Chart[], index: number, width: number, height: number, point: number): Place {
+  const { box, x, y } = charts[index]!;
+  const [left, top, right, bottom] = [box[0] * width, box[1] * height, (box[0] + box[2]) * width, (box[1] + box[3]) * height];
   const before = charts.filter(({ box: other }) => other[0] + other[2] <= box[0]).map(({ box: other }) => (other[0] + other[2]) * width);
+  const names = widthOf(y, measuring, point) + 2 * BESIDE;
   const margins: Place["margins"] = [
     Math.min(GAP, top),
-    Math.min(14, width - right),
-    isLast ? Math.min(2 * TICKS, height - bottom) : 0,
-    Math.max(LABELS, Math.min(64, left - Math.max(0, ...before))),
+    Math.min(Math.max(GAP, widthOf(x, measuring, point) / 2 + BESIDE, reachOf(charts[index]!, point)), width - right + 2 * BESIDE),
+    x.bare ? BESIDE * point : Math.max(TICKS, 2 * x.size * point),
+    y.bare ? BESIDE : Math.max(LABELS, names, Math.min(left - Math.max(0, ...before), 1.5 * LABELS)),
   ];
   return {
     left: left - margins[3],
@@ -130,9 +136,15 @@ function placeOf(charts: Chart[], index: number, width: number, height: number):
     width: right - left + margins[1] + margins[3],
     height: bottom - top + margins[0] + margins[2],
     margins,
+    point,
   };
 }
 
-function overlaps(one: Chart["box"], other: Chart["box"]): boolean {
-  return one[0] < other[0] + other[2] && other[0] < one[0] + one[2];
+// How far (px) notes reach to the right of the axes.
+function reachOf(chart: Chart, point: number): number {
+  const beside = (chart.notes ?? []).filter(({ at, of_axes }) => of_axes[0] && at[0] > 1);
+  return Math.max(0, ...beside.map((note) => {
+    measuring.font = fontOf(note.size * point);
+    return measuring.measureText(note.text).width + GAP;
+  }));
 }

@@ -1,4 +1,4 @@
-// The cursor over a figure of bars, which remains a picture.
+// The cursor over a figure that remains a picture.
 
 import type { Axis, Chart } from "../page/document";
 import type { SharedAxis } from "./axis";
@@ -20,7 +20,8 @@ export function markCursor(picture: SVGElement, charts: Chart[], sharing: (axis:
     const chart = charts.find(({ x }) => at !== null && sharing(x) === axis && at >= x.ends[0] && at <= x.ends[1]);
     line.hidden = !chart;
     if (!chart) return;
-    const fraction = (at! - chart.x.ends[0]) / (chart.x.ends[1] - chart.x.ends[0]);
+    const [low, high, here] = [...chart.x.ends, at!].map((each) => (chart.x.logarithmic ? Math.log10(each) : each)) as [number, number, number];
+    const fraction = (here - low) / (high - low);
     const [left, top, width, height] = chart.box;
     Object.assign(line.style, percent({ left: left + fraction * width, top, height }));
   }

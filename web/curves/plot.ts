@@ -3,15 +3,13 @@
 import uPlot from "uplot";
 
 import type { Axis, Chart, Page } from "../page/document";
-import { format } from "../page/numbers";
 import { type Range, SharedAxis } from "./axis";
 import { type Layer, Positions, type Shape, drawAbove, drawBelow, loadShapes } from "./drawing";
 import { Series } from "./series";
+import { axisOptions } from "./ticks";
 
-const FONT = '11px "DejaVu Sans", Verdana, sans-serif';
-const [INK, FAINT, GRID] = ["#222", "#555", "#ddd"];
 const MARGIN = 0.06; // of a zoomed ordinate, above and below its values
-const TITLE = 16; // px
+const [ACROSS, UP] = [60, 30]; // px at least from a tick to the next, along the abscissa and the ordinate
 
 export interface Place {
   left: number; // px, of the root in the figure
@@ -19,6 +17,7 @@ export interface Place {
   width: number;
   height: number;
   margins: [top: number, right: number, bottom: number, left: number]; // px, from the root to the axes' area
+  point: number; // px of a pt of the figure
 }
 
 export class Plot {
@@ -155,106 +154,54 @@ export class Plot {
 
   // Whether a line is one whose values are shown at the cursor.
   isShown(series: Series): boolean {
-    return !series.hidden && series.x.length > 1 && (!this.isPath || series.time !== null);
+    const isLane = this.chart.y.named && !series.curve.name; // of an ordinate without quantity
+    return !series.hidden && series.x.length > 1 && !isLane && (!this.isPath || series.time !== null);
   }
 
   private ranges(): [Range, Range] {
     const { x, y } = this.chart;
     const range = this.axis.zoom;
-    if (!range) return [x.ends, y.ends];
-    if (this.isPath) return [range, this.ordinate ?? y.ends];
+    const whole = ascending(y.ends);
+    if (!range) return [x.ends, whole];
+    if (this.isPath) return [range, this.ordinate ?? whole];
     const reaches = this.series.filter((each) => !each.hidden).map((each) => each.reach(range)).filter((each) => each !== null);
-    if (!reaches.length || y.ticks?.length) return [range, y.ends];
+    if (!reaches.length || y.named) return [range, whole];
     const [low, high] = [Math.min(...reaches.map((each) => each[0])), Math.max(...reaches.map((each) => each[1]))];
-    if (y.logarithmic) return [range, low > 0 ? [low / 1.2, high * 1.2] : y.ends];
+    if (y.logarithmic) return [range, low > 0 ? [low / 1.2, high * 1.2] : whole];
     const margin = MARGIN * (high - low) || MARGIN * Math.abs(high) || 1;
     return [range, [low - margin, high + margin]];
   }
 
-  private options({ width, height, margins }: Place): uPlot.Options {
-    const { x, y, title, aside } = this.chart;
+  private options({ width, height, margins, point }: Place): uPlot.Options {
+    const { x, y } = this.chart;
     const [rangeX, rangeY] = this.ranges();
+    const isWhole = () => this.axis.zoom === null;
     return {
       width,
       height,
-      padding: [margins[0], margins[1], margins[2] === 0 ? 1 : null, null],
+      padding: [margins[0], margins[1], null, null],
       cursor: { show: false },
       legend: { show: false },
       scales: {
         x: { time: false, distr: x.logarithmic ? 3 : 1, range: (_, low, high) => [low ?? rangeX[0], high ?? rangeX[1]], min: rangeX[0], max: rangeX[1] },
-        y: { distr: y.logarithmic ? 3 : 1, range: (_, low, high) => [low ?? rangeY[0], high ?? rangeY[1]], min: rangeY[0], max: rangeY[1] },
+        y: {
+          dir: y.ends[0] > y.ends[1] ? -1 : 1,
+          distr: y.logarithmic ? 3 : 1, range: (_, low, high) => [low ?? rangeY[0], high ?? rangeY[1]], min: rangeY[0], max: rangeY[1],
+        },
       },
       series: [{}, { show: true, stroke: "transparent", points: { show: false } }],
-      axes: [axisOptions(x, margins[2], 60), axisOptions(y, margins[3], 30, this.isPath)],
+      axes: [axisOptions(x, margins[2], ACROSS, point, isWhole), axisOptions(y, margins[3], UP, point, isWhole)],
       hooks: {
         ready: [() => this.redraw()],
-        drawAxes: [(plot) => drawBelow(plot, this.chart, this.shapes)],
-        draw: [
-          (plot) => {
-            drawAbove(plot, this.chart, this.series, this.layers, this.axis.zoom === null);
-            drawTitles(plot, title, aside);
-          },
-        ],
+        drawAxes: [(plot) => drawBelow(plot, this.chart, this.shapes, point)],
+        draw: [(plot) => drawAbove(plot, this.chart, this.series, this.layers, point, isWhole())],
       },
     };
   }
 }
 
-function axisOptions(axis: Axis, size: number, space: number, labelled = true): uPlot.Axis {
-  const label = labelled && size > 30 ? axis.label : undefined;
-  return {
-    show: size > 0,
-    size: size - (label ? TITLE : 0),
-    label,
-    labelSize: TITLE,
-    labelFont: FONT,
-    labelGap: 0,
-    font: FONT,
-    gap: 3,
-    space,
-    stroke: INK,
-    grid: { stroke: GRID, width: 0.6, ...(axis.logarithmic && { filter: selectDecades }) },
-    ticks: { stroke: FAINT, width: 0.7, size: 4, ...(axis.logarithmic && { filter: selectDecades }) },
-    border: { show: true, stroke: FAINT, width: 0.7 },
-    ...(axis.ticks?.length
-      ? { splits: axis.ticks.map(([at]) => at), values: axis.ticks.map(([, text]) => text) }
-      : { values: axis.logarithmic ? labelDecades : labelNumbers }),
-  };
-}
-
-function labelNumbers(_: uPlot, splits: (number | null)[]): string[] {
-  return splits.map((at) => (at === null ? "" : format(at, Math.abs(at) < 1e6 ? 8 : 6)));
-}
-
-function selectDecades(_: uPlot, splits: (number | null)[]): (number | null)[] {
-  const powers = splits.map((at) => (at !== null && isPower(at) ? at : null));
-  return powers.filter((at) => at !== null).length < 2 ? splits : powers;
-}
-
-function isPower(at: number): boolean {
-  return Math.abs(Math.log10(at) - Math.round(Math.log10(at))) < 1e-9;
-}
-
-// Powers of ten, some six of them where there are more; where a zoom has fewer than two, every number.
-function labelDecades(_: uPlot, splits: (number | null)[]): string[] {
-  const decades = splits.filter((at) => at !== null && isPower(at)).length;
-  if (decades < 2) return labelNumbers(_, splits);
-  const stride = Math.ceil(decades / 6);
-  return splits.map((at) => (at !== null && isPower(at) && Math.round(Math.log10(at)) % stride === 0 ? format(at, 1) : ""));
-}
-
-function drawTitles(plot: uPlot, title?: string, aside?: string): void {
-  const { left, top, width } = plot.bbox;
-  plot.ctx.save();
-  plot.ctx.font = `${11 * devicePixelRatio}px "DejaVu Sans", Verdana, sans-serif`;
-  plot.ctx.textBaseline = "alphabetic";
-  plot.ctx.textAlign = "left";
-  plot.ctx.fillStyle = INK;
-  if (title) plot.ctx.fillText(title, left, top - 5 * devicePixelRatio);
-  plot.ctx.textAlign = "right";
-  plot.ctx.fillStyle = FAINT;
-  if (aside) plot.ctx.fillText(aside, left + width, top - 5 * devicePixelRatio);
-  plot.ctx.restore();
+function ascending([one, other]: Range): Range {
+  return one < other ? [one, other] : [other, one];
 }
 
 function px(sizes: Record<string, number>): Record<string, string> {

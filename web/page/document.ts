@@ -4,9 +4,22 @@ import { type Encoded, type Packed, decode } from "./columns";
 
 export interface Axis {
   label?: string;
-  ends: [number, number];
+  ends: [number, number]; // the first at the left or the bottom
   logarithmic?: boolean;
-  ticks?: [number, string][];
+  ticks?: [at: number, text: string][]; // as drawn; without them numbers of the script's own
+  named?: boolean; // the texts of ticks are no numbers
+  bare?: boolean; // ticks have no texts
+  size: number; // pt, of the texts
+  grid?: boolean;
+  marked?: boolean; // ticks have strokes
+}
+
+export interface Marker {
+  size: number; // pt
+  outline?: number[][]; // strokes, in units of the size; without them a circle
+  fill?: string;
+  edge?: string;
+  width: number; // pt
 }
 
 export interface Curve {
@@ -17,12 +30,13 @@ export interface Curve {
   name?: string;
   unit?: string;
   colour: string;
+  opacity: number;
   width: number;
   dashes?: number[];
   steps?: boolean;
   joined?: boolean;
-  marker: number;
-  filled?: boolean;
+  marker?: Marker;
+  beyond?: boolean; // marks reach beyond the area
   reduced?: boolean;
   metric?: string;
 }
@@ -43,6 +57,7 @@ export interface Area {
   colour: string;
   opacity: number;
   stroke: number;
+  dashes?: number[];
 }
 
 export interface Rule {
@@ -56,20 +71,20 @@ export interface Rule {
 export interface Note {
   text: string;
   at: [number, number];
-  of_axes?: boolean;
+  of_axes: [boolean, boolean];
   offset: [number, number];
   align: [string, string];
   colour: string;
+  size: number; // pt
   bold?: boolean;
+  backing?: { colour: string; opacity: number; margin: number };
 }
 
 export interface Chart {
   box: [number, number, number, number];
-  title?: string;
-  aside?: string;
   x: Axis;
   y: Axis;
-  equal?: boolean;
+  picture?: boolean; // of a figure that remains one
   curves?: Curve[];
   dots?: Dots[];
   areas?: Area[];
@@ -80,11 +95,11 @@ export interface Chart {
 export type Values = Float32Array | Float64Array;
 
 export class Page {
-  readonly figures: (Chart | null)[][];
+  readonly figures: Chart[][];
   readonly encoded: Encoded[];
   private readonly decoded = new Map<number, Promise<Values>>();
 
-  constructor(readonly document: Packed & { figures: (Chart | null)[][] } & Record<string, unknown>) {
+  constructor(readonly document: Packed & { figures: Chart[][] } & Record<string, unknown>) {
     this.encoded = document.columns;
     this.figures = document.figures;
   }

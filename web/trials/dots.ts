@@ -5,7 +5,6 @@ import type { Positions } from "../curves/drawing";
 import type { Selection, Trial } from "./selection";
 import type { Trials, Variant } from "./trials";
 
-const POINT = 1.25; // px of a pt, as figures fill the page
 const FADED = 0.12; // opacity of what is not selected
 
 export class DotLayer {
@@ -32,19 +31,20 @@ export class DotLayer {
     });
   }
 
-  draw(context: CanvasRenderingContext2D, to: Positions, ratio: number, selection: Selection): void {
+  // ``size``: px of the canvas, a pt of the figure.
+  draw(context: CanvasRenderingContext2D, to: Positions, size: number, selection: Selection): void {
     const chosen = this.rows.filter((row) => selection.has(this.variant, row));
-    if (chosen.length < this.rows.length) this.drawRows(context, to, ratio, this.rows, FADED);
-    this.drawRows(context, to, ratio, chosen, 1);
+    if (chosen.length < this.rows.length) this.drawRows(context, to, size, this.rows, FADED);
+    this.drawRows(context, to, size, chosen, 1);
   }
 
-  private drawRows(context: CanvasRenderingContext2D, to: Positions, ratio: number, rows: number[], opacity: number): void {
-    const radius = (this.dots.size / 2) * POINT * ratio;
+  private drawRows(context: CanvasRenderingContext2D, to: Positions, size: number, rows: number[], opacity: number): void {
+    const radius = (this.dots.size / 2) * size;
     context.globalAlpha = opacity;
     context.setLineDash([]);
     context.lineCap = "butt";
     context.fillStyle = context.strokeStyle = this.dots.colour;
-    context.lineWidth = Math.max(1, 0.29 * this.dots.size * POINT * ratio);
+    context.lineWidth = Math.max(1, 0.29 * this.dots.size * size);
     context.beginPath();
     for (const row of rows) {
       const [x, y] = [to.x(this.x[row]!), to.y(this.y[row]!)];

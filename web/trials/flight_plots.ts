@@ -4,12 +4,14 @@ import { SharedAxis } from "../curves/axis";
 import { describePlot } from "../curves/figure";
 import { Plot } from "../curves/plot";
 import { listen, listenToKeys } from "../curves/pointer";
-import type { Chart, Page } from "../page/document";
+import type { Page } from "../page/document";
 import { make, nameOf } from "../page/elements";
 import { announceTime, followTime } from "../page/time";
+import type { Titled } from "./flights";
 
 const NAME = "flight"; // of these plots in events
 const HEIGHT = 96; // px
+const POINT = 1.25; // px of a pt
 const MARGINS: [number, number, number, number] = [6, 10, 22, 60]; // px
 
 export class FlightPlots {
@@ -25,14 +27,14 @@ export class FlightPlots {
     });
   }
 
-  async show(charts: Chart[]): Promise<void> {
+  async show(charts: Titled[]): Promise<void> {
     const axis = new SharedAxis("time, s", false);
     this.axis = axis;
     const plots = await Promise.all(charts.map((chart) => this.load(chart, axis)));
     if (axis !== this.axis) return; // another trial was chosen in the meantime
     this.element.replaceChildren(...plots.map(({ section }) => section));
     const width = plots[0]?.frame.clientWidth ?? 0;
-    for (const { plot } of plots) plot.place({ left: 0, top: 0, width, height: HEIGHT, margins: MARGINS });
+    for (const { plot } of plots) plot.place({ left: 0, top: 0, width, height: HEIGHT, margins: MARGINS, point: POINT });
     axis.followCursor(() => {
       if (axis === this.axis && axis.cursor !== null && !this.isFollowing) announceTime(axis.cursor, NAME);
     });
@@ -43,9 +45,8 @@ export class FlightPlots {
     this.element.replaceChildren();
   }
 
-  private async load(chart: Chart, axis: SharedAxis) {
-    const { title = "", ...untitled } = chart;
-    const plot = await Plot.load(untitled, this.page, () => axis, () => axis);
+  private async load({ title, chart }: Titled, axis: SharedAxis) {
+    const plot = await Plot.load(chart, this.page, () => axis, () => axis);
     const values = make("output");
     const frame = make("div", { class: "live", style: `height: ${HEIGHT}px` }, plot.root);
     plot.isNear = true;

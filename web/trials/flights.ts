@@ -1,9 +1,16 @@
 // What trials have recorded over time: analysis/reports/campaign/embedded_flights.py.
 
-import type { Chart, Page } from "../page/document";
+import type { Axis, Chart, Page } from "../page/document";
 import type { TrialName } from "../page/trial";
 
 const MARGIN = 0.06; // of an ordinate, above and below its values
+
+const PLAIN: Pick<Axis, "size" | "grid" | "marked"> = { size: 8.8, grid: true, marked: true };
+
+export interface Titled {
+  title: string;
+  chart: Chart;
+}
 
 interface Panel {
   title: string;
@@ -32,7 +39,7 @@ export class Flights {
   }
 
   // A chart over time for each panel; null for a trial that has recorded nothing in this page.
-  async charts({ variant, trial }: TrialName): Promise<Chart[] | null> {
+  async charts({ variant, trial }: TrialName): Promise<Titled[] | null> {
     const flight = this.flights.find((each) => each.variant === variant && each.trial === trial);
     if (!flight) return null;
     const time = await this.page.column(flight.time);
@@ -46,19 +53,19 @@ export class Flights {
     );
   }
 
-  private async chart({ title, unit = "", factor, steps, lines }: Panel, time: number, columns: number[], ends: [number, number]): Promise<Chart> {
+  private async chart({ title, unit = "", factor, steps, lines }: Panel, time: number, columns: number[], ends: [number, number]): Promise<Titled> {
     const numbers = await Promise.all(columns.map((each) => this.page.column(each)));
     const finite = numbers.flatMap((each) => [...each]).filter(Number.isFinite);
     const [low, high] = [Math.min(...finite), Math.max(...finite)].map((each) => each * factor) as [number, number];
     const margin = MARGIN * (high - low) || MARGIN * Math.abs(high) || 1;
-    return {
+    const chart: Chart = {
       box: [0, 0, 1, 1],
-      title: unit ? `${title}, ${unit}` : title,
-      x: { label: "time, s", ends },
-      y: { ends: finite.length ? [low - margin, high + margin] : [0, 1] },
+      x: { ...PLAIN, label: "time, s", ends },
+      y: { ...PLAIN, ends: finite.length ? [low - margin, high + margin] : [0, 1] },
       curves: lines.map(({ name, colour }, index) => ({
-        x: time, y: columns[index]!, factor, name, unit, colour, width: 1.2, steps, joined: true, marker: 0,
+        x: time, y: columns[index]!, factor, name, unit, colour, opacity: 1, width: 1.2, steps, joined: true,
       })),
     };
+    return { title: unit ? `${title}, ${unit}` : title, chart };
   }
 }

@@ -18,10 +18,17 @@ interface Distribution {
   x: Float64Array;
 }
 
+interface Mark {
+  trial: Trial;
+  x: number;
+  y: number;
+}
+
 export class TrialPlot implements Picking {
   private readonly layers: DotLayer[];
   private readonly distributions: Distribution[];
-  private order: Trial[] | null = null; // of the marks from left to right, for keys
+  private order: Mark[] | null = null; // from left to right, for keys
+  private ordered: Distribution | null = null; // of which they are
   private current = -1;
 
   private constructor(
@@ -35,9 +42,9 @@ export class TrialPlot implements Picking {
       const variant = series.curve.metric ? trials.variant(series.curve.name ?? "") : undefined;
       return variant ? [{ series, variant, x: variant.displayed(series.curve.metric!) }] : [];
     });
-    plot.layers.push((context, to, ratio) => {
-      for (const layer of this.layers) layer.draw(context, to, ratio, selection);
-      this.drawRug(context, to.x, plot.positions.to.y(0, true), ratio);
+    plot.layers.push((context, to, size) => {
+      for (const layer of this.layers) layer.draw(context, to, size, selection);
+      this.drawRug(context, to.x, plot.positions.to.y(0, true));
     });
     selection.follow(() => plot.redraw());
   }
@@ -66,10 +73,10 @@ export class TrialPlot implements Picking {
     this.selection.choose([...marked, ...between]);
   }
 
-  // Keys step from mark to mark, Enter pins, Escape ends a selection.
+  // Keys step from mark to mark or along the first distribution, Enter pins, Escape ends a selection.
   press(key: string): boolean {
     if (key === "Escape" && !this.selection.isWhole) this.selection.choose(null);
-    else if (key === "Enter" && this.current >= 0) this.card.pin(this.marks()[this.current]!);
+    else if (key === "Enter") return this.pinCurrent();
     else if ((key === "ArrowLeft" || key === "ArrowRight") && this.marks().length) this.step(key === "ArrowLeft" ? -1 : 1);
     else return false;
     return true;
@@ -77,22 +84,47 @@ export class TrialPlot implements Picking {
 
   private step(by: number): void {
     const marks = this.marks();
-    this.current = Math.min(Math.max(this.current + by, 0), marks.length - 1);
-    const trial = marks[this.current]!;
+    const near = this.currentMark();
+    this.current = Math.min(Math.max((near ?? (by > 0 ? -1 : marks.length)) + by, 0), marks.length - 1);
+    const { trial, x, y } = marks[this.current]!;
     const { to, left, top } = this.plot.positions;
-    const layer = this.layers.find((each) => each.variant === trial.variant)!;
     const bounds = this.plot.root.querySelector(".u-over")!.getBoundingClientRect();
+    if (!this.layers.length) this.plot.axis.moveCursor(x);
     this.card.hover(trial, {
-      clientX: bounds.left + (to.x(layer.x[trial.row]!) - left) / devicePixelRatio,
-      clientY: bounds.top + (to.y(layer.y[trial.row]!) - top) / devicePixelRatio,
+      clientX: bounds.left + (to.x(x) - left) / devicePixelRatio,
+      clientY: bounds.top + (to.y(y) - top) / devicePixelRatio,
     });
   }
 
-  private marks(): Trial[] {
-    this.order ??= this.layers
-      .flatMap((layer) => layer.within([-Infinity, Infinity], [-Infinity, Infinity]).map((trial) => ({ trial, x: layer.x[trial.row]! })))
-      .sort((one, other) => one.x - other.x)
-      .map(({ trial }) => trial);
+  private pinCurrent(): boolean {
+    const current = this.currentMark();
+    if (current !== null) this.card.pin(this.marks()[current]!.trial);
+    return current !== null;
+  }
+
+  // The mark to which keys have stepped; of a distribution the one at its cursor, which other keys and the pointer move.
+  private currentMark(): number | null {
+    const marks = this.marks();
+    const at = this.plot.axis.cursor;
+    const isCurrent = this.current >= 0 && (this.layers.length > 0 || marks[this.current]!.x === at);
+    if (isCurrent) return this.current;
+    if (this.layers.length || at === null || !marks.length) return null;
+    return marks.reduce((best, { x }, index) => (Math.abs(x - at) < Math.abs(marks[best]!.x - at) ? index : best), 0);
+  }
+
+  // From left to right: the marks of trials, or those of the first distribution that is shown.
+  private marks(): Mark[] {
+    const shown = this.distributions.find(({ series }) => !series.hidden) ?? null;
+    if (this.order && shown === this.ordered) return this.order;
+    this.ordered = shown;
+    this.current = -1;
+    const all = this.layers.flatMap((layer) =>
+      layer.within([-Infinity, Infinity], [-Infinity, Infinity]).map((trial) => ({ trial, x: layer.x[trial.row]!, y: layer.y[trial.row]! })),
+    );
+    shown?.x.forEach((x, row) => {
+      if (Number.isFinite(x)) all.push({ trial: { variant: shown.variant, row }, x, y: shown.series.y(shown.series.rowAt(x)) });
+    });
+    this.order = all.sort((one, other) => one.x - other.x);
     return this.order;
   }
 
@@ -122,15 +154,15 @@ export class TrialPlot implements Picking {
     return trial;
   }
 
-  private drawRug(context: CanvasRenderingContext2D, toX: (value: number) => number, bottom: number, ratio: number): void {
+  private drawRug(context: CanvasRenderingContext2D, toX: (value: number) => number, bottom: number): void {
     context.setLineDash([]);
-    context.lineWidth = ratio;
+    context.lineWidth = devicePixelRatio;
     for (const { series, variant, x } of this.distributions) {
       context.strokeStyle = series.curve.colour;
       context.beginPath();
       for (const row of this.selection.rows(variant)) {
         context.moveTo(toX(x[row]!), bottom);
-        context.lineTo(toX(x[row]!), bottom - RUG * ratio);
+        context.lineTo(toX(x[row]!), bottom - RUG * devicePixelRatio);
       }
       context.stroke();
     }

@@ -14,7 +14,8 @@ from markupsafe import Markup
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from ..interactive.charts import Chart, read_charts
+from ..interactive.charts import Chart
+from ..interactive.read_figure import STILL, read_charts, still_artists
 
 IMAGE_DPI = 200  # of what is no vector
 
@@ -63,7 +64,7 @@ class Drawing(NamedTuple):
     """A figure as an <svg> element, and what it shows as data."""
 
     svg: Markup
-    charts: list[Chart | None]
+    charts: list[Chart]
 
     def __html__(self) -> str:
         return self.svg
@@ -77,6 +78,8 @@ def inline_svg(figure: Figure, name: str, description: str, *, kind: str = "", r
     cut to hundredths of a point. The figure is as wide as what it stands in; ``kind`` is a class more, for the style.
     ``reduced``: the page has only envelopes of its lines.
     """
+    for artist in still_artists(figure):
+        artist.set_gid(STILL)
     root = etree.fromstring(svg_bytes(figure, name, text_as_paths=False), etree.XMLParser(resolve_entities=False))
     for unwanted in (*root.iter(f"{SVG}metadata"), *root.iter(f"{SVG}style")):
         parent = unwanted.getparent()
@@ -94,6 +97,9 @@ def inline_svg(figure: Figure, name: str, description: str, *, kind: str = "", r
                 element.set(key, REFERENCE.sub(rf"url(#{name}-\1)", value))
             elif key in ("d", "x", "y"):
                 element.set(key, DECIMALS.sub(r"\1", value))
+    for still in root.xpath(f"//*[@id='{name}-{STILL}']"):
+        del still.attrib["id"]
+        still.set("class", STILL)
     etree.strip_tags(root, etree.Comment)
     del root.attrib["width"], root.attrib["height"]
     root.set("role", "img")

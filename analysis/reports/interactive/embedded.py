@@ -27,9 +27,9 @@ class Embedded:
         self._bundles: dict[str, str] = {}
         self._requests = False
 
-    def add_figure(self, charts: Sequence[Chart | None]) -> int | None:
-        """The number of a figure, by which its element names it; None where it has no chart, or scripts are missing."""
-        if not any(charts) or not self.use("curves"):
+    def add_figure(self, charts: Sequence[Chart]) -> int | None:
+        """The number of a figure, by which its element names it; None where scripts are missing."""
+        if not charts or not self.use("curves"):
             return None
         self._figures.append(self._plain(charts))
         return len(self._figures) - 1

@@ -110,3 +110,23 @@ def test_a_distribution_names_its_trials(browser, batch):
         (row,) = [row for row in table if (row["trial"], row["variant"]) == (int(trial), variant)]
         displayed = float(entries(card)["flight_time"].replace("about ", "").split()[0])
         assert displayed == pytest.approx(row["metric.flight_time"], rel=1e-3)
+
+
+def test_keys_go_along_a_distribution_and_pin(browser, batch):
+    """Truth: the table's trials in the order of the metric."""
+    table = parquet.read_table(batch / "out" / "trials").to_pylist()
+    with driven(browser, batch / "page.html") as driver:
+        frame, _ = frame_of(driver, "Cumulative distribution of flight_time")
+        plot = frame.find_element(By.CSS_SELECTOR, ".chart")
+        plot.send_keys(Keys.ARROW_RIGHT)
+        first = entries(driver.find_element(By.CSS_SELECTOR, ".card:not(.pinned)"))
+        _, variant = re.fullmatch(r"(\d+) of (\w+)", first["trial"]).groups()
+        ranked = sorted(row["metric.flight_time"] for row in table if row["variant"] == variant)
+        assert first["flight_time"].split()[0] == number(ranked[0], 6)
+        plot.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT, Keys.ARROW_LEFT, Keys.ENTER)
+        pinned = driver.find_element(By.CSS_SELECTOR, ".card.pinned")
+        assert pinned.is_displayed()
+        about = entries(pinned)["flight_time"].split()[-2]
+        assert float(about) == pytest.approx(ranked[1], rel=1e-3)
+        trial, _ = re.fullmatch(r"(\d+) of (\w+)", entries(pinned)["trial"]).groups()
+        assert f" {trial} " in f"{pinned.find_element(By.TAG_NAME, 'code').text} "

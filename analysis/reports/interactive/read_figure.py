@@ -1,0 +1,129 @@
+"""The charts of matplotlib's figure after it was drawn: what they state in full, or none.
+
+Titles, labels and legends remain the picture's, which the page's script shows below its own lines.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import StepPatch
+
+from .charts import Axis, Chart, UnstatedError
+from .columns import Coarse
+from .lines import TrialDots
+from .read_marks import read_areas, read_collection, read_curve, read_dots, read_rule, read_steps
+from .read_notes import read_note
+from .read_ticks import read_axis
+
+STILL = "still"  # the gid of what remains the picture's, whatever is zoomed
+
+
+ROUNDING = 5e-4  # of an axis, by which float32 may move a point
+
+
+def still_artists(figure: Figure) -> Iterator[Artist]:
+    """Titles, labels of axes and legends."""
+    yield from figure.texts
+    yield from figure.legends
+    for axes in figure.axes:
+        yield from (axes.title, axes._left_title, axes._right_title)  # type: ignore[attr-defined]
+        yield from (axes.xaxis.label, axes.yaxis.label)
+        if (legend := axes.get_legend()) is not None:
+            yield legend
+
+
+def read_charts(figure: Figure, *, reduced: bool = False) -> list[Chart]:
+    """The charts of a figure that was drawn; ``reduced``: envelopes of their lines.
+
+    If one pair of axes is not stated in full, or has bars and bands alone, all are `picture`.
+    """
+    try:
+        if figure.images or figure.lines or figure.patches or figure.artists or figure.subfigs:
+            raise UnstatedError("something beside the axes")
+        return [_read_axes(axes, reduced) for axes in figure.axes]
+    except UnstatedError:
+        return [_picture(axes) for axes in figure.axes]
+
+
+def _read_axes(axes: Axes, reduced: bool) -> Chart:
+    if axes.images or axes.artists or axes.tables or axes.child_axes or not axes.axison:
+        raise UnstatedError("an image, a table or axes within axes")
+    if [name for name, spine in axes.spines.items() if spine.get_visible()] != ["left", "bottom"]:
+        raise UnstatedError("other edges than the left and the bottom one")
+    lines = _by_order(axes.lines)
+    dots = [line for line in lines if isinstance(line, TrialDots)]
+    plain = [line for line in lines if line.get_transform() is axes.transData and line not in dots]
+    patches = _by_order(axes.patches)
+    steps = [patch for patch in patches if isinstance(patch, StepPatch)]
+    if not (plain or dots or any(not patch.get_fill() for patch in patches)):
+        raise UnstatedError("bars and bands alone")
+    curves = [*(read_curve(line, reduced) for line in plain), *map(read_steps, steps)]
+    for curve in curves:
+        _check_digits(axes.get_xlim(), axes.get_xscale(), curve.x)
+        _check_digits(
+            axes.get_ylim(),
+            axes.get_yscale(),
+            curve.factor * (curve.y.numbers if isinstance(curve.y, Coarse) else curve.y),
+        )
+    return Chart(
+        box=_box(axes),
+        x=read_axis(axes.xaxis, axes.get_xlim(), _label(axes)),
+        y=read_axis(axes.yaxis, axes.get_ylim(), ""),
+        picture=False,
+        curves=curves,
+        dots=[read_dots(line) for line in dots],
+        areas=[
+            *(area for each in _by_order(axes.collections) for area in read_collection(axes, each)),
+            *(area for each in patches if each not in steps for area in read_areas(axes, each)),
+        ],
+        rules=[read_rule(axes, line) for line in lines if line not in (*plain, *dots)],
+        notes=[read_note(axes, text) for text in axes.texts if text.get_text() or _has_arrow(text)],
+    )
+
+
+def _check_digits(ends: tuple[float, float], scale: str, numbers: np.ndarray) -> None:
+    """Refuse numbers whose places in the figure differ once they are float32, as poles very near to z = 1."""
+    inside = numbers[(numbers >= min(ends)) & (numbers <= max(ends))]
+    rounded = np.abs(inside - inside.astype(np.float32))
+    if scale == "linear" and np.any(rounded > ROUNDING * abs(ends[1] - ends[0])):
+        raise UnstatedError("numbers of more digits than a page has")
+
+
+def _picture(axes: Axes) -> Chart:
+    """Axes that remain a picture, with the abscissa along which the cursor is marked."""
+    x, y = (
+        Axis(label, (float(low), float(high)), axis.get_scale() == "log", [], False, False, 0.0, False, False)
+        for label, (low, high), axis in (
+            (_label(axes), axes.get_xlim(), axes.xaxis),
+            ("", axes.get_ylim(), axes.yaxis),
+        )
+    )
+    return Chart(_box(axes), x, y, True, [], [], [], [], [])
+
+
+def _box(axes: Axes) -> list[float]:
+    bounds = axes.get_position()
+    return [round(float(each), 5) for each in (bounds.x0, 1.0 - bounds.y1, bounds.width, bounds.height)]
+
+
+def _label(axes: Axes) -> str:
+    """The label of an abscissa, which of axes that share theirs only one has, or the figure."""
+    figure = axes.get_figure(root=True)
+    assert figure is not None  # the axes were drawn
+    labels = [each.get_xlabel() for each in (axes, *axes.get_shared_x_axes().get_siblings(axes))]
+    return next(filter(None, labels), figure.get_supxlabel())
+
+
+def _by_order(artists: Iterable[Any]) -> list[Any]:
+    """Artists from the back to the front."""
+    return sorted((each for each in artists if each.get_visible()), key=lambda each: float(each.get_zorder()))
+
+
+def _has_arrow(text: Any) -> bool:
+    return getattr(text, "arrow_patch", None) is not None

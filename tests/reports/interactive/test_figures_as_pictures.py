@@ -1,0 +1,132 @@
+"""Every figure of every kind of page says with scripts what its picture says without.
+
+Truth: the picture, as matplotlib drew it: its texts and where they stand, its lines at ten instants, its ink. Which
+figures remain pictures is stated here.
+"""
+
+import functools
+import operator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from perilune.analysis.design.trajectories.hover_study import hover_study
+from perilune.analysis.design.trajectories.landing_study import landing_study
+from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_VEHICLE
+from perilune.analysis.differences.differences import compare_runs
+from perilune.analysis.differences.recorded_run import RecordedRun
+from perilune.analysis.reports.campaign.batch_report import write_batch_report
+from perilune.analysis.reports.differences.page import write_differences_page
+from perilune.analysis.reports.plan_pages import write_hover_page, write_landing_page
+from perilune.analysis.reports.run_report import write_run_report
+from tests.reports.test_plan_pages import LANDER, LANDING
+from tests.support.lengths import either
+from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses
+from tests.support.pages.pictures.reading import read_page, reading
+from tests.support.pages.samples import mixed_batch, run_result
+
+ARROWS = ["Path of"]  # of thrust
+MARGINS = ["Nyquist", "Nichols", "Histogram", "Gain and phase margin of"]  # with arrows, hatches, or bars alone
+
+
+def write_run(request, page):
+    result = run_result()
+    large = {"ship.throttle": 1e4 * result["ship.tilt"]}  # whose ticks have five digits
+    write_run_report(replace(result, signals=result.signals | large, units=result.units | {"ship.throttle": None},
+                             types=result.types | {"ship.throttle": "Real"}), page, "Flight")  # fmt: skip
+
+
+def write_own(request, page):
+    write_run_report(flown(angles=angles(), **pulses(), **errors()), page, "Own", [ANGLES, PULSES, ERROR])
+
+
+def write_mission(request, page):
+    page.write_bytes(request.getfixturevalue("mission_page").read_bytes())
+
+
+def write_batch(request, page):
+    write_batch_report(mixed_batch(), page, "Batch")
+
+
+def write_comparison(request, page):
+    page.write_bytes((request.getfixturevalue("comparison") / "page.html").read_bytes())
+
+
+def write_stability(request, page):
+    page.write_bytes(request.getfixturevalue("stability_page").read_bytes())
+
+
+def write_rare(request, page):
+    request.getfixturevalue("rare_result").report(page)
+
+
+def write_worst(request, page):
+    request.getfixturevalue("worst_result").report(page)
+
+
+def write_sensitivity(request, page):
+    request.getfixturevalue("sensitivity_result").report(page)
+
+
+def write_transfer(request, page):
+    write_hover_page(hover_study(HOVER_VEHICLE, HOVER_TRANSFER, curves=True), page)
+
+
+def write_bound(request, page):
+    write_landing_page(landing_study(LANDER, LANDING, intervals=40), page)
+
+
+def write_differences(request, page):
+    time = np.linspace(0.0, 10.0, 101)
+    runs = [RecordedRun("run", "", time, {"h": np.sin(turn * time)}, {"h": "m"}, frozenset()) for turn in (1.0, 1.1)]
+    write_differences_page(compare_runs(*runs), [], page)
+
+
+def write_landing(request, page):
+    page.write_bytes((request.getfixturevalue("flight") / "page.html").read_bytes())
+
+
+def write_many_trials(request, page):
+    page.write_bytes((request.getfixturevalue("batch") / "page.html").read_bytes())
+
+
+def write_recorded(request, page):
+    page.write_bytes((request.getfixturevalue("recorded") / "page.html").read_bytes())
+
+
+# Each kind of page with the beginnings of the names of figures that remain pictures.
+KINDS = {
+    write_run: [],
+    write_own: [],
+    write_mission: ["Phases"],
+    write_batch: [],
+    write_comparison: [],
+    write_stability: MARGINS,
+    write_rare: [],
+    write_worst: ["total: 60 random trials"],
+    write_sensitivity: [],
+    write_transfer: ARROWS,
+    write_bound: ARROWS,
+    write_differences: [],
+}
+SHIPPED = {write_landing: ["Phases"], write_many_trials: [], write_recorded: []}  # pages of our systems
+PAGES = either(KINDS | SHIPPED, KINDS)
+
+
+@pytest.fixture(scope="module", params=either([False, True], [False]), ids=lambda phone: "390" if phone else "1400")
+def reader(request, browser):
+    with reading(browser, phone=request.param) as driver:
+        yield driver
+
+
+@pytest.mark.parametrize("write", PAGES, ids=lambda write: write.__name__.removeprefix("write_"))
+def test_figures_say_what_their_pictures_say(request, reader, tmp_path, write):
+    write(request, tmp_path / "page.html")
+    compared = read_page(reader, tmp_path / "page.html")
+    assert not compared.differences
+    assert compared.answering
+    stated = {begin: [name for name in compared.pictures if name.startswith(begin)] for begin in PAGES[write]}
+    assert all(stated.values()), stated
+    assert sorted(functools.reduce(operator.iadd, stated.values(), [])) == sorted(compared.pictures)
+    assert compared.marks > 0 or write is write_sensitivity

@@ -1,0 +1,1 @@
+"""Figures of pages compared with their pictures in a browser."""
