@@ -50,36 +50,36 @@ def simulate(weights, draws, probability, repeats=REPEATS):
 def test_intervals_cover_what_is_true(case, probability):
     weights = np.ones(5)
     actual = simulate(weights, CASES[case] * np.linalg.norm(weights), probability)
-    lows, highs = np.array([result.interval[:2] for result in actual]).T
-    mean = np.mean([result.probability for result in actual]) / probability
+    lows, highs = np.array([estimate.interval[:2] for estimate in actual]).T
+    mean = np.mean([estimate.probability for estimate in actual]) / probability
     widths = highs / lows
     covered = np.mean((lows <= probability) & (probability <= highs))
     print(f"{case} {probability:g}: {covered:.3f} cover, mean {mean:.3f}, median width {np.median(widths):.2f}")
     assert covered >= COVERED
     assert mean == pytest.approx(1.0, abs=either(0.1, 0.3))
     assert np.median(widths) < 5.0
-    assert not any(result.noise_ends for result in actual)
+    assert not any(estimate.noise_ends for estimate in actual)
 
 
 @pytest.mark.parametrize("probability", [1e-3, 1e-4])
 def test_one_source_alone_is_bounded(probability):
     """A fresh stream of the only source is as rare as the level: nothing is gained on plain Monte Carlo."""
     actual = simulate([1.0], 0.0, probability, either(400, 20))
-    bounds = np.array([result.interval.high for result in actual])
+    bounds = np.array([estimate.interval.high for estimate in actual])
     print(
         f"one source {probability:g}: bound holds in {np.mean(bounds >= probability):.3f}, median {np.median(bounds)}"
     )
     assert np.mean(bounds >= probability) >= either(0.92, 0.85)
-    for result in actual:
-        assert result.noise_ends
-        last = result.levels[-1]
+    for estimate in actual:
+        assert estimate.noise_ends
+        last = estimate.levels[-1]
         assert not last.trusted
         assert last.probability is None
         assert last.noise_acceptance < 0.05
-        assert result.equivalent_trials == pytest.approx(SAMPLES, rel=0.3)
-        if result.probability is None:
+        assert estimate.equivalent_trials == pytest.approx(SAMPLES, rel=0.3)
+        if estimate.probability is None:
             nothing = stats.binomtest(0, SAMPLES).proportion_ci(0.95, method="exact").high
-            assert result.interval.high == pytest.approx(nothing, rel=0.35)
+            assert estimate.interval.high == pytest.approx(nothing, rel=0.35)
 
 
 @pytest.mark.parametrize("weights", [[1.0, 0.1, 0.1, 0.1, 0.1, 0.1], [1.0, 0.3, 0.3, 0.3]])
@@ -140,10 +140,10 @@ def test_sources_without_effect_cost_no_move():
     """Noise that changes nothing: flights are as many, and the interval is no wider than without it."""
     without = [subset_simulation(limit_state([], 1.0, 1e-3, s), DIMENSIONS, 0, seed=s, samples=1000) for s in range(10)]
     inert = simulate(np.zeros(4), 1.0, 1e-3, 10)
-    variation = np.mean([result.interval.variation for result in without]) * np.sqrt(1000 / SAMPLES)
-    assert np.mean([result.interval.variation for result in inert]) < 1.25 * variation
-    for result in inert:
-        assert all(level.noise_acceptance == 1.0 for level in result.levels[1:])
+    variation = np.mean([estimate.interval.variation for estimate in without]) * np.sqrt(1000 / SAMPLES)
+    assert np.mean([estimate.interval.variation for estimate in inert]) < 1.25 * variation
+    for estimate in inert:
+        assert all(level.noise_acceptance == 1.0 for level in estimate.levels[1:])
 
 
 def test_nothing_random_is_refused():
