@@ -103,8 +103,9 @@ def _findings(
     if not np.any(counted):
         return []
     fractions = [float(np.mean(np.abs(values[counted]) <= times * sigma[counted])) for times in SIGMAS]
-    number = exact(int(np.count_nonzero(counted)))
-    samples = Markup("{} samples at which the estimate changed").format(number) if repeats else "samples"
+    number = int(np.count_nonzero(counted))
+    noun = "sample" if number == 1 else "samples"
+    samples = Markup("{} {} at which the estimate changed").format(exact(number), noun) if repeats else noun
     text = Markup("{}from {}, {} of the {} within 1 sigma (normal distribution: {}), {} within 3 sigma").format(
         f"{label}: " if label else "",
         seconds(start),

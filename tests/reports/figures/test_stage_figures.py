@@ -283,7 +283,7 @@ def test_where_nothing_was_flown(figure):
 
 def test_an_error_in_some_rows_only():
     """Inside sigma in the rows from 150 s on, and never before."""
-    estimate = np.where(TIME < 150.0, 5.0, 0.5)
+    estimate = np.where(TIME < 150.0, 5.0, 0.5) + 1e-6 * TIME
     result = mission(estimate=estimate, truth=0.0 * TIME, sigma=1.0 + 0.0 * TIME)
     assert findings(one(replace(ERROR, after=None, rows=WHERE), result))[0].startswith(
         "From 150 s, 100 % of the samples"
