@@ -32,8 +32,8 @@ WRONG_CAMPAIGN = {
 def refused(call):
     with pytest.raises(InputError) as caught:
         call()
-    assert "\n" not in str(caught.argument)
-    return str(caught.argument)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
 
 
 @pytest.mark.parametrize("name", WRONG)

@@ -52,14 +52,19 @@ def started(
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=errors,
-            # a shell that runs the tests in the background hands SIGINT down as ignored
-            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+            preexec_fn=_heed_signals,
         )
         try:
             yield command
         finally:
             command.kill()
             command.wait()
+
+
+def _heed_signals() -> None:
+    """Undo what runs the tests in the background: a shell hands SIGINT down as ignored, nohup SIGHUP."""
+    for each in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(each, signal.SIG_DFL)
 
 
 def descendants(command: subprocess.Popen[bytes]) -> list[psutil.Process]:

@@ -99,7 +99,7 @@ WRONG = {
         "--slot",
         "guidance=astar_guidance,astar_guidance",
     ): "two candidates have one name; give each once",
-    ("--as-fmu", "--slot", "guidance=astar"): "--slot: astar: no such FMU is built",
+    ("--as-fmu", "--slot", "guidance=astar"): "--slot: guidance=astar: no such FMU is built",
     ("--as-fmu", "--slot", SLOTS, "--use", "guidance=astar_robust_guidance"): "which is not among the candidates",
 }
 

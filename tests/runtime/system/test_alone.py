@@ -155,7 +155,7 @@ def test_others_take_its_place(tiny):
     assert set(flight["gain.y"]) == {6.0}
 
 
-@pytest.mark.parametrize("step", [0, -1.0])
+@pytest.mark.parametrize("step", [0.0, -1.0])
 def test_a_step_that_is_not_positive_is_refused(tiny_folder, step):
     with pytest.raises(InputError, match=rf"^step: {step}: not a positive number of seconds; give a positive step"):
         perilune.simulate(tiny_folder / "native" / "ramp.fmu", step=step)

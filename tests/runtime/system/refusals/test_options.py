@@ -40,7 +40,7 @@ from tests.support.refused import PLAIN, RAMP, ssp
         (["--set", "=1"], ["--set: =1", "not of the form"]),
         (["--use", "gain"], ["--use: gain", "not of the form SLOT=FMU"]),
         (["--use", "gian=gain"], ["--use: gian", "no such component", "gain, ramp"]),
-        (["--use", "gain=nothing_of_this_name"], ["--use: nothing_of_this_name", "no such FMU is built"]),
+        (["--use", "gain=nothing_of_this_name"], ["--use: gain=nothing_of_this_name", "no such FMU is built"]),
         (["--use", "gain=nowhere/x.fmu"], ["--use: nowhere/x.fmu", "no such file"]),
         (["--parameters", "nowhere.ssv"], ["--parameters", "no nowhere.ssv"]),
         (["--variant", "other"], ["--variant", "no variant other", "SystemStructure"]),
