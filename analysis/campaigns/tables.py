@@ -119,7 +119,7 @@ def verdict_text(result: RequirementVerdict) -> str:
 
 
 def unevaluated_text(judged: RequirementVerdict) -> str:
-    """Which metrics of a requirement no flight has a value of; empty where there are none of them."""
+    """Return the metrics of a requirement that no flight has a value of; empty where there are none of them."""
     if not judged.unevaluated:
         return ""
     names, verb = " and ".join(judged.unevaluated), "are" if len(judged.unevaluated) > 1 else "is"

@@ -1,4 +1,4 @@
-"""What tells campaigns apart: what their numbers depend on, without names, limits and forms of FMUs."""
+"""Identity of a campaign: what its numbers depend on, without names, limits and forms of FMUs."""
 
 from __future__ import annotations
 

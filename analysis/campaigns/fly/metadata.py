@@ -66,7 +66,7 @@ class CampaignMetadata(TypedDict, total=False):
 
 
 class Provenance(CampaignMetadata, total=False):
-    """What a batch's numbers depend on, apart from the trials themselves.
+    """Return what a batch's numbers depend on, apart from the trials themselves.
 
     ``batch`` tells it from others; folders of earlier versions have a key of their ``manifest`` instead.
     """

@@ -67,7 +67,7 @@ def _hidden(model: SystemModel, variables: Variables) -> list[Row]:
 
 
 def write_tables(guid: str, model: SystemModel, variables: Variables) -> str:
-    """What the wrapper needs to know: GUID, and tables by value reference, of what is not declared last."""
+    """Facts for the wrapper: GUID, and tables by value reference, of what is not declared last."""
     rows = [*map(_declared, variables.declared), *_hidden(model, variables)]
     lines = Lines()
     lines.add(f'#define MODEL_GUID "{guid}"')

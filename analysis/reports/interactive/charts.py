@@ -112,7 +112,7 @@ class Rule:
 
 @dataclass(frozen=True)
 class Backing:
-    """What lies behind a text: a rectangle that is larger by ``margin`` (pt) on each side."""
+    """Return the background of a text: a rectangle that is larger by ``margin`` (pt) on each side."""
 
     colour: str
     opacity: float

@@ -1,4 +1,4 @@
-"""How fast what a disturbance has changed grows, where it grows steadily: the sign of an unstable loop in a flight."""
+"""Growth of what a disturbance has changed, where it is steady: the sign of an unstable loop in a flight."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ class Refined:
 
     @property
     def remainder(self) -> str:
-        """What is left, in words; empty where the margins are settled."""
+        """Remaining change, in words; empty where the margins are settled."""
         if self.settled:
             return ""
         if not (np.isfinite(self.gain) and np.isfinite(self.phase)):

@@ -20,7 +20,7 @@ ROLES = {"parameter": "ROLE_PARAMETER", "input": "ROLE_INPUT", "output": "ROLE_O
 
 
 def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) -> str:
-    """What the wrapper needs to know: GUID, declared starts, and tables by value reference."""
+    """Facts for the wrapper: GUID, declared starts, and tables by value reference."""
     starts = Lines()
     starts.open("static const Block STARTS = {")
     elements = Lines()
