@@ -4,6 +4,7 @@ Truth: each FMU alone gives the number that is written in its own helper.
 """
 
 import math
+import numbers
 import subprocess
 import sys
 from functools import cache
@@ -149,10 +150,23 @@ def test_an_fmu_that_brings_a_module_of_perilune_got_ours(tmp_path, capsys):
     assert "resources/psutil.py: Perilune has loaded another module psutil, and a process has one only; rename" in line
 
 
-def test_a_module_of_perilune_that_is_equal_flies(tmp_path):
-    """`filelock` would have no number; `this` of the standard library, which no process loads, is the FMU's own."""
+def test_a_module_that_perilune_does_not_load_is_that_of_the_fmu(tmp_path):
+    """`this` of the standard library, which has no number."""
     python_fmu(tmp_path, "one", 3.0, "this")
     assert perilune.simulate(both(tmp_path, "one"))["c0.y"][-1] == 3.0
+
+
+@pytest.mark.parametrize("more", ["", "# changed"])
+def test_a_module_of_perilune_that_is_equal_flies(tmp_path, more):
+    """A copy of a module of the standard library that every process has loaded; a changed one does not."""
+    with ZipFile(python_fmu(tmp_path, "one", 3.0), "a") as archive:
+        archive.writestr("resources/numbers.py", Path(numbers.__file__).read_text() + more)
+    path = both(tmp_path, "one")
+    if more:
+        with pytest.raises(InputError, match="Perilune has loaded another module numbers"):
+            perilune.simulate(path)
+    else:
+        assert perilune.simulate(path)["c0.y"][-1] == 3.0
 
 
 def test_variants_in_children_have_each_their_code(tmp_path):
