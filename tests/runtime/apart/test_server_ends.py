@@ -12,9 +12,10 @@ from perilune.analysis.runtime.apart import resets, servers, simulation
 from perilune.analysis.runtime.apart.opening import open_simulation
 from perilune.analysis.runtime.apart.resets import find_verdict
 from perilune.analysis.runtime.apart.servers import start_server
+from perilune.analysis.runtime.instances.renewal import verdict_in_cache
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
-from tests.support.foreign.odd_fmu import odd_fmu
+from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
 
 pytestmark = [pytest.mark.flies, pytest.mark.skipif(not servers.CAN_FORK, reason="there is no flight server")]
 OPTIONS = SystemOptions(stop_time=1.0, step=0.25)
@@ -68,6 +69,7 @@ def test_servers_that_end_again_and_again_are_reported_without_a_component(opene
 
 
 def test_nothing_is_stored_of_an_fmu_whose_trial_ends_with_the_server(tmp_path, monkeypatch):
+    """Its steps do not end, so that the trial cannot be over before the server is."""
     begin = resets.begin_child
 
     def begin_and_kill(*arguments, **options):
@@ -75,12 +77,12 @@ def test_nothing_is_stored_of_an_fmu_whose_trial_ends_with_the_server(tmp_path, 
         kill_server()
         return child
 
-    (fmu,) = prepare_system(odd_fmu(tmp_path), OPTIONS).network.fmus.values()
+    hanging = odd_fmu(tmp_path, DEED=Deed.HANG, IN=Call.STEP)
+    (fmu,) = prepare_system(hanging, OPTIONS).network.fmus.values()
     monkeypatch.setattr(resets, "begin_child", begin_and_kill)
     with pytest.raises(EndedError, match="the flight server has ended; simulate again"):
         find_verdict(fmu, OPTIONS)
-    monkeypatch.undo()
-    assert find_verdict(fmu, OPTIONS).resets
+    assert verdict_in_cache(fmu) is None
 
 
 def test_a_flight_that_goes_on_from_a_point_is_lost_with_its_server(opened):
