@@ -1,4 +1,4 @@
-"""Draws velocity error over position error of the three published methods: `python -m docs.figures.terminal_comparison`.
+"""Draws velocity error over position error of three methods: `python -m docs.figures.terminal_comparison`.
 
 Figure 5 of Fomichev and Li 2017, from the middle of the box of initial states, and the differences that its claim is
 about: relative difference of the velocity errors of two methods at the same position error, the largest over ranges of

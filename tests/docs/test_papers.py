@@ -18,21 +18,27 @@ CODE = re.compile(r"`([^`]+)`")
 LINK = re.compile(r"\[([^\]]+)\]\(([^)]*)\)")
 FORMULA = re.compile(r"\$[^$]+\$")
 NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?(?![\w.]*\w)")
+
+
+def rows_of(page: Path) -> list[list[str]]:
+    """The entries of each row of a page's table."""
+    table = page.read_text(encoding="utf-8").partition(HEADER)[2].partition("\n\n")[0]
+    return [[cell.strip() for cell in line.strip().strip("|").split(" | ")] for line in table.split("\n")[2:]]
+
+
 ROWS = [
-    pytest.param(page, [cell.strip() for cell in line.strip().strip("|").split(" | ")], id=f"{page.stem} {index}")
-    for page in PAGES
-    for index, line in enumerate(page.read_text(encoding="utf-8").partition(HEADER)[2].partition("\n\n")[0].split("\n")[2:])
-]  # fmt: skip
+    pytest.param(page, entries, id=f"{page.stem} {index}") for page in PAGES for index, entries in enumerate(rows_of(page))
+]
 
 
 def test_each_paper_has_a_page():
     assert [page.stem for page in PAGES] == ["diveev", "fomichev_li"]
 
 
-@pytest.mark.parametrize(("page", "cells"), ROWS)
-def test_a_row_has_a_status_and_what_it_rests_on(page, cells):
-    assert len(cells) == 4, cells
-    where, what, status, here = cells
+@pytest.mark.parametrize(("page", "entries"), ROWS)
+def test_a_row_has_a_status_and_what_it_rests_on(page, entries):
+    assert len(entries) == 4, entries
+    where, what, status, here = entries
     assert where
     assert what
     assert status in STATUSES
@@ -41,25 +47,25 @@ def test_a_row_has_a_status_and_what_it_rests_on(page, cells):
         assert CODE.search(here) or LINK.search(here), here
 
 
-@pytest.mark.parametrize(("page", "cells"), ROWS)
-def test_tests_and_commands_of_a_row_exist(page, cells):
+@pytest.mark.parametrize(("page", "entries"), ROWS)
+def test_tests_and_commands_of_a_row_exist(page, entries):
     """A command is one that a page of the documentation has in a block, where other tests carry it out."""
     known = {command for commands in documented().values() for command in commands}
-    for code in CODE.findall(cells[-1]):
+    for code in CODE.findall(entries[-1]):
         if code.startswith("tests/"):
             assert (ROOT / code.partition("::")[0]).exists(), code
         if code.startswith(("perilune ", "python ")):
             assert any(command.startswith(code) for command in known), code
 
 
-@pytest.mark.parametrize(("page", "cells"), ROWS)
-def test_numbers_of_a_row_stand_on_the_page_that_it_links(page, cells):
-    """Of rows with links: numbers with a point, or of three digits, stand on one of the pages or in the paper's cell."""
-    here = cells[-1]
+@pytest.mark.parametrize(("page", "entries"), ROWS)
+def test_numbers_of_a_row_stand_on_the_page_that_it_links(page, entries):
+    """Numbers with a point, or of three digits, stand on one of the linked pages or in the cell of the paper."""
+    here = entries[-1]
     targets = [target.partition("#")[0] for _, target in LINK.findall(here)]
     if not targets:
         return
-    quoted = " ".join(text_of(page if not name else (page.parent / name).resolve()) for name in targets) + cells[1]
+    quoted = " ".join(text_of(page if not name else (page.parent / name).resolve()) for name in targets) + entries[1]
     plain = FORMULA.sub("", CODE.sub("", LINK.sub(r"\1", here)))
     for number in NUMBER.findall(plain):
         if "." in number or len(number) > 2:

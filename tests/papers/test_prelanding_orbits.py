@@ -26,7 +26,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 def elements(position, velocity):
     """Inclination, node (rad), argument of pericentre (rad), altitudes of pericentre and apocentre (m)."""
-    r = AXES @ (np.asarray(position) + [0.0, 0.0, RADIUS])
+    r = AXES @ np.add(position, [0.0, 0.0, RADIUS])
     v = AXES @ np.asarray(velocity)
     momentum = np.cross(r, v)
     node = np.cross([0.0, 0.0, 1.0], momentum)
@@ -44,7 +44,7 @@ def elements(position, velocity):
     }
 
 
-def test_flights_start_on_the_orbits_that_are_drawn():
+def test_flights_start_on_the_dispersed_orbits():
     trials = 6
     rows = perilune.batch(SYSTEM, CAMPAIGN, trials=trials, stop_time=0.1, workers=1).table().to_pylist()
     for trial, row in enumerate(rows):
