@@ -77,7 +77,7 @@ def method(loop: LoopReport) -> Part:
             ("A compared with B", "largest difference of gain, dB", in_decibels(compared.gain, absolute=True)),
             ("", "largest difference of phase, deg", in_degrees(compared.phase)),
             ("", "compared up to, rad/s", numeral(compared.frequency)),
-            ("", "linearised and measured responses agree", "yes" if compared.agrees else "no"),
+            ("", "responses agree", "yes" if compared.agrees else "no"),
         ]
     return Part("method", "Method", Table(("method", "quantity", "value"), "ttn", rows))
 
@@ -105,16 +105,11 @@ def classical(loop: LoopReport) -> Part:
     else:
         rows.append(("delay margin", NO_CROSSING, "", ""))
     encircled = numeral(margins.encirclements) if margins.encirclements is not None else "not counted"
-    rows.append((f"encirclements of {MINUS}1 (+ counter-clockwise)", encircled, "", ""))
+    rows.append((f"counter-clockwise encirclements of {MINUS}1", encircled, "", ""))
     unstable = numeral(loop.unstable_open) if loop.unstable_open is not None else "not known"
     rows.append(("unstable poles of the open loop", unstable, "", ""))
     rows.append(("closed loop", text_of_closed_loop(loop.stable), "", ""))
-    note = f"Nyquist's criterion: N encirclements of {MINUS}1 and P unstable poles of the open loop leave P {MINUS} N "
-    note += (
-        "unstable closed-loop poles, and stable is P = N. Integrators (z = 1) are passed on the outside: not among P."
-    )
-    if loop.margins.unstable:
-        note = f"The closed loop is unstable: its crossings are not margins. {note}"
+    note = "The closed loop is unstable: its crossings are not margins." if loop.margins.unstable else ""
     return Part("classical", "Classical", Table(("quantity", "value", "unit", "at rad/s"), "tntn", rows), note)
 
 
@@ -130,9 +125,7 @@ def robust(loop: LoopReport) -> Part:
         ("— gain, upper and lower, dB", token or in_decibels(margins.disk_gain, "without limit"), ""),
         ("— phase, deg", token or in_degrees(margins.disk_phase), ""),
     ]
-    note = "Gain and phase may vary simultaneously within the disk margin."
-    if loop.margins.unstable:
-        note = "The closed loop is unstable: peaks of the response bound nothing."
+    note = "The closed loop is unstable: peaks of the response bound nothing." if loop.margins.unstable else ""
     return Part("robust", "Robust", Table(("quantity", "value", "at rad/s"), "tnn", rows), note)
 
 

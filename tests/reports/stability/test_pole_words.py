@@ -11,7 +11,7 @@ import pytest
 from lxml import html
 
 from perilune.analysis.reports.common.quantities import NONE
-from perilune.analysis.reports.stability.parts import classical, modes
+from perilune.analysis.reports.stability.parts import modes
 from perilune.analysis.reports.stability.words import left_out
 from perilune.analysis.stability.loops.encirclements import encirclements
 from perilune.analysis.stability.results.responses import Mode
@@ -55,7 +55,3 @@ def test_a_count_that_is_no_whole_number_is_explained(loop):
     assert words.startswith("Encirclements of \N{MINUS SIGN}1 are not counted: between 0.05 and 3.14159 rad/s")
     assert "The verdict does not rest on the count: the closed loop is stable by its poles, largest |z| 0." in words
     assert "0 times" not in words
-
-
-def test_the_criterion_stands_by_the_count(loop):
-    assert "leave P \N{MINUS SIGN} N unstable closed-loop poles, and stable is P = N" in classical(loop).note

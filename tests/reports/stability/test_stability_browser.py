@@ -3,6 +3,8 @@
 Truth: the page's own figures and colours; the widths that the browser lays out.
 """
 
+import html
+import json
 import re
 from dataclasses import replace
 
@@ -13,7 +15,7 @@ from matplotlib import image
 from perilune.analysis.reports.stability.page import write_stability_page
 from tests.support.lengths import either
 from tests.support.pages.browser import start
-from tests.support.pages.checks import without_policy
+from tests.support.pages.checks import text_of, without_policy
 
 COLOURS = ((0, 114, 178), (213, 94, 0), (0, 158, 115))  # lines of L, limits, circle of the modulus margin
 MEASURE = """<script>
@@ -24,6 +26,9 @@ addEventListener("load", () => {
     element => !inside(element) && !element.closest("svg") && element.getBoundingClientRect().right > innerWidth + 1);
   document.body.dataset.overflow = page.scrollWidth - page.clientWidth;
   document.body.dataset.wide = wide.map(element => element.tagName + "." + element.className).join(" ");
+  const tops = [...document.querySelectorAll(".parts h4")].map(
+    heading => [heading.textContent, Math.round(heading.getBoundingClientRect().top)]);
+  document.body.dataset.tops = JSON.stringify(tops.slice(0, 3));
   document.body.dataset.closed = document.querySelectorAll("details:not([open])").length;
 });
 </script></body>"""
@@ -47,7 +52,7 @@ def few(studies, tmp_path_factory):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("width", "height"), either([(1200, 14000), (400, 30000)], [(1200, 14000)]))
+@pytest.mark.parametrize(("width", "height"), either([(1200, 16000), (400, 30000)], [(1200, 16000)]))
 def test_page_renders_wide_and_narrow(browser, few, tmp_path, width, height):
     size = f"--window-size={width},{height}"
     start(browser, few, tmp_path, size, f"--screenshot={tmp_path / 'page.png'}")
@@ -69,3 +74,20 @@ def test_nothing_overflows_and_no_script_fails(browser, stability_page, tmp_path
     assert re.search(r"<body[^>]* data-closed=\"0\"", dom)
     assert not re.search(r"<body[^>]* data-error", dom)
     assert dom.count('class="figure"') == stability_page.read_text(encoding="utf-8").count('class="figure"') > 20
+
+
+def test_margins_stand_next_to_the_method_they_are_computed_by(browser, few, tmp_path):
+    """Without room for both the page of three loops is 800 px longer."""
+    measured = tmp_path / "measured.html"
+    measured.write_text(few.read_text(encoding="utf-8").replace("</body>", MEASURE), encoding="utf-8")
+    dom = start(browser, measured, tmp_path, "--window-size=1200,2000", "--dump-dom")
+    collected = re.search(r' data-tops="([^"]*)"', dom)
+    assert collected is not None
+    tops = dict(json.loads(html.unescape(collected[1])))
+    assert tops["Method"] == tops["Classical"] < tops["Robust"]
+
+
+def test_what_is_the_same_of_all_loops_is_stated_once(stability_page):
+    text = text_of(stability_page.read_text(encoding="utf-8"))
+    assert text.count("leave P − N unstable closed-loop poles, and stable is P = N") == 1
+    assert text.count("Disk margin: gain and phase may vary simultaneously within it") == 1
