@@ -9,6 +9,7 @@ import numpy as np
 
 from perilune.analysis.campaigns.fly.results import BatchResult
 from perilune.analysis.reports.campaign.distributions import distribution_panels, legend_of, rates_figure
+from perilune.analysis.reports.campaign.embedded_trials import trials_document
 from perilune.analysis.reports.campaign.scatters import failure_panels
 from perilune.analysis.reports.common.page import write_page
 from perilune.analysis.reports.common.panels import both_widths
@@ -66,4 +67,5 @@ def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, p
         looks=legend_of(batch),
         distributions=distribution_panels(batch, [m for m in campaign.metrics if m.name in COMPARED]),
         failures=failure_panels(batch),
+        trials=trials_document(batch),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
 from lxml import etree, html
@@ -15,10 +15,12 @@ from ..variables import Input, Output, Parameter, Variable
 from .manifest import FOLDER
 from .variable_text import bounds_text, sized_name, start_text, unit_text
 
-STYLE = """body { font: 15px/1.5 system-ui, sans-serif; max-width: 64rem; margin: 2rem auto; padding: 0 1rem; }
-table { border-collapse: collapse; }
-th, td { text-align: left; vertical-align: top; padding: 0.2rem 1rem 0.2rem 0; border-bottom: 1px solid #ddd; }
-pre { margin-left: 2rem; }"""
+STYLE = """:root { color-scheme: light dark; }
+body { font: 15px/1.5 system-ui, sans-serif; max-width: 64rem; margin: 2rem auto; padding: 0 1rem; }
+table { border-collapse: collapse; display: block; overflow-x: auto; }
+th, td { text-align: left; vertical-align: top; padding: 0.2rem 1rem 0.2rem 0; border-bottom: 1px solid #8886; }
+pre { margin-left: 2rem; overflow-x: auto; }
+p { overflow-wrap: anywhere; }"""
 VERIFY = "pip install perilune, then perilune verify FILE.fmu reproduces the trajectories of "
 PARAGRAPH = re.compile(r"\n\s*\n|\n(?=Sources?\b|Frames?\b|Equations\b|Assumes\b)")
 SECTIONS = (("Inputs", Input), ("Outputs", Output), ("Parameters", Parameter))
@@ -35,7 +37,13 @@ def block_page(block_class: type[Block]) -> bytes:
         if variables:
             body += [builder.H2(title), _table(variables)]
     body += [builder.H2("Verification"), builder.P(VERIFY, builder.CODE(FOLDER), ", where there are any.")]
-    head = builder.HEAD(builder.META(charset="utf-8"), builder.TITLE(block_class.fmu_name), builder.STYLE(STYLE))
+    return page_of(block_class.fmu_name, body)
+
+
+def page_of(title: str, body: Iterable[etree._Element]) -> bytes:
+    """Return a page of an FMU, which follows the reader's screen and colour scheme."""
+    screen = builder.META(name="viewport", content="width=device-width, initial-scale=1")
+    head = builder.HEAD(builder.META(charset="utf-8"), screen, builder.TITLE(title), builder.STYLE(STYLE))
     page = builder.HTML(head, builder.BODY(*body), lang="en")
     return html.tostring(page, doctype="<!DOCTYPE html>", encoding="utf-8", pretty_print=True)
 
@@ -47,8 +55,14 @@ def _prose(block_class: type[Block]) -> list[etree._Element]:
         if is_equation:
             paragraphs.append(builder.PRE(inspect.cleandoc("\n".join(lines))))
         else:
-            paragraphs += [builder.P(text) for text in PARAGRAPH.split("\n".join(lines)) if text.strip()]
+            paragraphs += [builder.P(*_with_code(text)) for text in PARAGRAPH.split("\n".join(lines)) if text.strip()]
     return paragraphs
+
+
+def _with_code(text: str) -> Iterator[str | etree._Element]:
+    """Yield a text with what stands between backticks as code."""
+    for index, words in enumerate(text.split("`")):
+        yield builder.CODE(words) if index % 2 else words
 
 
 def _is_equation(line: str) -> bool:

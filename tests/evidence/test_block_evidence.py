@@ -19,6 +19,7 @@ from perilune.fmus_src.evidence.check import CheckError, read_check
 from perilune.fmus_src.evidence.manifest import FOLDER, MANIFEST, SUMS
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.paths import shipped_fmu
+from tests.support.pages.narrow import measure
 
 ADDER = '''
 from perilune import Block, Input, Output, Parameter
@@ -28,6 +29,8 @@ class Adder(Block):
     """Adds its input times a gain, once a step.
 
         y_next = y + gain u
+
+    The `gain` is constant.
 
     Source: none.
     """
@@ -122,9 +125,18 @@ def test_the_page_of_a_block(adder, tmp_path):
     assert page.xpath("string(//h1)") == "adder"
     assert page.xpath("string(//pre)") == "y_next = y + gain u"
     assert page.xpath("//p[starts-with(., 'Source')]/text()") == ["Source: none."]
+    assert page.xpath("string(//p[code='gain'])") == "The gain is constant."
     rows = [[cell.text for cell in row] for row in page.iterfind(".//tr")]
     assert ["gain", "Real", "2", "1", "gain < 3 & more"] in rows
     assert ["count", "Integer", None, "steps"] in rows
+
+
+def test_the_page_of_a_block_fits_a_telephone(browser, adder, tmp_path):
+    text = files_of(build_python_fmu(adder, tmp_path / "adder.fmu"))["documentation/index.html"].decode()
+    assert 'name="viewport"' in text
+    assert "color-scheme: light dark" in text
+    (tmp_path / "page.html").write_text(text.replace("what is added", "added_" * 40), encoding="utf-8")
+    assert measure(browser, tmp_path / "page.html", tmp_path).overflow == 0
 
 
 @pytest.mark.parametrize(

@@ -39,6 +39,15 @@ return [...document.querySelectorAll("#show button, #show select, #show label")]
     return [each.textContent.slice(0, 30), left, right, height];
   });
 """
+WRITTEN = """
+const write = CanvasRenderingContext2D.prototype.fillText;
+window.written = [];
+CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+  const wide = this.measureText(text).width, start = { center: wide / 2, right: wide }[this.textAlign] ?? 0;
+  window.written.push([text, x - start, x - start + wide, this.canvas.clientWidth]);
+  write.call(this, text, x, y);
+};
+"""
 SELECTED = """
 return [...document.querySelectorAll(".summary tbody tr")].map((row) =>
   [...row.querySelectorAll("td.n")].slice(0, 3).map((each) => Number(each.textContent)));
@@ -129,6 +138,18 @@ def test_a_campaign_is_explored(browser, campaign_folder, table):
         reset = next(each for each in driver.find_elements(By.TAG_NAME, "button") if each.text == "Select all trials")
         driver.execute_script("arguments[0].click()", reset)
         WebDriverWait(driver, 30).until(lambda each: selected(each) == whole)
+
+
+def test_ticks_stand_whole_on_their_canvas(browser, campaign_folder):
+    """As a canvas is asked to write them when it is drawn for another choice of variants."""
+    with showing([campaign_folder]) as (address, _), driven(browser, address) as driver:
+        driver.execute_script(WRITTEN)
+        whole = selected(driver)
+        driver.execute_script("document.querySelector('.summary input').click()")
+        wait_for_change(driver, whole)
+        written = driver.execute_script("return window.written")
+        assert len(written) > 20
+        assert all(left >= 0.0 and right <= width for _, left, right, width in written), written
 
 
 def test_on_a_telephone(browser, campaign_folder, table):

@@ -4,7 +4,7 @@ import type uPlot from "uplot";
 
 import type { Chart, Marker, Note, Page, Rule, Values } from "../page/document";
 import { type Series, lowerBound } from "./series";
-import { fontOf } from "./ticks";
+import { FAINT, fontOf } from "./ticks";
 
 const NEAR = 0.4; // px, nearer points of a path are one
 
@@ -99,6 +99,7 @@ export function drawAbove(plot: uPlot, chart: Chart, all: Series[], layers: Laye
     }
     context.globalAlpha = 1;
   });
+  drawSpines(plot, size);
   for (const series of shown) {
     const { marker, beyond, opacity } = series.curve;
     plot.ctx.save();
@@ -110,6 +111,21 @@ export function drawAbove(plot: uPlot, chart: Chart, all: Series[], layers: Laye
     const ofRange = note.of_axes[0] && note.of_axes[1]; // it speaks of the range as drawn
     if (!ofRange || isWhole) drawNote(plot, note, to, size);
   }
+}
+
+// The lines at the left and at the bottom, over the grid, whose lines may end there.
+function drawSpines(plot: uPlot, size: number): void {
+  const { ctx, bbox: { left, top, width, height } } = plot;
+  ctx.save();
+  stroke(ctx, FAINT, 0.7, [], size);
+  const shift = (Math.round(ctx.lineWidth) % 2) / 2; // as the canvas has whole pixels
+  ctx.translate(shift, shift);
+  ctx.beginPath();
+  ctx.moveTo(left, top);
+  ctx.lineTo(left, top + height);
+  ctx.lineTo(left + width, top + height);
+  ctx.stroke();
+  ctx.restore();
 }
 
 function drawNote(plot: uPlot, note: Note, to: Positions, size: number): void {

@@ -72,12 +72,10 @@ export class Figure {
     this.frame.classList.add("drawn"); // from now on the picture is hidden
   }
 
-  // Shows or hides the lines of a position in the legend.
-  show(index: number, shown: boolean): void {
+  // Hides the lines of which it says so, by their name and number, and shows the others.
+  hide(hides: (name: string, line: number) => boolean): void {
     for (const plot of this.plots) {
-      const series = plot.series[index];
-      if (!series) continue;
-      series.hidden = !shown;
+      plot.series.forEach((series, line) => (series.hidden = hides(series.curve.name ?? "", line)));
       plot.redraw();
     }
     this.showValues();
@@ -111,7 +109,7 @@ export function describePlot(plot: Plot, at: number): [text: string, colour: str
     if (row === null) return [];
     const { name = "", unit = "", colour } = each.curve;
     const value = plot.isPath ? `(${each.at(row)})` : `${each.text(row)}${unit && ` ${unit}`}`;
-    const label = shown.length > 1 ? (/\[[\d,]+\]$/.exec(name)?.[0] ?? name) : "";
+    const label = shown.length > 1 ? (/(?:^\w+ )?\[[\d,]+\]$/.exec(name)?.[0] ?? name) : "";
     return [[label ? `${label} ${value}` : value, colour]];
   });
 }

@@ -6,14 +6,17 @@ export function listenToLegends(figureOf: (picture: Element) => Promise<Figure |
   for (const legend of document.querySelectorAll(".legend")) {
     const below = picturesBelow(legend);
     if (!below.length) continue;
-    legend.querySelectorAll<HTMLElement>(".who").forEach((entry, index) => {
+    const entries = [...legend.querySelectorAll<HTMLElement>(".who")];
+    const hides = (name: string, line: number) =>
+      entries.some((entry, index) => entry.getAttribute("aria-pressed") === "false" && isFor(entry, index, name, line));
+    entries.forEach((entry) => {
       entry.setAttribute("role", "button");
       entry.setAttribute("aria-pressed", "true");
       entry.tabIndex = 0;
       const toggle = async () => {
         const shown = entry.getAttribute("aria-pressed") !== "true";
         entry.setAttribute("aria-pressed", String(shown));
-        for (const picture of below) (await figureOf(picture))?.show(index, shown);
+        for (const picture of below) (await figureOf(picture))?.hide(hides);
       };
       entry.addEventListener("click", () => void toggle());
       entry.addEventListener("keydown", (event) => {
@@ -23,6 +26,13 @@ export function listenToLegends(figureOf: (picture: Element) => Promise<Figure |
       });
     });
   }
+}
+
+// An entry is for the line of its number, or for those that begin with a run or end with an index of its data-lines.
+function isFor(entry: HTMLElement, index: number, name: string, line: number): boolean {
+  const keys = entry.dataset.lines?.split(" ");
+  if (!keys) return index === line;
+  return keys.some((key) => (key.startsWith("[") ? name.endsWith(key) : name === key || name.startsWith(`${key} `)));
 }
 
 function picturesBelow(legend: Element): Element[] {

@@ -6,7 +6,7 @@ import type { Axis } from "../page/document";
 import { format } from "../page/numbers";
 import { linearSplits, logarithmicSplits } from "./splits";
 
-const [INK, FAINT, GRID] = ["#222222", "#6b6b6b", "#dddddd"]; // as analysis/reports/common/colours.py;
+export const [INK, FAINT, GRID] = ["#222222", "#6b6b6b", "#dddddd"]; // as analysis/reports/common/colours.py;
 const SUPERSCRIPTS = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
 const [FEW, MANY] = [6, 15]; // digits of a number
 
@@ -41,7 +41,7 @@ export function axisOptions(axis: Axis, size: number, space: number, point: numb
     values,
     grid: { filter: all, show: axis.grid ?? false, stroke: GRID, width: 0.6 * point },
     ticks: { filter: all, show: axis.marked ?? false, stroke: FAINT, width: 0.8 * point, size: 3.5 * point },
-    border: { show: true, stroke: FAINT, width: 0.7 * point },
+    border: { show: false }, // drawn over grids and lines by `drawAbove`
   };
 }
 

@@ -76,7 +76,7 @@ export class Canvas {
       this.line(x, top, x, top + height, "grid");
       const text = format(tick * factor, digits);
       const half = this.context.measureText(text).width / 2;
-      const middle = Math.min(x, this.element.clientWidth - half);
+      const middle = Math.max(half, Math.min(x, this.element.clientWidth - half));
       if (middle - half < end + 8) continue;
       this.context.fillStyle = colour("faint");
       this.context.fillText(text, middle, top + height + 5);

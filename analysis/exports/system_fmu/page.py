@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from lxml import etree, html
+from lxml import etree
 from lxml.html import builder
 
-from ....fmus_src.evidence.page import STYLE
+from ....fmus_src.evidence.page import page_of
 from .model import SystemModel
 from .parameter_sets import OtherSets
 from .variables import FmuVariable
@@ -58,9 +58,7 @@ def system_page(
         variables = [each for each in declared if each.causality == causality]
         if variables:
             body += [builder.H2(title), _table(["name", "type", "start", "unit", "description"], map(_row, variables))]
-    head = builder.HEAD(builder.META(charset="utf-8"), builder.TITLE(name), builder.STYLE(STYLE))
-    page = builder.HTML(head, builder.BODY(*body), lang="en")
-    return html.tostring(page, doctype="<!DOCTYPE html>", encoding="utf-8", pretty_print=True)
+    return page_of(name, body)
 
 
 def _conditions(model: SystemModel, dependencies: Mapping[str, Sequence[str]]) -> list[str]:

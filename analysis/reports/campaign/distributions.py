@@ -203,5 +203,5 @@ def _draw_rate(axes: Axes, index: int, name: str, rate_and_ends: tuple[float, fl
     if not slim:
         axes.annotate(label, (1.02, index), xycoords=where, va="center")
         return
-    for text, x, side in ((name, 0.0, "left"), (label, 1.0, "right")):
+    for text, x, side in ((name, 0.01, "left"), (label, 1.0, "right")):
         axes.annotate(text, (x, index - 0.32), xycoords=where, ha=side, va="bottom", fontsize=8.5)

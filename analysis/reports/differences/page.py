@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
 from typing import NamedTuple
@@ -16,12 +16,12 @@ from ..common.page import write_page
 from ..common.panels import HALF_WIDTH, Panel, panel, swatch
 from ..common.quantities import display_factor, display_unit, label_with_unit
 from ..common.signals import INDEXED, vector_of
-from ..common.style import COLOURS, DASHES, Look, plain_ticks
+from ..common.style import COLOURS, DASHES, INK, Look, plain_ticks
 from ..interactive.lines import QuantityLine
 
 PLOTTED = 24  # signals and vectors that are plotted
 HEIGHT = 1.9  # in, of a panel
-FIRST, SECOND = (Look(COLOURS[0], dashes, "") for dashes in DASHES[:2])
+FIRST, SECOND = (Look(INK, dashes, "") for dashes in DASHES[:2])
 
 
 class Row(NamedTuple):
@@ -42,13 +42,19 @@ def write_differences_page(runs: RunDifferences, statements: Sequence[str], path
     for each in runs.differing:
         vectors.setdefault(vector_of(each.name), []).append(each)
     plotted = list(vectors.items())[:PLOTTED]
+    palette = _palette(each.name for _, group in plotted for each in group)
     write_page(
         path,
         Path(__file__).with_name("differences.html"),
         title="Differences of two runs",
         statements=statements,
-        looks=_legend(),
-        panels=[each for index, (name, group) in enumerate(plotted) for each in _panels(index, name, group, runs.time)],
+        runs=[(swatch(look), name) for look, name in ((FIRST, "first"), (SECOND, "second"))],
+        elements=_element_legend(palette),
+        panels=[
+            each
+            for index, (name, group) in enumerate(plotted)
+            for each in _panels(index, name, group, runs.time, palette)
+        ],
         left_out=len(vectors) - len(plotted),
         rows=[
             Row(each, float(runs.time[each.row]), float(each.first[each.row]), float(each.second[each.row]))
@@ -58,23 +64,39 @@ def write_differences_page(runs: RunDifferences, statements: Sequence[str], path
     )
 
 
-def _legend() -> list[tuple[Markup, str]]:
-    return [(swatch(FIRST), "first"), (swatch(SECOND), "second")]
+def _palette(names: Iterable[str]) -> dict[str, str]:
+    """Return the colour of every index that an element of a plotted vector has, the same in all panels."""
+    indices = sorted(
+        {_index(name) for name in names} - {""}, key=lambda index: [int(each) for each in index.split(",")]
+    )
+    return dict(zip(indices, cycle(COLOURS), strict=False))
 
 
-def _panels(index: int, name: str, elements: Iterable[SignalDifference], time: np.ndarray) -> list[Panel]:
+def _element_legend(palette: Mapping[str, str]) -> list[tuple[Markup, list[str]]]:
+    """Return each colour with the indices of elements that have it."""
+    indices: dict[str, list[str]] = {}
+    for index, colour in palette.items():
+        indices.setdefault(colour, []).append(f"[{index}]")
+    return [(swatch(Look(colour, DASHES[0], "")), those) for colour, those in indices.items()]
+
+
+def _panels(
+    index: int, name: str, elements: Iterable[SignalDifference], time: np.ndarray, palette: Mapping[str, str]
+) -> list[Panel]:
     """A signal or a vector in both runs, and its difference."""
     ordered = sorted(elements, key=lambda each: each.name)
     unit = ordered[0].unit
 
     def draw_both(axes: Axes) -> None:
-        for colour, each in zip(cycle(COLOURS), ordered, strict=False):
+        for each in ordered:
+            colour = palette.get(_index(each.name), COLOURS[0])
             for which, values, dashes in (("first", each.first, DASHES[0]), ("second", each.second, DASHES[1])):
-                _add_line(axes, time, values, f"{which} {_index(each.name)}".strip(), unit, colour, dashes)
+                _add_line(axes, time, values, f"{which} {each.name.removeprefix(name)}".strip(), unit, colour, dashes)
         _finish(axes)
 
     def draw_difference(axes: Axes) -> None:
-        for colour, each in zip(cycle(COLOURS), ordered, strict=False):
+        for each in ordered:
+            colour = palette.get(_index(each.name), COLOURS[0])
             _add_line(axes, time, each.difference, each.name, unit, colour, DASHES[0])
         _finish(axes)
 

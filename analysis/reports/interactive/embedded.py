@@ -28,8 +28,13 @@ class Embedded:
         self._requests = False
 
     def add_figure(self, charts: Sequence[Chart]) -> int | None:
-        """The number of a figure, by which its element names it; None where scripts are missing."""
+        """Return the number of a figure, by which its element names it.
+
+        None where scripts are missing, or where marks of trials are in it without the document that has their places.
+        """
         if not charts or not self.use("curves"):
+            return None
+        if "trials" not in self._documents and any(chart.dots for chart in charts):
             return None
         self._figures.append(self._plain(charts))
         return len(self._figures) - 1

@@ -47,9 +47,15 @@ def _frame(axes: Axes, centre: float, half: float, shape: float = SHAPE) -> None
     axes.set_aspect("equal")
     axes.set_xlim(centre - shape * half, centre + shape * half)
     axes.set_ylim(-half, half)
-    plain_ticks(axes, x=5, y=5)
+    plain_ticks(axes, x=_intervals(2.0 * shape * half), y=5)
     axes.set_title("imaginary", loc="left", fontsize=8.5)
     axes.set_xlabel("real")
+
+
+def _intervals(width: float) -> int:
+    """Return the number of intervals whose labels have room side by side: near z = 1 they have many decimals."""
+    decimals = max(1, math.ceil(-math.log10(width / 5)))
+    return max(2, min(5, 30 // (decimals + 2)))
 
 
 def _near_one(poles: np.ndarray, near: float = NEAR, shape: float = SHAPE) -> tuple[float, float]:

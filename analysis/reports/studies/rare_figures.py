@@ -282,7 +282,7 @@ def draw_intervals(axes: Axes, rows: list[Equivalent], probability: float | None
             axes.plot(left * 1.02, index, "<", color=colour, markersize=6, clip_on=False)
         label = f"{row.label}: {number(row.simulations, 3)} simulations"
         if slim:
-            axes.annotate(label, (0.0, index - 0.28), xycoords=("axes fraction", "data"), fontsize=8.5, va="bottom")
+            axes.annotate(label, (0.01, index - 0.28), xycoords=("axes fraction", "data"), fontsize=8.5, va="bottom")
     if probability is not None:
         axes.axvline(probability, color=INK, linewidth=1.0, linestyle=(0, (4, 2)))
     names = [f"{row.label} ({number(row.simulations, 3)})" for row in rows]

@@ -129,7 +129,7 @@ def draw_search(axes: Axes, result: WorstResult) -> None:
     axes.set_xlabel("point of the search")
     axes.set_title(objective.label, loc="left", fontsize=8.5, pad=18)
     plain_ticks(axes, x=6, y=5)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=4, handletextpad=0.2, columnspacing=1.0)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=4, handletextpad=0.6, columnspacing=1.2)
 
 
 def trials_panel(result: WorstResult) -> Panel:
@@ -241,7 +241,7 @@ def draw_box(axes: Axes, lanes: list[Lane], slim: bool) -> None:
                   label=label, clip_on=False)  # fmt: skip
         label = "worst case" if index == 0 else None
         axes.plot(lane.at(lane.worst), index, "D", markersize=6, color=VERMILION, label=label, clip_on=False, zorder=4)
-        offset = -0.3 if slim else -0.22
+        offset = -0.3 if slim else -0.26
         for x, text, side in ((0.0, lane.low, "left"), (1.0, lane.high, "right")):
             axes.annotate(
                 number(text * display_factor(lane.unit), 6), (x, index + offset), ha=side, va="bottom", fontsize=8.0,

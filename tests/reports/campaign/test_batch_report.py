@@ -124,6 +124,19 @@ def test_angles_are_in_degrees_on_screen(result, page):
     assert "tilt, deg" in text_of(page)
 
 
+def test_units_of_dispersed_parameters_are_stated(page):
+    """They are those of the campaign, while metrics are in degrees."""
+    text = text_of(page)
+    assert "As the campaign declares them, in SI units." in text
+    assert "Angles of metrics are displayed in degrees." in text
+
+
+def test_what_only_scripts_can_do_is_promised_only_with_them(page):
+    (promise,) = parse(page).xpath("//p[contains(., 'a click pins it')]/..")
+    assert {"screen", "answers"} <= set(promise.get("class").split())
+    assert re.search(r"@media not \(scripting: enabled\) {\s*\.answers { display: none; }", page)
+
+
 def test_failures_at_both_ends_are_told_by_the_draw_that_causes_them(result):
     scores = influence_on_success(result, "shaky")
     assert next(iter(scores)) == "offset"

@@ -1,7 +1,9 @@
 """Every figure of every kind of page says with scripts what its picture says without.
 
 Truth: the picture, as matplotlib drew it: its texts and where they stand, its lines at ten instants, its ink. Which
-figures remain pictures is stated here.
+figures remain pictures is stated here, and which kind of page has which template: a template that is added to the
+product is named as untested until there is a kind with it. Pages inside FMUs have no figure; of laws there is no page
+but a drawing, and of results in notebooks one picture.
 """
 
 import functools
@@ -11,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from docs.figures.demo import fly
 from perilune.analysis.design.trajectories.hover_study import hover_study
 from perilune.analysis.design.trajectories.landing_study import landing_study
 from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_VEHICLE
@@ -20,6 +23,7 @@ from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.differences.page import write_differences_page
 from perilune.analysis.reports.plan_pages import write_hover_page, write_landing_page
 from perilune.analysis.reports.run_report import write_run_report
+from perilune.fmus_src.paths import ROOT
 from tests.reports.test_plan_pages import LANDER, LANDING
 from tests.support.lengths import either
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses
@@ -79,7 +83,10 @@ def write_bound(request, page):
 
 def write_differences(request, page):
     time = np.linspace(0.0, 10.0, 101)
-    runs = [RecordedRun("run", "", time, {"h": np.sin(turn * time)}, {"h": "m"}, frozenset()) for turn in (1.0, 1.1)]
+    runs = []
+    for turn in (1.0, 1.1):
+        signals = {"h": np.sin(turn * time), "v[1]": 0.0 * time, "v[2]": turn * time, "v[3]": turn - time}
+        runs.append(RecordedRun("run", "", time, signals, dict.fromkeys(signals, "m"), frozenset()))
     write_differences_page(compare_runs(*runs), [], page)
 
 
@@ -93,6 +100,11 @@ def write_many_trials(request, page):
 
 def write_recorded(request, page):
     page.write_bytes((request.getfixturevalue("recorded") / "page.html").read_bytes())
+
+
+def write_demo(request, page):
+    request.getfixturevalue("fmus")
+    page.write_bytes(fly(page.parent / "demo", 24).read_bytes())
 
 
 # Each kind of page with the beginnings of the names of figures that remain pictures.
@@ -110,8 +122,30 @@ KINDS = {
     write_bound: ARROWS,
     write_differences: [],
 }
-SHIPPED = {write_landing: ["Phases"], write_many_trials: [], write_recorded: []}  # pages of our systems
+SHIPPED = {  # pages of our systems
+    write_landing: ["Phases"],
+    write_many_trials: [],
+    write_recorded: [],
+    write_demo: ["A landing from the side"],
+}
 PAGES = either(KINDS | SHIPPED, KINDS)
+
+
+TEMPLATES = {
+    "run_report.html": [write_run, write_own, write_mission, write_landing],
+    "batch_report.html": [write_batch, write_many_trials, write_recorded],
+    "comparison.html": [write_comparison],
+    "stability.html": [write_stability],
+    "rare.html": [write_rare],
+    "worst.html": [write_worst],
+    "sensitivity.html": [write_sensitivity],
+    "hover_transfer.html": [write_transfer],
+    "landing_bound.html": [write_bound],
+    "differences.html": [write_differences],
+    "demo.html": [write_demo],
+    "system.html": [],  # a block diagram, the same with scripts: tests/reports/diagram
+    "show.html": [],  # without scripts it has no figure: tests/show
+}
 
 
 @pytest.fixture(scope="module", params=either([False, True], [False]), ids=lambda phone: "390" if phone else "1400")
@@ -130,3 +164,11 @@ def test_figures_say_what_their_pictures_say(request, reader, tmp_path, write):
     assert all(stated.values()), stated
     assert sorted(functools.reduce(operator.iadd, stated.values(), [])) == sorted(compared.pictures)
     assert compared.marks > 0 or write is write_sensitivity
+
+
+def test_every_template_of_a_page_has_its_kinds():
+    folders = [ROOT / name for name in ("analysis", "docs", "fmus_src")]
+    templates = [path for folder in folders for path in folder.rglob("*.html")]
+    pages = [path.name for path in templates if '{% extends "base.html" %}' in path.read_text(encoding="utf-8")]
+    assert sorted(pages) == sorted(TEMPLATES)
+    assert set().union(*TEMPLATES.values()) == set(KINDS | SHIPPED)

@@ -89,5 +89,5 @@ def test_margins_stand_next_to_the_method_they_are_computed_by(browser, few, tmp
 
 def test_what_is_the_same_of_all_loops_is_stated_once(stability_page):
     text = text_of(stability_page.read_text(encoding="utf-8"))
-    assert text.count("leave P − N unstable closed-loop poles, and stable is P = N") == 1
+    assert text.count("leave P \N{MINUS SIGN} N unstable closed-loop poles, and stable is P = N") == 1
     assert text.count("Disk margin: gain and phase may vary simultaneously within it") == 1

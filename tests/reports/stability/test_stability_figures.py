@@ -6,18 +6,21 @@ Truth: python-control's margins and responses of the tiny systems that were stud
 import math
 import re
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from perilune.analysis.reports.common.panels import PANEL_WIDTH
 from perilune.analysis.reports.common.quantities import NONE
-from perilune.analysis.reports.common.style import FAINT, VERMILION
+from perilune.analysis.reports.common.style import FAINT, VERMILION, house_style, new_figure
 from perilune.analysis.reports.stability.bode import draw_bode
+from perilune.analysis.reports.stability.figures import HEIGHT
 from perilune.analysis.reports.stability.frequency import beside, draw_sensitivity, limits_of, phase_of
 from perilune.analysis.reports.stability.nyquist import draw_harmonic_balance, draw_nichols, draw_nyquist
 from perilune.analysis.reports.stability.parts import modes
-from perilune.analysis.reports.stability.poles import thin
+from perilune.analysis.reports.stability.poles import draw_poles, thin
 from perilune.analysis.reports.stability.sets import draw_histogram, draw_sweep
 from perilune.analysis.reports.stability.words import complex_number, in_decibels, numeral
 from perilune.analysis.stability.loops.margin_values import Quantity
@@ -167,6 +170,26 @@ def test_harmonic_balance_meets_where_the_gain_margin_is(studies):
     assert len(marks) == 2
     for mark in marks:
         assert mark.get_xdata()[0] == pytest.approx(-1.0 / loop.classical.gain_margin.value, rel=1e-2)
+
+
+@pytest.mark.parametrize("distance", [0.3, 0.05, 1e-3, 1e-5, 1e-7])
+def test_ticks_near_1_do_not_touch(report, distance):
+    """The labels have as many decimals as the distance needs; a panel of the page has room for two at least."""
+    poles = 1.0 - distance * np.array([1.0, 0.4 + 0.3j, 0.4 - 0.3j])
+    loop = replace(report.loops[0], modes=(), poles_z=poles)
+    with house_style():
+        figure = new_figure(HEIGHT, PANEL_WIDTH)
+        axes = figure.subplots()
+        draw_poles(loop, axes, near=True)
+        figure.canvas.draw()
+        low, high = axes.get_xlim()
+        boxes = [
+            text.get_window_extent()
+            for at, text in zip(axes.get_xticks(), axes.get_xticklabels(), strict=True)
+            if low <= at <= high
+        ]
+    assert len(boxes) >= 2
+    assert all(one.x1 + 2.0 < other.x0 for one, other in pairwise(boxes))
 
 
 def test_clouds_are_thinned_without_losing_their_outline():
