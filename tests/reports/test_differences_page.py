@@ -38,9 +38,9 @@ def test_the_legend_names_runs_and_elements(page):
     colours = [entry.xpath(".//*[local-name()='line']/@stroke")[0] for entry in legend]
     assert colours == [INK, INK, COLOURS[0], COLOURS[1]]
     (vector,) = root.xpath("//*[@aria-label='v in both runs over time']")
-    drawn = html.tostring(vector).decode().upper()
-    assert all(colour in drawn for colour in COLOURS[:2])
-    assert COLOURS[2] not in drawn
+    picture = html.tostring(vector).decode().upper()
+    assert all(colour in picture for colour in COLOURS[:2])
+    assert COLOURS[2] not in picture
 
 
 @pytest.mark.usefixtures("fmus")

@@ -41,7 +41,7 @@ export function axisOptions(axis: Axis, size: number, space: number, point: numb
     values,
     grid: { filter: all, show: axis.grid ?? false, stroke: GRID, width: 0.6 * point },
     ticks: { filter: all, show: axis.marked ?? false, stroke: FAINT, width: 0.8 * point, size: 3.5 * point },
-    border: { show: false }, // drawn over grids and lines by `drawAbove`
+    border: { show: false }, // `drawAbove` strokes them over grids and lines
   };
 }
 
