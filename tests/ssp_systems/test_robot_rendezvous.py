@@ -104,3 +104,19 @@ def test_both_gyro_steerings_fly_the_turn():
         error = np.abs(vector(flight, "monitor.attitude_error"))[flight.time >= 1420.0]
         actual[steering] = np.max(error) * 648000 / np.pi
     assert max(actual.values()) < 2.0
+
+
+def test_a_turn_of_least_time_needs_less_momentum_of_the_gyros():
+    """J about the turn's axis times the largest rate, 0.03 rad/s or that of the polynomial, 2.0736 angle/time."""
+    axis = np.cross([1.0, 0.0, 0.0], spin := np.array([-0.608, 0.228, 0.760]))
+    angle = np.arccos(spin[0] / np.linalg.norm(spin))
+    inertia = np.linalg.norm(np.array([812.0, 587.0, 910.0]) * axis / np.linalg.norm(axis))
+    for guidance, rate in (
+        ("rendezvous_guidance", 2.0736 * angle / 100.0),
+        ("rendezvous_guidance_jerk_limited", 0.03),
+    ):
+        flight = perilune.simulate(SYSTEM, parameters=["best.ssv"], use={"guidance": guidance}, stop_time=1600.0)
+        momentum = np.linalg.norm(vector(flight, "robot.gyro_momentum"), axis=1).max() / 30.0
+        assert momentum == pytest.approx(inertia * rate / 30.0, rel=1e-3)
+        error = np.abs(vector(flight, "monitor.attitude_error"))[flight.time >= 1420.0]
+        assert np.max(error) * 648000 / np.pi < 2.0
