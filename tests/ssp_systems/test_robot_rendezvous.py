@@ -120,3 +120,20 @@ def test_a_turn_of_least_time_needs_less_momentum_of_the_gyros():
         assert momentum == pytest.approx(inertia * rate / 30.0, rel=1e-3)
         error = np.abs(vector(flight, "monitor.attitude_error"))[flight.time >= 1420.0]
         assert np.max(error) * 648000 / np.pi < 2.0
+
+
+def test_the_published_start_is_outside_of_the_published_cone():
+    """Angles between 500 m at 20 deg and the velocity as printed, by numpy; later the plan leads into the cone."""
+    flight = perilune.simulate(SYSTEM)
+    velocity = np.array([-0.05, 0.05, 0.075])
+    robot = -np.array([np.cos(np.radians(20.0)), np.sin(np.radians(20.0)), 0.0])
+    from_reversed = np.degrees(np.arccos(robot @ -velocity / np.linalg.norm(velocity)))
+    assert from_reversed == pytest.approx(106.9, abs=0.05)
+    assert 180.0 - from_reversed == pytest.approx(73.1, abs=0.05)
+    angles = np.degrees(flight["monitor.cone_angle"])
+    assert angles[0] == pytest.approx(from_reversed, abs=1e-9)
+    assert set(flight["monitor.closing_start"]) == {2}
+    entry = np.argmax(angles <= 60.0)
+    assert flight.time[entry] == pytest.approx(3039.0, abs=0.5)
+    assert flight["monitor.range"][entry] == pytest.approx(40.4, abs=0.1)
+    assert angles[-1] == pytest.approx(16.5, abs=0.05)
