@@ -34,10 +34,11 @@ class Panel:
 
 @dataclass(frozen=True)
 class SystemPicture:
-    """The panels of a system's picture and the options of the simulation behind it."""
+    """The panels of a system's picture, row by row, and the options of its simulation."""
 
     panels: Sequence[Panel]
     options: Mapping[str, Any] = field(default_factory=dict)
+    rows: int = 1
 
 
 def over_time(signal: str, factor: float = 1.0, less: str | None = None) -> Callable[[Result], Curve]:
@@ -48,6 +49,16 @@ def over_time(signal: str, factor: float = 1.0, less: str | None = None) -> Call
         return flight.time, factor * values
 
     return curve
+
+
+def before_last(signal: str, factor: float = 1.0) -> Callable[[Result], Curve]:
+    """A command over time, times ``factor``, without the sample after which nothing is flown."""
+    return lambda flight: (flight.time[:-1], factor * flight[signal][:-1])
+
+
+def after_first(signal: str) -> Callable[[Result], Curve]:
+    """A signal of the last step over time, without the start, before which there is none."""
+    return lambda flight: (flight.time[1:], flight[signal][1:])
 
 
 def against(x: str, y: str, factor: float = 1e-3) -> Callable[[Result], Curve]:
@@ -81,7 +92,13 @@ PICTURES = {
             Panel(TIME, "altitude, km", {"": over_time("plant.altitude", 1e-3)}),
             Panel(TIME, "speed, m/s", {"": over_time("plant.speed")}),
             Panel(TIME, "flight-path angle, deg", {"": over_time("plant.path_angle", DEG)}),
-        )
+            Panel(TIME, "central angle, deg", {"": over_time("plant.central_angle", DEG)}),
+            Panel(TIME, "thrust angle, deg", {"": before_last("guidance.thrust_angle", DEG)}),
+            Panel(TIME, "thrust, kN", {"": before_last("guidance.thrust", 1e-3)}),
+            Panel(TIME, "mass, kg", {"": over_time("plant.mass")}),
+            Panel(TIME, "load factor", {"": after_first("plant.load_factor")}),
+        ),
+        rows=2,
     ),
     "hover_transfer": SystemPicture(
         (
@@ -148,9 +165,10 @@ PICTURES = {
 
 
 def system_figure(picture: SystemPicture, flight: Result) -> Figure:
-    """The panels of a picture next to each other."""
-    figure = new_figure(2.5, 3.4 * len(picture.panels) * 0.88)
-    panels = figure.subplots(1, len(picture.panels), squeeze=False).flatten()
+    """The panels of a picture in its rows."""
+    columns = len(picture.panels) // picture.rows
+    figure = new_figure(2.5 * picture.rows, 3.4 * columns * 0.88)
+    panels = figure.subplots(picture.rows, columns, squeeze=False).flatten()
     for axes, panel in zip(panels, picture.panels, strict=True):
         _draw(axes, panel, flight)
     return figure

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -56,9 +57,10 @@ def build_site(output: Path, sources: Path) -> None:
         raise InputError(name, "navigation", "the page is not in it", f"list it in {SETTINGS.relative_to(TOP)}")
     (sources / "mkdocs.yml").write_text(json.dumps(settings), encoding="utf-8")  # JSON is YAML
     command = [sys.executable, "-m", "zensical", "build", "--strict", "--config-file", "mkdocs.yml"]
-    done = subprocess.run(command, cwd=sources, capture_output=True, text=True, check=False)
+    plain = {**os.environ, "NO_COLOR": "1"}
+    done = subprocess.run(command, cwd=sources, capture_output=True, text=True, check=False, env=plain)
     if done.returncode:
-        print(done.stdout, file=sys.stderr)
+        print(done.stdout, done.stderr.partition("Traceback")[0], file=sys.stderr)
         reason = (done.stderr.strip().splitlines() or ["no reason given"])[-1]
         raise InputError("docs", "zensical build", reason, "fix the places listed above")
     shutil.move(sources / "site", output)

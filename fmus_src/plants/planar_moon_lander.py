@@ -55,6 +55,9 @@ class PlanarMoonLander(Block):
     central_angle = Output(0.0, unit="rad", description="angle flown over the Moon")
     mass = landing.MASS.output(start=940.0)
     ground_contact = landing.GROUND_CONTACT.output()
+    load_factor = Output(
+        0.0, unit="1", description="thrust over mass and standard gravity, at the end of the last step"
+    )
     motion = State(PlanarMotion)
 
     def initialize(self) -> None:
@@ -92,6 +95,7 @@ class PlanarMoonLander(Block):
             flow = 0.0
         self.motion = runge_kutta_4(self.derivatives, 0.0, self.motion, h, force, flow)
         self.mass = self.mass - h * flow
+        self.load_factor = force / (STANDARD_GRAVITY * self.mass)
 
     def publish(self) -> None:
         """Outputs of the motion; the path angle is the one nearest to the last, and stays where speed is 0."""

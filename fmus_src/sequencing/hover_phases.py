@@ -35,9 +35,12 @@ class HoverPhases(LandingSequence, interface=True):
     )
 
     def begin_first_hover(self) -> None:
-        """Capture the hover over the site."""
+        """Capture the hover over the site; a flight that starts here holds until its first inputs are known."""
         self.target_position = above_site(self.site, self.preliminary_altitude, self.moon_radius)
-        self.request_plan(HoverMode.CAPTURE)
+        if self.since_start(self.sampled_time) < 0.0:
+            self.request_plan(HoverMode.CAPTURE)
+        else:
+            self.request_plan(HoverMode.HOLD)
 
     def move_site_ahead(self, time: float) -> None:
         """The site below the place that lookahead of the velocity leads to."""
@@ -63,7 +66,9 @@ class HoverPhases(LandingSequence, interface=True):
         return False
 
     def first_hover(self, t: float, ahead: float) -> bool:
-        """Capture, then choose."""
+        """Capture, unless the flight starts at rest here, then choose."""
+        if self.hover_mode == HoverMode.HOLD and self.since_start(t) < ROUNDING and not self.is_settled():
+            self.request_plan(HoverMode.CAPTURE)
         if self.plan_end < 0.0 and self.plan_is_over():
             self.plan_end = t
         if self.plan_end < 0.0:

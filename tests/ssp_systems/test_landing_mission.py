@@ -7,6 +7,7 @@ stands here as a regression.
 """
 
 import math
+import statistics
 
 import numpy as np
 import pytest
@@ -200,15 +201,32 @@ def test_steps_that_do_not_divide_the_cycle_land_too(step):
     assert contact(flight) == pytest.approx(contact(shipped), abs=0.1)
 
 
-def test_a_start_in_hover_1_hovers():
-    """At rest over the site: a short capture, then the choice of a site, at the cost of the weight alone."""
-    flight = perilune.simulate(SYSTEM, parameters=["start_4.ssv", "ideal.ssv"])
-    assert flight["sequencer.status"][-1] == 0
-    lasted = flight["sequencer.phase_time[5]"][-1]
-    assert lasted < 20.0 + 12.0
-    hovered = flight["plant.mass"][0] * (1.0 - math.exp(-MU / (RADIUS + 2400.0) ** 2 * lasted / EXHAUST_SPEED))
-    spent = flight["sequencer.phase_mass[4]"][-1] - flight["sequencer.phase_mass[5]"][-1]
-    assert spent == pytest.approx(hovered, rel=0.02)
+@pytest.mark.parametrize("noise", ["ideal.ssv", "noisy.ssv"])
+def test_a_start_at_rest_in_hover_1_holds_at_once(noise):
+    """No capture: the time of hover alone, at the cost of the weight; in either order of the sets."""
+    flights = [perilune.simulate(SYSTEM, parameters=sets) for sets in (["start_4.ssv", noise], [noise, "start_4.ssv"])]
+    for flight in flights:
+        assert flight["sequencer.status"][-1] == 0
+        lasted = flight["sequencer.phase_time[5]"][-1]
+        assert lasted == pytest.approx(20.0, abs=1e-9)
+        weight = MU / (RADIUS + 2400.0) ** 2
+        hovered = flight["plant.mass"][0] * (1.0 - math.exp(-weight * lasted / EXHAUST_SPEED))
+        spent = flight["sequencer.phase_mass[4]"][-1] - flight["sequencer.phase_mass[5]"][-1]
+        assert spent == pytest.approx(hovered, rel=0.005)
+
+
+@pytest.mark.skipif(not LONG, reason="200 flights")
+def test_noisy_starts_at_rest_limit_nothing():
+    """Status 2 in none of 200; mean propellant is that of hovers, transfer, approach and descent of whole landings.
+
+    Those of `docs/systems/landing_mission.md` took 24.81, 5.21, 13.40 and 2.46 kg after 34 kg of capture and hover;
+    here the vehicle is some 2 % heavier than there.
+    """
+    table = perilune.batch(SYSTEM, "entries", parameters=["noisy.ssv", "start_4.ssv"], trials=200).table().to_pylist()
+    assert all(row["metric.within_limits"] and row["metric.largest_status"] == 0 for row in table)
+    spent = 528.0 - statistics.mean(row["metric.mass"] for row in table)
+    hover = 528.0 * (1.0 - math.exp(-MU / (RADIUS + 2400.0) ** 2 * 20.0 / EXHAUST_SPEED))
+    assert spent == pytest.approx(hover + 24.81 + 5.21 + 13.40 + 2.46, abs=0.5)
 
 
 def test_the_mass_of_a_phase_is_of_its_start(ideal):

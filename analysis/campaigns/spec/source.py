@@ -163,7 +163,13 @@ def _check_integers(entry: object, name: str, label: str) -> None:
 
 
 def _merge(content: dict[str, object], later: Mapping[str, object], label: str) -> None:
-    """Put the entries of a later file into ``content``: the tables entry by entry, everything else whole."""
+    """Put the entries of a later file into ``content``: the tables entry by entry, everything else whole.
+
+    Its configurations replace earlier compared FMUs, its compared FMUs earlier configurations.
+    """
+    variants = [key for key in VARIANTS if later.get(key)]
+    if len(variants) == 1:
+        content.pop(VARIANTS[1 - VARIANTS.index(variants[0])], None)
     for key, value in later.items():
         if isinstance(value, Mapping):
             table = Table(value, label, key)
@@ -174,6 +180,7 @@ def _merge(content: dict[str, object], later: Mapping[str, object], label: str) 
             content[key] = value
 
 
+VARIANTS = ("compare", "configuration")  # tables of which a campaign has one
 FLAT = ("set", "derive", "compare")  # tables whose names have dots
 
 

@@ -137,6 +137,7 @@ def test_rocket_equation(factor):
     assert plant.mass == pytest.approx(mass, rel=1e-12)
     assert plant.speed == pytest.approx(1689.0 + STANDARD * ISP * math.log(940.0 / mass), rel=1e-11)
     assert plant.path_angle == pytest.approx(1.1, abs=1e-13)
+    assert plant.load_factor == pytest.approx(factor * THRUST / STANDARD / mass, rel=1e-12)
 
 
 def test_throw_through_standstill():

@@ -16,7 +16,6 @@ from perilune.fmus_src.block import Output
 from perilune.fmus_src.sequencing.landing_sequencer import LandingSequencer
 from tests.support.flights.sequenced import (
     BRAKING,
-    CAPTURE,
     CENTRE,
     HOLD,
     HOVER,
@@ -44,7 +43,7 @@ def test_no_output_depends_on_an_input_of_its_time():
         (1, OWN, False, IDLE, None),
         (2, OWN, False, IDLE, None),
         (3, BRAKING, False, IDLE, None),
-        (4, HOVER, True, CAPTURE, 2400.0),
+        (4, HOVER, True, HOLD, 2400.0),
         (5, HOVER, True, PROGRAMME, 100.0),
         (6, HOVER, True, HOLD, 100.0),
         (7, HOVER, True, SLOW, 4.0),

@@ -6,7 +6,7 @@ Truth: the rules as docs/systems/landing_mission.md has them, with times and thr
 import numpy as np
 import pytest
 
-from tests.support.flights.sequenced import CENTRE, HOLD, OWN, PROGRAMME, RADIUS, SINK, SLOW, Flown, hovering
+from tests.support.flights.sequenced import CAPTURE, CENTRE, HOLD, OWN, PROGRAMME, RADIUS, SINK, SLOW, Flown, hovering
 
 
 @pytest.mark.parametrize("phase", [4, 6])
@@ -29,9 +29,23 @@ def test_a_hover_lasts_20_seconds_and_then_until_it_is_settled(phase):
 
 @pytest.mark.parametrize("phase", [4, 6])
 def test_a_hover_that_does_not_settle_is_ended(phase):
-    flown = hovering(phase, hover_finished=True, estimated_velocity=[1.0, 0.0, 0.0])
+    flown = hovering(phase, hover_finished=True)
+    flown.step()
+    flown.see(estimated_velocity=[1.0, 0.0, 0.0])
     assert flown.until(phase + 1, 65.0) == pytest.approx(60.0)
     assert flown.block.status == 3
+
+
+@pytest.mark.parametrize(("speed", "offset", "mode"), [(0.4, 9.0, HOLD), (0.6, 0.0, CAPTURE), (0.0, 11.0, CAPTURE)])
+def test_a_flight_that_starts_in_hover_1_is_captured_unless_it_is_at_rest_over_the_site(speed, offset, mode):
+    """Within 0.5 m/s and 10 m it holds; decided with the first inputs, a cycle after the start."""
+    flown = hovering(4)
+    flown.see(estimated_velocity=[speed, 0.0, 0.0])
+    flown.see(estimated_position=np.add(flown.block.target_position, [offset, 0.0, 0.0]).tolist())
+    assert flown.block.hover_mode == HOLD
+    assert flown.step().hover_mode == mode
+    assert flown.block.plan_number == (1 if mode == HOLD else 2)
+    assert flown.step(20).hover_mode == mode
 
 
 def test_a_whole_flight_of_hovers():

@@ -52,6 +52,8 @@ TAKES_LONG = {
     "--campaign paper --trials 10000": "30 000 flights",
     "--campaign paper --parameters exact.ssv": "20 000 flights",
     "--trials 1000000": "a million flights",
+    "--campaign choices": "14 000 flights",
+    "--campaign slant_range": "6000 flights",
     "--campaign noisy": "30 000 flights, or 4000 of the orbit",
     "lunar_landing --campaign compare --parameters noisy.ssv --output": "6000 flights",
     "lunar_landing --campaign compare --parameters noisy.ssv --trials 50 --output": "300 flights, and their page",
@@ -99,6 +101,7 @@ OUTPUT_TAKES_LONG = {
 # ... and of some all but the page.
 PAGE_TAKES_LONG = ("perilune run landing_mission --parameters ideal.ssv", "perilune run lunar_landing --report")
 FAILS = (  # exit status 1
+    "lunar_descent_2d --parameters basic.ssv",  # the basic solution of a search
     "attitude_control.lead_time=",  # the thin and the unstable loop
     "--fault 'pulses.pulse_lengths[2]=override:0@60'",  # limits at the end
     "perilune replay results 7 --configuration network_operator_guidance",  # a limit of the system

@@ -50,7 +50,7 @@ def flat_moon_lander():
 
 
 def planar_moon_lander():
-    """V, th, h, central angle and mass as published, with the turn of the vertical."""
+    """V, th, h, central angle, mass and load factor as published, with the turn of the vertical."""
     gravity, radius, specific_impulse, rows = 1.623, 1.7384e6, 310.0, 33
     start = [1650.0, -1.5, 17000.0, 0.02, 900.0]
     time = STEP * np.arange(rows)
@@ -68,12 +68,14 @@ def planar_moon_lander():
 
     y = fly(rates_of, start, rows, atol=1e-14)
     names = ("speed", "path_angle", "altitude", "central_angle", "mass")
+    tolerances = [(1e-9, 0.0), (1e-12, 0.0), (1e-8, 0.0), (1e-13, 0.0), (1e-10, 0.0)]
+    load_factor = np.concatenate([[0.0], thrust[:-1] / STANDARD_GRAVITY / y[1:, 4]])
     return Check(
         truth="the published equations by DOP853 at 1e-13",
         step=STEP,
         inputs={"thrust": thrust, "thrust_angle": angle},
-        outputs=dict(zip(names, y.T, strict=True)),
-        tolerances=dict(zip(names, [(1e-9, 0.0), (1e-12, 0.0), (1e-8, 0.0), (1e-13, 0.0), (1e-10, 0.0)], strict=True)),
+        outputs=dict(zip(names, y.T, strict=True)) | {"load_factor": load_factor},
+        tolerances=dict(zip(names, tolerances, strict=True)) | {"load_factor": (1e-13, 0.0)},
         parameters={
             **{f"initial_{name}": number for name, number in zip(names, start, strict=True)},
             "specific_impulse": specific_impulse,
