@@ -1,4 +1,4 @@
-"""Draws docs/images/rendezvous_*.svg: `python -m docs.figures.rendezvous_figures`, after build_fmus.py."""
+"""Draws docs/images/rendezvous/*.svg: `python -m docs.figures.rendezvous_figures`, after build_fmus.py."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def fly() -> Result:
 
 def draw_rendezvous_figures(flight: Result, folder: Path) -> list[Path]:
     """Write the seven figures of a whole flight of `robot_rendezvous` to an existing folder and say where."""
-    paths = [folder / f"rendezvous_{name}.svg" for name in FIGURES]
+    paths = [folder / f"{name}.svg" for name in FIGURES]
     for path, draw in zip(paths, FIGURES.values(), strict=True):
         with house_style():
             write_picture(draw(flight), path)
@@ -166,9 +166,9 @@ def turn_figure(flight: Result) -> Figure:
     rates, accelerations = (
         vector(flight, f"guidance.planned_angular_{name}")[:, rows] for name in ("velocity", "acceleration")
     )
-    quickest = _least_time_turn(flight.time[rows])
-    shown = (attitude[1:] / (1.0 + attitude[0]), np.degrees(rates), np.degrees(accelerations))
-    for axes, components, size in zip(panels, shown, quickest, strict=True):
+    quickest = _quickest_turn(flight.time[rows])
+    plans = (attitude[1:] / (1.0 + attitude[0]), np.degrees(rates), np.degrees(accelerations))
+    for axes, components, size in zip(panels, plans, quickest, strict=True):
         for index, component in enumerate(components):
             axes.plot(flight.time[rows], component, color=look(index).colour, label="xyz"[index], linewidth=1.0)
         axes.plot(flight.time[rows], np.linalg.norm(components, axis=0), color=INK, label="size")
@@ -196,7 +196,7 @@ def plan_figure(flight: Result) -> Figure:
     return _over_time(figure, panels, "relative position, m", "relative velocity, m/s", "acceleration, µm/s²")
 
 
-def _least_time_turn(times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _quickest_turn(times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Sizes of Rodrigues parameters, angular velocity (deg/s) and acceleration (deg/s2) of the turn of least time."""
     guidance: Any = RendezvousGuidanceJerkLimited(attitude_period=0.0)
     guidance.initialize()
@@ -242,5 +242,5 @@ FIGURES = {
 }
 
 if __name__ == "__main__":
-    print(*draw_rendezvous_figures(fly(), IMAGES), sep="\n")
+    print(*draw_rendezvous_figures(fly(), IMAGES / "rendezvous"), sep="\n")
     leave(0)

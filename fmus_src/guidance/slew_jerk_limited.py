@@ -73,13 +73,13 @@ class SlewJerkLimited(SlewGuidance):
         if norm(across(self.start_angular_velocity, axis)) + norm(across(self.end_angular_velocity, axis)) <= (
             ALIGNED * self.rate_limit
         ):
-            rest = SlewLeg(quaternion=begin, axis=axis, profile=plan_ramp(0.0, 0.0, limits))
+            standing = SlewLeg(quaternion=begin, axis=axis, profile=plan_ramp(0.0, 0.0, limits))
             along_first = dot(self.start_angular_velocity, axis)
             along_last = dot(self.end_angular_velocity, axis)
             profile = plan_turn(dot(rotation, axis), along_first, along_last, limits)
-            self.stop = rest
-            self.turn = replace(rest, profile=profile)
-            self.spin = replace(rest, quaternion=end_of(self.turn))
+            self.stop = standing
+            self.turn = replace(standing, profile=profile)
+            self.spin = replace(standing, quaternion=end_of(self.turn))
         else:
             first_axis = unit(self.start_angular_velocity)
             last_axis = unit(self.end_angular_velocity)

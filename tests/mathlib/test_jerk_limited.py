@@ -1,7 +1,7 @@
 """Profiles of least time within limits of rate, acceleration and jerk: `perilune.fmus_src.mathlib.jerk_limited`.
 
-Truth: seven pieces from rest to rest in closed form; linear programmes over 120 pieces of jerk (HiGHS), which find the
-turn infeasible in less time and extreme in that time; polynomials, which are never faster within their own limits.
+Truth: seven arcs of constant jerk in closed form; linear programmes over 120 of them (HiGHS), which find the turn
+infeasible in less time and extreme in that time; polynomials, which are slower within their own limits.
 """
 
 import math
@@ -16,7 +16,7 @@ from scipy.optimize import linprog
 from perilune.fmus_src.mathlib.jerk_limited import JerkLimits, follow_profile, plan_axis, plan_ramp, plan_turn
 from tests.support.lengths import either
 
-PIECES = 120
+ARCS = 120
 LIMITS = st.builds(JerkLimits, rate=st.floats(0.01, 2.0), acceleration=st.floats(0.01, 2.0), jerk=st.floats(0.01, 2.0))
 FRACTIONS = st.floats(-1.0, 1.0)
 ANGLES = st.floats(-8.0, 8.0)
@@ -30,7 +30,7 @@ def motions(profile, count=400):
     return times, np.array([follow_profile(profile, time).elements() for time in times])
 
 
-def seven_pieces(angle, limits):
+def seven_arcs(angle, limits):
     """Least time from rest to rest, by which of the limits are reached."""
     w, a, j = limits.rate, limits.acceleration, limits.jerk
     if w * j >= a * a:
@@ -44,20 +44,20 @@ def seven_pieces(angle, limits):
 
 
 @given(st.floats(1e-6, 8.0), LIMITS)
-def test_from_rest_to_rest_it_takes_as_long_as_seven_pieces(angle, limits):
+def test_without_boundary_rates_it_takes_as_long_as_seven_arcs(angle, limits):
     for signed in (angle, -angle):
-        assert plan_axis(signed, 0.0, 0.0, limits).duration == pytest.approx(seven_pieces(angle, limits), rel=1e-9)
+        assert plan_axis(signed, 0.0, 0.0, limits).duration == pytest.approx(seven_arcs(angle, limits), rel=1e-9)
 
 
 def extreme_angles(duration, first, last, limits):
     """Smallest and largest angle in a time, between rates and within limits; None where there is no such motion."""
-    h, one = duration / PIECES, np.eye(PIECES)
-    before = np.eye(PIECES, k=-1)
-    acceleration = h * np.tril(np.ones((PIECES, PIECES)))
+    h, one = duration / ARCS, np.eye(ARCS)
+    before = np.eye(ARCS, k=-1)
+    acceleration = h * np.tril(np.ones((ARCS, ARCS)))
     rate = np.cumsum(h * before @ acceleration + 0.5 * h * h * one, axis=0)
     angle = np.cumsum(h * before @ rate + 0.5 * h * h * before @ acceleration + h**3 / 6.0 * one, axis=0)
     a, w = acceleration * (limits.jerk / limits.acceleration), rate * (limits.jerk / limits.rate)
-    room = np.ones(PIECES)
+    room = np.ones(ARCS)
     bounds = [room, room, (1.0 - first / limits.rate) * room, (1.0 + first / limits.rate) * room]
     ends = []
     for sign in (1.0, -1.0):
@@ -88,9 +88,9 @@ def test_no_motion_about_the_axis_is_faster(seed):
     for fraction in (0.4, 0.8, 0.97):
         ends = extreme_angles(fraction * profile.duration, first, last, limits)
         assert ends is None or not ends[0] <= angle <= ends[1]
-    least, largest = extreme_angles(profile.duration, first, last, limits)
-    # the programmes' jerk changes at multiples of their pieces only
-    assert min(abs(angle - least), abs(angle - largest)) < 5.0 / PIECES * limits.rate * profile.duration
+    smallest, largest = extreme_angles(profile.duration, first, last, limits)
+    # the programmes' jerk changes at multiples of their arcs only
+    assert min(abs(angle - smallest), abs(angle - largest)) < 5.0 / ARCS * limits.rate * profile.duration
 
 
 @given(ANGLES, FRACTIONS, FRACTIONS, LIMITS)
@@ -134,5 +134,5 @@ def test_a_polynomial_is_slower_within_its_own_limits(polynomial, fraction, angl
     rate, acceleration, jerk = (angle * np.abs(polynomial.deriv(k)(s)).max() / 100.0**k for k in (1, 2, 3))
     limits = JerkLimits(rate=rate, acceleration=acceleration, jerk=jerk)
     duration = plan_axis(angle, 0.0, 0.0, limits).duration
-    assert duration == pytest.approx(seven_pieces(angle, limits), rel=1e-12)
+    assert duration == pytest.approx(seven_arcs(angle, limits), rel=1e-12)
     assert duration == pytest.approx(100.0 * fraction, abs=0.01)

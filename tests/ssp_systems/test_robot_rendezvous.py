@@ -106,7 +106,7 @@ def test_both_gyro_steerings_fly_the_turn():
     assert max(actual.values()) < 2.0
 
 
-def test_a_turn_of_least_time_needs_less_momentum_of_the_gyros():
+def test_a_quicker_turn_needs_less_momentum_of_the_gyros():
     """J about the turn's axis times the largest rate, 0.03 rad/s or that of the polynomial, 2.0736 angle/time."""
     axis = np.cross([1.0, 0.0, 0.0], spin := np.array([-0.608, 0.228, 0.760]))
     angle = np.arccos(spin[0] / np.linalg.norm(spin))

@@ -10,13 +10,13 @@ from docs.figures.rendezvous_figures import draw_rendezvous_figures, fly, gyros_
 from perilune.fmus_src.paths import ROOT
 
 LABELS = {
-    "rendezvous_scene": {"x, m", "y, m", "z, m", "robot", "object"},
-    "rendezvous_turn": {"time, s", "Rodrigues parameters", "angular velocity, deg/s", "size", "size, least time"},
-    "rendezvous_plan": {"time, s", "relative position, m", "relative velocity, m/s", "acceleration, µm/s²", "size"},
-    "rendezvous_momentum": {"momentum x", "momentum y", "momentum z", "region", "regular within", "turn"},
-    "rendezvous_range": {"time, s", "range, m", "range error, mm", "position error, mm"},
-    "rendezvous_thrust": {"time, s"} | {f"force on body axis {axis}, N" for axis in "xyz"},
-    "rendezvous_gyros": {"time, s", "gimbal angle, deg"},
+    "scene": {"x, m", "y, m", "z, m", "robot", "object"},
+    "turn": {"time, s", "Rodrigues parameters", "angular velocity, deg/s", "size", "size, least time"},
+    "plan": {"time, s", "relative position, m", "relative velocity, m/s", "acceleration, µm/s²", "size"},
+    "momentum": {"momentum x", "momentum y", "momentum z", "region", "regular within", "turn"},
+    "range": {"time, s", "range, m", "range error, mm", "position error, mm"},
+    "thrust": {"time, s"} | {f"force on body axis {axis}, N" for axis in "xyz"},
+    "gyros": {"time, s", "gimbal angle, deg"},
 }
 
 
@@ -42,7 +42,10 @@ def test_labels_are_there_and_the_kept_ones_are_these(drawn_once):
         sampled = first.read_bytes()
         assert len(sampled) < 100_000
         assert b"<dc:date>" not in sampled
-        root, retained = etree.fromstring(sampled), etree.parse(ROOT / "docs" / "images" / first.name).getroot()
+        root, retained = (
+            etree.fromstring(sampled),
+            etree.parse(ROOT / "docs" / "images" / "rendezvous" / first.name).getroot(),
+        )
         texts = {comment.text.strip() for comment in root.iter(etree.Comment)}  # text is drawn as paths
         assert texts >= LABELS[first.stem]
         assert retained.get("viewBox") == root.get("viewBox")
@@ -51,7 +54,7 @@ def test_labels_are_there_and_the_kept_ones_are_these(drawn_once):
 
 def test_the_text_shows_each_figure_once():
     text = (ROOT / "docs" / "systems" / "robot_rendezvous.md").read_text(encoding="utf-8")
-    assert sorted(re.findall(r"\(../images/(\w+)\.svg\)", text)) == sorted(LABELS)
+    assert sorted(re.findall(r"\(../images/rendezvous/(\w+)\.svg\)", text)) == sorted(LABELS)
 
 
 def test_gimbals_are_drawn_from_the_isotropic_angles_and_back(flight):

@@ -49,8 +49,8 @@ def ramp(size):
     return [JERK, 0.0, -JERK], [bend, flat, bend]
 
 
-def turn_at_rest(axis, angle, rate, acceleration, jerk):
-    """Seven pieces, all of them there."""
+def seven_arcs(axis, angle, rate, acceleration, jerk):
+    """Seven arcs of constant jerk, all of them with a duration."""
     bend, flat = acceleration / jerk, rate / acceleration - acceleration / jerk
     coast = angle / rate - rate / acceleration - acceleration / jerk
     assert min(flat, coast) > 0.0
@@ -67,7 +67,7 @@ def slew_jerk_limited():
     stopped, spinning = begin * stop.rotation(stop.duration), TARGET * spin.rotation(spin.duration).inv()
     turn = (stopped.inv() * spinning).as_rotvec()
     angle = float(np.linalg.norm(turn))
-    middle = turn_at_rest(turn / angle, angle, RATE, ACCELERATION, JERK)
+    middle = seven_arcs(turn / angle, angle, RATE, ACCELERATION, JERK)
     legs = [(begin, stop), (stopped, middle), (spinning, spin)]
     ends = BEGIN + np.cumsum([stop.duration, middle.duration, spin.duration])
 
@@ -123,7 +123,7 @@ def rendezvous_guidance_jerk_limited():
     limits = {"turn_rate_limit": 1.9, "turn_acceleration_limit": 4.0, "turn_jerk_limit": 20.0}
     axis = np.cross([1.0, 0.0, 0.0], rendezvous.SPIN)
     axis, angle = axis / np.linalg.norm(axis), np.arccos(rendezvous.SPIN[0] / np.linalg.norm(rendezvous.SPIN))
-    leg = turn_at_rest(axis, angle, *limits.values())
+    leg = seven_arcs(axis, angle, *limits.values())
     assert leg.duration < rendezvous.TURN_END - rendezvous.TURN_START - 0.2
     time = rendezvous.STEP * np.arange(rendezvous.ROWS) - rendezvous.TURN_START
     since, ahead = (np.clip(t, 0.0, leg.duration) for t in (time, time + 0.5 * rendezvous.ATTITUDE))

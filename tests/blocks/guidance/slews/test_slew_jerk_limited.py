@@ -118,7 +118,7 @@ def test_between_the_other_slews(angle, rate, acceleration, jerk):
 def test_rates_along_the_eigenaxis_save_time_and_others_cost_it():
     """From 0.1 rad/s to 0.2 rad/s by hand: ramps to the limit of 0.3 rad/s and back, and a coast."""
     axis = np.array([0.6, 0.0, 0.8])
-    rest = guidance(turn=2.5 * axis, jerk_limit=1.0, slew_start=0.0)
+    still = guidance(turn=2.5 * axis, jerk_limit=1.0, slew_start=0.0)
     along = guidance(
         turn=2.5 * axis,
         jerk_limit=1.0,
@@ -129,10 +129,10 @@ def test_rates_along_the_eigenaxis_save_time_and_others_cost_it():
     ramps = 0.2 / 0.2 + 0.2 / 1.0, 0.1 / 0.2 + 0.2 / 1.0
     coast = (2.5 - 0.5 * (0.1 + 0.3) * ramps[0] - 0.5 * (0.3 + 0.2) * ramps[1]) / 0.3
     assert along.duration == pytest.approx(sum(ramps) + coast, rel=1e-12)
-    assert along.duration < rest.duration
+    assert along.duration < still.duration
     aside = guidance(turn=2.5 * axis, jerk_limit=1.0, slew_start=0.0, start_angular_velocity=[0.0, 0.1, 0.0])
     assert aside.stop.profile.duration == pytest.approx(0.1 / 0.2 + 0.2 / 1.0, rel=1e-12)
-    assert aside.duration > rest.duration
+    assert aside.duration > still.duration
 
 
 def test_against_a_fast_rate_it_goes_on_round():
