@@ -1,4 +1,4 @@
-"""Draws docs/images/rendezvous_*.svg: `python -m docs.figures.rendezvous_figures`, after build_fmus.py."""
+"""Draws docs/images/rendezvous/*.svg: `python -m docs.figures.rendezvous_figures`, after build_fmus.py."""
 
 from __future__ import annotations
 
@@ -24,6 +24,8 @@ from perilune.analysis.reports.common.style import (
 )
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.verbs.run import simulate
+from perilune.fmus_src.guidance.rendezvous_guidance_jerk_limited import RendezvousGuidanceJerkLimited
+from perilune.fmus_src.interfaces.ports.robot import ROTOR_MOMENTUM
 
 from .landing import vector
 from .pictures import IMAGES, write_picture
@@ -32,6 +34,8 @@ PHASES = ("accelerate", "turn", "approach", "hold")
 MOMENTS = (0.0, 1420.0, 1520.0, 4250.0, 5000.0)  # s, their beginnings and the end
 INTERVAL = 10.0  # s between the points of smooth curves; the flight has eight a second
 WHOLE, TURN = (0.0, 5000.0), (1400.0, 1560.0)  # s
+PAIR = 2.0  # largest momentum of a pair of gyros over that of a rotor
+REGULAR = 4.0 * np.sqrt(6.0) / 5.0  # nothing is singular below, docs/theory/rendezvous.md
 CAMERA, SPIN = 60.0, 45.0  # m of arrow, and of the spin axis either way
 
 
@@ -41,8 +45,8 @@ def fly() -> Result:
 
 
 def draw_rendezvous_figures(flight: Result, folder: Path) -> list[Path]:
-    """Write the four figures of a whole flight of `robot_rendezvous` to an existing folder and say where."""
-    paths = [folder / f"rendezvous_{name}.svg" for name in FIGURES]
+    """Write the seven figures of a whole flight of `robot_rendezvous` to an existing folder and say where."""
+    paths = [folder / f"{name}.svg" for name in FIGURES]
     for path, draw in zip(paths, FIGURES.values(), strict=True):
         with house_style():
             write_picture(draw(flight), path)
@@ -121,6 +125,86 @@ def gyros_figure(flight: Result) -> Figure:
     return figure
 
 
+def momentum_figure(flight: Result) -> Figure:
+    """Region of the gyros' momentum in three dimensions and its projections, with the path of the flight."""
+    figure = new_figure(6.2)
+    solid: Any = figure.add_subplot(2, 2, 1, projection="3d")
+    path = np.stack([flight[f"robot.gyro_momentum[{i}]"] for i in (1, 2, 3)])[:, _rows_at(flight, 1.0, TURN)]
+    path = path / ROTOR_MOMENTUM.start
+    across = np.sin(np.linspace(-0.5 * np.pi, 0.5 * np.pi, 31)) * PAIR
+    for fixed in np.sin(np.linspace(-0.5 * np.pi, 0.5 * np.pi, 9)) * PAIR:
+        along = np.sqrt(PAIR**2 - across**2) + np.sqrt(PAIR**2 - fixed**2)
+        for sign in (-1.0, 1.0):
+            solid.plot(sign * along, across, np.full_like(across, fixed), color=SKY, linewidth=0.5)
+            solid.plot(sign * along, np.full_like(across, fixed), across, color=SKY, linewidth=0.5)
+    solid.plot(*path, color=VERMILION)
+    solid.set(xlabel="x", ylabel="y", zlabel="z", xticks=(-4, 0, 4), yticks=(-2, 0, 2), zticks=(-2, 0, 2))
+    solid.set_aspect("equal")
+    for axis in (solid.xaxis, solid.yaxis, solid.zaxis):
+        axis.set_pane_color("white")
+    angle = np.linspace(0.0, 2.0 * np.pi, 121)
+    circle = np.array([np.cos(angle), np.sin(angle)])
+    long = np.array([PAIR * circle[0] + PAIR * np.sign(circle[0]), PAIR * circle[1]])
+    square = PAIR * np.array([[-1.0, 1.0, 1.0, -1.0, -1.0], [-1.0, -1.0, 1.0, 1.0, -1.0]])
+    for number, (first, second, outline) in enumerate(((0, 1, long), (0, 2, long), (1, 2, square)), start=2):
+        axes = figure.add_subplot(2, 2, number)
+        axes.plot(*outline, color=SKY, label="region")
+        axes.plot(*(REGULAR * circle), color=INK, linewidth=0.8, linestyle=(0, (3, 2)), label="regular within")
+        axes.plot(path[first], path[second], color=VERMILION, label="turn")
+        axes.set(xlabel=f"momentum {'xyz'[first]}", ylabel=f"momentum {'xyz'[second]}", aspect="equal")
+        plain_ticks(axes, x=5, y=5)
+    figure.axes[-1].legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
+    return figure
+
+
+def turn_figure(flight: Result) -> Figure:
+    """Planned attitude, angular velocity and acceleration of the turn: components, sizes, and that of least time."""
+    figure = new_figure(6.0)
+    panels = figure.subplots(3, 1, sharex=True)
+    rows = _rows_at(flight, 0.5, TURN)
+    attitude = np.stack([flight[f"guidance.planned_quaternion[{i}]"][rows] for i in (1, 2, 3, 4)])
+    rates, accelerations = (
+        vector(flight, f"guidance.planned_angular_{name}")[:, rows] for name in ("velocity", "acceleration")
+    )
+    quickest = _quickest_turn(flight.time[rows])
+    plans = (attitude[1:] / (1.0 + attitude[0]), np.degrees(rates), np.degrees(accelerations))
+    for axes, components, size in zip(panels, plans, quickest, strict=True):
+        for index, component in enumerate(components):
+            axes.plot(flight.time[rows], component, color=look(index).colour, label="xyz"[index], linewidth=1.0)
+        axes.plot(flight.time[rows], np.linalg.norm(components, axis=0), color=INK, label="size")
+        axes.plot(flight.time[rows], size, color=INK, linestyle=(0, (3, 2)), linewidth=0.9, label="size, least time")
+    panels[0].legend(loc="lower left", ncols=5)
+    labels = ("Rodrigues parameters", "angular velocity, deg/s", "angular acceleration, deg/s²")
+    return _over_time(figure, panels, *labels, span=TURN)
+
+
+def plan_figure(flight: Result) -> Figure:
+    """Planned position and velocity of the object relative to the robot, and the robot's acceleration."""
+    figure = new_figure(6.0)
+    panels = figure.subplots(3, 1, sharex=True)
+    rows = _rows_at(flight, INTERVAL)
+    relative, velocity, acceleration = (
+        vector(flight, f"guidance.planned_{name}")[:, rows]
+        for name in ("relative_position", "velocity", "acceleration")
+    )
+    relative_velocity = vector(flight, "target.velocity")[:, rows] - velocity
+    for axes, components in zip(panels, (relative, relative_velocity, 1e6 * acceleration), strict=True):
+        for index, component in enumerate(components):
+            axes.plot(flight.time[rows], component, color=look(index).colour, label="xyz"[index], linewidth=1.0)
+        axes.plot(flight.time[rows], np.linalg.norm(components, axis=0), color=INK, label="size")
+    panels[0].legend(loc="upper right", ncols=4)
+    return _over_time(figure, panels, "relative position, m", "relative velocity, m/s", "acceleration, µm/s²")
+
+
+def _quickest_turn(times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Sizes of Rodrigues parameters, angular velocity (deg/s) and acceleration (deg/s2) of the turn of least time."""
+    guidance: Any = RendezvousGuidanceJerkLimited(attitude_period=0.0)
+    guidance.initialize()
+    motions = [guidance.turn_motion(float(time) - MOMENTS[1]) for time in times]
+    angle, rate, acceleration = np.array([motion.elements() for motion in motions]).T
+    return np.tan(0.25 * angle), np.degrees(rate), np.degrees(np.abs(acceleration))
+
+
 def _rows_at(flight: Result, interval: float, span: tuple[float, float] = WHOLE) -> np.ndarray:
     return np.searchsorted(flight.time, np.arange(span[0], span[1] + 0.5 * interval, interval) - 1e-9)
 
@@ -147,8 +231,16 @@ def _over_time(figure: Figure, panels: Any, *labels: str, span: tuple[float, flo
     return figure
 
 
-FIGURES = {"scene": scene_figure, "range": range_figure, "thrust": thrust_figure, "gyros": gyros_figure}
+FIGURES = {
+    "scene": scene_figure,
+    "turn": turn_figure,
+    "plan": plan_figure,
+    "range": range_figure,
+    "thrust": thrust_figure,
+    "momentum": momentum_figure,
+    "gyros": gyros_figure,
+}
 
 if __name__ == "__main__":
-    print(*draw_rendezvous_figures(fly(), IMAGES), sep="\n")
+    print(*draw_rendezvous_figures(fly(), IMAGES / "rendezvous"), sep="\n")
     leave(0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.evidence.variable_text import bounds_text, sized_name, start_text, unit_text
-from perilune.fmus_src.kernel.records import count_numbers
+from perilune.fmus_src.kernel.records import Field, Record, count_numbers
 from perilune.fmus_src.variables import Input, Output, Parameter, State, Variable
 
 from .markdown import escaped, table
@@ -64,12 +64,24 @@ def states(block: type[Block]) -> str:
                 ]
             )
             continue
-        for name, field in variable.record.fields.items():
+        for name, field in _record_fields(variable.record, variable.name):
             size = count_numbers(field.kind)
-            label = f"`{variable.name}.{name}{f'[{size}]' if size > 1 else ''}`"
+            label = f"`{name}{f'[{size}]' if size > 1 else ''}`"
             words = escaped(field.description)
             rows.append([label, "Real", escaped(field.unit or "1"), "", escaped(field.frame or ""), words])
     return _filled(["state", "type", "unit", "bounds", "frame", "what it is"], rows)
+
+
+def _record_fields(record: type[Record], prefix: str) -> list[tuple[str, Field]]:
+    """Return name and field of all that is no record in a record and those within it."""
+    fields: list[tuple[str, Field]] = []
+    for name, field in record.fields.items():
+        label = f"{prefix}.{name}"
+        if isinstance(field.kind, type) and issubclass(field.kind, Record):
+            fields += _record_fields(field.kind, label)
+        else:
+            fields.append((label, field))
+    return fields
 
 
 def _filled(head: list[str], rows: list[list[str]]) -> str:

@@ -19,6 +19,7 @@ class RendezvousStatus(Enumeration):
 
     GOOD = member("good")
     NO_PLAN = member("no plan: phases out of order")
+    TURN_TOO_LONG = member("no plan: the turn takes longer than its phase")
 
 
 class RendezvousPhase(Enumeration, first=1):
@@ -104,7 +105,7 @@ class RendezvousGuidance(Block):
     def make_plan(self) -> None:
         """Acceleration of phase 1, splines of phase 3 and the turn."""
         self.turn_axis, angle = rotation_between(vector(1.0, 0.0, 0.0), self.spin_axis)
-        spline(0.0, 0.0, angle, 0.0, self.turn_end - self.turn_start, 6, self.turn_polynomial)
+        self.plan_turn(angle)
         spin = norm(self.spin_axis)
         approach = self.arrival_time - self.turn_end
         # the way per acceleration: phases 1 and 2, and half of phase 3 with the velocity of phase 2
@@ -119,6 +120,10 @@ class RendezvousGuidance(Block):
             spline(begin[i], coasting[i], self.place[i], self.target_velocity[i], approach, self.spline_degree, c)
             for k in range(7):
                 self.splines[i, k] = c[k]
+
+    def plan_turn(self, angle: float) -> None:
+        """Plan the turn by an angle (rad) within its phase."""
+        spline(0.0, 0.0, angle, 0.0, self.turn_end - self.turn_start, 6, self.turn_polynomial)
 
     def motion(self, time: float) -> Translation:
         """Planned motion."""
@@ -164,6 +169,10 @@ class RendezvousGuidance(Block):
                 rate = spline_rate(self.turn_polynomial, s, duration)
             if ahead > 0.0 and ahead < 1.0:
                 acceleration = spline_acceleration(self.turn_polynomial, ahead, duration)
+        self.set_turn(angle, rate, acceleration)
+
+    def set_turn(self, angle: float, rate: float, acceleration: float) -> None:
+        """Put the turn's angle (rad), rate (rad/s) and angular acceleration (rad/s2) on the outputs."""
         self.planned_quaternion = from_rotation_vector(angle * self.turn_axis)
         self.planned_angular_velocity = rate * self.turn_axis
         self.planned_angular_acceleration = acceleration * self.turn_axis

@@ -83,20 +83,28 @@ class SlewGuidance(Block, interface=True):
         else:
             self.follow(elapsed)
 
-    def refer(self, time: float, period: float) -> None:
-        """The reference at a time (s), until the next sample a period (s) later."""
+    def set_phase(self, time: float) -> None:
+        """Set the phase of a time (s)."""
         elapsed = time - self.start_time - self.slew_start
         self.phase = SlewPhase.SLEWING
         if elapsed < -ROUNDING:
             self.phase = SlewPhase.WAITING
         elif elapsed >= self.duration - ROUNDING:
             self.phase = SlewPhase.HOLDING
-        self.proceed(time + period)
-        rate_later = self.progress.rate
+
+    def set_attitude(self, time: float) -> None:
+        """Set the reference's attitude and angular velocity of a time (s)."""
         self.proceed(time)
         turn = from_rotation_vector(self.progress.angle * self.eigenaxis)
         self.reference.reference_quaternion = multiply(self.start_quaternion, turn)
         self.reference.reference_angular_velocity = self.progress.rate * self.eigenaxis
+
+    def refer(self, time: float, period: float) -> None:
+        """The reference at a time (s), until the next sample a period (s) later."""
+        self.set_phase(time)
+        self.proceed(time + period)
+        rate_later = self.progress.rate
+        self.set_attitude(time)
         acceleration = 0.0
         if period > 0.0:
             acceleration = (rate_later - self.progress.rate) / period

@@ -1,23 +1,42 @@
 """How well an approach is flown: true motion against the plan."""
 
-from ..block import Block, Output
+from ..block import Block, Output, Parameter
 from ..interfaces.ports import body, inertial, robot
+from ..kernel.enumerations import Enumeration, member
+from ..kernel.functions import atan2
 from ..mathlib.attitude.quaternion import difference, to_rodrigues, to_rotation_vector
-from ..mathlib.vectors import norm
+from ..mathlib.vectors import Vector3, cross, dot, norm
+from ..units import deg
+
+
+class ClosingStart(Enumeration):
+    """Position at the start of the closing."""
+
+    AWAITED = member("not within closing_range yet")
+    WITHIN_CONE = member("began within the cone")
+    OUTSIDE_CONE = member("began outside of the cone")
+    NO_DIRECTION = member("began without a direction: object at rest, or robot at its centre")
 
 
 class RendezvousMonitor(Block):
     """Errors of relative position, range and attitude against the plan, and the attitude as Rodrigues parameters.
 
     position_error is the planned less the true relative position: the robot's distance from its place
-    beside the object. Frames: inertial; body for errors of attitude.
+    beside the object. The closing begins when the range is closing_range for the first time; the robot shall then be
+    in a cone with its apex at the object's centre and its axis against the object's velocity.
+    Frames: inertial; body for errors of attitude.
     Equations: docs/systems/robot_rendezvous.md.
     """
 
     default_step = 0.125
 
+    cone_half_angle = Parameter(deg(60.0), unit="rad", minimum=0.0, maximum=deg(180.0), description="of the cone")
+    closing_range = Parameter(
+        501.0, unit="m", minimum=0.0, description="range at which the closing begins, 500 m and 1"
+    )
     robot_position = inertial.POSITION.input("true position of the robot")
     target_position = inertial.POSITION.input("true position of the object")
+    target_velocity = inertial.VELOCITY.input("true velocity of the object")
     quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
     planned_relative_position = inertial.POSITION.input("from the robot to the object")
     planned_quaternion = robot.PLANNED_QUATERNION.input()
@@ -45,7 +64,16 @@ class RendezvousMonitor(Block):
         description="modified Rodrigues parameters of the attitude: axis times tan(angle/4)",
     )
 
+    cone_angle = Output(
+        0.0,
+        unit="rad",
+        direct=("robot_position", "target_position", "target_velocity"),
+        description="at the object's centre, from its reversed velocity to the robot; 0 without a direction",
+    )
+    closing_start = Output(ClosingStart, direct=("robot_position", "target_position", "target_velocity"))
+
     def initialize(self) -> None:
+        self.closing_start = ClosingStart.AWAITED
         self.compare()
 
     def compare(self) -> None:
@@ -53,10 +81,22 @@ class RendezvousMonitor(Block):
         relative = self.target_position - self.robot_position
         self.position_error = self.planned_relative_position - relative
         self.range = norm(relative)
+        self.check_cone(relative)
         self.range_error = self.range - norm(self.planned_relative_position)
         self.attitude_error = to_rotation_vector(difference(self.planned_quaternion, self.quaternion))
         self.attitude_error_angle = norm(self.attitude_error)
         self.rodrigues = to_rodrigues(self.quaternion)
+
+    def check_cone(self, relative: Vector3) -> None:
+        """Set cone_angle for the position (m) from robot to object, and at the start of the closing its verdict."""
+        self.cone_angle = atan2(norm(cross(relative, self.target_velocity)), dot(relative, self.target_velocity))
+        if self.closing_start != ClosingStart.AWAITED or self.range > self.closing_range:
+            return
+        self.closing_start = ClosingStart.OUTSIDE_CONE
+        if self.range <= 0.0 or norm(self.target_velocity) <= 0.0:
+            self.closing_start = ClosingStart.NO_DIRECTION
+        elif self.cone_angle <= self.cone_half_angle:
+            self.closing_start = ClosingStart.WITHIN_CONE
 
     def step(self, t: float, h: float) -> None:
         self.compare()

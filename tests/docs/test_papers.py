@@ -32,7 +32,7 @@ ROWS = [
 
 
 def test_each_paper_has_a_page():
-    assert [page.stem for page in PAGES] == ["diveev", "fomichev_li"]
+    assert [page.stem for page in PAGES] == ["diveev", "fomichev_li", "somov"]
 
 
 @pytest.mark.parametrize(("page", "entries"), ROWS)

@@ -104,3 +104,36 @@ def test_both_gyro_steerings_fly_the_turn():
         error = np.abs(vector(flight, "monitor.attitude_error"))[flight.time >= 1420.0]
         actual[steering] = np.max(error) * 648000 / np.pi
     assert max(actual.values()) < 2.0
+
+
+def test_a_quicker_turn_needs_less_momentum_of_the_gyros():
+    """J about the turn's axis times the largest rate, 0.03 rad/s or that of the polynomial, 2.0736 angle/time."""
+    axis = np.cross([1.0, 0.0, 0.0], spin := np.array([-0.608, 0.228, 0.760]))
+    angle = np.arccos(spin[0] / np.linalg.norm(spin))
+    inertia = np.linalg.norm(np.array([812.0, 587.0, 910.0]) * axis / np.linalg.norm(axis))
+    for guidance, rate in (
+        ("rendezvous_guidance", 2.0736 * angle / 100.0),
+        ("rendezvous_guidance_jerk_limited", 0.03),
+    ):
+        flight = perilune.simulate(SYSTEM, parameters=["best.ssv"], use={"guidance": guidance}, stop_time=1600.0)
+        momentum = np.linalg.norm(vector(flight, "robot.gyro_momentum"), axis=1).max() / 30.0
+        assert momentum == pytest.approx(inertia * rate / 30.0, rel=1e-3)
+        error = np.abs(vector(flight, "monitor.attitude_error"))[flight.time >= 1420.0]
+        assert np.max(error) * 648000 / np.pi < 2.0
+
+
+def test_the_published_start_is_outside_of_the_published_cone():
+    """Angles between 500 m at 20 deg and the velocity as printed, by numpy; later the plan leads into the cone."""
+    flight = perilune.simulate(SYSTEM)
+    velocity = np.array([-0.05, 0.05, 0.075])
+    robot = -np.array([np.cos(np.radians(20.0)), np.sin(np.radians(20.0)), 0.0])
+    from_reversed = np.degrees(np.arccos(robot @ -velocity / np.linalg.norm(velocity)))
+    assert from_reversed == pytest.approx(106.9, abs=0.05)
+    assert 180.0 - from_reversed == pytest.approx(73.1, abs=0.05)
+    angles = np.degrees(flight["monitor.cone_angle"])
+    assert angles[0] == pytest.approx(from_reversed, abs=1e-9)
+    assert set(flight["monitor.closing_start"]) == {2}
+    entry = np.argmax(angles <= 60.0)
+    assert flight.time[entry] == pytest.approx(3039.0, abs=0.5)
+    assert flight["monitor.range"][entry] == pytest.approx(40.4, abs=0.1)
+    assert angles[-1] == pytest.approx(16.5, abs=0.05)

@@ -15,9 +15,10 @@ import perilune
 
 pytestmark = pytest.mark.usefixtures("fmus")
 ARCSEC = math.pi / 648000.0
-ANGLE, START, RATE, ACCELERATION = math.radians(120.0), 20.0, 0.02, 1e-3
+ANGLE, START, RATE, ACCELERATION, JERK = math.radians(120.0), 20.0, 0.02, 1e-3, 1e-4
 ENDS = {  # s, of the turns
     "slew_bang_coast": START + ANGLE / RATE + RATE / ACCELERATION,
+    "slew_jerk_limited": START + ANGLE / RATE + RATE / ACCELERATION + ACCELERATION / JERK,
     "slew_quintic": START + 15.0 / 8.0 * ANGLE / RATE,
 }
 

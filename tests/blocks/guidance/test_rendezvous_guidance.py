@@ -107,6 +107,17 @@ def test_velocity_of_the_spline_goes_straight_without_overshoot():
     assert (np.diff(parts) > 0.0).all()
 
 
+@pytest.mark.parametrize(("degree", "factor", "documented"), [(5, 1.5, 1.252e-4), (6, 1.875, 1.565e-4)])
+def test_largest_acceleration_of_the_spline(degree, factor, documented):
+    """6 s (1 - s) or 30 s^2 (1 - s)^2 times the change of velocity over the duration: half way."""
+    block = guidance(spline_degree=degree)
+    change = np.linalg.norm(DRIFT - at(block, 1520.0)[1])
+    sizes = [np.linalg.norm(acceleration(block, 1520.0 + 2730.0 * s, 1)) for s in np.linspace(0.0, 1.0, 101)]
+    assert np.argmax(sizes) == 50
+    assert max(sizes) == pytest.approx(factor * change / 2730.0, rel=1e-4)
+    assert max(sizes) == pytest.approx(documented, rel=5e-4)
+
+
 @given(st.floats(1.0, 4999.0))
 def test_outputs_are_derivatives_of_each_other(time):
     block = guidance(spline_degree=6, attitude_period=0.0)

@@ -30,7 +30,7 @@ def test_every_picture_is_small_and_on_a_page():
 def test_every_page_of_a_system_has_a_picture():
     for path, text in PAGES.items():
         if path.parent.name == "systems":
-            assert re.search(r"!\[[^\]]+\]\(\.\./images/\w+\.svg\)", text), path.name
+            assert re.search(r"!\[[^\]]+\]\(\.\./images/[\w/]+\.svg\)", text), path.name
 
 
 def shapes(path):

@@ -64,6 +64,8 @@ TAKES_LONG = {
     "--campaign fixed_starts": "800 flights",
     "satellite_pointing --campaign dispersed": "1600 flights and their page",
     "satellite_pointing --campaign agile": "800 flights",
+    "robot_rendezvous --campaign seeds --parameters best.ssv --compare": "24 flights of 5000 s",
+    "--parameters paper.ssv --compare jets=jet_allocation_quantised": "16 such flights",
     "--campaign cases": "192 entries",
     "--campaign tracking": "8000 flights",
     "--campaign contacts": "2000 flights of 67 minutes",

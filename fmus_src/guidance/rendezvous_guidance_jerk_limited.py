@@ -1,0 +1,47 @@
+"""The plan of an approach whose turn takes the least time within limits of rate, acceleration and jerk."""
+
+from ..block import Output, Parameter, State
+from ..mathlib.jerk_limited import AxisMotion, JerkLimits, RateProfile, follow_profile, plan_axis
+from .rendezvous_guidance import RendezvousGuidance, RendezvousStatus
+
+
+class RendezvousGuidanceJerkLimited(RendezvousGuidance):
+    """The same plan, with a turn from rest to rest in the least time within three limits instead of the polynomial.
+
+    It begins at turn_start and is over before turn_end, until which the robot keeps its attitude. The default limits
+    are below the polynomial's largest rate, acceleration and jerk (0.0461, 1.81e-3, 2.67e-4), its rate by a third.
+    Where it takes longer than its phase there is no plan: status 2, and the robot is to stay at rest.
+    Equations: docs/systems/satellite_pointing.md. Source: Biagiotti and Melchiorri 2008, section 3.4.
+    """
+
+    turn_rate_limit = Parameter(0.03, unit="rad/s", minimum=1e-9, description="largest rate of the turn")
+    turn_acceleration_limit = Parameter(
+        1.8e-3, unit="rad/s2", minimum=1e-12, description="largest angular acceleration of the turn"
+    )
+    turn_jerk_limit = Parameter(
+        2.6e-4, unit="rad/s3", minimum=1e-15, description="largest derivative of the acceleration"
+    )
+    turn_duration = Output(0.0, unit="s", description="of the turn")
+    turn_profile = State(RateProfile)
+
+    def plan_turn(self, angle: float) -> None:
+        limits = JerkLimits(
+            rate=self.turn_rate_limit, acceleration=self.turn_acceleration_limit, jerk=self.turn_jerk_limit
+        )
+        self.turn_profile = plan_axis(angle, 0.0, 0.0, limits)
+        self.turn_duration = self.turn_profile.duration
+        if self.turn_duration > self.turn_end - self.turn_start:
+            self.status = RendezvousStatus.TURN_TOO_LONG
+
+    def turn_motion(self, elapsed: float) -> AxisMotion:
+        """Return the turn's motion at a time (s) since turn_start."""
+        if self.status != RendezvousStatus.GOOD or elapsed <= 0.0:
+            return AxisMotion(angle=0.0, rate=0.0, acceleration=0.0)
+        if elapsed >= self.turn_duration:
+            return AxisMotion(angle=self.turn_profile.angle, rate=0.0, acceleration=0.0)
+        return follow_profile(self.turn_profile, elapsed)
+
+    def turn(self, time: float) -> None:
+        now = self.turn_motion(time - self.turn_start)
+        ahead = self.turn_motion(time - self.turn_start + 0.5 * self.attitude_period)
+        self.set_turn(now.angle, now.rate, ahead.acceleration)
