@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..design.trajectories.hover_study import Curve, HoverStudy
 from ..design.trajectories.landing_study import LandingStudy
 from ..design.trajectories.path import PlannedPath
+from ..design.transfers.hover_study import Curve, HoverStudy
 from .common.page import write_page
 from .common.panels import HALF_WIDTH, Panel, Widths, both_widths, far, is_slim, panel, swatch
 from .common.quantities import number

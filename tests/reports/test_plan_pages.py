@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from perilune.analysis.design.trajectories.hover_study import hover_study
 from perilune.analysis.design.trajectories.landing_study import landing_study
 from perilune.analysis.design.trajectories.vehicle import Landing, Margins, Transfer, Vehicle
+from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.reports.plan_pages import write_hover_page, write_landing_page
 from tests.support.lengths import either
 from tests.support.pages.browser import start

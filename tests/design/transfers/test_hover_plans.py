@@ -1,4 +1,4 @@
-"""perilune.analysis.design.trajectories: the programme for people, its sweeps, the true optimum.
+"""perilune.analysis.design.transfers: the programme for people, its sweeps, the true optimum.
 
 Truth: Huang 2017, tables and figures 3 and 7, and figures of the same problem made with other programs beforehand;
 motion integrated by scipy; no plan takes less than the bound.
@@ -12,11 +12,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from perilune.analysis.common import progress
-from perilune.analysis.design.trajectories.hover_study import hover_study
 from perilune.analysis.design.trajectories.path import PlanError
-from perilune.analysis.design.trajectories.programme import Programme, find_programme, over_distance, over_duration
-from perilune.analysis.design.trajectories.true_optimum import find_true_optimum
 from perilune.analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
+from perilune.analysis.design.transfers.hover_study import hover_study
+from perilune.analysis.design.transfers.programme import Programme, find_programme, over_distance, over_duration
+from perilune.analysis.design.transfers.true_optimum import find_true_optimum
 from perilune.fmus_src.mathlib.hover.shape import HoverProgramme
 from tests.support.bars import watched
 from tests.support.lengths import either
