@@ -36,7 +36,11 @@ from .options.option import FilePath, options_of
 from .options.verb import verb
 
 OF_VEHICLE = frozenset(options_of(VehicleOptions))
-NEEDS = {"adjoint": "optimum", "distances": "free_fall"}  # options of a transfer that extend another one
+NEEDS = {
+    "adjoint": "optimum",
+    "distances": "free_fall",
+    "turn_begun": "free_fall",
+}  # options of a transfer that extend another one
 
 
 def format_numbers(options: Mapping[str, Any], names: Collection[str]) -> dict[str, float]:
@@ -107,8 +111,9 @@ def plan_hover_transfer(
     ``maximum_throttle``, ``minimum_throttle`` and ``angular_acceleration`` (deg/s2) replace their numbers.
     ``duration`` (s) is the programme's end, by default that of least propellant; ``optimum`` and ``bound`` need the
     extra `plan`. ``adjoint`` integrates the adjoint system along the optimum, ``finite_switches`` computes the best
-    profile with a finite number of switches and ``free_fall`` the programme that becomes vertical in free fall, at
-    ``distances`` (m), too. Raises InputError for a vehicle that cannot hover, PlanError where there is no such plan.
+    profile with a finite number of switches and ``free_fall`` the programme that becomes vertical in free fall, with
+    the fraction ``turn_begun`` of the turn before it, and at ``distances`` (m), too. Raises InputError for a vehicle
+    that cannot hover, and PlanError where there is no such plan.
     """
     if options["intervals"] is not None and not (options["optimum"] or options["bound"]):
         problem = "without effect unless `optimum` or `bound` is given"
@@ -132,6 +137,7 @@ def plan_hover_transfer(
         adjoint=options["adjoint"],
         finite_switches=options["finite_switches"],
         free_fall=options["free_fall"],
+        turn_begun=options["turn_begun"],
         distances=options["distances"],
         intervals=options["intervals"],
     )

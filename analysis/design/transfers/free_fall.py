@@ -1,8 +1,9 @@
 """The other way of becoming vertical: at rest before, the lander turns in free fall and brakes once more.
 
 Pitch is that of the simplified programme, whose last turn from t5 to t7 happens with the engine off: the braking burn
-ends at t5, at rest and tilted, and after t7 a vertical burn at full thrust takes up the speed of the fall. Source of
-the two ways: Huang 2017, after Likhachev, Sikharulidze and Fedotov 2013; the programme is ours.
+ends at t5, at rest and tilted, and after t7 a vertical burn at full thrust takes up the speed of the fall. Or the
+braking burn ends later, when a part of the turn has begun. Source of the two ways: Huang 2017, after Likhachev,
+Sikharulidze and Fedotov 2013; the programme is ours.
 """
 
 from __future__ import annotations
@@ -28,12 +29,14 @@ NO_SHAPE = 1e3  # of the conditions where the times have no shape
 
 @dataclass(frozen=True)
 class FreeFallProgramme:
-    """``times``: t2, t5, w and t7 (s) as in the simplified programme, and tp, the burn that ends at t5.
+    """``times``: t2, t5, w and t7 (s) as in the simplified programme, and tp, the braking burn.
 
-    ``last_burn`` (s) follows t7, ``drop`` (m) is the height lost from t5 on; ``propellant_fraction`` of all of it.
+    ``fall`` (s) is with the engine off, until t7; ``last_burn`` (s) follows it. ``drop`` (m) is the height lost by
+    both, ``propellant_fraction`` is of all.
     """
 
     times: HoverProgramme
+    fall: float
     last_burn: float
     drop: float
     propellant_fraction: float
@@ -43,45 +46,46 @@ class FreeFallProgramme:
         """In s, to rest after the last burn."""
         return self.times.t7 + self.last_burn
 
-    @property
-    def turn(self) -> float:
-        """Duration (s) of the turn in free fall."""
-        return self.times.t7 - self.times.t5
 
+def find_free_fall(near: Programme, begun: float = 0.0) -> FreeFallProgramme | None:
+    """Return the programme of least propellant for the vehicle and transfer of a simplified one; None without one.
 
-def find_free_fall(near: Programme) -> FreeFallProgramme | None:
-    """Return the programme of least propellant for the vehicle and transfer of a simplified one; None without one."""
+    ``begun``: fraction of the turn's duration, t7 - t5, that has passed when the braking burn ends.
+    """
     vehicle, transfer = near.vehicle, near.transfer
     shape = near.shape()
     if not shape.t7 > shape.t5:
         return None  # nothing to turn
 
     def conditions(z: np.ndarray) -> np.ndarray:
-        flown = _fly(z, vehicle, transfer)
+        flown = _fly(z, begun, vehicle, transfer)
         return np.full(4, NO_SHAPE) if flown is None else flown[1]
 
     def cost(z: np.ndarray) -> float:
-        flown = _fly(z, vehicle, transfer)
+        flown = _fly(z, begun, vehicle, transfer)
         return SCALE if flown is None else SCALE * flown[0].propellant_fraction
 
     burn = near.programme.last_burn
     guess = [shape.t2, shape.t5, max(near.programme.width, 0.1), 0.8 * burn, shape.t7 - shape.t5]
     best = minimise(cost, conditions, guess, [0.0, 0.0, 0.0, 0.0, SHORTEST])
-    flown = None if best is None else _fly(best, vehicle, transfer)
+    flown = None if best is None else _fly(best, begun, vehicle, transfer)
     return None if flown is None else flown[0]
 
 
-def _fly(z: np.ndarray, vehicle: Vehicle, transfer: Transfer) -> tuple[FreeFallProgramme, np.ndarray] | None:
+def _fly(
+    z: np.ndarray, begun: float, vehicle: Vehicle, transfer: Transfer
+) -> tuple[FreeFallProgramme, np.ndarray] | None:
     """The programme with t2, t5, w, tp and t7 - t5 (s), and how it misses the end; None where it has no shape."""
     t2, t5, width, burn, turn = (float(each) for each in z)
     kernel = kernel_vehicle(vehicle, transfer)
-    pitch = HoverProgramme(t2=t2, t5=t5, width=width, last_burn=burn + turn, t7=t5 + turn)
+    off, fall = t5 + begun * turn, (1.0 - begun) * turn
+    pitch = HoverProgramme(t2=t2, t5=t5, width=width, last_burn=burn + fall, t7=t5 + turn)
     planned = hover_shape.shape_of(pitch, vehicle.angular_acceleration)
     if not planned.exists:
         return None
-    end = hover_motion.motion(planned.shape, kernel, t5)
-    spent = hover_motion.propellant(planned.shape, kernel, t5)
-    stop = stop_falling(vehicle, transfer.gravity, spent, turn)
+    end = hover_motion.motion(planned.shape, kernel, off)
+    spent = hover_motion.propellant(planned.shape, kernel, off)
+    stop = stop_falling(vehicle, transfer.gravity, spent, fall)
     if not end.exists or stop is None:
         return None
     last_burn, drop = stop
@@ -91,7 +95,7 @@ def _fly(z: np.ndarray, vehicle: Vehicle, transfer: Transfer) -> tuple[FreeFallP
     ])  # fmt: skip
     times = HoverProgramme(t2=t2, t5=t5, width=width, last_burn=burn, t7=t5 + turn)
     fraction = spent + vehicle.full * last_burn / vehicle.exhaust_speed
-    return FreeFallProgramme(times, last_burn, drop, fraction), residual
+    return FreeFallProgramme(times, fall, last_burn, drop, fraction), residual
 
 
 def stop_falling(vehicle: Vehicle, gravity: float, spent: float, fall: float) -> tuple[float, float] | None:

@@ -132,6 +132,7 @@ class HoverStudy:
             return None
         return {
             **dict(zip(NAMES, programme.times.elements(), strict=True)),
+            "free_fall_s": programme.fall,
             "last_burn_s": programme.last_burn,
             "duration_s": programme.duration,
             "drop_m": programme.drop,
@@ -164,14 +165,15 @@ def hover_study(
     adjoint: bool = False,
     finite_switches: bool = False,
     free_fall: bool = False,
+    turn_begun: float = 0.0,
     distances: Sequence[float] = (),
     intervals: int | None = None,
 ) -> HoverStudy:
     """Plan a transfer; ``duration`` (s) is the programme's t7, the best where it is None.
 
     ``optimum``, ``bound`` and ``curves`` ask for more than the programme, the first two on so many ``intervals``, of
-    solvers that need to be installed; ``adjoint`` is of the optimum, and ``distances`` (m) of the programme with
-    ``free_fall``. Raises `PlanError`, and InputError for a missing solver.
+    solvers that need to be installed; ``adjoint`` is of the optimum, ``turn_begun``, a fraction of the turn, and
+    ``distances`` (m) are of the programme with ``free_fall``. Raises `PlanError`, and InputError for a missing solver.
     """
     planned = vehicle if margins is None else margins.of(vehicle)
     programme = find_programme(planned, transfer, duration)
@@ -214,8 +216,10 @@ def hover_study(
         finite=_require(find_finite_switches(best), "profile with a finite number of switches", transfer)
         if finite_switches
         else None,
-        free_fall=_require(find_free_fall(best), "programme with a turn in free fall", transfer) if free_fall else None,
-        comparisons=tuple(_compare(planned, replace(transfer, distance=each)) for each in distances),
+        free_fall=_require(find_free_fall(best, turn_begun), "programme with a turn in free fall", transfer)
+        if free_fall
+        else None,
+        comparisons=tuple(_compare(planned, replace(transfer, distance=each), turn_begun) for each in distances),
     )
 
 
@@ -226,10 +230,10 @@ def _require(plan: Plan | None, what: str, transfer: Transfer) -> Plan:
     return plan
 
 
-def _compare(planned: Vehicle, transfer: Transfer) -> Comparison:
+def _compare(planned: Vehicle, transfer: Transfer, turn_begun: float) -> Comparison:
     """Both programmes to one distance."""
     programme = find_programme(planned, transfer)
-    free_fall = None if programme is None else find_free_fall(programme)
+    free_fall = None if programme is None else find_free_fall(programme, turn_begun)
     fractions = (math.nan if plan is None else plan.propellant_fraction for plan in (programme, free_fall))
     return Comparison(transfer.distance, *fractions)
 

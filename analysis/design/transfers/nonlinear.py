@@ -11,7 +11,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 SETTLED = 1e-8  # of each scaled condition
-PRECISION = 1e-12  # of the function between two iterations
+PRECISION = 1e-10  # of the function between two iterations
 ITERATIONS = 500
 
 Function = Callable[[np.ndarray], float]

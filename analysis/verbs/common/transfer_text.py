@@ -43,7 +43,7 @@ def finite_lines(study: HoverStudy) -> list[str]:
     t2, t3, t4, t5, t7 = profile.times
     fraction, mass = profile.propellant_fraction, study.vehicle.mass
     lines = [
-        f"finite switches: t2 {t2:.3f}, t3 {t3:.3f}, t4 {t4:.3f}, t5 {t5:.3f}, t7 {t7:.3f} s",
+        f"finite switches: t2 {t2:.2f}, t3 {t3:.2f}, t4 {t4:.2f}, t5 {t5:.2f}, t7 {t7:.2f} s",
         f"  propellant fraction {fraction:.6f}, {fraction * mass:.3f} kg; {burns_text(profile.full_thrust)}",
     ]
     if study.optimum is not None:
@@ -61,8 +61,8 @@ def free_fall_lines(study: HoverStudy) -> list[str]:
     t2, t5, w, tp, t7 = plan.times.elements()
     fraction = plan.propellant_fraction
     lines = [
-        f"turn in free fall: t2 {t2:.3f}, t5 {t5:.3f}, w {w:.3f}, tp {tp:.3f}, t7 {t7:.3f} s",
-        f"  engine off for {plan.turn:.2f} s, then {plan.last_burn:.2f} s of full thrust; {plan.drop:.1f} m lower",
+        f"turn in free fall: t2 {t2:.2f}, t5 {t5:.2f}, w {w:.2f}, tp {tp:.2f}, t7 {t7:.2f} s",
+        f"  engine off for {plan.fall:.2f} s, then {plan.last_burn:.2f} s of full thrust; {plan.drop:.1f} m lower",
         f"  propellant fraction {fraction:.6f}, {fraction * mass:.3f} kg in {plan.duration:.2f} s",
     ]
     return lines + _table(study)

@@ -164,6 +164,10 @@ class TransferOptions(VehicleOptions, total=False):
     free_fall: Annotated[
         bool, Option("compute the programme, too, that becomes vertical in free fall and brakes once more", False)
     ]
+    turn_begun: Annotated[
+        float,
+        Option("fraction of the last turn's duration before the engine goes off", 0.0, minimum=0.0, maximum=0.9),
+    ]
     distances: Annotated[
         Sequence[float],
         Option(

@@ -25,20 +25,21 @@ TRANSFER = Transfer(1600.0, 2300.0, 1.622)
 MARGINS = Margins(0.90, 0.10, math.radians(0.70))
 
 
-def plan_of(vehicle, distance):
-    return find_free_fall(find_programme(vehicle, replace(TRANSFER, distance=distance)))
+def plan_of(vehicle, distance, begun=0.0):
+    return find_free_fall(find_programme(vehicle, replace(TRANSFER, distance=distance)), begun)
 
 
-def fly(vehicle, times, last_burn, accuracy=1e-11):
-    """x, x', y, y', propellant fraction, pitch and its rate at t5 and at the end."""
+def fly(vehicle, times, fall, last_burn, accuracy=1e-11):
+    """x, x', y, y', propellant fraction, pitch and its rate before the fall and at the end."""
     t2, t5, width, burn, t7 = times
+    off = t7 - fall
     t1, t6 = t2 / 2.0, (t5 + t7) / 2.0
     d = np.min(np.roots([1.0, t2 - t5, t1**2 + (t7 - t6) ** 2]).real)
     begin = t2 - width if width <= t1 else math.sqrt(2.0 * t1**2 - width**2)
     end = t2 + width if width <= d else t2 + (width**2 + d**2) / (2.0 * d)
     corners = [0.0, t1, t2 + d, t5 - d, t6, t7, t7 + last_burn]
     signs = [-1.0, 1.0, 0.0, -1.0, 1.0, 0.0]
-    full = [(begin, end), (t5 - burn, t5), (t7, t7 + last_burn)]
+    full = [(begin, end), (off - burn, off), (t7, t7 + last_burn)]
 
     def rates(_, s, thrust, turning):
         acceleration = thrust / (1.0 - s[4])
@@ -46,22 +47,26 @@ def fly(vehicle, times, last_burn, accuracy=1e-11):
         return [*speed, thrust / vehicle.exhaust_speed, s[6], turning]
 
     state, at_rest = np.array([0.0, 0.0, 0.0, 0.0, 0.0, math.pi / 2.0, 0.0]), None
-    for start, stop in pairwise(sorted({*corners, t5, *(time for burn in full for time in burn)})):
+    for start, stop in pairwise(sorted({*corners, off, *(time for burn in full for time in burn)})):
         middle = (start + stop) / 2.0
-        thrust = 0.0 if t5 < middle < t7 else vehicle.least
+        thrust = 0.0 if off < middle < t7 else vehicle.least
         thrust = vehicle.full if any(low < middle < high for low, high in full) else thrust
         turning = vehicle.angular_acceleration * signs[np.searchsorted(corners, middle) - 1]
         run = solve_ivp(rates, (start, stop), state, "DOP853", args=(thrust, turning), rtol=accuracy, atol=accuracy)
         state = run.y[:, -1]
-        at_rest = state if stop == t5 else at_rest
+        at_rest = state if stop == off else at_rest
     return at_rest, state
 
 
-@pytest.mark.parametrize(("vehicle", "distance"), [(VEHICLE, 1600.0), (VEHICLE, 100.0), (MARGINS.of(VEHICLE), 1600.0)])
-def test_programme_ends_where_it_should(vehicle, distance):
-    plan = plan_of(vehicle, distance)
-    hover, end = fly(vehicle, plan.times.elements(), plan.last_burn)
-    assert hover[[1, 3, 6]] == pytest.approx([0.0, 0.0, 0.0], abs=1e-6)  # a hover, tilted
+@pytest.mark.parametrize(
+    ("vehicle", "distance", "begun"),
+    [(VEHICLE, 1600.0, 0.0), (VEHICLE, 100.0, 0.0), (MARGINS.of(VEHICLE), 1600.0, 0.0), (VEHICLE, 3000.0, 0.6)],
+)
+def test_programme_ends_where_it_should(vehicle, distance, begun):
+    plan = plan_of(vehicle, distance, begun)
+    hover, end = fly(vehicle, plan.times.elements(), plan.fall, plan.last_burn)
+    assert hover[[1, 3]] == pytest.approx([0.0, 0.0], abs=1e-6)
+    assert begun or hover[6] == pytest.approx(0.0, abs=1e-9)  # a hover, tilted
     assert hover[5] > math.pi / 2.0
     assert end[:4] == pytest.approx([distance, 0.0, -2300.0, 0.0], abs=1e-5)
     assert end[4] == pytest.approx(plan.propellant_fraction, abs=1e-9)
@@ -74,18 +79,18 @@ def test_no_other_turn_takes_less():
     plan = plan_of(VEHICLE, 1600.0)
     times = np.array(plan.times.elements())
     for change in (-0.3, 0.3):
-        turn = plan.turn + change
+        turn = plan.fall + change
 
         def residual(z, turn=turn):
             t2, t5, width, burn = z
-            hover, _ = fly(VEHICLE, (t2, t5, width, burn, t5 + turn), 0.0, 1e-9)
+            hover, _ = fly(VEHICLE, (t2, t5, width, burn, t5 + turn), turn, 0.0, 1e-9)
             _, drop = stop_falling(VEHICLE, TRANSFER.gravity, hover[4], turn)
             return (hover[:4] - [1600.0, 0.0, drop - 2300.0, 0.0]) / [100.0, 5.0, 100.0, 5.0]
 
         other = root(residual, times[:4])
         assert other.success
         t2, t5, width, burn = other.x
-        hover, _ = fly(VEHICLE, (t2, t5, width, burn, t5 + turn), 0.0, 1e-9)
+        hover, _ = fly(VEHICLE, (t2, t5, width, burn, t5 + turn), turn, 0.0, 1e-9)
         last_burn, _ = stop_falling(VEHICLE, TRANSFER.gravity, hover[4], turn)
         spent = hover[4] + VEHICLE.full * last_burn / VEHICLE.exhaust_speed
         assert spent > plan.propellant_fraction
@@ -117,7 +122,7 @@ def test_turning_while_braking_takes_less_at_every_distance():
         plan = plan_of(VEHICLE, each.distance)
         assert each.free_fall == plan.propellant_fraction
         assert 1.03 * each.programme < each.free_fall < 1.13 * each.programme
-        fall_alone = TRANSFER.gravity * plan.turn / VEHICLE.exhaust_speed  # the rocket equation without its losses
+        fall_alone = TRANSFER.gravity * plan.fall / VEHICLE.exhaust_speed  # the rocket equation without its losses
         assert each.free_fall - each.programme < 2.0 * fall_alone
     assert study.free_fall.propellant_fraction > study.programme.propellant_fraction
     assert plan_of(VEHICLE, 0.0) is None
