@@ -64,6 +64,14 @@ def test_straight_down(capsys):
     assert programme["propellant_fraction"] == pytest.approx(0.037878, abs=1e-6)
 
 
+def test_the_moon_of_the_paper_is_not_stated(capsys):
+    """Less gravity, less propellant: the loss is the impulse of the weight, about g t7/c, most of what there is."""
+    less = made(capsys, "transfer", "--gravity", "1.62")["programme"]["propellant_fraction"]
+    more = made(capsys, "transfer")["programme"]["propellant_fraction"]
+    assert less == pytest.approx(0.049485, abs=1e-6)
+    assert 0.0 < more / less - 1.0 < 1.622 / 1.62 - 1.0
+
+
 def test_a_vehicle_that_is_twice_as_large(capsys):
     one = made(capsys, "transfer")
     twice = ["--mass", "1200", "--maximum-thrust", "9414.384", "--minimum-thrust", str(2.0 * 4707.192 / 15.0)]
