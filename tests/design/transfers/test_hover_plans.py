@@ -168,6 +168,16 @@ def test_bound_optimum_programme_in_this_order(distance):
     assert bound < optimum < study.programme.propellant_fraction
 
 
+def test_a_plan_that_the_direct_method_shows_to_exist():
+    """From the programme to 42 m as its guess; the search's own programme to 45 m takes little more."""
+    light = Vehicle(1000.0, 0.0, 300.0, 2430.0, 270.0, 0.2)
+    near, there = (Transfer(distance, 58.0, 1.62) for distance in (42.0, 45.0))
+    optimum = find_true_optimum(replace(find_programme(light, near), transfer=there), 40, 2430.0)
+    assert optimum.position[-1] == pytest.approx([45.0, -58.0], abs=1e-6)
+    programme = find_programme(light, there)
+    assert optimum.propellant_fraction < programme.propellant_fraction < 1.01 * optimum.propellant_fraction
+
+
 def test_no_room_for_the_programme():
     with pytest.raises(PlanError, match="no simplified programme goes 10000 m along in 500 m of descent"):
         hover_study(VEHICLE, Transfer(10000.0, 500.0, 1.622))
