@@ -24,6 +24,7 @@ from .programme import Programme, kernel_vehicle
 FAR, FAST = 100.0, 5.0  # m and m/s that count alike
 SCALE = 1e3  # of the propellant fraction
 SHORTEST = 0.01  # s, of the turn
+SHORTEST_BURN = 1e-3  # s
 NO_SHAPE = 1e3  # of the conditions where the times have no shape
 
 
@@ -32,7 +33,7 @@ class FreeFallProgramme:
     """``times``: t2, t5, w and t7 (s) as in the simplified programme, and tp, the braking burn.
 
     ``fall`` (s) is with the engine off, until t7; ``last_burn`` (s) follows it. ``drop`` (m) is the height lost by
-    both, ``propellant_fraction`` is of all.
+    both, ``propellant_fraction`` is of all. ``full_thrust`` has begin and end (s) of each burn.
     """
 
     times: HoverProgramme
@@ -40,6 +41,7 @@ class FreeFallProgramme:
     last_burn: float
     drop: float
     propellant_fraction: float
+    full_thrust: tuple[tuple[float, float], ...]
 
     @property
     def duration(self) -> float:
@@ -95,7 +97,13 @@ def _fly(
     ])  # fmt: skip
     times = HoverProgramme(t2=t2, t5=t5, width=width, last_burn=burn, t7=t5 + turn)
     fraction = spent + vehicle.full * last_burn / vehicle.exhaust_speed
-    return FreeFallProgramme(times, fall, last_burn, drop, fraction), residual
+    first = planned.shape.first_burn_begin, planned.shape.first_burn_end
+    burns = (
+        *([first] if first[1] - first[0] > SHORTEST_BURN else []),
+        (off - burn, off),
+        (t5 + turn, t5 + turn + last_burn),
+    )
+    return FreeFallProgramme(times, fall, last_burn, drop, fraction, burns), residual
 
 
 def stop_falling(vehicle: Vehicle, gravity: float, spent: float, fall: float) -> tuple[float, float] | None:

@@ -137,6 +137,7 @@ class HoverStudy:
             "duration_s": programme.duration,
             "drop_m": programme.drop,
             **self._propellant(programme.propellant_fraction),
+            "full_thrust_s": [list(burn) for burn in programme.full_thrust],
         }
 
     def _propellant(self, fraction: float) -> dict[str, float]:
