@@ -12,14 +12,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..design.trajectories.hover_study import Curve, HoverStudy
 from ..design.trajectories.landing_study import LandingStudy
 from ..design.trajectories.path import PlannedPath
+from ..design.transfers.hover_study import Curve, HoverStudy
 from .common.page import write_page
 from .common.panels import HALF_WIDTH, Panel, Widths, both_widths, far, is_slim, panel, swatch
 from .common.quantities import number
 from .common.style import FAINT, INK, LineStyle, Look, look, plain_ticks
 
+OTHERS = ("finite switches", "turn in free fall")
 NAMES = ("simplified programme", "true optimum", "point-mass bound")
 
 
@@ -43,6 +44,7 @@ def write_hover_page(study: HoverStudy, path: Path) -> None:
         times=list(zip(("t2", "t5", "w", "tp", "t7"), study.programme.times, strict=True)),
         looks=[(swatch(one.look), one.name) for one in series],
         rows=[(swatch(one.look), one.name, one.path) for one in series],
+        others=[(name, plan) for name, plan in zip(OTHERS, (study.finite, study.free_fall), strict=True) if plan],
         missing=[name for name, plan in zip(NAMES[1:], (study.optimum, study.bound), strict=True) if plan is None],
         track=[path_panel(series, displayed, ("along", "up"))],
         over_time=time_panels(series, "Pitch from the horizontal, deg"),

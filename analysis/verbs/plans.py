@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Unpack
@@ -11,7 +11,6 @@ from typing import Any, Unpack
 from ...fmus_src.paths import IS_CHECKOUT, PACKAGE
 from ..common.errors import InputError, UnwrittenError
 from ..design.trajectories.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
-from ..design.trajectories.hover_study import HoverStudy, hover_study
 from ..design.trajectories.landing_study import LandingStudy, landing_study
 from ..design.trajectories.stored_bound import write_bound
 from ..design.trajectories.vehicle import (
@@ -27,14 +26,21 @@ from ..design.trajectories.vehicle import (
     check_hover,
     check_vehicle,
 )
+from ..design.transfers.hover_study import HoverStudy, hover_study
 from ..reports.plan_pages import write_hover_page, write_landing_page
 from ..runtime.system.options import SystemOptions, system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
+from .common.transfer_text import adjoint_lines, burns_text, finite_lines, free_fall_lines
 from .options.design import BOUND, TRANSFER, BoundOptions, TransferOptions, VehicleOptions
 from .options.option import FilePath, options_of
 from .options.verb import verb
 
 OF_VEHICLE = frozenset(options_of(VehicleOptions))
+NEEDS = {
+    "adjoint": "optimum",
+    "distances": "free_fall",
+    "turn_begun": "free_fall",
+}  # options of a transfer that extend another one
 
 
 def format_numbers(options: Mapping[str, Any], names: Collection[str]) -> dict[str, float]:
@@ -48,11 +54,6 @@ def propellant_problems(vehicle: Vehicle, propellant: float, what: str) -> list[
     if propellant <= carried:
         return []
     return [f"{what} takes {propellant:.2f} kg of propellant; {carried:g} kg are on board"]
-
-
-def burns_text(burns: Iterable[tuple[float, float]]) -> str:
-    """``full thrust 0.0 to 65.6 s, 112.3 to 292.7 s``."""
-    return "full thrust " + ", ".join(f"{begin:.1f} to {end:.1f} s" for begin, end in burns)
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,9 @@ class HoverPlan(HoverStudy):
                     f"{name}: propellant fraction {fraction:.6f}, {fraction * mass:.3f} kg in {duration}",
                     f"  {burns_text(path.burns())}",
                 ]
-        return lines
+                if name == "true optimum":
+                    lines += adjoint_lines(self)
+        return lines + finite_lines(self) + free_fall_lines(self)
 
     def to_json(self) -> dict[str, object]:
         """All of it for other programs; times in s, angles in deg."""
@@ -107,11 +110,18 @@ def plan_hover_transfer(
     ``margins`` leave feedback its part of throttle and angular acceleration: `Margins`, or True for the published ones;
     ``maximum_throttle``, ``minimum_throttle`` and ``angular_acceleration`` (deg/s2) replace their numbers.
     ``duration`` (s) is the programme's end, by default that of least propellant; ``optimum`` and ``bound`` need the
-    extra `plan`. Raises InputError for a vehicle that cannot hover, and PlanError where there is no such plan.
+    extra `plan`. ``adjoint`` integrates the adjoint system along the optimum, ``finite_switches`` computes the best
+    profile with a finite number of switches and ``free_fall`` the programme that becomes vertical in free fall, with
+    the fraction ``turn_begun`` of the turn before it, and at ``distances`` (m), too. Raises InputError for a vehicle
+    that cannot hover, and PlanError where there is no such plan.
     """
     if options["intervals"] is not None and not (options["optimum"] or options["bound"]):
         problem = "without effect unless `optimum` or `bound` is given"
         raise InputError("`intervals`", str(options["intervals"]), problem, "give one of them with it")
+    for name, base in NEEDS.items():
+        if options[name] and not options[base]:  # type: ignore[literal-required]
+            problem = f"without effect unless `{base}` is given"
+            raise InputError(f"`{name}`", "", problem, "give it, too")
     transfer = replace(transfer, **format_numbers(options, ("distance", "descent", "gravity")))
     vehicle = check_vehicle(replace(vehicle, **format_numbers(options, OF_VEHICLE)))
     margins = _margins(options, vehicle)
@@ -124,6 +134,11 @@ def plan_hover_transfer(
         optimum=options["optimum"],
         bound=options["bound"],
         curves=options["curves"],
+        adjoint=options["adjoint"],
+        finite_switches=options["finite_switches"],
+        free_fall=options["free_fall"],
+        turn_begun=options["turn_begun"],
+        distances=options["distances"],
         intervals=options["intervals"],
     )
     return HoverPlan(**vars(study))

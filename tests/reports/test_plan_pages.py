@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from perilune.analysis.design.trajectories.hover_study import hover_study
 from perilune.analysis.design.trajectories.landing_study import landing_study
 from perilune.analysis.design.trajectories.vehicle import Landing, Margins, Transfer, Vehicle
+from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.reports.plan_pages import write_hover_page, write_landing_page
 from tests.support.lengths import either
 from tests.support.pages.browser import start
@@ -40,7 +40,8 @@ addEventListener("load", () => {
 @pytest.fixture(scope="module")
 def hover():
     transfer = Transfer(1600.0, 2300.0, 1.622)
-    return hover_study(VEHICLE, transfer, MARGINS, optimum=True, bound=True, curves=True, intervals=40)
+    more = {"adjoint": True, "finite_switches": True, "free_fall": True, "distances": (0.0, 500.0)}
+    return hover_study(VEHICLE, transfer, MARGINS, optimum=True, bound=True, curves=True, intervals=40, **more)
 
 
 @pytest.fixture(scope="module")
@@ -65,6 +66,11 @@ def test_transfer(hover, pages):
         assert repr(path.duration) in values
     for time in hover.programme.times:
         assert repr(time) in values
+    for plan in (hover.finite, hover.free_fall):
+        assert repr(plan.propellant_fraction) in values
+        assert all(repr(time) in values for burn in plan.full_thrust for time in burn)
+    assert all(repr(time) in values for time in (*hover.adjoint.singular_span, *hover.adjoint.switching_times))
+    assert repr(hover.comparisons[1].free_fall * VEHICLE.mass) in values
     words = text_of(text)
     for name in ("simplified programme", "true optimum", "point-mass bound", "the plan's throttle 0.1 to 0.9"):
         assert name in words

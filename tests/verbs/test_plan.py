@@ -64,6 +64,14 @@ def test_straight_down(capsys):
     assert programme["propellant_fraction"] == pytest.approx(0.037878, abs=1e-6)
 
 
+def test_the_moon_of_the_paper_is_not_stated(capsys):
+    """Less gravity, less propellant: the loss is the impulse of the weight, about g t7/c, most of what there is."""
+    less = made(capsys, "transfer", "--gravity", "1.62")["programme"]["propellant_fraction"]
+    more = made(capsys, "transfer")["programme"]["propellant_fraction"]
+    assert less == pytest.approx(0.049485, abs=1e-6)
+    assert 0.0 < more / less - 1.0 < 1.622 / 1.62 - 1.0
+
+
 def test_a_vehicle_that_is_twice_as_large(capsys):
     one = made(capsys, "transfer")
     twice = ["--mass", "1200", "--maximum-thrust", "9414.384", "--minimum-thrust", str(2.0 * 4707.192 / 15.0)]
@@ -92,6 +100,22 @@ def test_optimum_bound_and_curves(tmp_path, capsys):
     )
 
 
+def test_conditions_and_other_programmes(capsys):
+    more = ["--optimum", "--adjoint", "--finite-switches", "--free-fall", "--distances", "0,1600", "--intervals", "40"]
+    actual = made(capsys, "transfer", *more)
+    adjoint, free_fall = actual["adjoint"], actual["free_fall"]
+    assert len(adjoint["time_s"]) == len(adjoint["costates"]) == len(adjoint["switching_function"]) == 41
+    assert adjoint["costates"][-1][4] == pytest.approx(0.8 / 300.0)  # of the propellant fraction by tm
+    assert adjoint["residuals"]["switching_function"] < 1e-3
+    programme, optimum = actual["programme"]["propellant_fraction"], actual["true_optimum"]["propellant_fraction"]
+    assert optimum < actual["finite_switches"]["propellant_fraction"] < programme
+    assert free_fall["duration_s"] == pytest.approx(free_fall["t7_s"] + free_fall["last_burn_s"])
+    straight, aside = actual["free_fall_over_distance"]
+    assert straight["free_fall"] is None  # nothing to turn
+    assert straight["programme"] == actual["vertical"]["propellant_fraction"]
+    assert aside == {"distance": 1600.0, "programme": programme, "free_fall": free_fall["propellant_fraction"]}
+
+
 def test_not_enough_on_board(capsys):
     assert main(["design", "transfer", "--dry-mass", "580"]) == 1
     assert capsys.readouterr().err == "perilune: the programme takes 29.71 kg of propellant; 20 kg are on board\n"
@@ -113,6 +137,12 @@ def test_no_programme(capsys):
         (["transfer", "--distance", "-1"], "--distance: -1: below 0"),
         (["transfer", "--bound", "--intervals", "5"], "--intervals: 5: below 10"),
         (["transfer", "--intervals", "50"], "--intervals: 50: without effect unless --optimum or --bound is given"),
+        (["transfer", "--adjoint"], "--adjoint: without effect unless --optimum is given; give it, too"),
+        (["transfer", "--distances", "50"], "--distances: without effect unless --free-fall is given; give it, too"),
+        (["transfer", "--turn-begun", "0.5"], "--turn-begun: without effect unless --free-fall is given"),
+        (["transfer", "--free-fall", "--turn-begun", "1"], "--turn-begun: 1: above 0.9"),
+        (["transfer", "--free-fall", "--distances", "50,-1"], "--distances: -1: below 0"),
+        (["transfer", "--free-fall", "--distance", "0"], "--free-fall: nothing turns on the way straight down, 0 m"),
         (["transfer", "--maximum-thrust", "900"], "--maximum-thrust: 900 N: 1.5 m/s2 do not carry the mass"),
         (["transfer", "--minimum-thrust", "1000"], "--minimum-thrust: 1000 N: 1.667 m/s2 carry the mass"),
         (["transfer", "--minimum-thrust", "5000"], "--minimum-thrust: 5000: not below the largest thrust"),

@@ -1,1 +1,1 @@
-"""Plans of least propellant: the simplified programme of a hover transfer, its true optimum, bounds."""
+"""Plans of least propellant: direct method, bounds of transfers and landings."""

@@ -18,6 +18,7 @@ from .path import OFF, PlanError, PlannedPath
 from .point_mass import PointMassProblem
 from .solvers import clarabel
 
+BOUND_INTERVALS = 240  # of a bound, unless others are requested
 SOLVES = 12  # three to six are needed
 CHANGE = 1e-7  # of the propellant fraction between two solves
 TOLERANCE = 1e-10

@@ -6,14 +6,13 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 
 from ...common.progress import progress_bar
-from .convex_form import least_propellant
+from .convex_form import BOUND_INTERVALS, least_propellant
 from .declared_bound import Inputs
-from .hover_study import BOUND_INTERVALS, vehicle_document
 from .multiple_shooting import direct_propellant
 from .path import PlannedPath
 from .point_mass import PointMassProblem, landing_problem
 from .stored_bound import StoredBound, digest
-from .vehicle import Landing, Vehicle
+from .vehicle import Landing, Vehicle, limits_document
 
 
 @dataclass(frozen=True)
@@ -60,7 +59,7 @@ class LandingStudy:
         """All of it for other programs; SI, but angular acceleration."""
         direct = self.direct
         return {
-            "vehicle": vehicle_document(self.vehicle),
+            "vehicle": limits_document(self.vehicle),
             "landing": asdict(self.landing),
             "bound": {
                 "duration_s": self.bound.duration,

@@ -39,11 +39,16 @@ class ShootingProblem:
 
 @dataclass(frozen=True)
 class Shooting:
-    """States at the N + 1 ends of intervals and controls over the N intervals, a row each; ``duration`` in s."""
+    """States at the N + 1 ends of intervals and controls over the N intervals, a row each; ``duration`` in s.
+
+    ``costates``, a row for each of the last N ends, are the derivatives of the last state by the states there:
+    multipliers of the conditions that join the intervals; None for a guess.
+    """
 
     duration: float
     states: np.ndarray
     controls: np.ndarray
+    costates: np.ndarray | None = None
 
 
 def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
@@ -84,7 +89,10 @@ def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
     values = np.array(solution["x"]).ravel()
     cut = 1 + guess.states.size
     return Shooting(
-        float(values[0]), values[1:cut].reshape(guess.states.shape), values[cut:].reshape(guess.controls.shape)
+        float(values[0]),
+        values[1:cut].reshape(guess.states.shape),
+        values[cut:].reshape(guess.controls.shape),
+        -np.array(solution["lam_g"]).reshape(intervals, problem.start.size),
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 from ....fmus_src.mathlib.lunar.gravity import STANDARD_GRAVITY
 from ...common.errors import InputError
@@ -56,6 +56,13 @@ class Margins:
             minimum_thrust=self.minimum_throttle * vehicle.maximum_thrust,
             angular_acceleration=self.angular_acceleration,
         )
+
+
+def limits_document(limits: Vehicle | Margins) -> dict[str, float]:
+    """Return a vehicle or margins for other programs: kg, s, N, and deg/s2 unless there is no such limit."""
+    values = asdict(limits)
+    turn = math.degrees(values.pop("angular_acceleration"))
+    return values | ({"angular_acceleration_deg_s2": turn} if math.isfinite(turn) else {})
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Annotated, TypedDict
 
 from ...design.trajectories.vehicle import (
@@ -153,6 +154,26 @@ class TransferOptions(VehicleOptions, total=False):
         float | None, Option("as a control margin, deg/s2; the vehicle's is 1", unit="deg/s2", above=0.0)
     ]
     optimum: Annotated[bool, Option("compute the true optimum, too, by direct multiple shooting", False)]
+    adjoint: Annotated[
+        bool, Option("integrate the adjoint system along the true optimum: residuals of its conditions", False)
+    ]
+    finite_switches: Annotated[
+        bool,
+        Option("compute the best profile, too, of angular accelerations that switch finitely often", False),
+    ]
+    free_fall: Annotated[
+        bool, Option("compute the programme, too, that becomes vertical in free fall and brakes once more", False)
+    ]
+    turn_begun: Annotated[
+        float,
+        Option("fraction of the last turn's duration before the engine goes off", 0.0, minimum=0.0, maximum=0.9),
+    ]
+    distances: Annotated[
+        Sequence[float],
+        Option(
+            "compare both programmes at these distances, too, m", (), unit="m", metavar="X,...", comma=True, minimum=0.0
+        ),
+    ]
     bound: Annotated[bool, Option("compute the bound of a point mass, too, by the convex form", False)]
     curves: Annotated[bool, Option("compute propellant over t7 and over distance, too", False)]
     intervals: Annotated[

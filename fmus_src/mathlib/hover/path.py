@@ -17,6 +17,9 @@ GROWTH_WITH_FIRST_BURN = 1.2
 LEAST_GROWTH = 1.03
 LARGEST_STRETCH = 0.06  # of the end, from one programme to the next
 LEAST_STRETCH = 0.001
+NEARER = 0.9  # of the farthest x without first burn, where one begins
+NEARER_STILL = 0.2  # of it, where none begins there
+BEGINNINGS = 4  # that are tried
 ROOM = 1.25  # times the end of the programme in which a first burn begins; there it can go farther
 LARGEST_PATH = 60  # programmes
 TILT = 0.01  # rad, for the response to small tilts
@@ -133,32 +136,39 @@ def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgr
 def further(reached: ReachedProgramme, x: float, y: float, vehicle: HoverVehicle) -> HoverSolution:
     """From a programme without first burn to one with it to x.
 
-    A little nearer, where a first burn begins, then longer, then farther.
+    Nearer, where a first burn begins, then longer, then farther.
     """
-    place = 0.9 * reached.x
-    near = solve(PlanKind.WITHOUT_FIRST_BURN, widen(reached.programme, math.sqrt(0.9)), vehicle, place, y)
-    if not near.is_feasible:
-        return near
-    p = near.programme
+    p = reached.programme
     end = p.t7
-    near = ending(1.01 * end, place, y, vehicle, replace(p, width=0.1))
+    distance = 0.0
+    part = NEARER
+    near = HoverSolution(programme=p, is_feasible=False)
+    for _ in range(BEGINNINGS):
+        if not near.is_feasible:
+            distance = part * reached.x
+            near = solve(PlanKind.WITHOUT_FIRST_BURN, widen(reached.programme, math.sqrt(part)), vehicle, distance, y)
+            if near.is_feasible:
+                p = near.programme
+                end = p.t7
+                near = ending(1.01 * end, distance, y, vehicle, replace(p, width=0.1))
+            part = part - NEARER_STILL
     if not near.is_feasible:
         return near
-    longer = stretch(ROOM * end, place, y, vehicle, near.programme)
+    longer = stretch(ROOM * end, distance, y, vehicle, near.programme)
     p = longer.programme
     growth = GROWTH_WITH_FIRST_BURN
     for _ in range(LARGEST_PATH):
-        if place < x and growth > LEAST_GROWTH:
-            goal = growth * place
+        if distance < x and growth > LEAST_GROWTH:
+            goal = growth * distance
             if goal > x:
                 goal = x
-            trial = solve(PlanKind.WITH_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
+            trial = solve(PlanKind.WITH_FIRST_BURN, widen(p, math.sqrt(goal / distance)), vehicle, goal, y)
             if trial.is_feasible:
                 p = trial.programme
-                place = goal
+                distance = goal
             else:
-                longer = stretch(1.04 * p.t7, place, y, vehicle, p)
+                longer = stretch(1.04 * p.t7, distance, y, vehicle, p)
                 p = longer.programme
                 if not longer.is_feasible:
                     growth = 0.5 * (1.0 + growth)
-    return HoverSolution(programme=p, is_feasible=place >= x)
+    return HoverSolution(programme=p, is_feasible=distance >= x)

@@ -10,6 +10,7 @@ from lxml import etree
 from matplotlib.figure import Figure
 
 from docs.figures.concept import concept_figure
+from docs.figures.papers.huang import draw_hover_figures
 from docs.figures.pictures import IMAGES, LARGEST, write_picture
 from docs.figures.system_figures import PICTURES, POINTS, system_figure
 from perilune import simulate
@@ -71,3 +72,9 @@ def test_too_large_a_picture_is_refused(tmp_path):
     with pytest.raises(ValueError, match="draw fewer points"):
         write_picture(figure, tmp_path / "large.svg")
     assert not (tmp_path / "large.svg").exists()
+
+
+@pytest.mark.slow
+def test_pictures_of_the_hover_transfer_come_from_their_source(tmp_path):
+    for path in draw_hover_figures(tmp_path):
+        assert shapes(path) == shapes(IMAGES / path.name)

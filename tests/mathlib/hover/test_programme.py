@@ -77,6 +77,25 @@ def test_no_plan_of_another_duration_is_cheaper_where_the_first_burn_begins_abru
     assert mu < min(other[2] for other in others if other[0] != PlanKind.NONE)
 
 
+@pytest.mark.parametrize("x", either([44.0, 45.0, 50.0, 60.0], [45.0]))
+def test_a_first_burn_that_begins_abruptly_leads_further(x):
+    """Beyond the farthest place without first burn, near which none begins."""
+    kind, p, mu = planned(x, -58.0, LIGHT)
+    assert kind == PlanKind.WITH_FIRST_BURN
+    end = flown(p.elements(), LIGHT.elements())
+    assert end[:4] == pytest.approx([x, 0.0, -58.0, 0.0], abs=1e-6)
+    assert end[4] == pytest.approx(mu, abs=1e-9)
+    assert planned(42.0, -58.0, LIGHT)[2] < mu < planned(42.0, -58.0, LIGHT)[2] * x / 42.0
+
+
+def test_search_takes_a_dearer_programme_just_before_the_farthest_without_first_burn():
+    """The limit that docs/concepts/limits.md states: propellant is nearly linear in the distance around 43 m."""
+    kind, _, mu = planned(43.0, -58.0, LIGHT)
+    assert kind == PlanKind.WITHOUT_FIRST_BURN
+    between = 0.5 * (planned(42.0, -58.0, LIGHT)[2] + planned(44.0, -58.0, LIGHT)[2])
+    assert 1.0 - between / mu == pytest.approx(0.019, abs=5e-4)
+
+
 def test_published_pitch():
     _, p, _ = planned(1600.0)
     planned_shape = shape_of(p, PAPER.swing)

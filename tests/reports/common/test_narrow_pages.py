@@ -5,8 +5,8 @@ Truth: the heights and widths that a browser lays out; 8.5 px is what a telephon
 
 import pytest
 
-from perilune.analysis.design.trajectories.hover_study import hover_study
 from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_VEHICLE
+from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.plan_pages import write_hover_page
 from perilune.analysis.reports.run_report import write_run_report

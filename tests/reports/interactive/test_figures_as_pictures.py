@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 
 from docs.figures.demo import fly
-from perilune.analysis.design.trajectories.hover_study import hover_study
 from perilune.analysis.design.trajectories.landing_study import landing_study
 from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_VEHICLE
+from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.differences.differences import compare_runs
 from perilune.analysis.differences.recorded_run import RecordedRun
 from perilune.analysis.reports.campaign.batch_report import write_batch_report

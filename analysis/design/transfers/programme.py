@@ -13,8 +13,8 @@ from ....fmus_src.mathlib.hover import shape as hover_shape
 from ....fmus_src.mathlib.hover.motion import HoverVehicle
 from ....fmus_src.mathlib.hover.shape import HoverProgramme, HoverShape
 from ....fmus_src.mathlib.hover.solution import PlanKind, propellant_fraction
-from .path import PlannedPath
-from .vehicle import Transfer, Vehicle
+from ..trajectories.path import PlannedPath
+from ..trajectories.vehicle import Transfer, Vehicle
 
 STEP = 0.25  # s, of a path
 DURATIONS = (0.84, 1.22, 27)  # of the best: from, to, how many
@@ -42,7 +42,7 @@ class Programme:
 
     @property
     def propellant_fraction(self) -> float:
-        return propellant_fraction(self.programme, _kernel_vehicle(self.vehicle, self.transfer))
+        return propellant_fraction(self.programme, kernel_vehicle(self.vehicle, self.transfer))
 
     @property
     def threshold(self) -> float | None:
@@ -73,7 +73,7 @@ class Programme:
 
     def states(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """At times (s): rows of x, x', y, y' (m, m/s), and rows of pitch, its rate (rad, rad/s) and propellant."""
-        shape, vehicle = self.shape(), _kernel_vehicle(self.vehicle, self.transfer)
+        shape, vehicle = self.shape(), kernel_vehicle(self.vehicle, self.transfer)
         motion, remainder = np.zeros((time.size, 4)), np.zeros((time.size, 3))
         for index, value in enumerate(map(float, time)):
             state = hover_motion.motion(shape, vehicle, value)
@@ -107,7 +107,7 @@ class Programme:
 
 def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None = None) -> Programme | None:
     """The programme on least propellant, or the one of a given ``duration`` (s); None where there is none."""
-    kernel = _kernel_vehicle(vehicle, transfer)
+    kernel = kernel_vehicle(vehicle, transfer)
     if duration is None:
         planned = hover_programme.programme(transfer.distance, -transfer.descent, kernel)
     else:
@@ -139,7 +139,7 @@ def _fractions(programmes: list[Programme | None]) -> np.ndarray:
     return np.array([np.nan if programme is None else programme.propellant_fraction for programme in programmes])
 
 
-def _kernel_vehicle(vehicle: Vehicle, transfer: Transfer) -> HoverVehicle:
+def kernel_vehicle(vehicle: Vehicle, transfer: Transfer) -> HoverVehicle:
     return HoverVehicle(
         full=vehicle.full,
         least=vehicle.least,

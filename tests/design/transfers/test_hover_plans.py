@@ -1,4 +1,4 @@
-"""perilune.analysis.design.trajectories: the programme for people, its sweeps, the true optimum.
+"""perilune.analysis.design.transfers: the programme for people, its sweeps, the true optimum.
 
 Truth: Huang 2017, tables and figures 3 and 7, and figures of the same problem made with other programs beforehand;
 motion integrated by scipy; no plan takes less than the bound.
@@ -12,11 +12,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from perilune.analysis.common import progress
-from perilune.analysis.design.trajectories.hover_study import hover_study
 from perilune.analysis.design.trajectories.path import PlanError
-from perilune.analysis.design.trajectories.programme import Programme, find_programme, over_distance, over_duration
-from perilune.analysis.design.trajectories.true_optimum import find_true_optimum
 from perilune.analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
+from perilune.analysis.design.transfers.hover_study import hover_study
+from perilune.analysis.design.transfers.programme import Programme, find_programme, over_distance, over_duration
+from perilune.analysis.design.transfers.true_optimum import find_true_optimum
 from perilune.fmus_src.mathlib.hover.shape import HoverProgramme
 from tests.support.bars import watched
 from tests.support.lengths import either
@@ -166,6 +166,16 @@ def test_bound_optimum_programme_in_this_order(distance):
     study = hover_study(VEHICLE, transfer, MARGINS, optimum=True, bound=True, intervals=60)
     bound, optimum = study.bound.propellant_fraction, study.optimum.propellant_fraction
     assert bound < optimum < study.programme.propellant_fraction
+
+
+def test_a_plan_that_the_direct_method_shows_to_exist():
+    """From the programme to 42 m as its guess; the search's own programme to 45 m takes little more."""
+    light = Vehicle(1000.0, 0.0, 300.0, 2430.0, 270.0, 0.2)
+    near, there = (Transfer(distance, 58.0, 1.62) for distance in (42.0, 45.0))
+    optimum = find_true_optimum(replace(find_programme(light, near), transfer=there), 40, 2430.0)
+    assert optimum.position[-1] == pytest.approx([45.0, -58.0], abs=1e-6)
+    programme = find_programme(light, there)
+    assert optimum.propellant_fraction < programme.propellant_fraction < 1.01 * optimum.propellant_fraction
 
 
 def test_no_room_for_the_programme():

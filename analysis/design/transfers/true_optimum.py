@@ -7,19 +7,34 @@ the angular acceleration, which is therefore bang-bang at the ends of the arcs, 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
-from .multiple_shooting import Shooting, ShootingProblem, shoot
-from .path import PlannedPath
+from ..trajectories.multiple_shooting import Shooting, ShootingProblem, shoot
+from ..trajectories.path import PlannedPath
+from ..trajectories.solvers import Symbol, casadi
 from .programme import Programme
-from .solvers import Symbol, casadi
 
 RATE = 0.1  # rad/s, the scale of the pitch's rate; pitch itself is not scaled
-SHARE = 0.05  # the scale of the propellant over the initial mass
+SPENT = 0.05  # the scale of the propellant over the initial mass
 
 
-def find_true_optimum(programme: Programme, intervals: int, engine: float) -> PlannedPath:
+@dataclass(frozen=True)
+class OptimalPath(PlannedPath):
+    """An optimum with what its adjoint system needs.
+
+    At the N + 1 times ``attitude``: rows of pitch (rad) and its rate (rad/s); over the N intervals ``acceleration``,
+    that of pitch (rad/s2). ``costates``, a row for each time but the first: derivatives of the propellant fraction by
+    x, x', y, y', pitch, its rate and propellant fraction there (SI).
+    """
+
+    attitude: np.ndarray
+    acceleration: np.ndarray
+    costates: np.ndarray
+
+
+def find_true_optimum(programme: Programme, intervals: int, engine: float) -> OptimalPath:
     """The optimum with the programme's vehicle, on so many equal intervals; raises `PlanError`.
 
     ``engine`` is the thrust (N) that counts as full throttle. Source of the problem: Huang 2017.
@@ -27,10 +42,10 @@ def find_true_optimum(programme: Programme, intervals: int, engine: float) -> Pl
     vehicle, transfer, ca = programme.vehicle, programme.transfer, casadi()
     length = max(transfer.distance, transfer.descent) / 2.0
     speed = 0.4 * math.sqrt(2.0 * vehicle.full * length)
-    scale = np.array([length, speed, length, speed, 1.0, RATE, SHARE])  # x, x', y, y', pitch, its rate, propellant
+    scale = np.array([length, speed, length, speed, 1.0, RATE, SPENT])  # x, x', y, y', pitch, its rate, propellant
 
     def rate(x: Symbol, u: Symbol) -> Symbol:
-        push = vehicle.full * u[0] / (1.0 - SHARE * x[6])
+        push = vehicle.full * u[0] / (1.0 - SPENT * x[6])
         return ca.vertcat(
             speed / length * x[1],
             push * ca.cos(x[4]) / speed,
@@ -38,7 +53,7 @@ def find_true_optimum(programme: Programme, intervals: int, engine: float) -> Pl
             (push * ca.sin(x[4]) - transfer.gravity) / speed,
             RATE * x[5],
             vehicle.angular_acceleration / RATE * u[1],
-            vehicle.full / vehicle.exhaust_speed / SHARE * u[0],
+            vehicle.full / vehicle.exhaust_speed / SPENT * u[0],
         )
 
     upright = 0.5 * math.pi
@@ -51,13 +66,17 @@ def find_true_optimum(programme: Programme, intervals: int, engine: float) -> Pl
     )
     shooting = shoot(problem, _guess(programme, intervals, scale))
     states = shooting.states * scale
-    return PlannedPath(
+    assert shooting.costates is not None
+    return OptimalPath(
         time=np.linspace(0.0, shooting.duration, intervals + 1),
         position=states[:, [0, 2]],
         velocity=states[:, [1, 3]],
         propellant=states[:, 6],
         throttle=shooting.controls[:, 0] * vehicle.maximum_thrust / engine,
         pitch=(states[1:, 4] + states[:-1, 4]) / 2.0,
+        attitude=states[:, 4:6],
+        acceleration=shooting.controls[:, 1] * vehicle.angular_acceleration,
+        costates=shooting.costates * SPENT / scale,
     )
 
 

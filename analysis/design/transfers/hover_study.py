@@ -3,21 +3,28 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import Self
+from typing import Self, TypeVar
 
 import numpy as np
 
+from ....fmus_src.mathlib.hover.solution import PlanKind
+from ...common.errors import InputError
 from ...common.progress import progress_bar
-from .convex_form import least_propellant
-from .path import PlanError, PlannedPath
-from .point_mass import transfer_problem
+from ..trajectories.convex_form import BOUND_INTERVALS, least_propellant
+from ..trajectories.path import PlanError, PlannedPath
+from ..trajectories.point_mass import transfer_problem
+from ..trajectories.vehicle import Margins, Transfer, Vehicle, limits_document
+from .adjoint import AdjointSolution, integrate_adjoint
+from .finite_switches import FiniteProfile, find_finite_switches
+from .free_fall import FreeFallProgramme, find_free_fall
 from .programme import Programme, find_programme, over_distance, over_duration
 from .true_optimum import find_true_optimum
-from .vehicle import Margins, Transfer, Vehicle
 
 OPTIMUM_INTERVALS = 320
-BOUND_INTERVALS = 240
+Plan = TypeVar("Plan")
+VERTICAL = PlanKind.meanings[PlanKind.VERTICAL]
 NAMES = ("t2_s", "t5_s", "w_s", "tp_s", "t7_s")
 
 
@@ -30,11 +37,22 @@ class Curve:
 
 
 @dataclass(frozen=True)
+class Comparison:
+    """Least propellant fractions to one ``distance`` (m) of both programmes; nan where there is none."""
+
+    distance: float
+    programme: float
+    free_fall: float
+
+
+@dataclass(frozen=True)
 class HoverStudy:
     """``vehicle`` is the lander itself, which the bound is of; programme and optimum keep the ``margins``, if any.
 
     ``vertical`` is the programme straight down from the same height. ``durations``: the programmes of other t7 (s);
-    ``distances``: the best programmes to other places (m).
+    ``distances``: the best programmes to other places (m). ``adjoint`` is integrated along the optimum; ``finite`` is
+    the profile with a finite number of switches, ``free_fall`` the programme that becomes vertical in free fall, and
+    ``comparisons`` are of it and the simplified programme at several distances.
     """
 
     vehicle: Vehicle
@@ -47,6 +65,10 @@ class HoverStudy:
     bound: PlannedPath | None
     durations: Curve | None
     distances: Curve | None
+    adjoint: AdjointSolution | None = None
+    finite: FiniteProfile | None = None
+    free_fall: FreeFallProgramme | None = None
+    comparisons: tuple[Comparison, ...] = ()
 
     def with_curves(self) -> Self:
         """The same with its curves. Raises `PlanError`."""
@@ -66,8 +88,8 @@ class HoverStudy:
         programme = self.programme
         minimum, largest = (math.degrees(angle) for angle in programme.extremes)
         return {
-            "vehicle": vehicle_document(self.vehicle),
-            "margins": None if self.margins is None else _degrees(asdict(self.margins)),
+            "vehicle": limits_document(self.vehicle),
+            "margins": None if self.margins is None else limits_document(self.margins),
             "transfer": asdict(self.transfer),
             "programme": {
                 "kind": programme.kind,
@@ -86,6 +108,36 @@ class HoverStudy:
             "bound": self._path(self.bound),
             "over_duration": _curve(self.durations, "t7_s"),
             "over_distance": _curve(self.distances, "distance_m"),
+            "adjoint": None if self.adjoint is None else self.adjoint.document(),
+            "finite_switches": self._finite(),
+            "free_fall": self._free_fall(),
+            "free_fall_over_distance": [
+                {name: _number(value) for name, value in asdict(each).items()} for each in self.comparisons
+            ],
+        }
+
+    def _finite(self) -> dict[str, object] | None:
+        profile = self.finite
+        if profile is None:
+            return None
+        return {
+            **dict(zip(("t2_s", "t3_s", "t4_s", "t5_s", "t7_s"), profile.times, strict=True)),
+            **self._propellant(profile.propellant_fraction),
+            "full_thrust_s": [list(burn) for burn in profile.full_thrust],
+        }
+
+    def _free_fall(self) -> dict[str, object] | None:
+        programme = self.free_fall
+        if programme is None:
+            return None
+        return {
+            **dict(zip(NAMES, programme.times.elements(), strict=True)),
+            "free_fall_s": programme.fall,
+            "last_burn_s": programme.last_burn,
+            "duration_s": programme.duration,
+            "drop_m": programme.drop,
+            **self._propellant(programme.propellant_fraction),
+            "full_thrust_s": [list(burn) for burn in programme.full_thrust],
         }
 
     def _propellant(self, fraction: float) -> dict[str, float]:
@@ -111,12 +163,18 @@ def hover_study(
     optimum: bool = False,
     bound: bool = False,
     curves: bool = False,
+    adjoint: bool = False,
+    finite_switches: bool = False,
+    free_fall: bool = False,
+    turn_begun: float = 0.0,
+    distances: Sequence[float] = (),
     intervals: int | None = None,
 ) -> HoverStudy:
     """Plan a transfer; ``duration`` (s) is the programme's t7, the best where it is None.
 
     ``optimum``, ``bound`` and ``curves`` ask for more than the programme, the first two on so many ``intervals``, of
-    solvers that need to be installed. Raises `PlanError`, and InputError for a missing solver.
+    solvers that need to be installed; ``adjoint`` is of the optimum, ``turn_begun``, a fraction of the turn, and
+    ``distances`` (m) are of the programme with ``free_fall``. Raises `PlanError`, and InputError for a missing solver.
     """
     planned = vehicle if margins is None else margins.of(vehicle)
     programme = find_programme(planned, transfer, duration)
@@ -127,7 +185,12 @@ def hover_study(
             f"no simplified programme{when} goes {transfer.distance:g} m along in {transfer.descent:g} m of descent: "
             "its turns find no room; go less far or take another time"
         )
-    best = programme if duration is None or not (optimum or curves) else find_programme(planned, transfer)
+    of_turns = {"adjoint": adjoint, "finite_switches": finite_switches, "free_fall": free_fall}
+    for name in [name for name, is_requested in of_turns.items() if is_requested and programme.kind == VERTICAL]:
+        problem = f"nothing turns on the way straight down, {transfer.distance:g} m along"
+        raise InputError(f"`{name}`", "", problem, "give `distance` 1 m or more")
+    others = optimum or curves or finite_switches or free_fall
+    best = programme if duration is None or not others else find_programme(planned, transfer)
     assert best is not None  # a programme of a given duration is found from it
     maximum = vehicle.maximum_thrust
     with progress_bar(total=optimum + bound + 2 * curves, unit="part") as progress:
@@ -137,7 +200,7 @@ def hover_study(
         progress.update(bound)
         durations = Curve(*over_duration(best)) if curves else None
         progress.update(curves)
-        distances = Curve(*over_distance(best)) if curves else None
+        farther = Curve(*over_distance(best)) if curves else None
         progress.update(curves)
     return HoverStudy(
         vehicle=vehicle,
@@ -149,13 +212,35 @@ def hover_study(
         optimum=optimal_path,
         bound=bounded,
         durations=durations,
-        distances=distances,
+        distances=farther,
+        adjoint=integrate_adjoint(optimal_path, planned, transfer, maximum) if optimal_path and adjoint else None,
+        finite=_require(find_finite_switches(best), "profile with a finite number of switches", transfer)
+        if finite_switches
+        else None,
+        free_fall=_require(find_free_fall(best, turn_begun), "programme with a turn in free fall", transfer)
+        if free_fall
+        else None,
+        comparisons=tuple(_compare(planned, replace(transfer, distance=each), turn_begun) for each in distances),
     )
 
 
-def vehicle_document(vehicle: Vehicle) -> dict[str, float]:
-    """A vehicle for other programs: kg, s, N, deg/s2."""
-    return _degrees(asdict(vehicle))
+def _require(plan: Plan | None, what: str, transfer: Transfer) -> Plan:
+    if plan is None:
+        way = f"{transfer.distance:g} m along in {transfer.descent:g} m of descent"
+        raise PlanError(f"no {what} goes {way}; take another distance")
+    return plan
+
+
+def _compare(planned: Vehicle, transfer: Transfer, turn_begun: float) -> Comparison:
+    """Both programmes to one distance."""
+    programme = find_programme(planned, transfer)
+    free_fall = None if programme is None else find_free_fall(programme, turn_begun)
+    fractions = (math.nan if plan is None else plan.propellant_fraction for plan in (programme, free_fall))
+    return Comparison(transfer.distance, *fractions)
+
+
+def _number(value: float) -> float | None:
+    return None if math.isnan(value) else value
 
 
 def _bound(vehicle: Vehicle, transfer: Transfer, intervals: int) -> PlannedPath:
@@ -163,14 +248,8 @@ def _bound(vehicle: Vehicle, transfer: Transfer, intervals: int) -> PlannedPath:
     return least_propellant(problem, intervals).make_path(problem)
 
 
-def _degrees(values: dict[str, float]) -> dict[str, float]:
-    """The angular acceleration in deg/s2, under a name that says so; none for a vehicle that has no such limit."""
-    turn = math.degrees(values.pop("angular_acceleration"))
-    return values | ({"angular_acceleration_deg_s2": turn} if math.isfinite(turn) else {})
-
-
 def _curve(curve: Curve | None, name: str) -> dict[str, list[float] | list[float | None]] | None:
     if curve is None:
         return None
-    values = [None if math.isnan(value) else float(value) for value in curve.propellant]
+    values = [_number(float(value)) for value in curve.propellant]
     return {name: [float(value) for value in curve.at], "propellant_fraction": values}

@@ -1,0 +1,201 @@
+"""The adjoint system of a hover transfer, integrated along its optimum, and how well the optimum keeps its conditions.
+
+H = H_p pt + psi7 alpha - psi4 g + psi1 x' + psi3 y' + psi6 omega is least along an optimum, with the switching function
+H_p = (psi2 cos th + psi4 sin th) A0/(1 - mu) + psi5 and mu the propellant over the initial mass. Costates are numbered
+as in the paper, the fifth for the time at full thrust, c mu/A0. Source: Huang 2017, Hamiltonian, adjoint system,
+equations (2) and (3); their end is that of the direct method's multipliers.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..trajectories.vehicle import Transfer, Vehicle
+from .true_optimum import OptimalPath
+
+NODES = (1.0 - np.cos(np.pi * np.arange(7) / 6.0)) / 2.0  # of an interval, as parts of it (Chebyshev)
+_POWERS = np.arange(1.0, 8.0)
+# Integrals from each node to 1 of the polynomials that are 1 at one node and 0 at the others.
+INTEGRALS = (1.0 - NODES[:, np.newaxis] ** _POWERS) / _POWERS @ np.linalg.inv(np.vander(NODES, increasing=True))
+FREE = 0.01  # of its largest: an angular acceleration below has no sign
+IN_ORDER = [0, 1, 2, 3, 6, 4, 5]  # the optimum's states in the paper's order
+
+
+@dataclass(frozen=True)
+class AdjointSolution:
+    """Costates along an optimum of N intervals, and the functions of them that decide its controls.
+
+    In N rows, one for each interval and with its nodes: ``time`` (s); ``costates`` psi1 (1/m), psi2 (s/m), psi3 (1/m),
+    psi4 (s/m), psi5 (1/s), psi6 (s), psi7 (s2) along the last axis; ``pitch`` (rad); ``switching``, H_p (1/s);
+    ``hamiltonian`` (1/s). For each interval: ``throttle``, 0 at its least and 1 at its largest, and ``turning``, the
+    angular acceleration over its largest. ``mismatch`` is the largest difference to the direct method's multipliers
+    before the end, over the largest of each costate.
+    """
+
+    time: np.ndarray
+    costates: np.ndarray
+    pitch: np.ndarray
+    switching: np.ndarray
+    hamiltonian: np.ndarray
+    throttle: np.ndarray
+    turning: np.ndarray
+    mismatch: float
+
+    @property
+    def tangent(self) -> np.ndarray:
+        """Pitch (rad) by the tangent law (2), in the same rows."""
+        return np.arctan2(-self.costates[:, :, 3], -self.costates[:, :, 1])
+
+    @property
+    def singular_arc(self) -> slice:
+        """The longest run of intervals with an angular acceleration below half its largest: the arc of law (2)."""
+        low = np.concatenate([[False], np.abs(self.turning) < 0.5, [False]])
+        edges = np.flatnonzero(low[1:] != low[:-1]).reshape(-1, 2)
+        first, after = max(edges.tolist(), key=lambda edge: edge[1] - edge[0], default=(0, 0))
+        return slice(first, after)
+
+    @property
+    def singular_span(self) -> tuple[float, float]:
+        """Begin and end (s) of the arc; nan where there is none."""
+        time = self.time[self.singular_arc]
+        return (float(time[0, 0]), float(time[-1, -1])) if time.size else (math.nan, math.nan)
+
+    @property
+    def tangent_residual(self) -> tuple[float, float]:
+        """Pitch from the tangent law (rad) on the arc: rms and largest; nan without an arc."""
+        difference = (self.pitch - self.tangent)[self.singular_arc]
+        residual = np.abs(np.arctan2(np.sin(difference), np.cos(difference)))
+        return (float(np.sqrt(np.mean(residual**2))), float(residual.max())) if residual.size else (math.nan, math.nan)
+
+    @property
+    def switching_times(self) -> list[float]:
+        """Zeros (s) of H_p, at which thrust switches."""
+        return zeros_of(self.time, self.switching)
+
+    @property
+    def switching_residual(self) -> float:
+        """Largest H_p, in the mean of an interval, of the sign that its throttle forbids, over the largest H_p."""
+        return _largest_forbidden(self.switching, 2.0 * self.throttle - 1.0)
+
+    @property
+    def turning_residual(self) -> float:
+        """Likewise of psi7 and the angular acceleration."""
+        return _largest_forbidden(self.costates[:, :, 6], self.turning)
+
+    @property
+    def hamiltonian_residual(self) -> float:
+        """Largest H, which is 0 in free time, over the largest H_p."""
+        return float(np.abs(self.hamiltonian).max() / np.abs(self.switching).max())
+
+    @property
+    def reversals(self) -> tuple[int, int]:
+        """Sign changes of the angular acceleration before the arc and after it."""
+        arc = self.singular_arc
+        signs = [np.sign(each[np.abs(each) > FREE]) for each in (self.turning[: arc.start], self.turning[arc.stop :])]
+        first, last = (int(np.count_nonzero(np.diff(each))) for each in signs)
+        return first, last
+
+    def document(self) -> dict[str, object]:
+        """Return all of it for other programs, at the beginnings of the intervals and at the end; s, deg, SI."""
+        rms, largest = (math.degrees(angle) for angle in self.tangent_residual)
+        first, last = self.reversals
+        return {
+            "time_s": _ends(self.time).tolist(),
+            "costates": _ends(self.costates).tolist(),
+            "switching_function": _ends(self.switching).tolist(),
+            "tangent_law_s": list(self.singular_span),
+            "tangent_law_deg": {"rms": rms, "largest": largest},
+            "switching_function_zeros_s": self.switching_times,
+            "residuals": {
+                "multipliers": self.mismatch,
+                "switching_function": self.switching_residual,
+                "psi7": self.turning_residual,
+                "hamiltonian": self.hamiltonian_residual,
+            },
+            "reversals": {"before": first, "after": last},
+        }
+
+
+def integrate_adjoint(optimum: OptimalPath, vehicle: Vehicle, transfer: Transfer, engine: float) -> AdjointSolution:
+    """Integrate the adjoint system from the end of an optimum to its start.
+
+    ``vehicle`` is as the plan used it, ``engine`` the thrust (N) that counts as full throttle. Over an interval pitch
+    is a parabola and propellant a line, so that psi1 to psi4 are lines and the others quadratures.
+    """
+    speed, full = vehicle.exhaust_speed, vehicle.full
+    span = float(optimum.time[1] - optimum.time[0])
+    since = span * NODES
+    time = optimum.time[:-1, np.newaxis] + since
+    thrust = (optimum.throttle * engine / vehicle.mass)[:, np.newaxis]  # over the initial mass, m/s2
+    angle, rate = (column[:-1, np.newaxis] for column in optimum.attitude.T)
+    swing = optimum.acceleration[:, np.newaxis]
+    pitch = angle + rate * since + swing * since**2 / 2.0
+    ratio = 1.0 - optimum.propellant[:-1, np.newaxis] - thrust / speed * since  # of the mass to the initial one
+    lift = thrust * np.sin(pitch) / ratio
+
+    multipliers = optimum.costates[:, IN_ORDER] * np.array([1.0, 1.0, 1.0, 1.0, full / speed, 1.0, 1.0])
+    end = multipliers[-1]
+    left = time[-1, -1] - time
+    psi = np.tile(end, (*time.shape, 1))
+    psi[:, :, 1] += end[0] * left
+    psi[:, :, 3] += end[2] * left
+    along = psi[:, :, 1] * np.cos(pitch) + psi[:, :, 3] * np.sin(pitch)
+    across = psi[:, :, 1] * np.sin(pitch) - psi[:, :, 3] * np.cos(pitch)
+    psi[:, :, 4] = _integrate_back(end[4], -along * thrust * full / (speed * ratio**2), span)
+    psi[:, :, 5] = _integrate_back(end[5], across * thrust / ratio, span)
+    psi[:, :, 6] = _integrate_back(end[6], -psi[:, :, 5], span)
+
+    velocity = [_through(optimum.velocity[:, 0], thrust * np.cos(pitch) / ratio, span),
+                _through(optimum.velocity[:, 1], lift - transfer.gravity, span)]  # fmt: skip
+    switching = along * full / ratio + psi[:, :, 4]
+    hamiltonian = switching * thrust / full + psi[:, :, 6] * swing - psi[:, :, 3] * transfer.gravity
+    hamiltonian += psi[:, :, 0] * velocity[0] + psi[:, :, 2] * velocity[1] + psi[:, :, 5] * (rate + swing * since)
+    scale = np.abs(multipliers).max(axis=0)
+    return AdjointSolution(
+        time=time,
+        costates=psi,
+        pitch=pitch,
+        switching=switching,
+        hamiltonian=hamiltonian,
+        throttle=(thrust[:, 0] - vehicle.least) / (full - vehicle.least),
+        turning=optimum.acceleration / vehicle.angular_acceleration,
+        mismatch=float(np.max(np.abs(psi[:, -1] - multipliers) / scale)),
+    )
+
+
+def zeros_of(time: np.ndarray, values: np.ndarray) -> list[float]:
+    """Return the times at which values cross 0, on straight lines between neighbours; both are read row by row."""
+    t, v = time.ravel(), values.ravel()
+    at = np.flatnonzero((v[1:] > 0.0) != (v[:-1] > 0.0))
+    return [float(t[k] - v[k] * (t[k + 1] - t[k]) / (v[k + 1] - v[k])) for k in at]
+
+
+def _integrate_back(end: float, derivative: np.ndarray, span: float) -> np.ndarray:
+    """A function at all nodes from its derivative there and its value at the end of the last interval."""
+    to_end = span * derivative @ INTEGRALS.T  # of its interval, from each node on
+    later = np.cumsum(to_end[::-1, 0])[::-1] - to_end[:, 0]
+    return end - later[:, np.newaxis] - to_end
+
+
+def _through(ends: np.ndarray, derivative: np.ndarray, span: float) -> np.ndarray:
+    """Likewise from its values at the ends of all intervals."""
+    return ends[1:, np.newaxis] - span * derivative @ INTEGRALS.T
+
+
+def _ends(rows: np.ndarray) -> np.ndarray:
+    """The first node of each interval and the last of all."""
+    return np.concatenate([rows[:, 0], rows[-1:, -1]])
+
+
+def _largest_forbidden(function: np.ndarray, control: np.ndarray) -> float:
+    """Largest mean of a function over an interval whose control, -1 to 1, should have the opposite sign or be free.
+
+    A control within 1 % of a limit counts as at it; the mean there may have the sign opposite to the limit's.
+    """
+    mean = function @ INTEGRALS[0]
+    at_limit = np.abs(control) > 1.0 - FREE
+    forbidden = np.where(at_limit, np.maximum(mean * np.sign(control), 0.0), np.abs(mean))
+    return float(forbidden.max() / np.abs(function).max())

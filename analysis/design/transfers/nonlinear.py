@@ -1,0 +1,38 @@
+"""Small smooth problems with equalities: a function of a few times minimised by sequential quadratic programming.
+
+Source: Kraft 1988, SLSQP, in scipy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from scipy.optimize import minimize
+
+SETTLED = 1e-8  # of each scaled condition
+PRECISION = 1e-10  # of the function between two iterations
+ITERATIONS = 500
+
+Function = Callable[[np.ndarray], float]
+Conditions = Callable[[np.ndarray], np.ndarray]
+
+
+def minimise(
+    cost: Function, conditions: Conditions, guess: Sequence[float], lowest: Sequence[float]
+) -> np.ndarray | None:
+    """Return the point near a guess of least ``cost`` at which all ``conditions`` are 0; None where none is reached.
+
+    ``cost`` and ``conditions`` are of the order of 1 to 100; ``lowest`` are lower bounds (-inf: none).
+    """
+    solution = minimize(
+        cost,
+        np.asarray(guess, dtype=float),
+        method="SLSQP",
+        bounds=[(low, None) for low in lowest],
+        constraints=[{"type": "eq", "fun": conditions}],
+        options={"ftol": PRECISION, "maxiter": ITERATIONS},
+    )
+    point = np.asarray(solution.x)
+    reached = bool(np.all(np.isfinite(point))) and float(np.abs(conditions(point)).max()) <= SETTLED
+    return point if solution.success and reached else None

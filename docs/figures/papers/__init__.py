@@ -1,0 +1,1 @@
+"""Figures of papers, drawn from our own numbers."""
