@@ -27,7 +27,9 @@ def rows_of(page: Path) -> list[list[str]]:
 
 
 ROWS = [
-    pytest.param(page, entries, id=f"{page.stem} {index}") for page in PAGES for index, entries in enumerate(rows_of(page))
+    pytest.param(page, entries, id=f"{page.stem} {index}")
+    for page in PAGES
+    for index, entries in enumerate(rows_of(page))
 ]
 
 
