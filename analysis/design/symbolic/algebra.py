@@ -59,11 +59,11 @@ def _tidy(expression: Expression) -> Expression:
     if not angles:
         return sp.factor(sp.cancel(expression))
     named = {function(angle): sp.Dummy() for angle in angles for function in (sp.sin, sp.cos)}
-    parts = sp.fraction(sp.cancel(expression.xreplace(named)))
+    terms = sp.fraction(sp.cancel(expression.xreplace(named)))
     for angle in angles:
         sine, cosine = named[sp.sin(angle)], named[sp.cos(angle)]
-        parts = [sp.rem(part, sine**2 + cosine**2 - 1, sine) for part in parts]
-    numerator, denominator = parts
+        terms = [sp.rem(term, sine**2 + cosine**2 - 1, sine) for term in terms]
+    numerator, denominator = terms
     back = {dummy: function for function, dummy in named.items()}
     return sp.factor(sp.cancel(numerator / denominator)).xreplace(back)
 

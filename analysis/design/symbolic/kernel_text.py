@@ -14,7 +14,7 @@ _RESERVED = (*_FUNCTIONS, "gain", "math", "zeros", "Matrix")
 
 
 def kernel_text(name: str, letter: str, matrix: Symbols) -> str:
-    """Return the module with the function ``name``, common parts computed once. Raises InputError."""
+    """Return the module with the function ``name``, common terms computed once. Raises InputError."""
     sp = sympy()
     arguments = sorted(str(symbol) for symbol in matrix.free_symbols)
     for each in (name, *arguments):
@@ -22,11 +22,11 @@ def kernel_text(name: str, letter: str, matrix: Symbols) -> str:
             raise InputError("modal", f"the name {each!r}", "Python has none such", "take letters, digits and _")
         if each in _RESERVED:
             raise InputError("modal", f"the name {each!r}", "the function has it for something else", "rename it")
-    taken = {name, *arguments}
-    numbers = (symbol for symbol in sp.numbered_symbols("part_") if str(symbol) not in taken)
-    parts, (reduced,) = sp.cse([matrix], symbols=numbers, optimizations="basic")
+    names = {name, *arguments}
+    numbers = (symbol for symbol in sp.numbered_symbols("part_") if str(symbol) not in names)
+    terms, (reduced,) = sp.cse([matrix], symbols=numbers, optimizations="basic")
     printer = _printer()
-    lines = [f"    {symbol} = {printer.doprint(part)}" for symbol, part in parts]
+    lines = [f"    {symbol} = {printer.doprint(term)}" for symbol, term in terms]
     lines.append(f"    gain = zeros({matrix.rows}, {matrix.cols})")
     for i in range(matrix.rows):
         for j in range(matrix.cols):

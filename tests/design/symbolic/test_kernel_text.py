@@ -24,7 +24,7 @@ K, D, M, ANGLE = sp.symbols("k d m angle", positive=True)
 BLOCK = '''"""A block that makes its gain from its parameters."""
 
 from perilune import Block, Input, Output, State
-from symbolic_gain_of_a_test import place_pendulum
+from symbolic_gain_of_a_test import pendulum_gain
 
 
 class PendulumGain(Block):
@@ -41,7 +41,7 @@ class PendulumGain(Block):
         self.step(0.0, 0.0)
 
     def step(self, t: float, h: float) -> None:
-        self.matrix = place_pendulum(self.angle, self.d, self.k, self.m)
+        self.matrix = pendulum_gain(self.angle, self.d, self.k, self.m)
         self.gain[0] = self.matrix[0, 0]
         self.gain[1] = self.matrix[0, 1]
 '''
@@ -56,7 +56,7 @@ def pendulum() -> modal.SymbolicGain:
 @pytest.fixture(scope="module")
 def block(tmp_path_factory: pytest.TempPathFactory) -> Iterator[type[Block]]:
     folder = tmp_path_factory.mktemp("blocks")
-    (folder / "symbolic_gain_of_a_test.py").write_text(pendulum().kernel("place_pendulum"))
+    (folder / "symbolic_gain_of_a_test.py").write_text(pendulum().kernel("pendulum_gain"))
     (folder / "pendulum_gain_of_a_test.py").write_text(BLOCK)
     sys.path.insert(0, str(folder))
     yield importlib.import_module("pendulum_gain_of_a_test").PendulumGain
@@ -89,7 +89,7 @@ def test_python_and_c_have_the_formula_s_values(block: type[Block]) -> None:
 
 
 def test_the_file_names_the_functions_that_it_uses() -> None:
-    text = pendulum().kernel("place_pendulum")
+    text = pendulum().kernel("pendulum_gain")
     assert "import math\n" in text
     assert "from perilune.fmus_src.kernel.functions import cos, sin\n" in text
     assert "**" not in text
@@ -99,10 +99,10 @@ def test_the_file_names_the_functions_that_it_uses() -> None:
     ("pole", "name", "message"),
     [
         (-K, "lambda", "the name 'lambda': Python has none such"),
-        (-sp.Symbol("k_{1}", real=True), "place", "the name 'k_{1}': Python has none such"),
+        (-sp.Symbol("k_{1}", real=True), "formula", "the name 'k_{1}': Python has none such"),
         (-K, "gain", "the function has it for something else"),
-        (-sp.gamma(K), "place", "gamma is a function that kernels have not"),
-        (-sp.cbrt(K), "place", "a power that kernels have not"),
+        (-sp.gamma(K), "formula", "gamma is a function that kernels have not"),
+        (-sp.cbrt(K), "formula", "a power that kernels have not"),
     ],
 )
 def test_refusals(pole: sp.Expr, name: str, message: str) -> None:

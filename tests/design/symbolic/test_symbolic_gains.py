@@ -117,12 +117,12 @@ def test_the_robust_law_of_the_capsule_is_the_one_that_its_page_prints(method: s
     a, b, inertia, _ = capsule()
     actual = modal.symbolic_gain(a, b, robust_polynomial(), method=method)
     kx, kg, kb, a0 = sp.symbols("kx kg kb a0", real=True)
-    e, sideslip, wx, wy = sp.symbols("e b wx wy")
+    e, slip, wx, wy = sp.symbols("e b wx wy")
     c0, s0 = sp.cos(a0), sp.sin(a0)
     x1 = -kx * (wx * c0 - wy * s0) - kg * e
     x2 = -kb * (wx * s0 + wy * c0)
     printed = inertia * sp.Matrix([c0 * x1 + s0 * x2, -s0 * x1 + c0 * x2])
-    assert vanishes(-actual.gain * sp.Matrix([e, sideslip, wx, wy]) - printed, a0)
+    assert vanishes(-actual.gain * sp.Matrix([e, slip, wx, wy]) - printed, a0)
     assert actual.names == ["a0", "jx", "jxy", "jy", "kb", "kg", "kx"]
     if method == "ackermann":
         check_the_robust_law_in_numbers(actual, a, b)
