@@ -8,6 +8,7 @@ plants and, with multipliers as poles, for sampled ones.
 from __future__ import annotations
 
 from .analysis.design.feedback.derivative import DerivativeFeedback, place_derivative
+from .analysis.design.feedback.integral import IntegralFeedback, place_integral
 from .analysis.design.poles.observers import observer, reduced_observer
 from .analysis.design.poles.output_feedback import output_feedback
 from .analysis.design.poles.output_feedback_set import (
@@ -34,6 +35,7 @@ from .analysis.design.symbolic.gain import SymbolicGain, symbolic_gain, symbolic
 __all__ = [
     "CommonFeedback",
     "DerivativeFeedback",
+    "IntegralFeedback",
     "Observer",
     "OutputFeedback",
     "OutputFeedbackSet",
@@ -51,6 +53,7 @@ __all__ = [
     "output_feedback_set",
     "place",
     "place_derivative",
+    "place_integral",
     "place_levels",
     "place_polynomial",
     "polynomial_of_gain",
