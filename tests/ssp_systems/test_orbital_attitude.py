@@ -11,6 +11,7 @@ from scipy import stats
 
 import perilune
 from tests.support.lengths import LONG, either
+from tests.support.loops.exact_orbital import WANTED, derivative_system
 
 SYSTEM = "orbital_attitude"
 MODAL, ARRIVAL = "orbital_modal_control", "orbital_arrival_control"
@@ -200,6 +201,55 @@ def test_the_communication_step_changes_no_flight():
         for k in (1, 2, 3):
             signal = f"plant.{name}[{k}]"
             assert np.abs(whole[signal] - parted[signal][::4]).max() < 1e-10
+
+
+def test_the_derivative_fed_back_flies_as_its_linear_model():
+    """A thousandth of the first start, 1000 s: angles as in closed form to 5e-4 of the largest."""
+    start = np.radians([0.003, 0.017, 0.003])
+    rates = np.array([1e-7, -1e-7, 1e-7])
+    names = ["initial_angles", "initial_angular_velocity"]
+    values = {
+        f"plant.{name}[{k + 1}]": float(vector[k])
+        for name, vector in zip(names, (start, WANTED[3:] + rates), strict=True)
+        for k in range(3)
+    }
+    use = {"observer": TRUE, "regulator": "orbital_derivative_control"}
+    flown = perilune.simulate(SYSTEM, use=use, set=values | {"pulses.mean": True}, stop_time=1000.0)
+    step, effect, gain = derivative_system([0.0015, 0.003, 0.0015], [0.0015, 0.003, 0.0015], 0.0026, 0.2)
+    closed, state = step + effect @ gain, np.concatenate([start, rates, rates])
+    exact = [state[:3]]
+    for _ in flown.time[1:]:
+        state = closed @ state
+        exact.append(state[:3])
+    angles = np.stack([flown[f"plant.angles[{k}]"] for k in (1, 2, 3)], axis=1)
+    assert np.abs(angles - exact).max() < 5e-4 * np.abs(exact).max()
+
+
+# Settling time (s) mean, max and largest tilt (deg) with ideal sensors; settling time with noisy ones.
+DERIVATIVE = {
+    TRUE: (4464.0, 5055.0, 25.4),
+    DISCRETE: (4463.0, 5037.0, 25.9),
+    FILTER: (4520.0, 5111.0, 25.5),
+}
+NOISY_DERIVATIVE = {DISCRETE: (5103.0, 7828.0), FILTER: (5512.0, 7892.0)}
+
+
+@pytest.mark.slow
+def test_the_derivative_fed_back_settles_within_an_orbit():
+    """Forty starts with mean torque, ideal sensors and noisy ones, as the page has them; 5712 s is an orbit."""
+    for observer, (mean, largest, tilt) in DERIVATIVE.items():
+        (ideal,) = perilune.batch(SYSTEM, "derivative", configuration=observer, stop_time=8000.0).trials.values()
+        assert ideal.success.all()
+        assert settled(ideal).max() < 2.0 * np.pi / 0.0011
+        assert settled(ideal).mean() == pytest.approx(mean, abs=0.51)
+        assert settled(ideal).max() == pytest.approx(largest, abs=0.51)
+        assert ideal.metrics["largest_tilt"].max() == pytest.approx(tilt, abs=0.051)
+    for observer, (mean, largest) in NOISY_DERIVATIVE.items():
+        noisy = {"configuration": observer, "stop_time": 8000.0, "parameters": ["noisy.ssv"]}
+        (flown,) = perilune.batch(SYSTEM, "derivative", **noisy).trials.values()
+        assert flown.success.all()
+        assert settled(flown).mean() == pytest.approx(mean, abs=0.51)
+        assert settled(flown).max() == pytest.approx(largest, abs=0.51)
 
 
 @pytest.mark.slow

@@ -19,7 +19,7 @@ C = np.delete(np.eye(6), 1, axis=0)
 PLACES = [[f"[{row + 1},{column + 1}]" for column in range(9)] for row in range(9)]
 
 
-def drawn(number):
+def draw_case(number):
     """Inertia (kg m2), tick (s) and poles (1/s)."""
     random = np.random.default_rng(number)
     root = random.normal(size=(3, 3))
@@ -55,7 +55,7 @@ class Fmu:
 @pytest.mark.parametrize("number", DRAWS)
 def test_the_modal_regulator(number):
     """Levels of angles and rates in their own coordinates."""
-    inertia, tick, _, poles = drawn(number)
+    inertia, tick, _, poles = draw_case(number)
     angles, rates = poles, 1.5 * poles[::-1]
     fmu = Fmu("orbital_modal_control", inertia=inertia, sample_period=tick, angle_poles=angles, rate_poles=rates)
     driven = np.vstack([np.zeros((3, 3)), np.linalg.inv(inertia)])
@@ -68,8 +68,29 @@ def test_the_modal_regulator(number):
 
 
 @pytest.mark.parametrize("number", DRAWS)
+def test_the_regulator_that_feeds_the_derivative_back(number):
+    """A gain on the state times the inverse of its closed loop, and the torque of the products of inertia."""
+    inertia, tick, _, poles = draw_case(number)
+    angles, rates, turn = poles, 1.5 * poles[::-1], 0.1 * np.array([[0, 0, -1], [0, 0, 0], [1, 0, 0]])
+    fmu = Fmu(
+        "orbital_derivative_control",
+        inertia=inertia,
+        sample_period=tick,
+        angle_poles=angles,
+        rate_poles=rates,
+        coupling=0.1,
+    )
+    driven, columns, motion = np.vstack([np.zeros((3, 3)), np.linalg.inv(inertia)]), np.eye(6), linear_matrix(inertia)
+    levels = [turn - np.diag(rates), turn - np.diag(angles)]
+    placed = modal.place_levels(motion, driven, levels, bases=[columns[:, 3:], columns[:, :3]])
+    expected = -placed.gain @ np.linalg.inv(placed.closed_loop)
+    actual = np.hstack([fmu.matrix("angle_gain", 3, 3), fmu.matrix("rate_gain", 3, 3)])
+    assert np.abs(actual - expected).max() < 1e-9 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("number", DRAWS)
 def test_the_continuous_observer(number):
-    inertia, tick, poles, _ = drawn(number)
+    inertia, tick, poles, _ = draw_case(number)
     slow, fast = poles[0], 3.0 * poles[1] + 0.1
     fmu = Fmu("orbital_observer_continuous", inertia=inertia, sample_period=tick, yaw_pole=slow, measured_pole=fast)
     placed = modal.place_levels(linear_matrix(inertia).T, C.T, [-fast * np.eye(5), [[-slow]]]).gain.T
@@ -79,7 +100,7 @@ def test_the_continuous_observer(number):
 @pytest.mark.parametrize("number", DRAWS)
 def test_the_discrete_observer(number):
     """Ad L is the dual placement for (Ad, C)."""
-    inertia, tick, poles, _ = drawn(number)
+    inertia, tick, poles, _ = draw_case(number)
     slow, fast = poles[0], 3.0 * poles[1] + 0.1
     fmu = Fmu("orbital_observer_discrete", inertia=inertia, sample_period=tick, yaw_pole=slow, measured_pole=fast)
     sampled = expm(linear_matrix(inertia) * tick)

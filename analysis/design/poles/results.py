@@ -24,6 +24,7 @@ class Reason(StrEnum):
     SPREAD = "no real spread"  # of conjugate pairs over levels
     RANK = "rank"
     RESIDUAL = "residual"
+    SINGULAR = "singular"  # A, whose inverse a method needs
 
 
 class PlacementError(InputError):

@@ -11,12 +11,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from perilune.fmus_src.control.orbital_arrival_control import OrbitalArrivalControl
+from perilune.fmus_src.control.orbital_derivative_control import OrbitalDerivativeControl
 from perilune.fmus_src.control.orbital_modal_control import OrbitalModalControl
+from perilune.fmus_src.kernel.matrices import matrix
+from perilune.fmus_src.kernel.records import replace
 from perilune.fmus_src.mathlib.orbits.attitude import AttitudeState, linear_model
+from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.plants.orbital_spacecraft import OrbitalSpacecraft
 from tests.support.flights.orbital_motion import DEGREE, INERTIA, JET_TORQUE, ORBITAL_RATE
 
 WANTED = [0.0, 0.0, -ORBITAL_RATE]
+WANTED_VECTOR = vector(*WANTED)
 
 
 def regulator(kind, **parameters):
@@ -112,7 +117,58 @@ def test_the_turn_goes_to_its_angle_and_back(time, angle):
         assert (yaw, rate) == (0.0, 0.0)
 
 
-@pytest.mark.parametrize("kind", [OrbitalModalControl, OrbitalArrivalControl])
+def test_the_derivative_fed_back_makes_the_same_motion():
+    """(1 + B K) x' = A x: a' = S1 a + z, z' = S0 z with the coupling in both, to 1e-9 of the smallest pole."""
+    turn = np.array([[0.0, 0.0, -0.0026], [0.0, 0.0, 0.0], [0.0026, 0.0, 0.0]])
+    block = regulator(OrbitalDerivativeControl)
+    assert block.usable
+    a = np.array(linear_model(block.inertia, block.inverse_inertia, ORBITAL_RATE))
+    gain = np.hstack([np.array(block.angle_gain), np.array(block.rate_gain)])
+    closed = np.linalg.solve(np.eye(6) - np.vstack([np.zeros((3, 3)), np.linalg.inv(INERTIA)]) @ gain, a)
+    upper = turn - np.diag([0.0015, 0.003, 0.0015])
+    lack = closed[:3] - np.hstack([upper, np.zeros((3, 3))])
+    assert lack @ closed == pytest.approx(upper @ lack, abs=1.5e-12)
+
+
+def test_the_derivative_regulator_holds_the_body_in_the_orbital_frame():
+    """At rest there its torque is the one of the products of inertia, by accelerations of the plant."""
+    block, plant = regulator(OrbitalDerivativeControl), OrbitalSpacecraft()
+    plant.initialize()
+    here = AttitudeState(angles=block.estimated_angles, angular_velocity=block.estimated_angular_velocity)
+    falling = plant.derivatives(0.0, replace(here, angular_velocity=WANTED_VECTOR), plant.held_torque)
+    expected = -INERTIA @ np.array([*falling.angular_velocity])
+    assert answer(block, [0.0] * 3, WANTED, 0.0) == pytest.approx(expected, abs=1e-15)
+
+
+@settings(max_examples=100)
+@given(st.integers(0, 2**32 - 1))
+def test_which_poles_stand_a_delay(seed):
+    """Hurwitz's condition, against eigenvalues by numpy."""
+    e = np.random.default_rng(seed).normal(size=(3, 3)) + np.eye(3)
+    block = OrbitalDerivativeControl()
+    assert block.stands_delay(matrix(*e.tolist())) == bool(np.all(np.linalg.eigvals(e).real > 0.0))
+
+
+def test_derivatives_that_cannot_be_fed_back():
+    """Poles without a coupling stand no delay; a body that the orbit does not turn in yaw has a singular A."""
+    assert regulator(OrbitalDerivativeControl, coupling=0.0).status == 2
+    symmetric = np.diag([20000.0, 30000.0, 20000.0])
+    assert regulator(OrbitalDerivativeControl, inertia=symmetric.ravel().tolist()).status == 2
+
+
+def test_a_tick_without_a_finite_estimate_is_bridged():
+    """The difference is taken over both ticks: a body that turns ever faster shows the same acceleration."""
+    whole, bridged = regulator(OrbitalDerivativeControl), regulator(OrbitalDerivativeControl)
+    for block in (whole, bridged):
+        block.estimated_angles, block.estimated_angular_velocity = [0.0] * 3, WANTED
+        block.initialize()
+    faster, fastest = [1e-5, 0.0, WANTED[2]], [2e-5, 0.0, WANTED[2]]
+    answer(whole, [0.0] * 3, faster, 0.2)
+    assert answer(bridged, [math.nan] * 3, faster, 0.2).tolist() == [0.0] * 3
+    assert answer(bridged, [0.0] * 3, fastest, 0.4) == pytest.approx(answer(whole, [0.0] * 3, fastest, 0.4), rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", [OrbitalModalControl, OrbitalArrivalControl, OrbitalDerivativeControl])
 def test_what_cannot_be_used_asks_for_nothing(kind):
     block = regulator(kind)
     assert answer(block, [math.nan, 0.0, 0.0], WANTED).tolist() == [0.0, 0.0, 0.0]

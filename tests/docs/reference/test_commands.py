@@ -62,6 +62,7 @@ TAKES_LONG = {
     "perilune replay results": "what it is a trial of takes long",
     "perilune compare": "what it compares takes long, and so do its pages; see tests/commands/test_compare.py",
     "--campaign fixed_starts": "800 flights",
+    "--campaign derivative": "120 flights of 8000 s",
     "satellite_pointing --campaign dispersed": "1600 flights and their page",
     "satellite_pointing --campaign agile": "800 flights",
     "robot_rendezvous --campaign seeds --parameters best.ssv --compare": "24 flights of 5000 s",

@@ -28,8 +28,8 @@ def crossings(loop: control.StateSpace) -> tuple[np.ndarray, np.ndarray, np.ndar
 def disk_margin(loop: control.StateSpace, lowest: float = 1e-3) -> float:
     """With skew 0, of one channel or of several at once, from ``lowest`` of the Nyquist frequency on."""
     grid = np.geomspace(lowest, 1.0, 400) * np.pi / loop.dt
-    place = int(np.argmin(control.disk_margins(loop, grid, skew=0.0, returnall=True)[0]))
-    close = np.linspace(grid[max(place - 1, 0)], grid[min(place + 1, len(grid) - 1)], 200)
+    nearest = int(np.argmin(control.disk_margins(loop, grid, skew=0.0, returnall=True)[0]))
+    close = np.linspace(grid[max(nearest - 1, 0)], grid[min(nearest + 1, len(grid) - 1)], 200)
     return float(control.disk_margins(loop, close, skew=0.0)[0])
 
 

@@ -53,13 +53,45 @@ def placed_gain(a):
     return -INERTIA @ free
 
 
+def derivative_system(angle_poles, rate_poles, coupling, tick):
+    """The motion over a tick, the effect of a torque and the gain, of (x, the angular velocity of the tick before).
+
+    Rates of angles, and w' as a difference over a tick, are fed back.
+    """
+    a = linear_motion()
+    turn = coupling * np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
+    lack = np.hstack([np.diag(angle_poles) + turn + a[:3, :3], np.eye(3)])  # z = lack x
+    driven = np.vstack([np.zeros((3, 3)), np.linalg.inv(INERTIA)])
+    state = -INERTIA @ (lack @ a + (np.diag(rate_poles) + turn) @ lack)  # u = K x with the same poles
+    of_rates, of_acceleration = np.hsplit(np.linalg.solve((a + driven @ state).T, state.T).T, 2)
+    last = np.eye(6)[3:]
+    step, effect = sample_motion(a, driven, tick)
+    step = np.block([[step, np.zeros((6, 3))], [last, np.zeros((3, 3))]])
+    effect = np.vstack([effect, np.zeros((3, 3))])
+    return step, effect, np.hstack([of_rates @ a[:3] + of_acceleration @ last / tick, -of_acceleration / tick])
+
+
+def derivative_loop(axis, angle_poles, rate_poles, coupling, tick):
+    """L(z) at the torque about one axis of `derivative_system`."""
+    return opened(*derivative_system(angle_poles, rate_poles, coupling, tick), axis, tick)
+
+
+def sample_motion(a, driven, tick):
+    """The motion over a tick under a torque that is held."""
+    whole = expm(np.block([[a, driven], [np.zeros((3, 9))]]) * tick)
+    return whole[:6, :6], whole[:6, 6:]
+
+
+def opened(step, effect, gain, axis, tick):
+    """L(z) of u = gain x at one axis, the other two closed."""
+    others = [k for k in range(3) if k != axis]
+    closed = step + effect[:, others] @ gain[others]
+    return control.ss(closed, effect[:, [axis]], -gain[[axis]], 0.0, tick)
+
+
 def loop(axis):
     """L(z) at the torque about one axis, the other two closed."""
     a = linear_motion()
     gain = placed_gain(a)
     driven = np.vstack([np.zeros((3, 3)), np.linalg.inv(INERTIA)])
-    whole = expm(np.block([[a, driven], [np.zeros((3, 9))]]) * TICK)
-    step, push = whole[:6, :6], whole[:6, 6:]
-    others = [k for k in range(3) if k != axis]
-    closed = step + push[:, others] @ gain[others]
-    return control.ss(closed, push[:, [axis]], -gain[[axis]], 0.0, TICK)
+    return opened(*sample_motion(a, driven, TICK), gain, axis, TICK)

@@ -36,6 +36,33 @@ def orbital_modal_control():
     )
 
 
+def orbital_derivative_control():
+    """The same closed loop with roll moving pitch; its gain times the inverse of its matrix, on differences."""
+    angle_poles, rate_poles, turn = np.array([0.0012, 0.003, 0.0011]), np.array([0.001, 0.002, 0.0013]), 0.002
+    angles, w = estimates(289, 0.05, 1e-5)
+    a = derivatives_of(rates_of, np.concatenate([np.zeros(3), DOWN]))
+    unit, zero = np.eye(3), np.zeros((3, 3))
+    turning = np.array([[0.0, 0.0, -turn], [0.0, 0.0, 0.0], [turn, 0.0, 0.0]])
+    upper, lower = turning - np.diag(angle_poles), turning - np.diag(rate_poles)
+    lacking = np.block([[unit, zero], [a[:3, :3] - upper, unit]])
+    closed = np.linalg.solve(lacking, np.block([[upper, unit], [zero, lower]]) @ lacking)
+    gain = INERTIA @ np.linalg.solve(closed.T, (closed - a)[3:].T).T
+    seen, rates_seen = follow(angles), follow(w)
+    rates = np.array([rates_of(state)[:3] for state in np.hstack([seen, rates_seen])])
+    acceleration = np.diff(rates_seen, axis=0, prepend=rates_seen[:1]) / STEP
+    constant = -INERTIA @ rates_of(np.concatenate([np.zeros(3), DOWN]))[3:]
+    torque = constant + np.hstack([rates, acceleration]) @ gain.T
+    torque[0] = constant
+    return Check(
+        truth="the gain on the state times the inverse of the closed loop by numpy, differences of rates",
+        step=STEP,
+        inputs={"estimated_angles": angles, "estimated_angular_velocity": w},
+        outputs={"torque_command": torque, "status": np.zeros(ROWS)},
+        tolerances={"torque_command": (1e-10, 0.0), "status": (0.0, 0.0)},
+        parameters={"angle_poles": angle_poles, "rate_poles": rate_poles, "coupling": turn, "sample_period": STEP},
+    )
+
+
 def orbital_arrival_control():
     """The rate that is left to each angle, with yaw led through the corners of a trapezium."""
     arrival, shortest_time, band, pulse = 3.0, 1.2, np.array([0.02, 0.015, 0.01]), 0.2
@@ -82,5 +109,6 @@ def orbital_arrival_control():
 
 TRUTHS = {
     "orbital_arrival_control": orbital_arrival_control,
+    "orbital_derivative_control": orbital_derivative_control,
     "orbital_modal_control": orbital_modal_control,
 }

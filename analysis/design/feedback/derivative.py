@@ -1,0 +1,73 @@
+"""Poles placed by the derivative of the state, u = -K x'.
+
+(I + B K) x' = A x, so that x = (A^-1 + A^-1 B K) x': the poles are the inverses of the eigenvalues of A^-1 + A^-1 B K,
+and -K is the gain on the state that places 1/s_i on (A^-1, A^-1 B). It needs A nonsingular, and no pole at 0. Of a gain
+Kx on the state that places the same poles, K = Kx (A - B Kx)^-1.
+
+det(I + B K) is the product of the plant's poles over that of the placed ones. u is x' of an instant ago, by sensing,
+filter or sample: a lag h of the derivative, h u' = -u - K x' with h small, leaves the placed poles alone only where
+all eigenvalues of I + K B have positive real parts. For one input an odd number of unstable real poles is then beyond
+this feedback; for several it is not, where the whole plant has an even number.
+Lapin's thesis, section 1.3.4, has the task; Abdelaziz and Valasek, "Direct algorithm for pole placement by
+state-derivative feedback for multi-input linear systems - nonsingular case", Kybernetika 41 (2005); lags: Michiels,
+Vyhlidal, Huijberts and Nijmeijer, "Stabilizability and stability robustness of state derivative feedback controllers",
+SIAM Journal on Control and Optimization 47 (2009).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...common.errors import InputError
+from ..poles.controllability import TOLERANCE
+from ..poles.place import PlaceOptions, place
+from ..poles.plant import input_matrix, state_matrix
+from ..poles.results import Placement, PlacementError, Reason
+from ..poles.spectrum import Spectrum
+
+
+@dataclass(frozen=True, kw_only=True)
+class DerivativeFeedback(Placement):
+    """u = -K x' with K = ``gain`` (m, n): the closed loop is (I + B K)^-1 A.
+
+    ``fast`` (m,) are the eigenvalues of I + K B. A lag of the derivative adds modes of minus these over the lag.
+    """
+
+    fast: np.ndarray
+
+    @property
+    def stands_lag(self) -> bool:
+        """True if a small lag of the derivative leaves the loop as placed: real parts of ``fast`` are positive."""
+        return bool(np.all(self.fast.real > 0.0))
+
+
+def place_derivative(
+    a: ArrayLike, b: ArrayLike, poles: ArrayLike, **options: Unpack[PlaceOptions]
+) -> DerivativeFeedback:
+    """Return the gain K (m, n) of **u = -K x'** that gives (I + B K)^-1 A the poles.
+
+    ``a`` is A (n, n), nonsingular, ``b`` B (n, m) of a continuous plant x' = A x + B u; ``poles`` (1/s) and
+    ``options`` as in `place`, none of them 0. A counts as singular where a singular value is below 1e-9 of the largest.
+    Raises InputError; PlacementError for a singular A, or where the method does not apply to (A^-1, A^-1 B).
+    """
+    state = state_matrix(a)
+    inputs = input_matrix(b, len(state))
+    spectrum = Spectrum.of(poles, len(state))
+    if not np.all(spectrum.poles):
+        raise InputError("modal", "poles", "one is 0, which no derivative shows", "give poles other than 0")
+    sizes = np.linalg.svd(state, compute_uv=False)
+    if not sizes[-1] > TOLERANCE * sizes[0]:
+        ratio = float(sizes[-1] / sizes[0]) if sizes[0] else 0.0
+        problem = f"A is singular: its singular values go down to {ratio:.2g} of the largest"
+        remedy = "place by the state, or leave out the states at rest, whose derivative says nothing of them"
+        raise PlacementError("derivative feedback", Reason.SINGULAR, problem, ratio, remedy)
+    back = np.linalg.inv(state)
+    dual = place(back, back @ inputs, 1.0 / spectrum.poles, **options)
+    gain = -dual.gain
+    closed_loop = np.linalg.solve(np.eye(len(state)) + inputs @ gain, state)
+    fast = np.linalg.eigvals(np.eye(inputs.shape[1]) + gain @ inputs)
+    return DerivativeFeedback(dual.method, gain, spectrum.poles, closed_loop, dual.condition_u, dual.levels, fast=fast)

@@ -1,0 +1,74 @@
+"""Poles placed under constant disturbances: integrals of the outputs are fed back with the state.
+
+x' = A x + B u + E d, y = C x, q' = y - r with d and the reference r constant and unknown to the gain: u = -K x - Ki q
+is the gain on the state of [A 0; C 0], [B; 0], and at rest y = r, whatever d, E and small errors of A and B are.
+Sampled, q+ = q + y - r and [A 0; C I]. The pair is controllable where (A, B) is and no zero of the plant from u to y
+lies at 0, or at the multiplier 1: [A B; C 0], or [A - I B; C 0], has full row rank.
+Davison, "The robust control of a servomechanism problem for linear time-invariant multivariable systems", IEEE
+Transactions on Automatic Control 21 (1976); Lapin's thesis names modal control under disturbances among its methods.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..poles.controllability import TOLERANCE
+from ..poles.place import PlaceOptions, place
+from ..poles.plant import input_matrix, output_matrix, state_matrix
+from ..poles.results import Placement, PlacementError, Reason
+
+
+@dataclass(frozen=True, kw_only=True)
+class IntegralFeedback(Placement):
+    """u = -K x - Ki q, q' = y - r or q+ = q + y - r, with K = ``on_state`` (m, n) and Ki = ``on_integral`` (m, p).
+
+    ``gain`` is [K Ki] (m, n + p) and ``closed_loop`` the matrix of (x, q).
+    """
+
+    on_state: np.ndarray
+    on_integral: np.ndarray
+
+
+def place_integral(
+    a: ArrayLike,
+    b: ArrayLike,
+    c: ArrayLike,
+    poles: ArrayLike,
+    *,
+    sampled: bool = False,
+    **options: Unpack[PlaceOptions],
+) -> IntegralFeedback:
+    """Return the gains of **u = -K x - Ki q**, q' = C x - r, that give state and integrals the n + p poles.
+
+    ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n) of the p outputs that are to have no error at rest, p <= m;
+    ``poles`` are 1/s, or multipliers of a ``sampled`` plant with q+ = q + C x - r; ``options`` as in `place`.
+    Raises InputError; PlacementError for a plant with a zero at rest, or one that is not controllable.
+    """
+    state = state_matrix(a)
+    inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))
+    count, states = len(outputs), len(state)
+    kept = np.eye(count) if sampled else np.zeros((count, count))
+    at_rest = np.block([[state - sampled * np.eye(states), inputs], [outputs, np.zeros((count, inputs.shape[1]))]])
+    sizes = np.linalg.svd(at_rest, compute_uv=False)
+    if states + count > at_rest.shape[1] or sizes[-1] <= TOLERANCE * sizes[0]:
+        ratio = float(sizes[-1] / sizes[0]) if states + count <= at_rest.shape[1] else 0.0
+        problem = f"the plant has a zero at rest: [A B; C 0] has singular values down to {ratio:.2g} of the largest"
+        remedy = "integrate no more outputs than there are inputs, and only those that the inputs move at rest"
+        raise PlacementError("integral feedback", Reason.RANK, problem, ratio, remedy)
+    whole = np.block([[state, np.zeros((states, count))], [outputs, kept]])
+    driven = np.vstack([inputs, np.zeros((count, inputs.shape[1]))])
+    placed = place(whole, driven, poles, **options)
+    return IntegralFeedback(
+        placed.method,
+        placed.gain,
+        placed.wanted,
+        placed.closed_loop,
+        placed.condition_u,
+        placed.levels,
+        on_state=placed.gain[:, :states],
+        on_integral=placed.gain[:, states:],
+    )

@@ -1,0 +1,1 @@
+"""Gains as formulas in symbols: the multilevel decomposition, generalised Ackermann and Bass-Gura formulas by sympy."""

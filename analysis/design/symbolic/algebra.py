@@ -1,0 +1,93 @@
+"""What the formulas share: sympy where it is installed, matrices of exact elements, and their simplest form."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterable
+from functools import cache
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from ...common.errors import InputError
+
+Expression = Any  # of sympy, which has no types
+Symbols = Any  # a sympy matrix
+
+
+@cache
+def sympy() -> ModuleType:
+    """Return sympy, of the optional extra `symbolic`. Raises InputError where it is not installed."""
+    try:
+        return importlib.import_module("sympy")
+    except ImportError as error:
+        remedy = "pip install 'perilune[symbolic]'"
+        raise InputError("modal", "sympy", "formulas need it, and it is not installed", remedy) from error
+
+
+def exact(value: object) -> Expression:
+    """Return a number or expression with exact numbers: 0.1 is 1/10."""
+    sp = sympy()
+    expression = sp.sympify(value.item() if isinstance(value, np.generic) else value)
+    return expression.xreplace({number: sp.Rational(str(number)) for number in expression.atoms(sp.Float)})
+
+
+def matrix_of(name: str, value: Any, shape: tuple[int | None, int | None] = (None, None)) -> Symbols:
+    """Return a matrix of exact elements; ``shape`` has the rows and columns that it must have. Raises InputError."""
+    sp = sympy()
+    try:
+        rows = value.tolist() if hasattr(value, "tolist") else value
+        matrix = sp.Matrix([[exact(element) for element in row] for row in rows])
+    except (TypeError, ValueError, sp.SympifyError):
+        raise InputError("modal", name, "it is no matrix of numbers and symbols", "give a list of rows") from None
+    for size, required, unit in zip(matrix.shape, shape, ("rows", "columns"), strict=True):
+        if required is not None and size != required:
+            raise InputError("modal", name, f"it has {size} {unit}", f"give {required}")
+    return matrix
+
+
+def tidy(matrix: Symbols) -> Symbols:
+    """Return the matrix with each element as a product of factors, equal elements alike: zeros are seen."""
+    return matrix.applyfunc(_tidy)
+
+
+def _tidy(expression: Expression) -> Expression:
+    """Return a quotient of products of factors; sin^2 is 1 - cos^2, so that what is 0 is seen to be."""
+    sp = sympy()
+    angles = sorted({each.args[0] for each in expression.atoms(sp.sin, sp.cos)}, key=str)
+    if not angles:
+        return sp.factor(sp.cancel(expression))
+    named = {function(angle): sp.Dummy() for angle in angles for function in (sp.sin, sp.cos)}
+    terms = sp.fraction(sp.cancel(expression.xreplace(named)))
+    for angle in angles:
+        sine, cosine = named[sp.sin(angle)], named[sp.cos(angle)]
+        terms = [sp.rem(term, sine**2 + cosine**2 - 1, sine) for term in terms]
+    numerator, denominator = terms
+    back = {dummy: function for function, dummy in named.items()}
+    return sp.factor(sp.cancel(numerator / denominator)).xreplace(back)
+
+
+def is_zero(expression: Expression) -> bool:
+    """True if 0 for all values of its symbols."""
+    return bool(_tidy(expression) == 0)
+
+
+def inverse_of(matrix: Symbols) -> Symbols | None:
+    """Return the inverse for general values of the symbols, None where there is none."""
+    determinant = _tidy(matrix.det(method="berkowitz"))
+    return None if determinant == 0 else tidy(matrix.adjugate() / determinant)
+
+
+def left_inverse(matrix: Symbols) -> Symbols:
+    """Return the pseudo-inverse of full column rank, (M' M)^-1 M'."""
+    return tidy(inverse_of(tidy(matrix.T * matrix)) * matrix.T)
+
+
+def powers(matrix: Symbols, start: Symbols, count: int) -> Iterable[Symbols]:
+    """Yield ``start``, start M, .., start M^count."""
+    row = start
+    yield row
+    for _ in range(count):
+        row = tidy(row * matrix)
+        yield row

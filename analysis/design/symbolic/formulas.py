@@ -1,0 +1,42 @@
+"""Generalised Ackermann and Bass-Gura formulas in symbols; those of `poles/ackermann.py`, where their source stands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..poles.results import PlacementError, Reason
+from .algebra import Symbols, inverse_of, is_zero, powers, sympy, tidy
+
+
+def last_symbol_rows(a: Symbols, b: Symbols, formula: str) -> Symbols:
+    """Return T (m, n), the last rows of U^-1. Raises PlacementError in the name of ``formula``."""
+    sp = sympy()
+    states, inputs = b.shape
+    if states % inputs:
+        problem = f"n/m = {states}/{inputs} = {states / inputs:.3g} is not whole"
+        raise PlacementError(formula, Reason.CLASS, problem, states / inputs, "take method multilevel")
+    columns = sp.Matrix.hstack(*(row.T for row in powers(a.T, b.T, states // inputs - 1)))
+    inverse = inverse_of(columns)
+    if inverse is None:
+        rank = columns.rank(iszerofunc=is_zero)
+        problem = f"U = [B AB ..] has the rank {rank} for {states} states"
+        remedy = "take method multilevel, which says if it is controllable"
+        raise PlacementError(formula, Reason.CLASS, problem, float(rank), remedy)
+    return inverse[states - inputs :, :]
+
+
+def ackermann_symbols(a: Symbols, b: Symbols, coefficients: Sequence[Symbols]) -> Symbols:
+    """Return K = T A^p + sum N_i T A^i of u = -K x. Raises PlacementError."""
+    rows = last_symbol_rows(a, b, "generalised Ackermann")
+    *lower, top = powers(a, rows, len(coefficients))
+    return tidy(sum((n * row for n, row in zip(coefficients, lower, strict=True)), top))
+
+
+def bass_gura_symbols(a: Symbols, b: Symbols, coefficients: Sequence[Symbols]) -> Symbols:
+    """Return K = [N_0 - a_0 .. N_(p-1) - a_(p-1)] V of u = -K x. Raises PlacementError."""
+    sp = sympy()
+    rows = last_symbol_rows(a, b, "generalised Bass-Gura")
+    *lower, top = powers(a, rows, len(coefficients))
+    stack = sp.Matrix.vstack(*lower)
+    plant = tidy(-top * inverse_of(stack))
+    return tidy((sp.Matrix.hstack(*coefficients) - plant) * stack)

@@ -1,0 +1,171 @@
+"""K and L as formulas in symbols, and what is made of them: numbers, LaTeX, a kernel function."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cached_property
+from itertools import accumulate, pairwise
+from typing import Any
+
+import mpmath
+import numpy as np
+
+from ...common.errors import InputError, suggestion
+from .algebra import Expression, Symbols, exact, matrix_of, sympy, tidy
+from .formulas import ackermann_symbols, bass_gura_symbols
+from .kernel_text import kernel_text
+from .levels import assemble_symbols, symbolic_levels
+
+_DIGITS = 30
+
+
+class Formula(StrEnum):
+    """The methods that have a formula in symbols."""
+
+    MULTILEVEL = "multilevel"
+    ACKERMANN = "ackermann"
+    BASS_GURA = "bass_gura"
+
+
+@dataclass(frozen=True)
+class SymbolicGain:
+    """A gain as a formula: ``gain`` and ``closed_loop`` are matrices of sympy, ``letter`` is K or L.
+
+    Elements are products of factors of rational functions; sines and cosines are functions of their angles.
+    """
+
+    method: str
+    gain: Symbols
+    closed_loop: Symbols
+    letter: str
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the symbols in the gain, sorted."""
+        return sorted(str(symbol) for symbol in self.gain.free_symbols)
+
+    def at(self, values: Mapping[str, float]) -> np.ndarray:
+        """Return the gain as numbers for ``values`` of its symbols by name. Raises InputError for one that is missing.
+
+        It is computed to 30 digits and rounded, so that it has no rounding errors of its own.
+        """
+        missing = [name for name in self.names if name not in values]
+        if missing:
+            raise InputError("modal", f"values of {self.letter}", f"{missing[0]} has none", "give one for each symbol")
+        with mpmath.workdps(_DIGITS):
+            evaluated = self._function(*(mpmath.mpf(float(values[name])) for name in self.names))
+        return np.array(evaluated.tolist(), dtype=float)
+
+    @cached_property
+    def _function(self) -> Callable[..., Any]:
+        symbols = sorted(self.gain.free_symbols, key=str)
+        function: Callable[..., Any] = sympy().lambdify(symbols, self.gain, modules="mpmath", cse=True)
+        return function
+
+    def latex(self) -> str:
+        """Return the formula as LaTeX, ``K = ...``."""
+        return f"{self.letter} = {sympy().latex(self.gain)}"
+
+    def kernel(self, name: str) -> str:
+        """Return a module with the kernel function ``name``: symbols, sorted by name, in; the matrix out.
+
+        A block's `initialize` or `step` may call it. Raises InputError for a name or symbol that Python has not, or a
+        function that kernels have not.
+        """
+        return kernel_text(name, self.letter, self.gain)
+
+
+def symbolic_gain(
+    a: Any, b: Any, required: Sequence[Any], *, method: str = Formula.MULTILEVEL, bases: Sequence[Any] | None = None
+) -> SymbolicGain:
+    """Return K of **u = -K x** as a formula in the symbols of A and B; needs sympy, `pip install 'perilune[symbolic]'`.
+
+    ``a`` is A (n, n), ``b`` B (n, m), of numbers and sympy's symbols; 0.1 is taken as 1/10. ``required`` are n poles,
+    numbers or symbols that stand for real ones; or matrices, by ``method``: multilevel (the automated algorithm) has
+    Phi_i of each level, level 0 first, with ``bases`` as in `place_levels`; ackermann and bass_gura have N_i, N_0
+    first, as in `place_polynomial`. Poles are taken in order, along the levels' diagonals or n/m for each input.
+    Ranks are those for general values of the symbols. Raises InputError and PlacementError.
+    """
+    state = matrix_of("A", a)
+    state = matrix_of("A", state, (state.rows, state.rows))
+    inputs = matrix_of("B", b, (state.rows, None))
+    if method not in [*Formula]:
+        raise InputError("modal", f"method {method!r}", "there is none of that name", suggestion(method, Formula))
+    if method != Formula.MULTILEVEL:
+        if bases is not None:
+            raise InputError("modal", "bases", f"method {method} has none", "take method multilevel")
+        size = inputs.cols
+        count = state.rows // size
+        matrices = _matrices(required, [size] * count) or _polynomial(_poles(required, state.rows), count, size)
+        formula = ackermann_symbols if method == Formula.ACKERMANN else bass_gura_symbols
+        gain = formula(state, inputs, matrices)
+    else:
+        gain = -_multilevel(state, inputs, required, bases)
+    return SymbolicGain(str(method), gain, tidy(state - inputs * gain), "K")
+
+
+def symbolic_observer(
+    a: Any, c: Any, required: Sequence[Any], *, method: str = Formula.MULTILEVEL, bases: Sequence[Any] | None = None
+) -> SymbolicGain:
+    """Return L of x_h' = A x_h + B u + L (y - C x_h) as a formula: L' is K of `symbolic_gain` for (A', C').
+
+    ``c`` is C (p, n); ``required``, ``method`` and ``bases`` are of (A', C'). Raises InputError and PlacementError.
+    """
+    state, outputs = matrix_of("A", a), matrix_of("C", c)
+    dual = symbolic_gain(state.T, outputs.T, required, method=method, bases=bases)
+    return SymbolicGain(dual.method, dual.gain.T, dual.closed_loop.T, "L")
+
+
+def _multilevel(a: Symbols, b: Symbols, required: Sequence[Any], bases: Sequence[Any] | None) -> Symbols:
+    sp = sympy()
+    turn = sp.eye(a.rows)
+    sizes = None
+    if bases is not None:
+        given = [matrix_of(f"bases[{i}]", basis, (a.rows, None)) for i, basis in enumerate(bases)]
+        turn = sp.Matrix.hstack(*given)
+        sizes = [basis.cols for basis in given]
+        if turn.cols != a.rows or tidy(turn.T * turn) != sp.eye(a.rows):
+            raise InputError("modal", "bases", "together they are no orthonormal basis of the state", "make them one")
+    levels = symbolic_levels(tidy(turn.T * a * turn), tidy(turn.T * b), sizes)
+    ranks = [level.rank for level in levels]
+    matrices = _matrices(required, ranks)
+    if matrices is None:
+        poles = _poles(required, a.rows)
+        matrices = [sp.diag(*poles[start:end]) for start, end in pairwise(accumulate(ranks, initial=0))]
+    return tidy(assemble_symbols(levels, matrices) * turn.T)
+
+
+def _matrices(required: Sequence[Any], sizes: Sequence[int]) -> list[Symbols] | None:
+    """Square matrices of the sizes; None where poles are given."""
+    if len(required) and not hasattr(required[0], "__len__"):
+        return None
+    if len(required) != len(sizes):
+        text = ", ".join(map(str, sizes))
+        raise InputError("modal", "required", f"there are {len(required)} matrices", f"give those of sizes {text}")
+    return [
+        matrix_of(f"required[{i}]", matrix, (size, size))
+        for i, (matrix, size) in enumerate(zip(required, sizes, strict=True))
+    ]
+
+
+def _poles(required: Sequence[Any], states: int) -> list[Expression]:
+    poles = [exact(pole) for pole in required]
+    if len(poles) != states:
+        raise InputError("modal", "required", f"there are {len(poles)} poles", f"give {states}, repeated ones repeated")
+    if any(pole.is_real is False for pole in poles):
+        remedy = "give matrices, [[a, b], [-b, a]] for a pair a +- i b"
+        raise InputError("modal", "required", "a pole is not real", remedy)
+    return poles
+
+
+def _polynomial(poles: list[Expression], count: int, size: int) -> list[Symbols]:
+    """N_0 .. N_(count - 1), diagonal: input j has the j-th ``count`` poles."""
+    sp = sympy()
+    variable = sp.Dummy("s")
+    columns = []
+    for j in range(size):
+        product = sp.prod([variable - pole for pole in poles[j * count : (j + 1) * count]])
+        columns.append(sp.Poly(product, variable).all_coeffs()[:0:-1])
+    return [sp.diag(*(column[i] for column in columns)) for i in range(count)]

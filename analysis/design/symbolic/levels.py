@@ -1,0 +1,68 @@
+"""Multilevel decomposition in symbols: the automated algorithm of Lapin's thesis, section 2.1.1.
+
+The formulas are those of `poles/multilevel.py` without singular values: Bt are columns of B that all others depend on,
+R = Bt^+ B, and P a basis of the left divisors of zero of Bt, not orthonormal, so that the next level is
+(P A P^+, P A Bt). Where a level's Phi is a multiple of I, or bases are given, the gain is that of the numeric route.
+Inside of this file u = K x as there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..poles.results import PlacementError, Reason
+from .algebra import Symbols, is_zero, left_inverse, sympy, tidy
+
+
+@dataclass(frozen=True)
+class SymbolicLevel:
+    """One level: A, Bt^+, the pseudo-inverse of R, and P; ``rank`` states."""
+
+    a: Symbols
+    inverse: Symbols
+    spread: Symbols
+    down: Symbols
+    rank: int
+
+
+def symbolic_levels(a: Symbols, b: Symbols, sizes: Sequence[int] | None = None) -> list[SymbolicLevel]:
+    """Return the levels of a pair, level 0 first; with ``sizes`` they are the first states, the next and so on.
+
+    Raises PlacementError for a pair that is not controllable for general values, or sizes that are not the levels'.
+    """
+    sp = sympy()
+    levels: list[SymbolicLevel] = []
+    while True:
+        states = a.rows
+        basis = b[:, list(b.rref(iszerofunc=is_zero)[1])]
+        rank = basis.cols
+        if not rank:
+            problem = f"{states} states are left on level {len(levels)}, which nothing drives"
+            remedy = "leave these states out, or add an input"
+            raise PlacementError("multilevel placement", Reason.NOT_CONTROLLABLE, problem, 0.0, remedy)
+        if sizes is None:
+            left = basis
+            down = sp.Matrix([list(row) for row in left.T.nullspace(iszerofunc=is_zero)])
+        else:
+            if len(levels) >= len(sizes) or sizes[len(levels)] != rank or not b[rank:, :].is_zero_matrix:
+                problem = f"the basis of level {len(levels)} is not what drives it, of rank {rank}"
+                remedy = "give a basis of what B drives, then one of what these states drive, and so on"
+                raise PlacementError("multilevel placement", Reason.RANK, problem, float(rank), remedy)
+            left, down = sp.eye(states)[:, :rank], sp.eye(states)[rank:, :]
+        inverse = left_inverse(left)
+        spread = left_inverse(tidy(inverse * b).T).T
+        levels.append(SymbolicLevel(a, inverse, spread, down, rank))
+        if rank == states:
+            return levels
+        up = left_inverse(down.T).T
+        a, b = tidy(down * a * up), tidy(down * a * left)
+
+
+def assemble_symbols(levels: Sequence[SymbolicLevel], required: Sequence[Symbols]) -> Symbols:
+    """Return K of u = K x for Phi_i = ``required``, level 0 first."""
+    gain = None
+    for level, phi in zip(reversed(levels), reversed(required), strict=True):
+        inverse = level.inverse if gain is None else tidy(level.inverse - gain * level.down)
+        gain = tidy(level.spread * (phi * inverse - inverse * level.a))
+    return gain

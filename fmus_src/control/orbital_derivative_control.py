@@ -1,0 +1,114 @@
+"""Orbital attitude by placed poles, fed back from the derivative of the state."""
+
+from ..block import Parameter, State
+from ..interfaces.ports import body
+from ..kernel.matrices import Matrix, diagonal, identity, inverse, zeros
+from ..mathlib.orbits.attitude import (
+    ANGLES,
+    PITCH,
+    RATES,
+    ROLL,
+    angle_rates,
+    angular_acceleration,
+    evaluate_angles,
+    linear_model,
+)
+from ..mathlib.vectors import vector
+from .orbital_control import OrbitalControl
+
+SINGULAR = 1e9  # |A| |A^-1| by their largest elements, above which A counts as singular
+
+
+class OrbitalDerivativeControl(OrbitalControl):
+    """Torque from rates of the angles and angular acceleration: u = u0 - K (a', w'), with the poles that are placed.
+
+    The closed loop is a' = S1 a + z, z' = S0 z, S with minus the poles on its diagonal and a coupling of roll and
+    pitch; K is the gain on the state times the inverse of the closed loop's matrix. a' follows from the estimate, w' is
+    its mean since the last tick with a finite estimate, torque included; the first tick has no w'. u0 holds the body in
+    the orbital frame against its products of inertia, which no derivative shows.
+    K needs A nonsingular. The placed poles stand the delay of w' only where every eigenvalue of 1 - Gw, u = J Gw w',
+    has a positive real part; with two unstable modes, of roll and of pitch, that takes the coupling. Otherwise status
+    says that the parameters are unusable. Torque below a shortest pulse is not in w': for wheels, or pulses.mean.
+    The law is linear in yaw.
+    Source: Lapin, thesis, section 1.3.4, by name; formulas: docs/systems/orbital_attitude.md. Condition: Michiels,
+    Vyhlidal, Huijberts and Nijmeijer 2009.
+    """
+
+    angle_poles = OrbitalControl.angle_poles.with_start([0.0015, 0.003, 0.0015])
+    rate_poles = OrbitalControl.rate_poles.with_start([0.0015, 0.003, 0.0015])
+    coupling = Parameter(0.0026, unit="rad/s", description="turn of roll into pitch, of angles and of their lack")
+    angle_gain = State([0.0] * 9, columns=3, description="torque over rates of angles, N m s/rad, body")
+    rate_gain = State([0.0] * 9, columns=3, description="torque over angular acceleration, N m s2, body")
+    torque_at_rest = body.TORQUE.state("torque that holds the body in the orbital frame")
+    last_angular_velocity = body.ANGULAR_VELOCITY.state("of the tick before")
+    last_time = State(0.0, unit="s", frozen=True, description="of the tick before, after the start")
+
+    def decay(self, poles: Matrix) -> Matrix:
+        """S of a level: minus the poles (1/s) on the diagonal, and the coupling."""
+        s = -poles
+        s[ROLL, PITCH] = -self.coupling
+        s[PITCH, ROLL] = self.coupling
+        return s
+
+    def stands_delay(self, e: Matrix) -> bool:
+        """Whether all three eigenvalues of e have positive real parts (Hurwitz's condition on -e)."""
+        trace = e[0, 0] + e[1, 1] + e[2, 2]
+        xy = e[0, 0] * e[1, 1] - e[0, 1] * e[1, 0]
+        xz = e[0, 0] * e[2, 2] - e[0, 2] * e[2, 0]
+        yz = e[1, 1] * e[2, 2] - e[1, 2] * e[2, 1]
+        determinant = (
+            e[0, 0] * yz
+            - e[0, 1] * (e[1, 0] * e[2, 2] - e[1, 2] * e[2, 0])
+            + e[0, 2] * (e[1, 0] * e[2, 1] - e[1, 1] * e[2, 0])
+        )
+        return trace > 0.0 and determinant > 0.0 and trace * (xy + xz + yz) > determinant
+
+    def largest(self, a: Matrix) -> float:
+        """The largest element of a 6 x 6 matrix, in magnitude."""
+        size = 0.0
+        for i in range(6):
+            for j in range(6):
+                if abs(a[i, j]) > size:
+                    size = abs(a[i, j])
+        return size
+
+    def begin(self) -> None:
+        a = linear_model(self.inertia, self.inverse_inertia, self.orbital_rate)
+        back, invertible = inverse(a)
+        s1 = self.decay(diagonal(self.angle_poles))
+        s0 = self.decay(diagonal(self.rate_poles))
+        n = s1 - a[ANGLES, ANGLES]
+        closed = zeros(6, 6)
+        closed[ANGLES, ANGLES] = a[ANGLES, ANGLES]
+        closed[ANGLES, RATES] = identity(3)
+        closed[RATES, ANGLES] = n @ a[ANGLES, ANGLES] - s0 @ n
+        closed[RATES, RATES] = n + s0
+        undone, placed = inverse(closed)
+        # u = J (closed - a) x on the rows of the rates, and x = closed^-1 x'
+        gain = identity(6) - a @ undone
+        self.angle_gain = self.inertia @ gain[RATES, ANGLES]
+        self.rate_gain = self.inertia @ gain[RATES, RATES]
+        self.usable = invertible and placed and self.stands_delay(identity(3) - gain[RATES, RATES])
+        if not self.largest(a) * self.largest(back) < SINGULAR:
+            self.usable = False
+        zero = vector(0.0, 0.0, 0.0)
+        down = vector(0.0, 0.0, -self.orbital_rate)
+        self.torque_at_rest = -(
+            self.inertia
+            @ angular_acceleration(
+                evaluate_angles(zero), down, zero, self.inertia, self.inverse_inertia, self.orbital_rate
+            )
+        )
+        self.last_angular_velocity = self.estimated_angular_velocity
+        self.last_time = 0.0
+
+    def regulate(self, time: float) -> None:
+        w = self.estimated_angular_velocity
+        self.torque_command = self.torque_at_rest
+        since = time - self.last_time
+        if since > 0.0:
+            rates = angle_rates(evaluate_angles(self.estimated_angles), w, self.orbital_rate)
+            acceleration = (w - self.last_angular_velocity) / since
+            self.torque_command = self.torque_at_rest + self.angle_gain @ rates + self.rate_gain @ acceleration
+        self.last_angular_velocity = w
+        self.last_time = time
