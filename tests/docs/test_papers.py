@@ -23,7 +23,7 @@ NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?(?![\w.]*\w)")
 def rows_of(page: Path) -> list[list[str]]:
     """The entries of each row of a page's table."""
     table = page.read_text(encoding="utf-8").partition(HEADER)[2].partition("\n\n")[0]
-    return [[cell.strip() for cell in line.strip().strip("|").split(" | ")] for line in table.split("\n")[2:]]
+    return [[cell.strip() for cell in line.strip().strip("|").split(" | ")] for line in table.split("\n")[2:] if line]
 
 
 ROWS = [

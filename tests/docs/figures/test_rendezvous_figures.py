@@ -36,7 +36,7 @@ def test_bytes_repeat(flight, drawn_once, tmp_path):
         assert first.read_bytes() == second.read_bytes()
 
 
-def test_labels_are_there_and_the_kept_ones_are_these(drawn_once):
+def test_labels_and_stored_figures_are_those_of_the_page(drawn_once):
     assert {path.stem for path in drawn_once} == set(LABELS)
     for first in drawn_once:
         sampled = first.read_bytes()
