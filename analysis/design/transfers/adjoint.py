@@ -100,14 +100,15 @@ class AdjointSolution:
 
     def document(self) -> dict[str, object]:
         """Return all of it for other programs, at the beginnings of the intervals and at the end; s, deg, SI."""
+        has_arc = self.time[self.singular_arc].size > 0
         rms, largest = (math.degrees(angle) for angle in self.tangent_residual)
         first, last = self.reversals
         return {
             "time_s": _ends(self.time).tolist(),
             "costates": _ends(self.costates).tolist(),
             "switching_function": _ends(self.switching).tolist(),
-            "tangent_law_s": list(self.singular_span),
-            "tangent_law_deg": {"rms": rms, "largest": largest},
+            "tangent_law_s": list(self.singular_span) if has_arc else None,
+            "tangent_law_deg": {"rms": rms, "largest": largest} if has_arc else None,
             "switching_function_zeros_s": self.switching_times,
             "residuals": {
                 "multipliers": self.mismatch,
@@ -174,26 +175,26 @@ def zeros_of(time: np.ndarray, values: np.ndarray) -> list[float]:
 
 
 def _integrate_back(end: float, derivative: np.ndarray, span: float) -> np.ndarray:
-    """A function at all nodes from its derivative there and its value at the end of the last interval."""
+    """Return a function at all nodes from its derivative there and its value at the end of the last interval."""
     to_end = span * derivative @ INTEGRALS.T  # of its interval, from each node on
     later = np.cumsum(to_end[::-1, 0])[::-1] - to_end[:, 0]
     return end - later[:, np.newaxis] - to_end
 
 
 def _through(ends: np.ndarray, derivative: np.ndarray, span: float) -> np.ndarray:
-    """Likewise from its values at the ends of all intervals."""
+    """Return the same from its values at the ends of all intervals."""
     return ends[1:, np.newaxis] - span * derivative @ INTEGRALS.T
 
 
 def _ends(rows: np.ndarray) -> np.ndarray:
-    """The first node of each interval and the last of all."""
+    """Return the first node of each interval and the last of all."""
     return np.concatenate([rows[:, 0], rows[-1:, -1]])
 
 
 def _largest_forbidden(function: np.ndarray, control: np.ndarray) -> float:
-    """Largest mean of a function over an interval whose control, -1 to 1, should have the opposite sign or be free.
+    """Return the largest interval mean of a function that its control, -1 to 1, forbids, over the largest of all.
 
-    A control within 1 % of a limit counts as at it; the mean there may have the sign opposite to the limit's.
+    A control within 1 % of a limit counts as at it: the mean has the sign opposite to the limit's. Else it is 0.
     """
     mean = function @ INTEGRALS[0]
     at_limit = np.abs(control) > 1.0 - FREE

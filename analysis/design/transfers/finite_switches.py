@@ -82,7 +82,7 @@ def find_finite_switches(near: Programme) -> FiniteProfile | None:
 
 
 def pitch_of_profile(z: np.ndarray, swing: float, t: np.ndarray) -> np.ndarray:
-    """Pitch (rad) at times (s); ``z``: t2, t3, t4, t5, t7, then the tangent law; ``swing`` in rad/s2."""
+    """Return pitch (rad) at times (s); ``z``: t2, t3, t4, t5, t7, then the tangent law; ``swing`` in rad/s2."""
     t2, t3, t4, t5, t7, direction, nearest, scale = z[:8]
     t1, last = t2 / 2.0, (t7 - t5) / 2.0
     curves = [
@@ -123,7 +123,7 @@ def _propellant(z: np.ndarray, vehicle: Vehicle) -> float:
 
 
 def _gaps(z: np.ndarray, swing: float) -> np.ndarray:
-    """Steps of pitch and of its rate where the tangent law begins and ends."""
+    """Return the steps of pitch and of its rate where the tangent law begins and ends."""
     t2, t3, t4, t5, t7, direction, nearest, scale = z[:8]
     before = swing * ((t3 - t2) ** 2 / 2.0 - t2**2 / 4.0), swing * (t3 - t2)
     after = swing * ((t7 - t5) ** 2 / 4.0 - (t5 - t4) ** 2 / 2.0), swing * (t5 - t4)

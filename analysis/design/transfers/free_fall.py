@@ -77,7 +77,7 @@ def find_free_fall(near: Programme, begun: float = 0.0) -> FreeFallProgramme | N
 def _fly(
     z: np.ndarray, begun: float, vehicle: Vehicle, transfer: Transfer
 ) -> tuple[FreeFallProgramme, np.ndarray] | None:
-    """The programme with t2, t5, w, tp and t7 - t5 (s), and how it misses the end; None where it has no shape."""
+    """Return the programme with t2, t5, w, tp and t7 - t5 (s), and how it misses the end; None without a shape."""
     t2, t5, width, burn, turn = (float(each) for each in z)
     kernel = kernel_vehicle(vehicle, transfer)
     off, fall = t5 + begun * turn, (1.0 - begun) * turn

@@ -232,7 +232,7 @@ def _require(plan: Plan | None, what: str, transfer: Transfer) -> Plan:
 
 
 def _compare(planned: Vehicle, transfer: Transfer, turn_begun: float) -> Comparison:
-    """Both programmes to one distance."""
+    """Return both programmes to one distance."""
     programme = find_programme(planned, transfer)
     free_fall = None if programme is None else find_free_fall(programme, turn_begun)
     fractions = (math.nan if plan is None else plan.propellant_fraction for plan in (programme, free_fall))

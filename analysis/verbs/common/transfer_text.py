@@ -14,7 +14,7 @@ def burns_text(burns: Iterable[tuple[float, float]]) -> str:
 
 
 def adjoint_lines(study: HoverStudy) -> list[str]:
-    """Costates at the start, and the residuals of the conditions; nothing without them."""
+    """Return costates at the start, and the residuals of the conditions; nothing without them."""
     adjoint = study.adjoint
     if adjoint is None:
         return []
@@ -36,7 +36,7 @@ def adjoint_lines(study: HoverStudy) -> list[str]:
 
 
 def finite_lines(study: HoverStudy) -> list[str]:
-    """The profile with a finite number of switches, and its cost above the optimum where that is known."""
+    """Return the profile with a finite number of switches, and its cost above the optimum where that is known."""
     profile = study.finite
     if profile is None:
         return []
@@ -54,7 +54,7 @@ def finite_lines(study: HoverStudy) -> list[str]:
 
 
 def free_fall_lines(study: HoverStudy) -> list[str]:
-    """The programme that becomes vertical in free fall, and both programmes over distance."""
+    """Return the programme that becomes vertical in free fall, and both programmes over distance."""
     plan, mass = study.free_fall, study.vehicle.mass
     if plan is None:
         return []
@@ -83,7 +83,7 @@ def _table(study: HoverStudy) -> list[str]:
 
 
 def _decade(value: float) -> str:
-    """The next power of ten: what lies below the precision of a solver differs from machine to machine."""
+    """Return the next power of ten: what lies below the precision of a solver differs from machine to machine."""
     return f"{10.0 ** math.ceil(math.log10(value)):.0e}" if value > 0.0 else "0"
 
 
