@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from .analysis.design.feedback.derivative import DerivativeFeedback, place_derivative
 from .analysis.design.feedback.integral import IntegralFeedback, place_integral
+from .analysis.design.feedback.upper_levels import output_feedback_upper
 from .analysis.design.poles.observers import observer, reduced_observer
 from .analysis.design.poles.output_feedback import output_feedback
 from .analysis.design.poles.output_feedback_set import (
@@ -51,6 +52,7 @@ __all__ = [
     "output_feedback",
     "output_feedback_levels",
     "output_feedback_set",
+    "output_feedback_upper",
     "place",
     "place_derivative",
     "place_integral",

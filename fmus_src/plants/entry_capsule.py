@@ -11,6 +11,7 @@ from ..kernel.matrices import Matrix, inverse
 from ..kernel.records import replace
 from ..mathlib.actuators.pulses import left_after, lengths_of, next_switch_off
 from ..mathlib.cubic_spline import cubic_value, curvatures
+from ..mathlib.entry.gost_atmosphere import gost_air
 from ..mathlib.entry.motion import (
     EntryState,
     attitude_rates,
@@ -42,6 +43,13 @@ class CapsuleStatus(Enumeration):
     NO_INERTIA = member("inertia cannot be inverted")
 
 
+class Atmosphere(Enumeration):
+    """Which standard the air is of."""
+
+    US_1976 = member("US standard atmosphere 1976")
+    GOST_4401_81 = member("GOST 4401-81")
+
+
 class EntryCapsule(Block):
     """Rigid body in the atmosphere of a turning, spherical Earth, with jets about its axes and constant mass.
 
@@ -50,7 +58,7 @@ class EntryCapsule(Block):
     through it, z = x x y. Body axes: x along the axis of symmetry, out through the heat shield; bank, sideslip and
     attack lead from velocity to body axes. Axial and normal coefficients are splines in the spatial angle of attack,
     linear in Mach number between them; the last values hold beyond the tables, which the status says.
-    The air is the US standard atmosphere of 1976 times density_factor, moved by wind (velocity axes).
+    The air is that of a standard atmosphere times density_factor, moved by wind (velocity axes).
 
     A change of pulse_count tells new pulses, which start at once and take the place of what is left of the last; each
     is cut exactly where it ends, whatever the communication step. mean_torque acts beside them. jet_torque and
@@ -78,6 +86,7 @@ class EntryCapsule(Block):
         [100.0, 100.0, 80.0, 80.0, 80.0, 80.0], unit="N.m", minimum=0.0, description="of each jet, a level of its own"
     )
     gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter(3.986e14, "of the Earth")
+    atmosphere = Parameter(Atmosphere, start=Atmosphere.US_1976)
     earth_rate = Parameter(7.29e-5, unit="rad/s", description="turn of the Earth")
     earth_radius = Parameter(6371000.0, unit="m", minimum=1.0, description="of the sphere under the height")
     initial_height = Parameter(100000.0, unit="m", description="height at the start")
@@ -157,6 +166,12 @@ class EntryCapsule(Block):
         above = cubic_value(values, second, k + 1, KNOTS, ANGLE_STEP, angle)
         return below + fraction * (above - below)
 
+    def standard_air(self, h: float) -> Air:
+        """The air of the standard at the height h (m)."""
+        if self.atmosphere == Atmosphere.GOST_4401_81:
+            return gost_air(h)
+        return air(h)
+
     def spatial_angle(self, v: Vector3) -> float:
         """Angle (rad) between the axis of symmetry and the velocity v against the air (body)."""
         return atan2(math.sqrt(v.y * v.y + v.z * v.z), v.x)
@@ -179,7 +194,7 @@ class EntryCapsule(Block):
         functions = evaluate_path(s)
         axes = body_axes(s.attitude)
         v = in_body(axes, vector(s.speed, 0.0, 0.0) - self.wind)
-        standard = air(s.radius - self.earth_radius)
+        standard = self.standard_air(s.radius - self.earth_radius)
         gas = replace(standard, density=standard.density * self.density_factor)
         force = self.air_force(v, gas)
         speed = norm(v)
@@ -235,7 +250,7 @@ class EntryCapsule(Block):
         self.course = s.heading
         self.bank, self.sideslip, self.attack = s.attitude
         self.angular_velocity = s.angular_velocity
-        gas = air(self.height)
+        gas = self.standard_air(self.height)
         self.dynamic_pressure = 0.5 * gas.density * self.speed * self.speed
         v = in_body(body_axes(s.attitude), vector(self.speed, 0.0, 0.0) - self.wind)
         self.mach = norm(v) / gas.speed_of_sound

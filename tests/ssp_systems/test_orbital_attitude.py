@@ -166,6 +166,9 @@ def test_arrival_sooner_costs_more():
     assert settled(quick).mean() <= 32.0
     assert settled(quick).max() <= 36.0
     assert quick.metrics["propellant"].mean() <= 5.0
+    # as the page has them
+    page = (settled(quick).mean(), settled(quick).max(), quick.metrics["propellant"].mean())
+    assert page == pytest.approx((31.1, 35.4, 4.9), abs=0.051)
 
 
 @pytest.mark.parametrize(

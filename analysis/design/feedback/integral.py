@@ -51,7 +51,7 @@ def place_integral(
     state = state_matrix(a)
     inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))
     count, states = len(outputs), len(state)
-    memory = np.eye(count) if sampled else np.zeros((count, count))
+    carried = np.eye(count) if sampled else np.zeros((count, count))
     at_rest = np.block([[state - sampled * np.eye(states), inputs], [outputs, np.zeros((count, inputs.shape[1]))]])
     sizes = np.linalg.svd(at_rest, compute_uv=False)
     if states + count > at_rest.shape[1] or sizes[-1] <= TOLERANCE * sizes[0]:
@@ -59,7 +59,7 @@ def place_integral(
         problem = f"the plant has a zero at rest: [A B; C 0] has singular values down to {ratio:.2g} of the largest"
         remedy = "integrate no more outputs than there are inputs, and only those that the inputs move at rest"
         raise PlacementError("integral feedback", Reason.RANK, problem, ratio, remedy)
-    whole = np.block([[state, np.zeros((states, count))], [outputs, memory]])
+    whole = np.block([[state, np.zeros((states, count))], [outputs, carried]])
     driven = np.vstack([inputs, np.zeros((count, inputs.shape[1]))])
     placed = place(whole, driven, poles, **options)
     return IntegralFeedback(

@@ -142,17 +142,21 @@ def on_levels(levels: Sequence[Level], family: Eigenvectors, free: np.ndarray) -
     """The placement with these eigenvectors, by its Phi_i.
 
     Phi of a level has as left eigenvectors w Bt, w rows of the inverse of the eigenvectors; which rows, pivoting
-    chooses, so that they are well conditioned. What remains goes up through P. Where the rows part a conjugate pair,
-    Phi_i is complex; the gain is not.
+    chooses, so that they are well conditioned. They are B^- but for a factor, and (Bt^+ - B^-) P' is the gain of the
+    level above, which has more inputs than its rank there and is not given by its Phi alone. What remains goes up
+    through P. Where the rows part a conjugate pair, Phi_i is complex; the gain is not.
     """
     vectors, poles = family.as_complex(family.at(free))
-    wanted, remaining = [], poles
+    wanted, above, remaining = [], [], poles
     for level in levels:
-        rows = np.linalg.solve(vectors, level.left)
+        inverse = np.linalg.inv(vectors)
+        rows = inverse @ level.left
         chosen = qr(rows.conj().T, mode="r", pivoting=True)[1][: level.rank]
         wanted.append(np.linalg.solve(rows[chosen], remaining[chosen, None] * rows[chosen]))
+        back = np.linalg.solve(rows[chosen], inverse[chosen])
+        above.append((np.linalg.pinv(level.left) - back) @ level.down.T)
         vectors, remaining = level.down @ np.delete(vectors, chosen, axis=1), np.delete(remaining, chosen)
-    return place_on_levels(levels, wanted, family.spectrum.poles)
+    return place_on_levels(levels, wanted, family.spectrum.poles, above=above)
 
 
 def family_of(

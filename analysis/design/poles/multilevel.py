@@ -78,22 +78,36 @@ def decompose(
         a, b = down @ a @ down.T, down @ a @ factor
 
 
-def assemble(levels: Sequence[Level], wanted: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """K of u = K x and B^-, both of level 0, for Phi_i = ``wanted``, real or complex, level 0 first."""
+def assemble(
+    levels: Sequence[Level], wanted: Sequence[np.ndarray], above: Sequence[np.ndarray] | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """K of u = K x and B^-, both of level 0, for Phi_i = ``wanted``, real or complex, level 0 first.
+
+    ``above`` has for each level the gain that the level above should have. What R of that level maps to 0 is taken from
+    there: Phi does not say it. Without it that is 0.
+    """
     gain = inverse = np.zeros((0, 0))
-    for level, phi in zip(reversed(levels), reversed(wanted), strict=True):
+    for i in reversed(range(len(levels))):
+        level, phi = levels[i], wanted[i]
         inverse = np.linalg.pinv(level.left)
         if len(level.down):
             inverse = inverse - gain @ level.down
-        gain = np.linalg.pinv(level.right) @ (phi @ inverse - inverse @ level.a)
+        back = np.linalg.pinv(level.right)
+        gain = back @ (phi @ inverse - inverse @ level.a)
+        if above is not None and i and level.rank < level.b.shape[1]:
+            gain = gain + above[i - 1] - back @ level.right @ above[i - 1]
     return gain, inverse
 
 
 def place_on_levels(
-    levels: Sequence[Level], wanted: Sequence[np.ndarray], poles: np.ndarray, method: str = "multilevel"
+    levels: Sequence[Level],
+    wanted: Sequence[np.ndarray],
+    poles: np.ndarray,
+    method: str = "multilevel",
+    above: Sequence[np.ndarray] | None = None,
 ) -> StateFeedback:
     """The gain of u = -K x for Phi_i = ``wanted``, level 0 first, which have the ``poles`` together."""
-    gain = -np.real(assemble(levels, wanted)[0])
+    gain = -np.real(assemble(levels, wanted, above)[0])
     closed_loop = levels[0].a - levels[0].b @ gain
     return StateFeedback(method, gain, poles, closed_loop, levels=[level.values for level in levels])
 

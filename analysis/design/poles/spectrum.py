@@ -96,13 +96,13 @@ class Spectrum:
         if not self._fits(room):
             return None
         for pair in self.pairs:
-            place = max(range(len(room)), key=lambda i: (room[i] // 2, -len(pairs[i]), -i))
-            pairs[place].append(pair)
-            room[place] -= 2
+            index = max(range(len(room)), key=lambda i: (room[i] // 2, -len(pairs[i]), -i))
+            pairs[index].append(pair)
+            room[index] -= 2
         for pole in self.real:
-            place = max(range(len(room)), key=lambda i: (room[i], -i))
-            real[place].append(pole)
-            room[place] -= 1
+            index = max(range(len(room)), key=lambda i: (room[i], -i))
+            real[index].append(pole)
+            room[index] -= 1
         return [Spectrum.sort(*part) for part in zip(real, pairs, strict=True)]
 
     def rank(self, sizes: Sequence[int]) -> list[Spectrum] | None:

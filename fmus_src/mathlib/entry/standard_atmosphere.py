@@ -38,13 +38,10 @@ def thin_density(h: float) -> float:
     return density[k] * exp(fraction * log(density[k + 1] / density[k]))
 
 
-def air(h: float) -> Air:
-    """The air at the height h (m) above the sphere."""
-    if h >= TOP:
-        return Air(density=thin_density(h), speed_of_sound=THIN_SOUND)
+def air_in_layers(geopotential: float) -> Air:
+    """The air at a geopotential height (m), the highest layer continued to 90 km."""
     base = [0.0, 11000.0, 20000.0, 32000.0, 47000.0, 51000.0, 71000.0, 90000.0]
     lapse = [-0.0065, 0.0, 0.001, 0.0028, 0.0, -0.0028, -0.002]
-    geopotential = EARTH_RADIUS * h / (EARTH_RADIUS + h)
     temperature = 288.15
     pressure = 101325.0
     for k in range(7):
@@ -62,3 +59,10 @@ def air(h: float) -> Air:
             break
     specific = GAS_CONSTANT * temperature
     return Air(density=pressure / specific, speed_of_sound=math.sqrt(HEAT_RATIO * specific))
+
+
+def air(h: float) -> Air:
+    """The air at the height h (m) above the sphere."""
+    if h >= TOP:
+        return Air(density=thin_density(h), speed_of_sound=THIN_SOUND)
+    return air_in_layers(EARTH_RADIUS * h / (EARTH_RADIUS + h))

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from perilune.fmus_src.mathlib.entry.motion import body_axes, in_body
 from perilune.fmus_src.mathlib.entry.standard_atmosphere import Air, air
 from perilune.fmus_src.mathlib.vectors import vector
-from perilune.fmus_src.plants.entry_capsule import AXIAL, MACH_NUMBERS, NORMAL, EntryCapsule
+from perilune.fmus_src.plants.entry_capsule import AXIAL, MACH_NUMBERS, NORMAL, Atmosphere, EntryCapsule
 from tests.support.flights.entry_motion import DEGREE, EARTH_RATE, INERTIA, MU, RADIUS, Coefficients, Entry
 
 COEFFICIENTS = Coefficients(MACH_NUMBERS, np.reshape(AXIAL, (10, 13)), np.reshape(NORMAL, (10, 13)))
@@ -178,6 +178,19 @@ def test_pulses_are_cut_where_they_end():
     assert torque == [100.0, -45.0, 0.0, 80.0, 0.0, 0.0, 60.0, -50.0, 0.0]
     assert math.copysign(1.0, block.jet(0, 1, 0.1, 0.05)) == 1.0
     assert block.jet(0, 1, 0.1, 0.1) == 0.0
+
+
+def test_the_standard_of_the_air_is_a_choice():
+    """At 100 km, rows of both printed tables."""
+    for atmosphere, density in ((Atmosphere.US_1976, 5.604e-7), (Atmosphere.GOST_4401_81, 5.54951e-7)):
+        block = capsule(atmosphere=atmosphere)
+        assert block.dynamic_pressure == pytest.approx(0.5 * density * block.speed**2, rel=1e-9)
+        slowing = block.derivatives(0.0, block.state, vector(0.0, 0.0, 0.0)).speed
+        if atmosphere == Atmosphere.US_1976:
+            first = slowing
+    without = capsule(density_factor=0.0)
+    free = without.derivatives(0.0, without.state, vector(0.0, 0.0, 0.0)).speed
+    assert (slowing - free) / (first - free) == pytest.approx(5.54951 / 5.604, rel=5e-6)
 
 
 def test_wind_moves_the_air():

@@ -13,7 +13,14 @@ from scipy.optimize import approx_fprime
 from scipy.signal import place_poles
 
 from perilune.analysis.design.poles.controllability import indices
-from perilune.analysis.design.poles.freedom import condition, family_of, gain_norm, least_condition, least_norm
+from perilune.analysis.design.poles.freedom import (
+    condition,
+    family_of,
+    gain_norm,
+    least_condition,
+    least_norm,
+    on_levels,
+)
 from perilune.analysis.design.poles.multilevel import multilevel
 from perilune.analysis.design.poles.results import PlacementError, Reason
 from perilune.analysis.design.poles.spectrum import Spectrum
@@ -140,3 +147,17 @@ def test_the_same_seed_gives_the_same_bits(search) -> None:
     a, b, _, poles = next(random_systems(1, 4, 2, seed=20))
     spectrum = Spectrum.of(poles, 4)
     np.testing.assert_array_equal(search(a, b, spectrum, 2, 5).gain, search(a, b, spectrum, 2, 5).gain)
+
+
+@pytest.mark.parametrize(("states", "inputs"), [(4, 2), (5, 2), (3, 2), (7, 3), (6, 4)])
+def test_the_levels_keep_the_eigenvectors(states: int, inputs: int) -> None:
+    """K is that of the eigenvectors, also where a level has more inputs than its rank."""
+    random = np.random.default_rng(13)
+    for a, b, _, poles in random_systems(5, states, inputs, most_pairs=1, seed=19):
+        levels, family = family_of(a, b, Spectrum.of(poles, states))
+        free = random.normal(size=family.parameters)
+        vectors = family.at(free)
+        expected = family.gain(vectors)
+        actual = -on_levels(levels, family, free).gain
+        scale = np.abs(expected).max() * np.linalg.cond(vectors)
+        np.testing.assert_allclose(actual, expected, rtol=0.0, atol=1e-12 * scale)
