@@ -160,6 +160,14 @@ def test_a_gust_and_a_change_of_density():
 
 
 @pytest.mark.slow
+def test_cases_in_the_air_of_gost():
+    """The row of the page: deviations (deg), on-time mean and max (s)."""
+    flown = fly("cases", ["robust_control"], set={"plant.atmosphere": 1})["robust_control"]
+    fuel = flown.metrics["propellant"]
+    assert [*largest(flown), fuel.mean(), fuel.max()] == pytest.approx([1.9, 1.7, 0.6, 12.8, 14.6], abs=0.051)
+
+
+@pytest.mark.slow
 def test_disturbed_air_over_the_cases():
     """Another program: a gust takes attack to 2.3 and sideslip to 1.5 deg, else 1.0 and 0.9; density does nothing."""
     flown = perilune.batch(SYSTEM, "disturbed_air")

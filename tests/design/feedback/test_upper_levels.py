@@ -22,7 +22,7 @@ SIZES = either(
     {(8, 3, 4): 20, (7, 3, 3): 12, (5, 2, 3): 50, (5, 3, 2): 50, (6, 3, 4): 50, (4, 2, 3): 50},
     {(8, 3, 4): 1, (5, 2, 3): 2, (5, 3, 2): 3, (6, 3, 4): 5, (4, 2, 3): 5},
 )
-SMALLEST = {(7, 3, 3): 0.7}  # m p - n = 2: not every plant has a real solution near one of 20 starts
+EXPECTED_SHARE = {(7, 3, 3): 0.7}  # m p - n = 2: not every plant has a real solution near one of 20 starts
 
 
 @pytest.mark.parametrize(("size", "count"), SIZES.items())
@@ -35,7 +35,7 @@ def test_places_every_draw(size: tuple[int, int, int], count: int) -> None:
             loop = a + b @ actual.gain @ c
             bound = 1e4 * EPS * kappa_of(loop) * np.linalg.norm(loop, 2) * (1.0 + (actual.condition_x or 1.0))
             assert pole_error(loop, poles) <= bound
-    assert placed >= SMALLEST.get(size, 1.0) * count
+    assert placed >= EXPECTED_SHARE.get(size, 1.0) * count
 
 
 def gap() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
