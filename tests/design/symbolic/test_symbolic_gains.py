@@ -6,6 +6,7 @@ numeric routes of `perilune.modal` at a hundred random values; characteristic po
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from functools import cache
 
@@ -14,6 +15,7 @@ import pytest
 import sympy as sp
 
 from perilune import modal
+from perilune.analysis.design.symbolic import algebra
 from tests.support.lengths import either
 
 COUNT = 100
@@ -217,6 +219,14 @@ def test_arrays_are_taken_too() -> None:
         np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]), list(np.array([-1.0, -2.0]))
     )
     assert actual.at({}).tolist() == [[2.0, 3.0]]
+
+
+def test_without_sympy_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    algebra.sympy.cache_clear()
+    monkeypatch.setitem(sys.modules, "sympy", None)
+    with pytest.raises(ValueError, match="it is not installed; pip install 'perilune"):
+        modal.symbolic_gain([[0, 1], [0, 0]], [[0], [1]], [-1, -2])
+    algebra.sympy.cache_clear()
 
 
 def test_a_symbol_without_a_value_is_named() -> None:

@@ -104,6 +104,7 @@ OUTPUT_TAKES_LONG = {
 PAGE_TAKES_LONG = ("perilune run landing_mission --parameters ideal.ssv", "perilune run lunar_landing --report")
 FAILS = (  # exit status 1
     "lunar_descent_2d --parameters basic.ssv",  # the basic solution of a search
+    "perilune stability orbital_attitude --use observer=orbital_observer_discrete",  # the derivative fed back
     "attitude_control.lead_time=",  # the thin and the unstable loop
     "--fault 'pulses.pulse_lengths[2]=override:0@60'",  # limits at the end
     "perilune replay results 7 --configuration network_operator_guidance",  # a limit of the system
