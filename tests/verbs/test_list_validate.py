@@ -22,7 +22,7 @@ def test_list(capsys):
     assert set(actual["systems"]) == {path.parent.name for path in SYSTEMS.glob("*/SystemStructure.ssd")}
     landing = actual["systems"]["lunar_terminal_guidance"]
     assert landing["parameter_sets"] == ["exact.ssv", "ideal.ssv", "noisy.ssv", "paper.ssv"]
-    assert landing["campaigns"] == ["noisy", "paper"]
+    assert landing["campaigns"] == ["choices", "noisy", "paper", "slant_range"]
     assert set(catalogue()) <= set(actual["fmus"])
     assert "python" in actual["fmus"]["astar_guidance"]["built"]
     assert main(["list"]) == 0
