@@ -96,10 +96,13 @@ class TerminalGuidance(Block, interface=True):
 
     def remaining(self) -> tuple[Vector3, Vector3]:
         """Position (m) and velocity (m/s) still to gain, landing-site frame."""
+        return self.remaining_over(self.expected_time)
+
+    def remaining_over(self, time: float) -> tuple[Vector3, Vector3]:
+        """The same with gravity corrected over ``time`` (s), and without a correction where that is 0 or less."""
         dr = self.target_position - self.position
         dv = self.target_velocity - self.velocity
-        if self.gravity_correction and self.expected_time > 0.0:
-            time = self.expected_time
+        if self.gravity_correction and time > 0.0:
             here = central_gravity(self.position, self.moon_radius, self.gravitational_parameter)
             there = central_gravity(self.target_position, self.moon_radius, self.gravitational_parameter)
             dv = dv - time * 0.5 * (here + there)
@@ -193,6 +196,15 @@ class TerminalGuidance(Block, interface=True):
                 self.time_to_go = burn_left
             else:
                 self.finish(t + h)
+
+    def burn_span(self, time: float) -> float:
+        """How long (s) a command lasts that is given with ``time`` (s) to go."""
+        held = self.hold_time()
+        if self.plan_frozen():
+            held = self.cycle  # no last burn
+        if time <= held:
+            return time
+        return self.cycle
 
     def hold_time(self) -> float:
         """How long the last command is held at most (s)."""
