@@ -39,7 +39,7 @@ class ApolloGuidance(PolynomialGuidance):
 
     def face_target(self) -> None:
         """Set the forward axis."""
-        way = self.target_position - self.position
+        way = self.aim_position - self.position
         level = vector(way.x, way.y, 0.0)
         length = norm(level)
         if length > 0.0:

@@ -26,7 +26,7 @@ class GravityTurnGuidance(InformedGuidance):
     burning = State(False, description="thrust has begun")
 
     def forget(self) -> None:
-        self.burning = False
+        self.burning = self.burning and self.commanding  # a divert leaves the engine on
 
     def local_gravity(self) -> tuple[Vector3, float]:
         """Return the local vertical and gravity (m/s2) less the centrifugal part along it."""
@@ -44,8 +44,8 @@ class GravityTurnGuidance(InformedGuidance):
         """Return the height (m) above the target."""
         if self.gravity_correction:
             here = altitude_of(self.position, self.moon_radius)
-            return here - altitude_of(self.target_position, self.moon_radius)
-        return self.position.z - self.target_position.z
+            return here - altitude_of(self.aim_position, self.moon_radius)
+        return self.position.z - self.aim_position.z
 
     def solve(self) -> None:
         self.measure_glide()
@@ -60,13 +60,13 @@ class GravityTurnGuidance(InformedGuidance):
                 self.time_to_go = turn.duration
                 self.brake(turn.ratio * g, speed, g * up)
 
-    def brake(self, thrust: float, speed: float, pull: Vector3) -> None:
-        """Command a thrust acceleration (m/s2) against the velocity, of a ``speed`` (m/s), under gravity ``pull``."""
+    def brake(self, thrust: float, speed: float, gravity: Vector3) -> None:
+        """Command a thrust acceleration (m/s2) against the velocity, of a ``speed`` (m/s), under ``gravity``."""
         direction = -1.0 / speed * self.velocity
         demand = thrust * self.mass
         self.burning = self.burning or demand >= self.ignition_fraction * self.maximum_thrust
         self.command.thrust_direction = direction
-        self.command.thrust_direction_rate = across(pull, direction) / speed
+        self.command.thrust_direction_rate = across(gravity, direction) / speed
         self.command.thrust_acceleration = 0.0
         if self.burning:
             self.command.thrust_acceleration = thrust

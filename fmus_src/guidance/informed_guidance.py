@@ -31,7 +31,7 @@ class InformedGuidance(TerminalGuidance, interface=True):
     """
 
     terminal_step = TerminalGuidance.terminal_step.with_start(1)
-    maximum_thrust = landing.MAXIMUM_THRUST.parameter()
+    maximum_thrust = landing.MAXIMUM_THRUST.parameter(minimum=1e-3)
     minimum_thrust = landing.MINIMUM_THRUST.parameter(510.0, "least thrust while burning; 0: not known")
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter()
     thrust_margin = Parameter(
@@ -48,7 +48,7 @@ class InformedGuidance(TerminalGuidance, interface=True):
         0, direct=True, description="limits that the plan leaves: sum of 1 thrust, 2 glide slope, 4 tilt, 8 place"
     )
     glide_margin = Output(0.0, unit="m", direct=True, description="height above the cone of the glide slope")
-    choices = Output(0, direct=True, description="plans made, or times chosen, so far")
+    choices = Output(0, direct=True, description="plans made, or times chosen, for this target")
     predicted_propellant = landing.PREDICTED_PROPELLANT.output(direct=True)
     predicted_miss = Output(0.0, unit="m", direct=True, description="distance from the target at the end of the plan")
 
@@ -63,7 +63,7 @@ class InformedGuidance(TerminalGuidance, interface=True):
 
     def measure_glide(self) -> None:
         """Set glide_margin at the present position."""
-        self.glide_margin = self.glide_height(self.position - self.target_position)
+        self.glide_margin = self.glide_height(self.position - self.aim_position)
 
     def braking_time(self) -> float:
         """Return the time-to-go (s) of about constant thrust, from |A| T = 2 |B|, if that brakes; 0 if not."""

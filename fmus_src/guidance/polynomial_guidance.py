@@ -5,12 +5,7 @@ from ..interfaces.ports.landing import TerminalStatus
 from ..kernel.enumerations import Enumeration, member
 from ..kernel.functions import cos, exp, expm1
 from ..kernel.records import Field, Record
-from ..mathlib.lunar.polynomial_descent import (
-    DescentShape,
-    descent_profile,
-    offset_at,
-    thrust_at,
-)
+from ..mathlib.lunar.polynomial_descent import DescentShape, descent_profile, offset_at, thrust_at
 from ..mathlib.vectors import across, clip, norm, vector
 from .informed_guidance import LIMIT_GLIDE_SLOPE, LIMIT_THRUST, LIMIT_TILT, InformedGuidance
 
@@ -41,8 +36,10 @@ class ProfileCost(Record):
     objective = Field(unit="m/s", description="impulse with prices on limits exceeded")
     impulse = Field(unit="m/s", description="integral of thrust acceleration")
     load = Field(unit="1", description="largest thrust over maximum_thrust")
-    depth = Field(unit="m", description="deepest below the glide slope, 0 where it is kept")
-    tilt_excess = Field(unit="1", description="largest cosine of largest_tilt less that of the thrust's tilt, 0 or more")
+    depth = Field(unit="m", description="deepest below the glide slope, 0 if kept")
+    tilt_excess = Field(
+        unit="1", description="largest cosine of largest_tilt less that of the thrust's tilt, 0 or more"
+    )
 
 
 class PolynomialGuidance(InformedGuidance, interface=True):
@@ -61,10 +58,9 @@ class PolynomialGuidance(InformedGuidance, interface=True):
     checked_time = State(0.0, unit="s", description="time to go at the last check of the thrust")
     flown_kr = State(6.0, unit="1", description="gain of the position error that is flown")
 
-    to_write = ("shape",)
-
     def shape(self, kr: float) -> DescentShape:
-        """Return the numbers of the law with the gain ``kr``."""
+        """Return the numbers of the law with the gain ``kr``; here those of ZEM/ZEV, for kr 6."""
+        return DescentShape(final=vector(0.0, 0.0, 0.0), gamma=1.0, kr=kr)
 
     def forget(self) -> None:
         self.chosen = False
@@ -167,9 +163,9 @@ class PolynomialGuidance(InformedGuidance, interface=True):
             self.check(time)
         elif self.is_check_due(time):
             if self.cost_of(time, self.flown_kr, 1.0).load > 1.0 and self.choices < MOST_CHOICES:
-                again = self.choose_time()
-                if again > 0.0:
-                    time = again
+                choice = self.choose_time()
+                if choice > 0.0:
+                    time = choice
             self.check(time)
         return time
 
@@ -200,6 +196,8 @@ class PolynomialGuidance(InformedGuidance, interface=True):
             self.status = TerminalStatus.CLAMPED
         if time > 0.0:
             self.command_profile(time)
+        elif not self.chosen:
+            self.status = TerminalStatus.NO_SOLUTION
 
     def lead(self) -> float:
         """Return how far (s) ahead the profile is commanded."""

@@ -5,7 +5,7 @@ from ..interfaces.ports.landing import TerminalStatus
 from ..kernel.records import replace
 from ..mathlib.lunar.gravity import central_gravity
 from ..mathlib.lunar.powered_explicit import SETTLED, SteeringProblem, SteeringState, iterate_steering
-from ..mathlib.vectors import Vector3, across, clip, norm, vector
+from ..mathlib.vectors import across, clip, norm, vector
 from .informed_guidance import LIMIT_THRUST
 from .zem_zev import ZemZevGuidance
 
@@ -39,13 +39,13 @@ class PoweredGuidance(ZemZevGuidance):
 
     def problem(self, time: float) -> SteeringProblem:
         """Return the errors over ``time`` (s) and the engine."""
-        dr = self.target_position - self.position
+        dr = self.aim_position - self.position
         dv = self.target_velocity - self.velocity
         here = vector(0.0, 0.0, -self.gravity)
         there = here
         if self.gravity_correction:
             here = central_gravity(self.position, self.moon_radius, self.gravitational_parameter)
-            there = central_gravity(self.target_position, self.moon_radius, self.gravitational_parameter)
+            there = central_gravity(self.aim_position, self.moon_radius, self.gravitational_parameter)
         return SteeringProblem(
             way=dr - time * time * (here / 3.0 + there / 6.0),
             gain=dv - 0.5 * time * (here + there),
@@ -65,12 +65,11 @@ class PoweredGuidance(ZemZevGuidance):
 
     def begin_steering(self) -> None:
         """First iterations, from the time of about constant thrust."""
-        rest = vector(0.0, 0.0, 0.0)
         self.steering = SteeringState(
             time=0.0,
             thrust=FIRST_THRUST * self.maximum_thrust,
             direction=vector(0.0, 0.0, 1.0),
-            turning=rest,
+            turning=vector(0.0, 0.0, 0.0),
             centre=0.0,
             change=1.0,
             exists=True,
@@ -133,9 +132,9 @@ class PoweredGuidance(ZemZevGuidance):
             time = self.frozen_time_to_go
         elif self.checked_time <= 0.0:
             if self.cost_of(time, self.flown_kr, 1.0).load > self.thrust_margin:
-                again = self.choose_time()
-                if again > 0.0:
-                    time = again
+                choice = self.choose_time()
+                if choice > 0.0:
+                    time = choice
             self.check(time)
         self.status = TerminalStatus.GOOD
         if self.limit > 0:

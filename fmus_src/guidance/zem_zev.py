@@ -1,7 +1,5 @@
 """E-guidance, or ZEM/ZEV, with a time of least propellant."""
 
-from ..mathlib.lunar.polynomial_descent import DescentShape
-from ..mathlib.vectors import vector
 from .polynomial_guidance import PolynomialGuidance
 
 
@@ -14,6 +12,3 @@ class ZemZevGuidance(PolynomialGuidance):
     propellant within the thrust is ours.
     Assumes constant gravity or gravity_correction.
     """
-
-    def shape(self, kr: float) -> DescentShape:
-        return DescentShape(final=vector(0.0, 0.0, 0.0), gamma=1.0, kr=kr)

@@ -19,7 +19,7 @@ class GravityTurn(Record):
 
 
 def gravity_turn(speed: float, descent_cosine: float, height: float, g: float) -> GravityTurn:
-    """The turn from a ``speed`` (m/s) whose direction has this cosine to the downward vertical, ``height`` (m) above."""
+    """Return the turn from a ``speed`` (m/s) at this cosine to the downward vertical, ``height`` (m) above."""
     if not (height > 0.0 and descent_cosine > 0.0 and speed > 0.0 and g > 0.0):
         return GravityTurn(ratio=0.0, duration=0.0, distance=0.0)
     cosine = descent_cosine

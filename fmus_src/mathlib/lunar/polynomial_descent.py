@@ -38,7 +38,7 @@ class DescentProfile(Record):
 
 
 def second_exponent(shape: DescentShape) -> float:
-    """The exponent gamma_2."""
+    """Return the exponent gamma_2."""
     return shape.kr / (shape.gamma + 2.0) - 2.0
 
 
@@ -49,7 +49,7 @@ def is_regular(shape: DescentShape) -> bool:
 
 
 def feedback(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float, shape: DescentShape) -> Vector3:
-    """Thrust acceleration (m/s2) now, with ``time`` (s) to go. Source: Lu 2019, equation 22."""
+    """Return the thrust acceleration (m/s2) now, with ``time`` (s) to go. Source: Lu 2019, equation 22."""
     gamma = shape.gamma
     ratio = shape.kr / (gamma + 2.0)
     down = vector(0.0, 0.0, -g)
@@ -58,7 +58,7 @@ def feedback(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float, shape:
 
 
 def descent_profile(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float, shape: DescentShape) -> DescentProfile:
-    """The profile that meets both ends in ``time`` (s), of a regular shape."""
+    """Return the profile that meets both ends in ``time`` (s), of a regular shape."""
     gamma_2 = second_exponent(shape)
     a1 = 1.0 / (shape.gamma + 1.0)
     b1 = 1.0 / (shape.gamma + 2.0)
@@ -78,7 +78,7 @@ def descent_profile(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float,
 
 
 def raise_fraction(s: float, exponent: float) -> float:
-    """s^exponent of a fraction s, by products where the exponent is whole and small; 0^0 = 1."""
+    """Return s^exponent of a fraction s, by products where the exponent is whole and small; 0^0 = 1."""
     if exponent == 0.0:
         return 1.0
     if exponent == 1.0:
@@ -91,13 +91,13 @@ def raise_fraction(s: float, exponent: float) -> float:
 
 
 def thrust_at(profile: DescentProfile, s: float) -> Vector3:
-    """Thrust acceleration (m/s2) at the fraction s of the time to go."""
+    """Return the thrust acceleration (m/s2) at the fraction s of the time to go."""
     first = raise_fraction(s, profile.gamma) * profile.first
     return profile.final + first + raise_fraction(s, profile.gamma_2) * profile.second
 
 
 def offset_at(profile: DescentProfile, target_velocity: Vector3, g: float, time: float, s: float) -> Vector3:
-    """Position (m) from the target at the fraction s of ``time`` (s) to go, in constant gravity."""
+    """Return the position (m) from the target at the fraction s of ``time`` (s) to go, in constant gravity."""
     square = time * time
     half = 0.5 * s * s * square * (profile.final + vector(0.0, 0.0, -g))
     gamma = profile.gamma
@@ -110,7 +110,7 @@ def offset_at(profile: DescentProfile, target_velocity: Vector3, g: float, time:
 def jerk_time(
     dr: Vector3, v: Vector3, dv: Vector3, constant: Vector3, forward: Vector3, jerk: float, time: float
 ) -> float:
-    """Time to go (s) of a quartic with this ``jerk`` (m/s3) at the target along ``forward``; 0 where none is found.
+    """Return the time to go (s) of a quartic with this ``jerk`` (m/s3) at the target along ``forward``; 0 if none.
 
     ``constant`` is thrust and gravity (m/s2) at the target, ``time`` (s) the guess that Newton's method starts from.
     Source: Klumpp 1974, equation 12.

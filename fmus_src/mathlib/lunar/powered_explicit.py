@@ -16,7 +16,9 @@ from ..vectors import Vector3, clip, dot, norm
 
 MOST_BURNT = 0.999  # of tau, that a time to go may be
 SETTLED = 1e-6  # of the time to go
-LEAST_LEVER = 1e-9  # of S T, that Q - S K may be
+SHORTEST = 1e-3  # s, that a time to go may be
+LARGEST_IMPULSE = 20.0  # exhaust speeds
+LEAST_SPREAD = 1e-9  # of S T, that Q - S K may be
 LEAST_OF_MINIMUM = 0.5  # of the least thrust, and ...
 MOST_OF_MAXIMUM = 1.3  # ... of the largest, which an iteration may try
 
@@ -57,7 +59,7 @@ class ThrustIntegrals(Record):
 
 
 def thrust_integrals(impulse: float, tau: float, time: float, exhaust: float) -> ThrustIntegrals:
-    """Integrals of an ``impulse`` L (m/s) over ``time`` (s)."""
+    """Return the integrals of an ``impulse`` L (m/s) over ``time`` (s)."""
     first = tau * impulse - exhaust * time
     second = impulse * time - first
     third = second * tau - 0.5 * exhaust * time * time
@@ -68,36 +70,40 @@ def thrust_integrals(impulse: float, tau: float, time: float, exhaust: float) ->
 def iterate_steering(s: SteeringState, p: SteeringProblem) -> SteeringState:
     """Return the state after one iteration."""
     gain = norm(p.gain)
+    if not (gain > 0.0 and p.mass > 0.0 and s.thrust > 0.0):
+        return missing(s)
     tau = p.exhaust * p.mass / s.thrust
     time = s.time
     if time > MOST_BURNT * tau:
         time = MOST_BURNT * tau
-    if not (gain > 0.0 and time > 0.0):
+    if not time > SHORTEST:
         return missing(s)
     direction = p.gain / gain
     i = thrust_integrals(p.exhaust * log(tau / (tau - time)), tau, time, p.exhaust)
     square = dot(s.turning, s.turning)
     x = (gain + 0.5 * square * (i.H - i.J * i.K)) / p.exhaust
+    if not (x > 0.0 and x < LARGEST_IMPULSE):
+        return missing(s)
     burnt = -expm1(-x)
     along = dot(p.way, direction) + 0.5 * square * (i.P - 2.0 * i.Q * i.K + i.S * i.K * i.K)
     divisor = p.exhaust * (burnt - x * exp(-x)) + dot(p.velocity, direction) * burnt
     thrust = s.thrust
-    if divisor != 0.0 and along / divisor > 0.0:
+    if divisor * along > 0.0:
         thrust = clip(p.exhaust * p.mass * divisor / along, LEAST_OF_MINIMUM * p.minimum, MOST_OF_MAXIMUM * p.maximum)
     tau = p.exhaust * p.mass / thrust
     time = tau * burnt
-    if not time > 0.0:
+    if not time > SHORTEST:
         return missing(s)
     i = thrust_integrals(p.exhaust * x, tau, time, p.exhaust)
-    lever = i.Q - i.S * i.K
-    if abs(lever) < LEAST_LEVER * abs(i.S * time):
+    spread = i.Q - i.S * i.K
+    if abs(spread) < LEAST_SPREAD * abs(i.S * time):
         return missing(s)
     offset = p.way - time * p.velocity
     return SteeringState(
         time=time,
         thrust=thrust,
         direction=direction,
-        turning=(offset - dot(offset, direction) * direction) / lever,
+        turning=(offset - dot(offset, direction) * direction) / spread,
         centre=i.K,
         change=abs(time - s.time) / time,
         exists=True,
