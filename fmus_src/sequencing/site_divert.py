@@ -13,7 +13,7 @@ class SiteDivert(Block):
     """Target of a terminal guidance, moved by an offset at divert_time: divert_count goes from 0 to 1 then.
 
     The offset is added to x and y of the site below target_position; the new target has the same altitude above the
-    sphere as the first. Frame: landing site. Ours, for the divert of docs/systems/descent_laws.md.
+    sphere as the first. Assumes a spherical Moon. Frame: landing site. Ours: docs/systems/descent_laws.md.
     """
 
     divert_time = Parameter(0.0, unit="s", minimum=0.0, description="0: never")

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from perilune.fmus_src.mathlib.lunar.gravity_turn import gravity_turn
-from tests.support.flights.hodograph import integrals
+from tests.support.descent.hodograph import integrals
 
 GRAVITY = 1.624219
 PRINTED = [

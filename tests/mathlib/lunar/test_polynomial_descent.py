@@ -14,8 +14,8 @@ from scipy.integrate import solve_ivp
 from perilune.fmus_src.mathlib.lunar import polynomial_descent
 from perilune.fmus_src.mathlib.lunar.polynomial_descent import DescentShape
 from perilune.fmus_src.mathlib.vectors import vector
-from tests.support.flights.descent_laws import A1, C1, C2, HIGH
-from tests.support.flights.polynomial_laws import UP, Leg, central
+from tests.support.descent.laws import A1, C1, C2, HIGH
+from tests.support.descent.polynomial_laws import UP, Leg, central
 
 TIMES = {"C1": (C1, 200.0), "C2": (C2, 300.0), "A1": (A1, 60.0)}
 PRINTED = [  # gamma, kr, final thrust acceleration, start, thrust acceleration
@@ -32,7 +32,7 @@ PRINTED = [  # gamma, kr, final thrust acceleration, start, thrust acceleration
     (0.5, 7.0, (0.0, 0.0, 2.0), "C2", (3.5170682839295164, 0.0, -1.038718922812711)),
     (0.5, 7.0, (0.0, 0.0, 2.0), "A1", (0.8927661843269914, -0.4008246382452434, 0.3459200437272878)),
 ]
-places = st.lists(st.floats(-2e4, 2e4), min_size=3, max_size=3).map(np.array)
+positions = st.lists(st.floats(-2e4, 2e4), min_size=3, max_size=3).map(np.array)
 speeds = st.lists(st.floats(-1500.0, 1500.0), min_size=3, max_size=3).map(np.array)
 finals = st.lists(st.floats(-5.0, 5.0), min_size=3, max_size=3).map(np.array)
 times = st.floats(5.0, 400.0)
@@ -66,14 +66,18 @@ def test_the_feedback_law_is_the_printed_one(gamma, kr, final, start, expected):
 
 
 @given(
-    place=places, speed=speeds, final=finals, time=times, shape=st.sampled_from([(1, 6), (1, 12), (0.5, 7), (2, 16)])
+    position=positions,
+    speed=speeds,
+    final=finals,
+    time=times,
+    shape=st.sampled_from([(1, 6), (1, 12), (0.5, 7), (2, 16)]),
 )
 @settings(deadline=None)
-def test_feedback_is_the_profile_of_both_ends(place, speed, final, time, shape):
+def test_feedback_is_the_profile_of_both_ends(position, speed, final, time, shape):
     """The profile solves the boundary conditions, which numpy does with a matrix; the law is its start."""
     if shape == (2, 16):  # both exponents are 2
         return
-    leg = Leg(place, speed, HIGH)
+    leg = Leg(position, speed, HIGH)
     whole = (*map(float, shape), final)
     flown = profile(leg, time, *whole)
     expected = leg.thrust(time, whole, np.array([1.0, 0.6, 0.25, 0.0]))
@@ -113,15 +117,15 @@ def test_positions_of_the_profile_are_those_of_constant_gravity():
         atol=1e-8,
         t_eval=[0.0, 20.0, 45.0],
     )
-    for t, place in zip(path.t, path.y[:3].T, strict=True):
+    for t, position in zip(path.t, path.y[:3].T, strict=True):
         offset = polynomial_descent.offset_at(flown, vector(0.0, 0.0, 0.0), leg.gravity, time, 1.0 - t / time)
-        assert np.array(offset) == pytest.approx(place - leg.target, abs=1e-5)
+        assert np.array(offset) == pytest.approx(position - leg.target, abs=1e-5)
 
 
-@given(place=places, speed=speeds, final=finals, time=times)
+@given(position=positions, speed=speeds, final=finals, time=times)
 @settings(deadline=None)
-def test_the_classic_laws_are_special_cases(place, speed, final, time):
-    leg = Leg(place, speed, HIGH)
+def test_the_classic_laws_are_special_cases(position, speed, final, time):
+    leg = Leg(position, speed, HIGH)
     way, gain = leg.errors(time)
     down = -leg.gravity * UP
     miss, change = way - speed * time - 0.5 * down * time**2, gain - down * time

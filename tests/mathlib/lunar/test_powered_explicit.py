@@ -16,9 +16,9 @@ from perilune.fmus_src.mathlib.lunar.powered_explicit import (
     thrust_integrals,
 )
 from perilune.fmus_src.mathlib.vectors import vector
-from tests.support.flights.descent_laws import C1, C2
-from tests.support.flights.polynomial_laws import EXHAUST, central
-from tests.support.flights.powered_steering import MASS, moments, solve
+from tests.support.descent.laws import C1, C2
+from tests.support.descent.polynomial_laws import EXHAUST, central
+from tests.support.descent.powered_steering import MASS, moments, solve
 
 PRINTED = {  # time, thrust, direction, turning, centre
     "C1": (
@@ -84,8 +84,8 @@ def test_the_iteration_ends_at_the_solution(start):
     leg, first = STARTS[start]
     state = converge(leg, first)
     printed = PRINTED[start]
-    found = (state.time, state.thrust, list(state.direction), list(state.turning), state.centre)
-    for actual, expected in zip(found, printed, strict=True):
+    actual_numbers = (state.time, state.thrust, list(state.direction), list(state.turning), state.centre)
+    for actual, expected in zip(actual_numbers, printed, strict=True):
         assert actual == pytest.approx(expected, rel=1e-9, abs=1e-12)
     time, thrust, centre, direction, turning = solve(leg, first)
     assert state.time == pytest.approx(time, rel=1e-8)
@@ -103,8 +103,8 @@ def test_flown_open_loop_it_misses_by_its_truncation(start):
 
     def motion(t, s):
         line = np.array(state.direction) + (t - state.centre) * np.array(state.turning)
-        push = state.thrust / (MASS - state.thrust * t / EXHAUST)
-        return [*s[3:], *(push * line / np.linalg.norm(line) + here + (there - here) * t / state.time)]
+        acceleration = state.thrust / (MASS - state.thrust * t / EXHAUST)
+        return [*s[3:], *(acceleration * line / np.linalg.norm(line) + here + (there - here) * t / state.time)]
 
     begin = [*leg.position, *leg.velocity]
     path = solve_ivp(motion, (0.0, state.time), begin, method="DOP853", rtol=1e-11, atol=1e-7)

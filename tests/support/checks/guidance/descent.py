@@ -17,7 +17,7 @@ from tests.support.flights.linear_thrust import (
     impulse_and_miss,
     positive_roots,
 )
-from tests.support.flights.polynomial_laws import EXHAUST, Leg, Limits
+from tests.support.descent.polynomial_laws import EXHAUST, Leg, Limits
 
 HOLD = 1.5 * STEP  # s; the last command
 CHECKED_ABOVE = 10.0  # s

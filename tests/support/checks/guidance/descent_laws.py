@@ -25,9 +25,9 @@ from tests.support.checks.guidance.terminal import (
     disturb,
     path_of,
 )
-from tests.support.flights.hodograph import integrals, ratio_to_rest
+from tests.support.descent.hodograph import integrals, ratio_to_rest
 from tests.support.flights.linear_thrust import GRAVITY, TARGET, UP, balance_roots, declared_state
-from tests.support.flights.powered_steering import solve
+from tests.support.descent.powered_steering import solve
 
 TRUTH = "boundary conditions by numpy's linear solver, polynomial roots, a search written for arrays"
 TOLERANCE = 1e-9  # of times between two prices that rounding may exchange

@@ -15,7 +15,13 @@ from tests.support.flights.linear_thrust import GRAVITY, UP, linear_thrust
 STEP = 8.0  # s
 FOREVER = 1e9  # s
 EXACT = ("command_time", "status", "finished", "clamp_count", "limit", "choices")
-KEPT = ("thrust_direction", "command_time", "clamp_count", "glide_margin", "predicted_propellant")  # with no command
+WITHOUT_COMMAND = (
+    "thrust_direction",
+    "command_time",
+    "clamp_count",
+    "glide_margin",
+    "predicted_propellant",
+)  # with no command
 GOOD, CLAMPED, NOT_CONVERGED, NO_SOLUTION = range(4)
 
 
@@ -128,7 +134,7 @@ def check_of(truth, flights, law, parameters, last_burn=None, tolerance=1e-12):
             outputs["clamp_count"] = counts
         idle = {name: np.zeros_like(values[:1]) for name, values in outputs.items()}
         direction = outputs["thrust_direction"][-1]
-        idle |= {name: outputs[name][-1:] for name in KEPT if name in outputs}
+        idle |= {name: outputs[name][-1:] for name in WITHOUT_COMMAND if name in outputs}
         idle["burn_duration"] = np.array([FOREVER])
         records += [outputs, idle]
         inputs += [(*state, True) for state in flight] + [(*flight[-1], False)]

@@ -130,8 +130,8 @@ def site_divert():
     centre = np.array([0.0, 0.0, -radius])
     altitude = np.linalg.norm(target - centre) - radius
     site = centre + (target - centre) * radius / np.linalg.norm(target - centre)
-    moved = site - centre + np.append(offset, 0.0)
-    up = moved / np.linalg.norm(moved)
+    radial = site - centre + np.append(offset, 0.0)
+    up = radial / np.linalg.norm(radial)
     diverted = STEP * np.arange(rows) >= time
     return Check(
         truth="geometry of the sphere",

@@ -7,7 +7,7 @@ Gauss and Legendre's rule, and the conditions solved by scipy.
 import numpy as np
 from scipy.optimize import root
 
-from tests.support.flights.polynomial_laws import EXHAUST, UP, central
+from tests.support.descent.polynomial_laws import EXHAUST, UP, central
 
 MASS = 940.0
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(60)
@@ -16,12 +16,12 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(60)
 def moments(thrust, time, mass=MASS):
     """Integrals of a = F/(m - F t/v_e): L, J of a t, H of a t^2; S, Q, P of (T - t) a, (T - t) a t, (T - t) a t^2."""
     t, weight = 0.5 * time * (POINTS + 1.0), 0.5 * time * WEIGHTS
-    push = weight * thrust / (mass - thrust * t / EXHAUST)
-    left = (time - t) * push
+    acceleration = weight * thrust / (mass - thrust * t / EXHAUST)
+    left = (time - t) * acceleration
     return {
-        "L": push.sum(),
-        "J": (push * t).sum(),
-        "H": (push * t * t).sum(),
+        "L": acceleration.sum(),
+        "J": (acceleration * t).sum(),
+        "H": (acceleration * t * t).sum(),
         "S": left.sum(),
         "Q": (left * t).sum(),
         "P": (left * t * t).sum(),
@@ -54,8 +54,8 @@ def solve(leg, time, mass=MASS):
         _, gain = gains(t)
         # the cosine of the angle to the direction at the centre is 1 - half (t - K)^2
         speed = m["L"] - half * (m["H"] - m["J"] * centre) - np.linalg.norm(gain)
-        reach = m["S"] - half * (m["P"] - 2.0 * m["Q"] * centre + m["S"] * centre**2) - offset @ direction
-        return [speed / 100.0, reach / 1e4]
+        range_error = m["S"] - half * (m["P"] - 2.0 * m["Q"] * centre + m["S"] * centre**2) - offset @ direction
+        return [speed / 100.0, range_error / 1e4]
 
     solution = root(conditions, [1.0, 1.0], tol=1e-13)
     assert solution.success or np.max(np.abs(solution.fun)) < 1e-10

@@ -14,7 +14,7 @@ from perilune.fmus_src.guidance.analytic_exact import AnalyticExactGuidance
 from perilune.fmus_src.guidance.fractional import GainChoice
 from perilune.fmus_src.guidance.polynomial_guidance import TimeChoice
 from perilune.fmus_src.interfaces.ports.landing import TerminalStatus
-from tests.support.flights.descent_laws import (
+from tests.support.descent.laws import (
     A1,
     C1,
     C2,
@@ -29,7 +29,7 @@ from tests.support.flights.descent_laws import (
     fly,
     start,
 )
-from tests.support.flights.polynomial_laws import EXHAUST, Leg, Limits
+from tests.support.descent.polynomial_laws import EXHAUST, Leg, Limits
 
 ZEM_ZEV = (1.0, 6.0, np.zeros(3))
 GLIDE, TILT = np.radians(15.0), np.radians(60.0)
@@ -95,15 +95,15 @@ def test_hovering_above_the_target_takes_the_time_of_least_effort():
 
 
 @given(
-    place=st.tuples(st.floats(-2e4, 2e4), st.floats(-2e4, 2e4), st.floats(500.0, 9e3)),
+    position=st.tuples(st.floats(-2e4, 2e4), st.floats(-2e4, 2e4), st.floats(500.0, 9e3)),
     speed=st.tuples(*[st.floats(-300.0, 300.0)] * 3),
     time=st.floats(4.0, 300.0),
     correction=st.booleans(),
 )
 @settings(max_examples=50, deadline=None)
-def test_with_a_fixed_time_zem_zev_is_the_exact_analytic_guidance(place, speed, time, correction):
+def test_with_a_fixed_time_zem_zev_is_the_exact_analytic_guidance(position, speed, time, correction):
     """Both command a0 + a1 t: the first Simpson's mean of the profile, the second the value in the middle."""
-    leg = Leg(np.array(place), np.array(speed), np.array([0.0, 0.0, 1500.0]))
+    leg = Leg(np.array(position), np.array(speed), np.array([0.0, 0.0, 1500.0]))
     commands = []
     for law in (ZemZevGuidance, AnalyticExactGuidance):
         guidance = start(law, leg, frozen_time_to_go=time, gravity_correction=correction)
@@ -234,14 +234,14 @@ def test_ignition_waits_for_its_fraction_of_thrust(fraction):
 
 @pytest.mark.parametrize("law", DESCENT_LAWS)
 @given(
-    place=st.tuples(*[st.floats(-3e5, 3e5)] * 3),
+    position=st.tuples(*[st.floats(-3e5, 3e5)] * 3),
     speed=st.tuples(*[st.floats(-2e3, 2e3)] * 3),
     mass=st.sampled_from([0.0, 1.0, 560.0, 940.0, 1e6]),
     flat=st.booleans(),
 )
 @settings(max_examples=15, deadline=None)
-def test_any_start_gives_a_finite_command(law, place, speed, mass, flat):
-    leg = Leg(np.array(place), np.array(speed), np.array([0.0, 0.0, 1500.0]))
+def test_any_start_gives_a_finite_command(law, position, speed, mass, flat):
+    leg = Leg(np.array(position), np.array(speed), np.array([0.0, 0.0, 1500.0]))
     guidance = start(law, leg, mass=mass, gravity_correction=not flat, **CONSTRAINED)
     for k in range(2):
         guidance.step(0.5 * k, 0.5)

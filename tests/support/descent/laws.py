@@ -8,7 +8,7 @@ from perilune.fmus_src.guidance.gravity_turn import GravityTurnGuidance
 from perilune.fmus_src.guidance.powered import PoweredGuidance
 from perilune.fmus_src.guidance.zem_zev import ZemZevGuidance
 from perilune.fmus_src.plants.spherical_moon_lander import SphericalMoonLander
-from tests.support.flights.polynomial_laws import Leg
+from tests.support.descent.polynomial_laws import Leg
 
 POLYNOMIAL = [ZemZevGuidance, FractionalGuidance, ApolloGuidance]
 TO_A_PLACE = [*POLYNOMIAL, PoweredGuidance]
@@ -40,7 +40,7 @@ def start(guidance_class, leg, **parameters):
     return guidance
 
 
-def fly(guidance, leg, step=0.5, loss=0.0, most=2000, aside=None):
+def fly(guidance, leg, step=0.5, loss=0.0, limit=2000, aside=None):
     """Plant and guidance in turn to the end: the plant, and rows of thrust (N) and time_to_go.
 
     ``loss`` is the fraction of thrust that the engine lacks, ``aside`` a row and the place that it makes the target.
@@ -53,7 +53,7 @@ def fly(guidance, leg, step=0.5, loss=0.0, most=2000, aside=None):
     )
     plant.initialize()
     rows = []
-    for k in range(most):
+    for k in range(limit):
         if guidance.finished:
             break
         demand = min(guidance.thrust_acceleration * plant.mass, 5099.0)

@@ -9,7 +9,7 @@ import pytest
 
 from perilune.fmus_src.guidance.network_operator import NetworkOperatorGuidance
 from perilune.fmus_src.interfaces.ports.landing import TerminalStatus
-from tests.support.flights.descent_laws import C2, DESCENT_LAWS, TO_A_PLACE, GravityTurnGuidance, fly, start
+from tests.support.descent.laws import C2, DESCENT_LAWS, TO_A_PLACE, GravityTurnGuidance, fly, start
 from tests.support.flights.terminal_guidance import ALL, command_of, see
 
 STEP = 0.5
