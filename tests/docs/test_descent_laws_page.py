@@ -35,11 +35,11 @@ def columns_of(line):
 
 
 ROWS = [
-    pytest.param(command.split(), dict(zip(columns_of(header), columns_of(line), strict=True)), id=f"{command.split()[4]} {law}")
-    for command, header, body in BENCH.findall(PAGE)
+    pytest.param(words, dict(zip(columns_of(header), columns_of(line), strict=True)), id=f"{words[4]} {law}")
+    for words, header, body in [(command.split(), *table) for command, *table in BENCH.findall(PAGE)]
     for line in body.splitlines()
     for law in [columns_of(line)[0].strip("`")]
-    if LONG or (command.split()[4], law) in SHORT
+    if LONG or (words[4], law) in SHORT
 ]  # fmt: skip
 
 

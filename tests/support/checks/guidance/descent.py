@@ -9,6 +9,7 @@ from numpy.polynomial import Polynomial
 
 from tests.support.checks.guidance.certain_time import effort_slope
 from tests.support.checks.guidance.terminal import CLAMPED, GOOD, NO_SOLUTION, STEP, Solution
+from tests.support.descent.polynomial_laws import EXHAUST, Leg, Limits
 from tests.support.flights.linear_thrust import (
     GRAVITY,
     TARGET,
@@ -17,7 +18,6 @@ from tests.support.flights.linear_thrust import (
     impulse_and_miss,
     positive_roots,
 )
-from tests.support.descent.polynomial_laws import EXHAUST, Leg, Limits
 
 HOLD = 1.5 * STEP  # s; the last command
 CHECKED_ABOVE = 10.0  # s

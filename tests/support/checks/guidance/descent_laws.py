@@ -26,8 +26,8 @@ from tests.support.checks.guidance.terminal import (
     path_of,
 )
 from tests.support.descent.hodograph import integrals, ratio_to_rest
-from tests.support.flights.linear_thrust import GRAVITY, TARGET, UP, balance_roots, declared_state
 from tests.support.descent.powered_steering import solve
+from tests.support.flights.linear_thrust import GRAVITY, TARGET, UP, balance_roots, declared_state
 
 TRUTH = "boundary conditions by numpy's linear solver, polynomial roots, a search written for arrays"
 TOLERANCE = 1e-9  # of times between two prices that rounding may exchange
