@@ -24,6 +24,10 @@ class ThrustAllocation(Allocation):
     cut-off, so that a burn from settled thrust gives the demanded impulse. direction_lead commands the
     direction of that much later, which a first-order response follows without delay where the direction
     turns steadily. Frame: landing site.
+
+    With a dead band the engine has no thrust between two fractions of maximum_thrust: a demand above dead_band_high
+    is given in full, one below dead_band_low as it is, and in between it stays as it was. Apollo's descent engine had
+    0.57 and 0.63 (Klumpp 1974). Bounds in reverse, or without a maximum_thrust, are status 2 all along.
     Assumes thrust through the centre of mass. Vehicle and leads are ours: docs/systems/lunar_landing.md.
     """
 
@@ -38,10 +42,17 @@ class ThrustAllocation(Allocation):
     )
     thrust_lead = Parameter(0.0, unit="s", minimum=0.0, description="the burn ends so much earlier than demanded")
     direction_lead = Parameter(0.0, unit="s", minimum=0.0, description="the direction is that of so much later")
+    dead_band_low = Parameter(
+        0.0, unit="1", minimum=0.0, maximum=1.0, description="of maximum_thrust, below which thrust is as demanded"
+    )
+    dead_band_high = Parameter(
+        0.0, unit="1", minimum=0.0, maximum=1.0, description="of maximum_thrust, above which thrust is full; 0: off"
+    )
     seed, stream = sampling.random_stream()
     generator = sampling.GENERATOR.state()
     thrust_factor = State(1.0, unit="1", description="thrust given over thrust commanded")
     commanded_thrust = State(0.0, unit="N", description="thrust commanded at the last communication point")
+    full = State(False, description="thrust is full, above the dead band")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)
@@ -62,12 +73,35 @@ class ThrustAllocation(Allocation):
                 allowed = self.minimum_thrust
             if self.maximum_thrust > 0.0:
                 allowed = clip(allowed, 0.0, self.maximum_thrust)
+            allowed = self.leave_dead_band(allowed)
+        else:
+            self.full = False
         self.status = AllocationStatus.GOOD
         if allowed != demanded:
             self.status = AllocationStatus.LIMITED
-        if self.maximum_thrust > 0.0 and self.minimum_thrust > self.maximum_thrust:
+        if self.is_contradictory():
             self.status = AllocationStatus.CONTRADICTORY
         self.commanded_thrust = allowed * self.thrust_factor
+
+    def leave_dead_band(self, demanded: float) -> float:
+        """Return the thrust (N) for a ``demanded`` one, outside the dead band where there is one."""
+        if self.dead_band_high <= 0.0 or self.maximum_thrust <= 0.0:
+            return demanded
+        if demanded > self.dead_band_high * self.maximum_thrust:
+            self.full = True
+        elif demanded < self.dead_band_low * self.maximum_thrust:
+            self.full = False
+        if self.full:
+            return self.maximum_thrust
+        return demanded
+
+    def is_contradictory(self) -> bool:
+        """True if limits exclude each other."""
+        if self.dead_band_low > self.dead_band_high:
+            return True
+        if self.dead_band_high > 0.0 and self.maximum_thrust <= 0.0:
+            return True
+        return self.maximum_thrust > 0.0 and self.minimum_thrust > self.maximum_thrust
 
     def duration(self) -> float:
         """How long to thrust from demand_time on (s)."""

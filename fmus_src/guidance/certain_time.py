@@ -59,15 +59,6 @@ class CertainTime(TerminalGuidance, interface=True):
                 time = 0.0
         return time
 
-    def burn_span(self, time: float) -> float:
-        """How long (s) a command lasts that is given with ``time`` (s) to go."""
-        held = self.hold_time()
-        if self.plan_frozen():
-            held = self.cycle  # no last burn
-        if time <= held:
-            return time
-        return self.cycle
-
     def thrust_linearly(self, a: Vector3, b: Vector3, time: float) -> None:
         """Command the mean of a0 + a1 t over the next burn, with A (m/s), B (m) and the time-to-go (s)."""
         thrust = linear_thrust(

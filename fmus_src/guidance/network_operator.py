@@ -24,7 +24,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     acceleration, gravity and the thrust's tilt left out: within 10 % of the truth in the published
     descents. It is 0 where the vehicle is slow enough and the altitude is not right yet.
 
-    Of the slot's parameters the law uses the altitude of target_position and moon_radius. It
+    Of the slot's parameters the law uses the altitude of target_position, or of a divert, and moon_radius. It
     has no place or velocity to meet and no model of gravity, so the rest of target_position,
     target_velocity, gravity, gravity_correction and gravitational_parameter change nothing; nor do
     terminal_step and last_burn, since the hand-over is a state to reach and not a burn to time, and
@@ -44,7 +44,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     forward = State([1.0, 0.0, 0.0], unit="1", frame="landing site", description="horizontal direction of flight")
 
     def begin(self, time: float) -> None:
-        self.final_altitude = altitude_of(self.target_position, self.moon_radius)
+        self.final_altitude = altitude_of(self.aim_position, self.moon_radius)
         self.command.command_time = time
         self.decode_law()
         self.solve()
@@ -88,6 +88,9 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
 
     def go_on(self, t: float, h: float) -> None:
         if not self.finished:
+            if self.divert_count != self.flown_divert:
+                self.divert()
+                self.final_altitude = altitude_of(self.aim_position, self.moon_radius)
             self.solve()
             if self.status == TerminalStatus.GOOD:
                 self.command.command_time = t + h

@@ -1,6 +1,6 @@
 """The slot of terminal guidance: bring the vehicle to a position and velocity at time_to_go."""
 
-from ..block import Block, Output, Outputs, Parameter, State
+from ..block import Block, Input, Output, Outputs, Parameter, State
 from ..interfaces.ports import landing, sampling
 from ..interfaces.ports.landing import UNLIMITED, TerminalStatus, ThrustCommand
 from ..kernel.enumerations import Enumeration, member
@@ -41,6 +41,10 @@ class TerminalGuidance(Block, interface=True):
     true is a start. A guidance that writes `begin` and `go_on` itself has both for nothing else than
     an active one; `forget` is for the states of its own.
 
+    A law reads the target from `aim_position`. That is target_position until divert_count changes, and from the next
+    sample on divert_position: the law forgets and solves as at a start. Where it has no solution then, the last command
+    is held for the time that was left, and each sample tries again. During the last burn nothing is diverted.
+
     With frozen_time_to_go a law takes that time (`planned_time`) in place of its own in every cycle:
     a feedback law that does not change on the way, for linear stability. The flight then goes on
     until something else ends it, and no command is a last burn.
@@ -79,6 +83,8 @@ class TerminalGuidance(Block, interface=True):
     velocity = landing.VELOCITY.input("estimated velocity")
     mass = landing.MASS.input("estimated mass")
     active = landing.ACTIVE.input("false: no command; the first sample at which it is true is the start")
+    divert_count = Input(0, description="of diverts; a change makes divert_position the target")
+    divert_position = landing.POSITION.input("target after a divert")
     command = Outputs(ThrustCommand, direct=True, thrust_direction=[0.0, 0.0, 1.0], burn_duration=UNLIMITED)
     time_to_go = landing.TIME_TO_GO.output(direct=True)
     status = Output(TerminalStatus, direct=True)
@@ -90,18 +96,24 @@ class TerminalGuidance(Block, interface=True):
     expected_time = State(
         0.0, unit="s", description="time_to_go of the cycle before less the cycle; 0 or less: not known"
     )
+    aim_position = landing.POSITION.state("target in force: target_position, or that of the last divert")
+    flown_divert = State(0, description="divert_count that aim_position belongs to")
+    commanding = State(False, description="a command with time left has been given, for this target or an earlier one")
 
     def solve(self) -> None:
         """Set the command, time_to_go and status from position and velocity."""
 
     def remaining(self) -> tuple[Vector3, Vector3]:
         """Position (m) and velocity (m/s) still to gain, landing-site frame."""
-        dr = self.target_position - self.position
+        return self.remaining_over(self.expected_time)
+
+    def remaining_over(self, time: float) -> tuple[Vector3, Vector3]:
+        """The same with gravity corrected over ``time`` (s), and without a correction where that is 0 or less."""
+        dr = self.aim_position - self.position
         dv = self.target_velocity - self.velocity
-        if self.gravity_correction and self.expected_time > 0.0:
-            time = self.expected_time
+        if self.gravity_correction and time > 0.0:
             here = central_gravity(self.position, self.moon_radius, self.gravitational_parameter)
-            there = central_gravity(self.target_position, self.moon_radius, self.gravitational_parameter)
+            there = central_gravity(self.aim_position, self.moon_radius, self.gravitational_parameter)
             dv = dv - time * 0.5 * (here + there)
             dr = dr - time * time * (here / 3.0 + there / 6.0)
             dv = vector(dv.x, dv.y, dv.z - time * self.gravity)
@@ -130,9 +142,20 @@ class TerminalGuidance(Block, interface=True):
                     self.solve()
 
     def initialize(self) -> None:
+        self.take_target()
         if self.active:
             self.under_way = True
             self.begin(self.start_time)
+
+    def take_target(self) -> None:
+        """Aim at target_position."""
+        self.aim_position = self.target_position
+        self.flown_divert = self.divert_count
+
+    def divert(self) -> None:
+        """Aim at divert_position."""
+        self.aim_position = self.divert_position
+        self.flown_divert = self.divert_count
 
     def begin(self, time: float) -> None:
         """The first command, at ``time`` (s)."""
@@ -151,6 +174,7 @@ class TerminalGuidance(Block, interface=True):
         """Tell time that is up from time that never was."""
         if self.time_to_go > 0.0 and self.status < TerminalStatus.NOT_CONVERGED:
             self.started = True
+            self.commanding = True
         if not self.started and self.status < TerminalStatus.NOT_CONVERGED:
             self.status = TerminalStatus.NO_SOLUTION
 
@@ -160,6 +184,7 @@ class TerminalGuidance(Block, interface=True):
                 self.rest()
         elif not self.under_way:
             self.under_way = True
+            self.take_target()
             self.begin(t + h)
         else:
             self.go_on(t, h)
@@ -168,6 +193,7 @@ class TerminalGuidance(Block, interface=True):
         """No command, and nothing remembered."""
         self.under_way = False
         self.started = False
+        self.commanding = False
         self.finished = False
         self.expected_time = 0.0
         self.command.thrust_acceleration = 0.0
@@ -187,12 +213,25 @@ class TerminalGuidance(Block, interface=True):
             if self.cycle <= 0.0:
                 self.cycle = h
             burn_left = self.command.command_time + self.command.burn_duration - t - h
-            if self.terminal_step == TerminalStep.STOP or not self.started or burn_left > self.hold_time() - self.cycle:
+            if (
+                self.terminal_step == TerminalStep.STOP
+                or not self.commanding
+                or burn_left > self.hold_time() - self.cycle
+            ):
                 self.follow(t + h)
             elif burn_left > self.cycle * ROUNDING:
                 self.time_to_go = burn_left
             else:
                 self.finish(t + h)
+
+    def burn_span(self, time: float) -> float:
+        """How long (s) a command lasts that is given with ``time`` (s) to go."""
+        held = self.hold_time()
+        if self.plan_frozen():
+            held = self.cycle  # no last burn
+        if time <= held:
+            return time
+        return self.cycle
 
     def hold_time(self) -> float:
         """How long the last command is held at most (s)."""
@@ -213,16 +252,22 @@ class TerminalGuidance(Block, interface=True):
         """Command for the sample at ``time`` (s), or the end, or the last burn."""
         left = self.planned_time(self.time_to_go - self.cycle)
         self.expected_time = left
+        if self.divert_count != self.flown_divert:
+            self.divert()
+            self.started = False
+            self.forget()
+        if self.commanding and not self.started:
+            self.expected_time = self.planned_time(0.0)
         self.aim()
         self.judge()
         if self.status >= TerminalStatus.NOT_CONVERGED:
             self.time_to_go = left
-            if not self.started:
+            if not self.commanding:
                 self.time_to_go = 0.0
                 self.command.thrust_acceleration = 0.0
         elif self.time_to_go > 0.0:
             self.command.command_time = time
-        if self.started and not self.plan_frozen():
+        if self.commanding and not self.plan_frozen():
             self.end(time)
 
     def end(self, time: float) -> None:

@@ -86,23 +86,23 @@ def steady(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
     return dot(a, b) > 0.0
 
 
-def effort_slope(dr: Vector3, v: Vector3, dv: Vector3, g: float, c: list) -> None:
-    """T^4 dJ/dT as a polynomial c of T, where J is the time integral of |a0 + a1 t|^2.
+def effort_slope(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight: float, c: list) -> None:
+    """T^4 dJ/dT as a polynomial c of T, where J is the time integral of |a0 + a1 t|^2 plus twice ``weight`` (m2/s4).
 
-    J = (|A T|^2 + 3 |A T - 2 B|^2)/T^3, and A T - 2 B = (dV + 2 V) T - 2 dr.
+    Without weight J = (|A T|^2 + 3 |A T - 2 B|^2)/T^3, and A T - 2 B = (dV + 2 V) T - 2 dr.
     """
     s = dv + 2.0 * v
     c[0] = -36.0 * dot(dr, dr)
     c[1] = 24.0 * dot(dr, s)
     c[2] = -(dot(dv, dv) + 3.0 * dot(s, s))
     c[3] = 0.0
-    c[4] = g * g
+    c[4] = g * g + 2.0 * weight
 
 
 def effort_rises(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
     """Whether the integral of |a0 + a1 t|^2 would be larger for a flight longer than ``time`` (s)."""
     c = [0.0] * 5
-    effort_slope(dr, v, dv, g, c)
+    effort_slope(dr, v, dv, g, 0.0, c)
     return evaluate(c, time) > 0.0
 
 
@@ -113,8 +113,16 @@ def least_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
     beside it at that distance, it is sqrt(6 h/g).
     Source: D'Souza 1997, with a velocity at the target.
     """
+    return weighted_effort_time(dr, v, dv, g, 0.0)
+
+
+def weighted_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight: float) -> float:
+    """Time-to-go (s) as `least_effort_time`, with the time itself in the integral with a ``weight`` (m2/s4).
+
+    The integrand is |a0 + a1 t|^2/2 + weight. Source: D'Souza 1997, equation 12.
+    """
     c = [0.0] * 5
-    effort_slope(dr, v, dv, g, c)
+    effort_slope(dr, v, dv, g, weight, c)
     slope = [0.0] * 5
     bend = [0.0] * 4
     turning = [0.0] * 4

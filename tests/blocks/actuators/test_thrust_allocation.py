@@ -333,3 +333,31 @@ def test_declared_starts_alone_run():
     limited.initialize()
     limited.step(0.0, 0.1)
     assert (limited.thrust, limited.status) == (0.0, 0)
+
+
+@pytest.mark.parametrize(("low", "high"), [(0.57, 0.63), (0.3, 0.9), (0.5, 0.5), (0.0, 0.4)])
+@given(fractions=st.lists(st.floats(0.0, 1.3), min_size=1, max_size=30))
+def test_the_dead_band_is_passed_in_full(low, high, fractions):
+    """As the demand's own history says: full since the last demand above the band, until one below it or none."""
+    largest = 5000.0
+    block = allocation(0.0, maximum_thrust=largest, dead_band_low=low, dead_band_high=high)
+    full = False
+    for k, fraction in enumerate(fractions):
+        block.thrust_acceleration = fraction * largest / MASS
+        demand = MASS * block.thrust_acceleration / largest
+        block.step(0.1 * k, 0.1)
+        if demand > high:
+            full = True
+        elif demand < low or demand == 0.0:
+            full = False
+        expected = largest if full else min(demand, 1.0) * largest
+        assert block.thrust == pytest.approx(expected, rel=1e-12)
+        assert block.status == (block.thrust != MASS * block.thrust_acceleration)
+
+
+@pytest.mark.parametrize(("low", "high", "largest"), [(0.7, 0.6, 5000.0), (0.5, 0.6, 0.0), (0.1, 0.0, 5000.0)])
+def test_a_dead_band_that_cannot_be(low, high, largest):
+    """In reverse, or fractions of no thrust: status 2, and thrust as demanded."""
+    block = allocation(1.0, maximum_thrust=largest, dead_band_low=low, dead_band_high=high)
+    assert block.status == 2
+    assert block.thrust == MASS

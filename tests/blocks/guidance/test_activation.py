@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from perilune.fmus_src.guidance.network_operator import NetworkOperatorGuidance
+from tests.support.descent.laws import DESCENT_LAWS
 from tests.support.flights.linear_thrust import POSITION, VELOCITY
 from tests.support.flights.terminal_guidance import ALL, command_of, see
 
+LAWS = [*ALL, *DESCENT_LAWS, NetworkOperatorGuidance]
 START = 37.0
 STEP = 0.5
 
@@ -55,7 +57,7 @@ def told(guidance, **parameters):
 
 
 @pytest.mark.parametrize("parameters", [{}, {"gravity_correction": True, "terminal_step": 1}, {"sample_period": STEP}])
-@pytest.mark.parametrize("guidance_class", [*ALL, NetworkOperatorGuidance])
+@pytest.mark.parametrize("guidance_class", LAWS)
 def test_activated_in_flight_it_is_a_fresh_one(guidance_class, parameters):
     guidance = guidance_class(mass=940.0, active=False, **parameters)
     guidance.initialize()
@@ -67,7 +69,7 @@ def test_activated_in_flight_it_is_a_fresh_one(guidance_class, parameters):
     assert any(row[0] > 0.0 for row in expected)
 
 
-@pytest.mark.parametrize("guidance_class", [*ALL, NetworkOperatorGuidance])
+@pytest.mark.parametrize("guidance_class", LAWS)
 def test_inactive_it_commands_nothing_and_forgets(guidance_class):
     guidance = guidance_class(mass=940.0)
     see(guidance, 0.8 * POSITION, VELOCITY)
@@ -82,7 +84,7 @@ def test_inactive_it_commands_nothing_and_forgets(guidance_class):
     assert told(guidance) == fresh(guidance_class)
 
 
-@pytest.mark.parametrize("guidance_class", [*ALL, NetworkOperatorGuidance])
+@pytest.mark.parametrize("guidance_class", LAWS)
 def test_active_all_along_is_the_default(guidance_class):
     rows = []
     for settings in ({}, {"active": True}):

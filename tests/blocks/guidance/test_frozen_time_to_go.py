@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from perilune.fmus_src.interfaces.ports.landing import UNLIMITED
+from tests.support.descent.laws import TO_A_PLACE
 from tests.support.flights.linear_thrust import GRAVITY, POSITION, TARGET, VELOCITY, impulse_and_miss
 from tests.support.flights.terminal_guidance import (
     ALL,
@@ -125,7 +126,7 @@ def test_astar_gains(guidance_class):
         assert actual[0] == pytest.approx(first, abs=1e-6 * gain)
 
 
-@pytest.mark.parametrize("guidance_class", ALL)
+@pytest.mark.parametrize("guidance_class", [*ALL, *TO_A_PLACE])
 @pytest.mark.parametrize("terminal_step", [0, 1])
 @pytest.mark.parametrize("correction", [False, True])
 @given(

@@ -5,6 +5,7 @@ Truth: the system flown by Perilune from the FMUs of its components, instruction
 
 import shutil
 
+import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
@@ -80,7 +81,8 @@ def test_whole_systems(tmp_path, name):
     assert validate_fmu(str(fmu)) == []
     flown = fly_one(fmu)
     end = len(native.time)
-    for signal in native.signals:
+    inputs = {each.name for each in fmpy.read_model_description(str(fmu)).modelVariables if each.causality == "input"}
+    for signal in native.signals.keys() - inputs:
         assert np.array_equal(flown[signal][:end], native[signal]), signal
         assert np.all(flown[signal][end:] == flown[signal][end - 1]), signal
     assert len(flown["time"]) == end or native.status == "finished"

@@ -145,7 +145,7 @@ def plain(text):
 
 @pytest.mark.usefixtures("layout_bundle")
 @pytest.mark.parametrize("paper", FORMATS)
-@pytest.mark.parametrize(("name", "is_broad"), [(LARGEST, False), ("lunar_landing", True), (SMALL, False)])
+@pytest.mark.parametrize(("name", "is_broad"), [(LARGEST, False), ("entry_attitude", True), (SMALL, False)])
 def test_on_paper_it_is_on_one_sheet(browser, page_of, tmp_path, name, is_broad, paper):
     sheets = printed(browser, page_of(name), tmp_path, paper)
     labels = parse(page_of(name).read_text(encoding="utf-8")).xpath("//*[@class='block']/*[local-name()='text']/text()")

@@ -12,6 +12,13 @@ ROWS, SEED, STREAM = 49, 28, 7
 TIME = STEP * np.arange(ROWS)
 
 
+def leave_dead_band(thrust, low, high, full):
+    """Thrust above ``high`` in full, and in between where the last one outside of the band was that."""
+    outside = (thrust < low) | (thrust > high)
+    last = np.maximum.accumulate(np.where(outside, np.arange(len(thrust)), 0))
+    return np.where(thrust[last] > high, full, thrust)
+
+
 def thrust_allocation():
     """The lag by scipy's filters, turns by scipy's rotations: no demand, too small, too large and well within limits.
 
@@ -35,6 +42,7 @@ def thrust_allocation():
     }
     demanded = follow(mass * acceleration)
     commanded = np.where(demanded > 0.0, demanded.clip(smallest, largest), 0.0)
+    commanded = leave_dead_band(commanded, 0.4 * largest, 0.6 * largest, largest)
     by_thrust = commanded != demanded
     assert {*commanded} >= {0.0, smallest, largest}
     commanded = commanded * (1.0 + sigma * Numbers(SEED, STREAM).normal(1)[0])
@@ -82,6 +90,8 @@ def thrust_allocation():
         parameters={
             "minimum_thrust": smallest,
             "maximum_thrust": largest,
+            "dead_band_low": 0.4,
+            "dead_band_high": 0.6,
             "thrust_lag": lag,
             "slew_rate_limit": slew,
             "thrust_error": sigma,

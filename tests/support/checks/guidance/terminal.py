@@ -14,6 +14,14 @@ from tests.support.flights.linear_thrust import GRAVITY, UP, linear_thrust
 
 STEP = 8.0  # s
 FOREVER = 1e9  # s
+EXACT = ("command_time", "status", "finished", "clamp_count", "limit", "choices")
+WITHOUT_COMMAND = (
+    "thrust_direction",
+    "command_time",
+    "clamp_count",
+    "glide_margin",
+    "predicted_propellant",
+)  # with no command
 GOOD, CLAMPED, NOT_CONVERGED, NO_SOLUTION = range(4)
 
 
@@ -27,6 +35,7 @@ class Solution:
     rate: tuple | np.ndarray = (0.0, 0.0, 0.0)
     status: int = GOOD
     clamps: int | None = None  # arcsines clamped, of methods that have them
+    extras: dict | None = None  # other outputs of the law
 
 
 def path_of(position, velocity, time, step=STEP):
@@ -101,10 +110,14 @@ def fly(times, solutions, direction, last_burn=None):
         "time_to_go": left,
         "status": status,
         "finished": finished,
+        **{
+            name: np.array([solution.extras[name] for solution in solutions])[stop]
+            for name in solutions[0].extras or ()
+        },
     }
 
 
-def check_of(truth, flights, law, parameters, last_burn=None):
+def check_of(truth, flights, law, parameters, last_burn=None, tolerance=1e-12):
     """The check of flights, each a list of positions and velocities, with a row of no activity between them.
 
     ``law`` makes a `Solution` of position, velocity and a dictionary that is new in every flight.
@@ -121,9 +134,7 @@ def check_of(truth, flights, law, parameters, last_burn=None):
             outputs["clamp_count"] = counts
         idle = {name: np.zeros_like(values[:1]) for name, values in outputs.items()}
         direction = outputs["thrust_direction"][-1]
-        idle |= {
-            name: outputs[name][-1:] for name in ("thrust_direction", "command_time", "clamp_count") if name in outputs
-        }
+        idle |= {name: outputs[name][-1:] for name in WITHOUT_COMMAND if name in outputs}
         idle["burn_duration"] = np.array([FOREVER])
         records += [outputs, idle]
         inputs += [(*state, True) for state in flight] + [(*flight[-1], False)]
@@ -131,12 +142,12 @@ def check_of(truth, flights, law, parameters, last_burn=None):
     outputs = {name: np.concatenate([record[name] for record in records]) for name in records[0]}
     position, velocity, active = (np.array(rows) for rows in zip(*inputs, strict=True))
     rows = len(active)
-    exact = dict.fromkeys(("command_time", "status", "finished", "clamp_count"), (0.0, 0.0))
+    exact = dict.fromkeys(EXACT, (0.0, 0.0))
     return Check(
         truth=truth,
         step=STEP,
         inputs={"position": position, "velocity": velocity, "active": active},
         outputs={name: values[:rows] for name, values in outputs.items()},
-        tolerances=dict.fromkeys(outputs, (1e-12, 1e-12)) | exact,
+        tolerances=dict.fromkeys(outputs, (tolerance, tolerance)) | exact,
         parameters=parameters,
     )

@@ -123,8 +123,37 @@ def touchdown_monitor():
     )
 
 
+def site_divert():
+    """The site moved at the first row from divert_time on: the new target is as high above the sphere as the first."""
+    rows, time, radius = 9, 0.6, 1.7e6
+    offset, target = np.array([1500.0, -700.0]), np.array([400.0, 300.0, 150.0])
+    centre = np.array([0.0, 0.0, -radius])
+    altitude = np.linalg.norm(target - centre) - radius
+    site = centre + (target - centre) * radius / np.linalg.norm(target - centre)
+    radial = site - centre + np.append(offset, 0.0)
+    up = radial / np.linalg.norm(radial)
+    diverted = STEP * np.arange(rows) >= time
+    return Check(
+        truth="geometry of the sphere",
+        step=STEP,
+        inputs={},
+        outputs={
+            "divert_count": diverted.astype(int),
+            "divert_position": np.where(diverted[:, None], centre + (radius + altitude) * up, target),
+        },
+        tolerances={"divert_count": (0.0, 0.0), "divert_position": (1e-8, 1e-13)},
+        parameters={
+            "divert_time": time,
+            "offset": offset,
+            "target_position": target,
+            "moon_radius": radius,
+        },
+    )
+
+
 TRUTHS = {
     "command_switch": command_switch,
     "flight_monitor": flight_monitor,
     "touchdown_monitor": touchdown_monitor,
+    "site_divert": site_divert,
 }

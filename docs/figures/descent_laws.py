@@ -1,0 +1,63 @@
+"""Draws altitude over distance and thrust over time of the descent laws: `python -m docs.figures.descent_laws`.
+
+The main braking of `lunar_landing` from the middle of its box, without errors of sensors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from perilune.analysis.common.process import leave
+from perilune.analysis.reports.common.style import house_style, look, new_figure
+from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.verbs.run import simulate
+
+from .pictures import IMAGES, write_picture
+
+SYSTEM = "lunar_landing"
+LAWS = {
+    "exact analytic": "analytic_exact_guidance",
+    "ZEM/ZEV": "zem_zev_guidance",
+    "fractional": "fractional_guidance",
+    "Apollo": "apollo_guidance",
+    "powered explicit": "powered_guidance",
+}
+EVERY = 10  # communication points
+ALONG = [f"plant.position[{i}]" for i in (1, 2)]
+
+
+def simulate_laws() -> dict[str, Result]:
+    """Return a flight of each law."""
+    return {name: simulate(SYSTEM, parameters=["ideal.ssv"], use={"guidance": fmu}) for name, fmu in LAWS.items()}
+
+
+def descent_figure(flights: Mapping[str, Result]) -> Figure:
+    """Return the figure of flights by the name of their law."""
+    figure = new_figure(3.2, 8.6)
+    path, thrust = figure.subplots(1, 2)
+    for index, (name, flight) in enumerate(flights.items()):
+        style = look(index)
+        distance = np.hypot(*(flight[signal] for signal in ALONG))[::EVERY] / 1e3
+        line = {"color": style.colour, "linestyle": style.dashes}
+        path.plot(distance, flight["plant.altitude"][::EVERY] / 1e3, label=name, **line)
+        thrust.plot(flight.time[::EVERY], flight["allocation.thrust"][::EVERY], **line)
+    path.set(xlabel="distance from the site, km", ylabel="altitude, km")
+    path.invert_xaxis()
+    thrust.set(xlabel="time, s", ylabel="thrust, N")
+    path.legend(loc="lower left")
+    return figure
+
+
+def draw_descent_laws(flights: Mapping[str, Result], folder: Path = IMAGES) -> Path:
+    """Write the figure."""
+    with house_style():
+        return write_picture(descent_figure(flights), folder / "descent_laws.svg")
+
+
+if __name__ == "__main__":
+    print(draw_descent_laws(simulate_laws()))
+    leave(0)

@@ -1,0 +1,77 @@
+"""Apollo's lunar descent guidance: a quartic to the target, its time from the jerk there."""
+
+from ..block import Parameter, State
+from ..mathlib.lunar.polynomial_descent import DescentShape, jerk_time
+from ..mathlib.vectors import Vector3, norm, vector
+from .polynomial_guidance import PolynomialGuidance
+
+
+class ApolloGuidance(PolynomialGuidance):
+    """Position as a quartic of time about the target, as in P63 and P64, with the time to go of a given jerk.
+
+    The final thrust acceleration is final_lift upwards and final_deceleration against the forward axis, which is
+    horizontal towards the target at the start and then fixed. The time to go is that at which the jerk along this
+    axis becomes target_jerk, by Newton's method from the time of the cycle before. Below freeze_time it only counts
+    down. Status 3 where it has no time at the start, as with a jerk of the wrong sign; a later failure counts down.
+    The law has no limit of thrust: status 1 tells where the rest of the flight exceeds it.
+    Source: Klumpp 1974, "Apollo lunar descent guidance", Automatica 10(2), equations 8 to 12; defaults are scaled to
+    a thrust acceleration of 5 m/s2. Assumes constant gravity or gravity_correction.
+    """
+
+    final_deceleration = Parameter(5.0, unit="m/s2", description="thrust acceleration at the end, backwards")
+    final_lift = Parameter(2.2, unit="m/s2", description="thrust acceleration at the end, along z")
+    target_jerk = Parameter(0.029, unit="m/s3", description="at the target, along the forward axis")
+    freeze_time = Parameter(10.0, unit="s", minimum=0.0, description="time to go below which it counts down")
+    lead_time = Parameter(0.0, unit="s", minimum=0.0, description="how far ahead the thrust is commanded")
+    flown_kr = PolynomialGuidance.flown_kr.with_start(12.0)
+    forward = State([1.0, 0.0, 0.0], unit="1", frame="landing site", description="forward axis")
+
+    def final_thrust(self) -> Vector3:
+        """Return the thrust acceleration (m/s2) at the end."""
+        along = self.final_deceleration * self.forward
+        return vector(-along.x, -along.y, self.final_lift - along.z)
+
+    def shape(self, kr: float) -> DescentShape:
+        return DescentShape(final=self.final_thrust(), gamma=1.0, kr=kr)
+
+    def lead(self) -> float:
+        return self.lead_time
+
+    def face_target(self) -> None:
+        """Set the forward axis."""
+        way = self.aim_position - self.position
+        level = vector(way.x, way.y, 0.0)
+        length = norm(level)
+        if length > 0.0:
+            self.forward = level / length
+
+    def choose_time(self) -> float:
+        """Return the time (s) from the jerk, from that of least propellant; 0 where there is none."""
+        self.choices = self.choices + 1
+        self.face_target()
+        first = self.first_time()
+        if not first > 0.0:
+            return 0.0
+        return self.time_from_jerk(self.search_time(first))
+
+    def time_from_jerk(self, time: float) -> float:
+        """Return the time (s) of target_jerk from a guess of it; 0 where Newton's method finds none."""
+        dr, dv = self.remaining_over(time)
+        constant = self.final_thrust() + vector(0.0, 0.0, -self.gravity)
+        return jerk_time(dr, self.velocity, dv, constant, self.forward, self.target_jerk, time)
+
+    def time_left(self) -> float:
+        if self.plan_frozen():
+            return self.frozen_time_to_go
+        time = self.expected_time
+        if not self.chosen:
+            time = self.choose_time()
+            self.chosen = time > 0.0
+            self.check(time)
+        elif time > self.freeze_time:
+            root = self.time_from_jerk(time)
+            if root > 0.0:
+                time = root
+        if self.is_check_due(time):
+            self.check(time)
+        return time

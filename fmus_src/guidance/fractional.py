@@ -1,0 +1,66 @@
+"""Fractional-polynomial guidance, shaped by its final thrust, the glide slope and the tilt."""
+
+from ..block import Parameter
+from ..kernel.enumerations import Enumeration, member
+from ..mathlib.lunar.polynomial_descent import DescentShape, is_regular
+from .polynomial_guidance import GLIDE_PRICE, SHORTEST, SPACING, TILT_PRICE, PolynomialGuidance
+
+GAINS = 4  # kr of a search: 6, 8, 10, 12
+FIRST_GAIN, GAIN_SPACING = 6.0, 2.0
+SEARCH_SHORTEST, SEARCH_SPACING = 0.5, 0.0625  # of the first time
+
+
+class GainChoice(Enumeration):
+    """Origin of the exponents."""
+
+    FIXED = member("gamma and kr as given")
+    SEARCHED = member("gamma 1, kr searched for the constraints")
+
+
+class FractionalGuidance(PolynomialGuidance):
+    """Thrust acceleration a_f + d1 t^gamma + d2 t^gamma_2, gamma_2 = kr/(gamma + 2) - 2, over the time to go t.
+
+    A kr above 6 straightens the end towards the final thrust acceleration a_f, which is upright for a_f along z. With
+    gain_choice = searched, time and kr are those of least propellant with a price on glide slope and tilt.
+    Status 3 where gamma or gamma_2 is negative or both are equal, and no profile exists.
+    Source: Lu 2019 and 2020; the search is ours.
+    Assumes constant gravity or gravity_correction.
+    """
+
+    last_burn = PolynomialGuidance.last_burn.with_start(2.0)  # with gamma < 1 the direction's rate ends infinite
+    final_thrust_acceleration = Parameter(
+        [0.0, 0.0, 2.0], unit="m/s2", frame="landing site", description="thrust acceleration at the end"
+    )
+    gain_choice = Parameter(GainChoice, description="origin of the exponents")
+    gamma = Parameter(1.0, unit="1", minimum=0.0, description="first exponent of the time to go")
+    kr = Parameter(12.0, unit="1", minimum=0.0, description="gain of the position error")
+
+    def shape(self, kr: float) -> DescentShape:
+        gamma = self.gamma
+        if self.gain_choice == GainChoice.SEARCHED:
+            gamma = 1.0
+        return DescentShape(final=self.final_thrust_acceleration, gamma=gamma, kr=kr)
+
+    def objective(self, time: float, kr: float) -> float:
+        """Return the impulse (m/s) with prices on thrust, glide slope and tilt."""
+        cost = self.cost_of(time, kr, self.thrust_margin)
+        return cost.objective + GLIDE_PRICE * cost.depth + TILT_PRICE * cost.tilt_excess
+
+    def search_time(self, first: float) -> float:
+        """Return the time to go (s) of the least objective, and set flown_kr; of a ``first`` time (s)."""
+        if self.gain_choice == GainChoice.FIXED:
+            self.flown_kr = self.kr
+            if not is_regular(self.shape(self.kr)):
+                return 0.0
+            return self.best_time(first, SHORTEST, SPACING, self.kr)
+        best = 0.0
+        minimum = 0.0
+        for i in range(GAINS):
+            kr = FIRST_GAIN + float(i) * GAIN_SPACING
+            time = self.best_time(first, SEARCH_SHORTEST, SEARCH_SPACING, kr)
+            price = self.objective(time, kr)
+            if i == 0 or price < minimum:
+                minimum = price
+                best = time
+                self.flown_kr = kr
+        return best

@@ -1,0 +1,75 @@
+"""Gravity turn: thrust against the velocity, to rest at the target's height."""
+
+from ..block import Parameter, State
+from ..interfaces.ports.landing import TerminalStatus
+from ..mathlib.lunar.gravity import altitude_of, from_centre
+from ..mathlib.lunar.gravity_turn import gravity_turn
+from ..mathlib.vectors import Vector3, across, dot, norm, vector
+from .informed_guidance import LIMIT_THRUST, InformedGuidance
+
+
+class GravityTurnGuidance(InformedGuidance):
+    """Thrust of constant ratio to gravity against the velocity, to rest at the height of target_position.
+
+    It has no place and no velocity to meet: the horizontal part of target_position and target_velocity change
+    nothing, and it is not for frozen_time_to_go. Over the sphere (gravity_correction) gravity is central less the
+    centrifugal part. With ignition_fraction there is no thrust until the demand is that fraction of maximum_thrust.
+    Status 1 where the demand exceeds maximum_thrust, 3 at or below the target's height or ascending.
+    Source: Citron, Dunin and Meissinger 1964.
+    Assumes gravity that is constant over the rest of the flight.
+    """
+
+    last_burn = InformedGuidance.last_burn.with_start(2.0)
+    ignition_fraction = Parameter(
+        0.0, unit="1", minimum=0.0, maximum=1.0, description="of maximum_thrust, at which thrust begins; 0: at once"
+    )
+    burning = State(False, description="thrust has begun")
+
+    def forget(self) -> None:
+        self.burning = self.burning and self.commanding  # a divert leaves the engine on
+
+    def local_gravity(self) -> tuple[Vector3, float]:
+        """Return the local vertical and gravity (m/s2) less the centrifugal part along it."""
+        up = vector(0.0, 0.0, 1.0)
+        g = self.gravity
+        if self.gravity_correction:
+            centred = from_centre(self.position, self.moon_radius)
+            radius = norm(centred)
+            up = centred / radius
+            level = norm(across(self.velocity, up))
+            g = self.gravitational_parameter / (radius * radius) - level * level / radius
+        return up, g
+
+    def height(self) -> float:
+        """Return the height (m) above the target."""
+        if self.gravity_correction:
+            here = altitude_of(self.position, self.moon_radius)
+            return here - altitude_of(self.aim_position, self.moon_radius)
+        return self.position.z - self.aim_position.z
+
+    def solve(self) -> None:
+        self.measure_glide()
+        up, g = self.local_gravity()
+        speed = norm(self.velocity)
+        self.limit = 0
+        self.status = TerminalStatus.NO_SOLUTION
+        if speed > 0.0:
+            turn = gravity_turn(speed, -dot(self.velocity, up) / speed, self.height(), g)
+            if turn.ratio > 0.0:
+                self.status = TerminalStatus.GOOD
+                self.time_to_go = turn.duration
+                self.brake(turn.ratio * g, speed, g * up)
+
+    def brake(self, thrust: float, speed: float, gravity: Vector3) -> None:
+        """Command a thrust acceleration (m/s2) against the velocity, of a ``speed`` (m/s), under ``gravity``."""
+        direction = -1.0 / speed * self.velocity
+        demand = thrust * self.mass
+        self.burning = self.burning or demand >= self.ignition_fraction * self.maximum_thrust
+        self.command.thrust_direction = direction
+        self.command.thrust_direction_rate = across(gravity, direction) / speed
+        self.command.thrust_acceleration = 0.0
+        if self.burning:
+            self.command.thrust_acceleration = thrust
+        if demand > self.maximum_thrust:
+            self.status = TerminalStatus.CLAMPED
+            self.limit = LIMIT_THRUST

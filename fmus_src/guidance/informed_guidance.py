@@ -1,0 +1,103 @@
+"""Terminal guidance that knows the engine and what the approach may not leave."""
+
+import math
+
+from ..block import Output, Parameter
+from ..interfaces.ports import landing
+from ..kernel.functions import tan
+from ..mathlib.lunar.gravity import STANDARD_GRAVITY
+from ..mathlib.lunar.terminal import cubic_time, effort_rises, steady, weighted_effort_time
+from ..mathlib.vectors import Vector3
+from ..units import deg
+from .terminal_guidance import TerminalGuidance
+
+LIMIT_THRUST = 1
+LIMIT_GLIDE_SLOPE = 2
+LIMIT_TILT = 4
+LIMIT_PLACE = 8
+ROUNDS = 20  # to a time and the gravity corrected over it that agree
+AGREED = 1e-10  # s
+
+
+class InformedGuidance(TerminalGuidance, interface=True):
+    """Terminal guidance with limits of thrust, glide slope and tilt.
+
+    A command that cannot keep a limit is given with status 1, and `limit` is the sum of 1 (thrust), 2 (glide slope),
+    4 (tilt) and 8 (place). The glide slope is a cone with its apex glide_offset below the target:
+
+        tan(glide_slope) |horizontal offset| <= height above the target + glide_offset
+
+    Frame: landing site. Heights are along z, which the Moon's curvature leaves by x^2/(2 moon_radius).
+    """
+
+    terminal_step = TerminalGuidance.terminal_step.with_start(1)
+    maximum_thrust = landing.MAXIMUM_THRUST.parameter(minimum=1e-3)
+    minimum_thrust = landing.MINIMUM_THRUST.parameter(510.0, "least thrust while burning; 0: not known")
+    specific_impulse = landing.SPECIFIC_IMPULSE.parameter()
+    thrust_margin = Parameter(
+        0.92, unit="1", minimum=0.1, maximum=1.0, description="largest thrust of plans over maximum_thrust"
+    )
+    glide_slope = Parameter(
+        0.0, unit="rad", minimum=0.0, maximum=deg(85.0), description="least elevation seen from the target; 0: off"
+    )
+    glide_offset = Parameter(5.0, unit="m", minimum=0.0, description="depth of the cone's apex below the target")
+    largest_tilt = Parameter(
+        deg(180.0), unit="rad", minimum=0.0, maximum=deg(180.0), description="of thrust from z; 180 deg: off"
+    )
+    limit = Output(
+        0, direct=True, description="limits that the plan leaves: sum of 1 thrust, 2 glide slope, 4 tilt, 8 place"
+    )
+    glide_margin = Output(0.0, unit="m", direct=True, description="height above the cone of the glide slope")
+    choices = Output(0, direct=True, description="plans made, or times chosen, for this target")
+    predicted_propellant = landing.PREDICTED_PROPELLANT.output(direct=True)
+    predicted_miss = Output(0.0, unit="m", direct=True, description="distance from the target at the end of the plan")
+
+    def exhaust_speed(self) -> float:
+        """Of the engine (m/s)."""
+        return STANDARD_GRAVITY * self.specific_impulse
+
+    def glide_height(self, offset: Vector3) -> float:
+        """Height (m) above the cone of the glide slope at an ``offset`` (m) from the target."""
+        level = math.sqrt(offset.x * offset.x + offset.y * offset.y)
+        return offset.z + self.glide_offset - tan(self.glide_slope) * level
+
+    def measure_glide(self) -> None:
+        """Set glide_margin at the present position."""
+        self.glide_margin = self.glide_height(self.position - self.aim_position)
+
+    def braking_time(self) -> float:
+        """Return the time-to-go (s) of about constant thrust, from |A| T = 2 |B|, if that brakes; 0 if not."""
+        time = 0.0
+        for _ in range(ROUNDS):
+            dr, dv = self.remaining_over(time)
+            root = cubic_time(dr, self.velocity, dv, self.gravity)
+            if not root > 0.0:
+                return 0.0
+            change = abs(root - time)
+            time = root
+            if change < AGREED:
+                dr, dv = self.remaining_over(time)
+                brakes = steady(dr, self.velocity, dv, self.gravity, time)
+                if brakes and not effort_rises(dr, self.velocity, dv, self.gravity, time):
+                    return time
+                return 0.0
+        return 0.0
+
+    def effort_time(self, weight: float) -> float:
+        """Return the time-to-go (s) of least effort with a ``weight`` (m2/s4) of time; 0 where there is none."""
+        time = 0.0
+        for _ in range(10 * ROUNDS):
+            dr, dv = self.remaining_over(time)
+            root = weighted_effort_time(dr, self.velocity, dv, self.gravity, weight)
+            change = abs(root - time)
+            time = root
+            if change < AGREED:
+                return time
+        return time
+
+    def first_time(self) -> float:
+        """Return the time-to-go (s) that a search begins with; 0 where there is none."""
+        time = self.braking_time()
+        if time > 0.0:
+            return time
+        return self.effort_time(0.0)

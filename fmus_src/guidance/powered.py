@@ -1,0 +1,144 @@
+"""Powered explicit guidance for a descent: one phase of constant thrust."""
+
+from ..block import Parameter, State
+from ..interfaces.ports.landing import TerminalStatus
+from ..kernel.records import replace
+from ..mathlib.lunar.gravity import central_gravity
+from ..mathlib.lunar.powered_explicit import SETTLED, SteeringProblem, SteeringState, iterate_steering
+from ..mathlib.vectors import across, clip, norm, vector
+from .informed_guidance import LIMIT_THRUST
+from .zem_zev import ZemZevGuidance
+
+FIRST_ITERATIONS = 40
+ITERATIONS = 3  # in each further cycle
+FIRST_THRUST = 0.85  # of the largest
+
+
+class PoweredGuidance(ZemZevGuidance):
+    """Linear-tangent steering with a constant thrust that solves for the range, and ZEM/ZEV near the end.
+
+    Three iterations a cycle. Above end_time to go it commands the constant thrust that meets position and velocity;
+    below it the thrust acceleration is linear in time, whose time is that of the hand-over, or chosen anew where its
+    thrust exceeds thrust_margin of the largest. Status 1 where the thrust is outside minimum_thrust and
+    maximum_thrust, at which it is then flown; 2 where an iteration has no solution; 3 at the start where the first
+    iterations do not converge, as in hovering descents. With frozen_time_to_go the law is ZEM/ZEV throughout.
+    Source: Jaggers 1977; McHenry et al. 1979; the thrust as an unknown is ours.
+    Assumes constant gravity or gravity_correction, and an exhaust speed that is known.
+    """
+
+    end_time = Parameter(40.0, unit="s", minimum=0.0, description="time to go from which ZEM/ZEV commands")
+    steering = State(SteeringState)
+    handed_over = State(False, description="ZEM/ZEV commands")
+
+    def forget(self) -> None:
+        self.chosen = False
+        self.checked_time = 0.0
+        self.choices = 0
+        self.limit = 0
+        self.handed_over = False
+
+    def problem(self, time: float) -> SteeringProblem:
+        """Return the errors over ``time`` (s) and the engine."""
+        dr = self.aim_position - self.position
+        dv = self.target_velocity - self.velocity
+        here = vector(0.0, 0.0, -self.gravity)
+        there = here
+        if self.gravity_correction:
+            here = central_gravity(self.position, self.moon_radius, self.gravitational_parameter)
+            there = central_gravity(self.aim_position, self.moon_radius, self.gravitational_parameter)
+        return SteeringProblem(
+            way=dr - time * time * (here / 3.0 + there / 6.0),
+            gain=dv - 0.5 * time * (here + there),
+            velocity=self.velocity,
+            mass=self.mass,
+            exhaust=self.exhaust_speed(),
+            minimum=self.minimum_thrust,
+            maximum=self.maximum_thrust,
+        )
+
+    def iterate(self, time: float, count: int) -> None:
+        """Iterate ``count`` times at most from a time to go (s)."""
+        self.steering = replace(self.steering, time=time, change=1.0, exists=True)
+        for _ in range(count):
+            if self.steering.exists and self.steering.change > SETTLED:
+                self.steering = iterate_steering(self.steering, self.problem(self.steering.time))
+
+    def begin_steering(self) -> None:
+        """First iterations, from the time of about constant thrust."""
+        self.steering = SteeringState(
+            time=0.0,
+            thrust=FIRST_THRUST * self.maximum_thrust,
+            direction=vector(0.0, 0.0, 1.0),
+            turning=vector(0.0, 0.0, 0.0),
+            centre=0.0,
+            change=1.0,
+            exists=True,
+        )
+        self.iterate(self.first_time(), FIRST_ITERATIONS)
+        self.choices = self.choices + 1
+
+    def solve(self) -> None:
+        self.measure_glide()
+        if self.plan_frozen():
+            self.handed_over = True
+        if not self.handed_over:
+            self.steer()
+        if self.handed_over:
+            self.end_linearly()
+
+    def steer(self) -> None:
+        """Command the constant thrust, or hand over."""
+        self.status = TerminalStatus.GOOD
+        self.limit = 0
+        if not self.started:
+            if not self.chosen:
+                self.begin_steering()
+                self.chosen = self.steering.exists and self.steering.change <= SETTLED
+            if not self.chosen:
+                self.status = TerminalStatus.NO_SOLUTION
+                self.time_to_go = 0.0
+                return
+        else:
+            self.iterate(self.expected_time, ITERATIONS)
+        if not self.steering.exists:
+            self.status = TerminalStatus.NOT_CONVERGED
+            return
+        self.time_to_go = self.steering.time
+        if self.steering.time <= self.end_time:
+            self.handed_over = True
+            self.expected_time = self.steering.time
+        else:
+            self.command_constant_thrust()
+
+    def command_constant_thrust(self) -> None:
+        """Command thrust, direction and rate of the steering."""
+        s = self.steering
+        thrust = clip(s.thrust, self.minimum_thrust, self.maximum_thrust)
+        if thrust != s.thrust:
+            self.status = TerminalStatus.CLAMPED
+            self.limit = LIMIT_THRUST
+        leaning = s.direction - s.centre * s.turning
+        length = norm(leaning)
+        direction = leaning / length
+        self.command.thrust_acceleration = thrust / self.mass
+        self.command.thrust_direction = direction
+        self.command.thrust_direction_rate = across(s.turning, direction) / length
+        self.predicted_propellant = thrust / self.exhaust_speed() * s.time
+
+    def end_linearly(self) -> None:
+        """Command ZEM/ZEV; its time is chosen at the hand-over only where the thrust does not suffice."""
+        time = self.expected_time
+        if self.plan_frozen():
+            time = self.frozen_time_to_go
+        elif self.checked_time <= 0.0:
+            if self.cost_of(time, self.flown_kr, 1.0).load > self.thrust_margin:
+                choice = self.choose_time()
+                if choice > 0.0:
+                    time = choice
+            self.check(time)
+        self.status = TerminalStatus.GOOD
+        if self.limit > 0:
+            self.status = TerminalStatus.CLAMPED
+        self.time_to_go = time
+        if time > 0.0:
+            self.command_profile(time)

@@ -1,0 +1,37 @@
+"""Gravity turn with a constant ratio of thrust acceleration to gravity, in closed form. Kernel functions.
+
+Thrust n g against the velocity v, at the angle psi from the downward vertical, with tau = tan(psi/2):
+v is proportional to tau^(n - 1) + tau^(n + 1), gravity constant.
+Source: Citron, Dunin and Meissinger 1964; Culler and Fried 1957.
+"""
+
+import math
+
+from ...kernel.records import Field, Record
+
+
+class GravityTurn(Record):
+    """A gravity turn that ends at rest at the target's height."""
+
+    ratio = Field(unit="1", description="thrust acceleration over gravity; 0: none reaches rest there")
+    duration = Field(unit="s", description="until it is at rest")
+    distance = Field(unit="m", description="horizontal, until it is at rest")
+
+
+def gravity_turn(speed: float, descent_cosine: float, height: float, g: float) -> GravityTurn:
+    """Return the turn from a ``speed`` (m/s) at this cosine to the downward vertical, ``height`` (m) above."""
+    if not (height > 0.0 and descent_cosine > 0.0 and speed > 0.0 and g > 0.0):
+        return GravityTurn(ratio=0.0, duration=0.0, distance=0.0)
+    cosine = descent_cosine
+    if cosine > 1.0:
+        cosine = 1.0
+    square = (1.0 - cosine) / (1.0 + cosine)  # of tau
+    tau = math.sqrt(square)
+    q = 1.0 + square
+    fourth = square * square
+    k = 2.0 * height * g * q * q / (speed * speed)
+    difference = 1.0 - fourth
+    n = (difference + math.sqrt(difference * difference + 4.0 * k * (k + 1.0 + fourth))) / (2.0 * k)
+    duration = speed / (g * q) * (1.0 / (n - 1.0) + square / (n + 1.0))
+    distance = 2.0 * speed * speed * tau / (g * q * q) * (1.0 / (2.0 * n - 1.0) + square / (2.0 * n + 1.0))
+    return GravityTurn(ratio=n, duration=duration, distance=distance)

@@ -1,0 +1,115 @@
+"""Powered explicit guidance with one phase of constant thrust that meets position and velocity. Kernel functions.
+
+The direction of thrust is that of lambda + lambda' (t - K), lambda perpendicular to lambda', t from now; time to go and
+thrust are unknown, too. With tau = v_e m/F the integrals of thrust acceleration and its moments are
+
+    L = v_e ln(tau/(tau - T)),  J = tau L - v_e T,  S = L T - J,  Q = S tau - v_e T^2/2,  P = Q tau - v_e T^3/6,
+    H = J T - Q,  K = J/L.
+
+Source: Jaggers 1977, "An explicit solution to the exoatmospheric powered flight guidance and trajectory optimization
+problem for rocket propelled vehicles"; McHenry et al. 1979. The thrust as the sixth unknown, for descent, is ours.
+"""
+
+from ...kernel.functions import exp, expm1, log
+from ...kernel.records import Field, Record, replace
+from ..vectors import Vector3, clip, dot, norm
+
+MOST_BURNT = 0.999  # of tau, that a time to go may be
+SETTLED = 1e-6  # of the time to go
+SHORTEST = 1e-3  # s, that a time to go may be
+LARGEST_IMPULSE = 20.0  # exhaust speeds
+LEAST_SPREAD = 1e-9  # of S T, that Q - S K may be
+LEAST_OF_MINIMUM = 0.5  # of the least thrust, and ...
+MOST_OF_MAXIMUM = 1.3  # ... of the largest, which an iteration may try
+
+
+class SteeringState(Record):
+    """Unknowns of the guidance, as an iteration leaves them."""
+
+    time = Field(unit="s", description="time to go")
+    thrust = Field(unit="N", description="constant thrust")
+    direction = Field(Vector3, unit="1", description="lambda, of the thrust at the time K")
+    turning = Field(Vector3, unit="1/s", description="its derivative lambda'")
+    centre = Field(unit="s", description="K")
+    change = Field(unit="1", description="last change of the time over the time")
+    exists = Field(bool, description="false: the iteration has no solution")
+
+
+class SteeringProblem(Record):
+    """Errors and engine of an iteration."""
+
+    way = Field(Vector3, unit="m", description="to the target, less what gravity adds")
+    gain = Field(Vector3, unit="m/s", description="velocity to gain, less what gravity adds")
+    velocity = Field(Vector3, unit="m/s", description="velocity")
+    mass = Field(unit="kg", description="mass")
+    exhaust = Field(unit="m/s", description="exhaust speed")
+    minimum = Field(unit="N", description="least thrust")
+    maximum = Field(unit="N", description="largest thrust")
+
+
+class ThrustIntegrals(Record):
+    """Integrals of a constant thrust over mass."""
+
+    S = Field(unit="m", description="of the time from now to the end, weighted")
+    Q = Field(unit="m s", description="its moment")
+    P = Field(unit="m s2", description="the moment of that")
+    J = Field(unit="m", description="moment of the acceleration")
+    H = Field(unit="m s", description="J T - Q")
+    K = Field(unit="s", description="J/L")
+
+
+def thrust_integrals(impulse: float, tau: float, time: float, exhaust: float) -> ThrustIntegrals:
+    """Return the integrals of an ``impulse`` L (m/s) over ``time`` (s)."""
+    first = tau * impulse - exhaust * time
+    second = impulse * time - first
+    third = second * tau - 0.5 * exhaust * time * time
+    fourth = third * tau - exhaust * time * time * time / 6.0
+    return ThrustIntegrals(S=second, Q=third, P=fourth, J=first, H=first * time - third, K=first / impulse)
+
+
+def iterate_steering(s: SteeringState, p: SteeringProblem) -> SteeringState:
+    """Return the state after one iteration."""
+    gain = norm(p.gain)
+    if not (gain > 0.0 and p.mass > 0.0 and s.thrust > 0.0):
+        return missing(s)
+    tau = p.exhaust * p.mass / s.thrust
+    time = s.time
+    if time > MOST_BURNT * tau:
+        time = MOST_BURNT * tau
+    if not time > SHORTEST:
+        return missing(s)
+    direction = p.gain / gain
+    i = thrust_integrals(p.exhaust * log(tau / (tau - time)), tau, time, p.exhaust)
+    square = dot(s.turning, s.turning)
+    x = (gain + 0.5 * square * (i.H - i.J * i.K)) / p.exhaust
+    if not (x > 0.0 and x < LARGEST_IMPULSE):
+        return missing(s)
+    burnt = -expm1(-x)
+    along = dot(p.way, direction) + 0.5 * square * (i.P - 2.0 * i.Q * i.K + i.S * i.K * i.K)
+    divisor = p.exhaust * (burnt - x * exp(-x)) + dot(p.velocity, direction) * burnt
+    thrust = s.thrust
+    if divisor * along > 0.0:
+        thrust = clip(p.exhaust * p.mass * divisor / along, LEAST_OF_MINIMUM * p.minimum, MOST_OF_MAXIMUM * p.maximum)
+    tau = p.exhaust * p.mass / thrust
+    time = tau * burnt
+    if not time > SHORTEST:
+        return missing(s)
+    i = thrust_integrals(p.exhaust * x, tau, time, p.exhaust)
+    spread = i.Q - i.S * i.K
+    if abs(spread) < LEAST_SPREAD * abs(i.S * time):
+        return missing(s)
+    offset = p.way - time * p.velocity
+    return SteeringState(
+        time=time,
+        thrust=thrust,
+        direction=direction,
+        turning=(offset - dot(offset, direction) * direction) / spread,
+        centre=i.K,
+        change=abs(time - s.time) / time,
+        exists=True,
+    )
+
+
+def missing(s: SteeringState) -> SteeringState:
+    """Return a state without a solution."""
+    return replace(s, change=1.0, exists=False)

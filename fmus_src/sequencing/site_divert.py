@@ -1,0 +1,43 @@
+"""A landing site that is moved once, at a time known beforehand."""
+
+from ..block import Block, Output, Parameter, State
+from ..interfaces.ports import landing, sampling
+from ..mathlib.lunar.gravity import altitude_of
+from ..mathlib.lunar.landing_site import above_site, redesignate, site_below
+from ..mathlib.vectors import vector
+
+ROUNDING = 1e-9  # s, allowed for in times of communication points
+
+
+class SiteDivert(Block):
+    """Target of a terminal guidance, moved by an offset at divert_time: divert_count goes from 0 to 1 then.
+
+    The offset is added to x and y of the site below target_position; the new target has the same altitude above the
+    sphere as the first. Assumes a spherical Moon. Frame: landing site. Ours: docs/systems/descent_laws.md.
+    """
+
+    divert_time = Parameter(0.0, unit="s", minimum=0.0, description="0: never")
+    offset = Parameter([0.0, 0.0], unit="m", frame="landing site", description="of the site along x and y")
+    target_position = landing.POSITION.parameter([0.0, 0.0, 100.0], "target before the divert")
+    moon_radius = landing.MOON_RADIUS.parameter()
+    divert_count = Output(0, description="of diverts so far")
+    divert_position = landing.POSITION.output("target in force")
+    start_time = sampling.START_TIME.state()
+    diverted = State(False, description="the site has been moved")
+
+    def initialize(self) -> None:
+        self.divert_position = self.target_position
+        self.move_site(self.start_time)
+
+    def move_site(self, time: float) -> None:
+        """Move the site where ``time`` (s) has reached divert_time."""
+        if self.divert_time > 0.0 and not self.diverted and time >= self.divert_time - ROUNDING:
+            self.diverted = True
+            self.divert_count = 1
+            altitude = altitude_of(self.target_position, self.moon_radius)
+            below = site_below(self.target_position, self.moon_radius)
+            site = redesignate(below, vector(self.offset.x, self.offset.y), self.moon_radius)
+            self.divert_position = above_site(site, altitude, self.moon_radius)
+
+    def step(self, t: float, h: float) -> None:
+        self.move_site(t + h)

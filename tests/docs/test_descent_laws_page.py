@@ -1,0 +1,85 @@
+"""The tables of docs/systems/descent_laws.md are what the commands above them give.
+
+Truth: the campaigns themselves, whose means are formed here by numpy. `make test` flies two rows, `make long` all.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+import perilune
+from perilune.fmus_src.paths import ROOT
+from tests.support.lengths import LONG
+
+PAGE = (ROOT / "docs" / "systems" / "descent_laws.md").read_text(encoding="utf-8")
+BENCH = re.compile(r"```sh\n(perilune batch lunar_landing .*)\n```\n\n(\|.*\n)\|[ -|]*\n((?:\|.*\n)+)")
+SHORT = [("laws_braking", "zem_zev_guidance"), ("laws_terminal", "powered_guidance")]
+MEANS = {  # of the successful
+    "propellant, kg": "propellant",
+    "time, s": "flight_time",
+    "velocity, m/s": "velocity_error",
+    "position, m": "aim_error",
+    "peak demand, N": "largest_demand",
+}
+LEAST = {  # of all
+    "least margin to the cone, m": "glide_margin",
+    "least cosine of tilt": "least_upright",
+    "lowest altitude over the target, m": "lowest_height",
+}
+BY_DISTANCE = "propellant, kg: 300, 1000, 2000 m"
+
+
+def columns_of(line):
+    return [cell.strip() for cell in line.strip().strip("|").split("|")]
+
+
+ROWS = [
+    pytest.param(words, dict(zip(columns_of(header), columns_of(line), strict=True)), id=f"{words[4]} {law}")
+    for words, header, body in [(command.split(), *table) for command, *table in BENCH.findall(PAGE)]
+    for line in body.splitlines()
+    for law in [columns_of(line)[0].strip("`")]
+    if LONG or (words[4], law) in SHORT
+]  # fmt: skip
+
+
+def fly(words, law):
+    campaign, trials = words[4], int(words[6])
+    choice = (
+        {"configuration": law} if campaign in ("laws_approach", "laws_divert") else {"compare": {"guidance": [law]}}
+    )
+    (actual,) = perilune.batch("lunar_landing", campaign, trials=trials, **choice).trials.values()
+    return actual
+
+
+def expected_cells(actual):
+    """What the columns of a row have, as sequences of numbers; none where no trial succeeded."""
+    success, metrics = actual.success, actual.metrics
+    rate, pinpoint = 100.0 * np.mean(success), 100.0 * np.mean(metrics["pinpoint"])
+    yield "success, pinpoint, %", [rate, pinpoint]
+    yield "pinpoint, %", [pinpoint]
+    for column, metric in MEANS.items():
+        yield column, [np.mean(metrics[metric][success])] if success.any() else []
+    for column, metric in LEAST.items():
+        if metric in metrics:
+            yield column, [np.min(metrics[metric])]
+    groups = [success & (np.arange(len(success)) % 3 == i) for i in range(3)]  # a grid varies from trial to trial
+    yield BY_DISTANCE, [np.mean(metrics["propellant"][group]) for group in groups if group.any()]
+
+
+@pytest.mark.usefixtures("fmus")
+@pytest.mark.parametrize(("words", "row"), ROWS)
+def test_a_row_is_what_its_command_gives(words, row):
+    expected = dict(expected_cells(fly(words, row["law"].strip("`"))))
+    for column, text in row.items():
+        if column == "law":
+            continue
+        numbers = text.split(", ") if text else []
+        assert len(numbers) == len(expected[column]), column
+        for number, value in zip(numbers, expected[column], strict=True):
+            decimals = len(number.partition(".")[2])
+            assert float(number) == pytest.approx(value, abs=0.501 * 10.0**-decimals), column
+
+
+def test_every_command_has_its_table():
+    assert len(BENCH.findall(PAGE)) == PAGE.count("--campaign laws_") == 6
