@@ -9,6 +9,7 @@ from ..mathlib.lunar.convex.problem import INTERVALS
 from ..mathlib.lunar.convex.tracking import mean_thrust, reference, tracking_thrust
 from ..mathlib.vectors import norm, vector
 from .informed_guidance import LIMIT_GLIDE_SLOPE, LIMIT_PLACE
+from .polynomial_guidance import GLIDE_TOLERANCE
 from .zem_zev import ZemZevGuidance
 
 LOWEST_BRAKING = 0.7  # of the first time, where that brakes at about constant thrust, ...
@@ -16,6 +17,8 @@ LOWEST_EFFORT = 0.4  # ... and where it is that of least effort: times from whic
 CLEARANCE = 5.0  # m of a start outside of the glide slope above the one that is lowered for it
 OFF_COURSE = 30.0  # m from the plan, at which another is made, ...
 PATIENCE = 5.0  # ... s after the last one at the earliest
+END_LOAD = 1.1  # thrust over the largest of a linear end for which the time is chosen anew
+LATE = 1.03  # of the time left, beyond which a plan uses more of the thrust
 
 
 class ConvexGuidance(ZemZevGuidance):
@@ -37,6 +40,7 @@ class ConvexGuidance(ZemZevGuidance):
     plan = State([0.0] * PLAN, frozen=True, description="thrust, and path with gravity and log mass at its nodes")
     plan_time = State(0.0, unit="s", frozen=True, description="duration of the plan")
     since_plan = State(0.0, unit="s", frozen=True, description="time since a plan was last tried")
+    planned_margin = State(1.0, unit="1", description="largest thrust of the next plan over maximum_thrust")
     handed_over = State(False, description="ZEM/ZEV commands")
 
     def forget(self) -> None:
@@ -56,7 +60,7 @@ class ConvexGuidance(ZemZevGuidance):
             target=self.target_position,
             arrival=self.target_velocity,
             mass=self.mass,
-            maximum=self.thrust_margin * self.maximum_thrust,
+            maximum=self.planned_margin * self.maximum_thrust,
             minimum=self.minimum_thrust,
             exhaust=self.exhaust_speed(),
             tilt=self.largest_tilt,
@@ -87,6 +91,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.limit = 0
         self.choices = self.choices + 1
         self.since_plan = 0.0
+        self.planned_margin = self.thrust_margin
         self.chosen = False
         if time > 0.0:
             plan = [0.0] * PLAN
@@ -119,16 +124,38 @@ class ConvexGuidance(ZemZevGuidance):
         return s
 
     def replan(self) -> None:
-        """Plan from here with about the time that is left; an old plan stays unless the target is met."""
+        """Plan from here with about the time that is left; an old plan stays unless the target is met.
+
+        A plan uses all the thrust that it may, so that a late correction of knowledge can make the next one far longer:
+        that is made with half of the reserve of thrust instead.
+        """
         plan = [0.0] * PLAN
-        s = plan_descent(self.task(), replan_bracket(self.expected_time), plan)
-        self.solver_iterations = s.iterations
+        bracket = replan_bracket(self.expected_time)
         self.choices = self.choices + 1
         self.since_plan = 0.0
         self.limit = LIMIT_PLACE
+        s = plan_descent(self.task(), bracket, plan)
+        iterations = s.iterations
         if is_met(s):
             self.limit = 0
             self.take(s, plan)
+        if not is_met(s) or s.time > LATE * bracket.time:
+            self.planned_margin = 0.5 * (self.planned_margin + 1.0)
+            s = plan_descent(self.task(), bracket, plan)
+            iterations = iterations + s.iterations
+            if is_met(s):
+                self.limit = 0
+                self.take(s, plan)
+        self.solver_iterations = iterations
+
+    def is_end_due(self) -> bool:
+        """True if ZEM/ZEV is to command: near the end where it leaves no limit by much, and for the last burn."""
+        if self.expected_time <= self.hold_time() + self.cycle:
+            return True
+        if self.expected_time > self.end_time:
+            return False
+        cost = self.cost_of(self.expected_time, self.flown_kr, 1.0)
+        return cost.depth <= GLIDE_TOLERANCE and cost.tilt_excess <= 0.0 and cost.load <= END_LOAD
 
     def hand_over(self) -> None:
         """Go over to ZEM/ZEV, with the time that is left unless its thrust does not suffice."""
@@ -156,7 +183,7 @@ class ConvexGuidance(ZemZevGuidance):
 
     def stay_on_course(self) -> None:
         """Plan again, or hand over, where it is due."""
-        if self.expected_time <= self.end_time:
+        if self.is_end_due():
             self.hand_over()
             return
         if self.started:

@@ -24,6 +24,7 @@ VELOCITY_TOLERANCE = 0.1  # m/s
 class TimeBracket(Record):
     """Times between which a search goes on."""
 
+    time = Field(unit="s", description="guess")
     low = Field(unit="s", description="too short")
     high = Field(unit="s", description="long enough")
     growths = Field(int, description="times that the upper one may grow")
@@ -42,12 +43,14 @@ def is_long_enough(s: PlanSummary) -> bool:
 
 def first_bracket(time: float, lowest: float) -> TimeBracket:
     """Return the bracket of a first plan, from a guess of the ``time`` (s) and the ``lowest`` fraction of it."""
-    return TimeBracket(low=lowest * time, high=FIRST_HIGH * time, growths=GROWTHS, bisections=BISECTIONS)
+    return TimeBracket(time=time, low=lowest * time, high=FIRST_HIGH * time, growths=GROWTHS, bisections=BISECTIONS)
 
 
 def replan_bracket(time: float) -> TimeBracket:
     """Return the bracket of a plan made anew with ``time`` (s) to go."""
-    return TimeBracket(low=REPLAN_LOW * time, high=REPLAN_HIGH * time, growths=0, bisections=REPLAN_BISECTIONS)
+    return TimeBracket(
+        time=time, low=REPLAN_LOW * time, high=REPLAN_HIGH * time, growths=0, bisections=REPLAN_BISECTIONS
+    )
 
 
 def plan_descent(task: DescentTask, bracket: TimeBracket, plan: list) -> PlanSummary:
