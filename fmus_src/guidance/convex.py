@@ -1,4 +1,4 @@
-"""Convex powered-descent guidance: a plan of least propellant by an interior-point method on board, and its tracking."""
+"""Convex powered-descent guidance: a plan of least propellant by an interior-point method, and its tracking."""
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports.landing import TerminalStatus
@@ -26,10 +26,10 @@ class ConvexGuidance(ZemZevGuidance):
 
     A plan has 24 intervals of constant thrust acceleration, whose time of flight is 1.02 times the best. It is made at
     the start and where the vehicle is 30 m off it; in between the vehicle is steered back to it. Below end_time to go
-    the thrust acceleration is linear in time (ZEM/ZEV). Status 1 where a plan leaves the glide slope from a start
-    outside of it, ends with a least miss because the target is out of reach (`limit`), where an old plan is kept because
-    none meets the target any more, and where ZEM/ZEV commands because there is no plan; 3 at the start where that
-    has no time either. With frozen_time_to_go the law is ZEM/ZEV throughout.
+    the thrust acceleration is linear in time (ZEM/ZEV). Status 1, with `limit`, where a plan from below the glide slope
+    leaves it (2), where the target is out of reach and the plan has the least miss, or an old plan is kept because no
+    new one meets the target (8), and where ZEM/ZEV commands for want of a plan and leaves a limit; 3 at the start where
+    that has no time either. With frozen_time_to_go the law is ZEM/ZEV throughout.
     Source: Acikmese and Ploen 2007; Blackmore, Acikmese and Scharf 2010; the solver is that of Vandenberghe 2010 with a
     Riccati recursion; time of flight and tracking are ours.
     Assumes constant gravity or gravity_correction.

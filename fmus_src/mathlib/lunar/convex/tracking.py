@@ -56,8 +56,8 @@ def mean_thrust(plan: list, step: float, elapsed: float, span: float) -> Vector3
 def tracking_thrust(feedforward: Vector3, position_error: Vector3, velocity_error: Vector3, largest: float) -> Vector3:
     """Return the thrust acceleration (m/s2) that follows a plan.
 
-    ``feedforward`` (m/s2) is the plan's, ``position_error`` (m) and ``velocity_error`` (m/s) are its position and velocity less the
-    present ones, and ``largest`` (m/s2) is the largest thrust over mass.
+    ``feedforward`` (m/s2) is the plan's, ``position_error`` (m) and ``velocity_error`` (m/s) are its position and
+    velocity less the present ones, and ``largest`` (m/s2) is the largest thrust over mass.
     """
     correction = FREQUENCY * FREQUENCY * position_error + 2.0 * DAMPING * FREQUENCY * velocity_error
     limit = CORRECTION * largest
