@@ -216,6 +216,8 @@ class ConvexGuidance(ZemZevGuidance):
         self.report()
         if time > 0.0:
             self.command_profile(time)
+        elif not self.started:
+            self.handed_over = False  # the next sample may have a plan
 
     def report(self) -> None:
         """Set the status from the limits that are left."""

@@ -1,4 +1,4 @@
-"""A powered descent of least propellant as one sparse cone problem with equalities, solved by Clarabel.
+"""A powered descent of least propellant as one cone problem with equalities, solved by Clarabel.
 
 Formulation and solver have nothing in common with the blocks: all states are unknowns, the end is met exactly, and what
 is eliminated on board is an equality here. Taken over: the intervals, and what a first problem is expanded about.
@@ -83,7 +83,7 @@ def solve(descent, time, near, log_near):
     gravity = descent.gravity(near)
     pull = gravity / acceleration
     total = 7 * (n + 1) + 4 * n
-    eye = sparse.eye_array(total, format="csr")
+    eye = np.eye(total)
     state = [eye[7 * k : 7 * k + 7] for k in range(n + 1)]
     control = [eye[7 * (n + 1) + 4 * k : 7 * (n + 1) + 4 * k + 4] for k in range(n)]  # u, s
     rows, right, kinds = [], [], []
@@ -103,7 +103,7 @@ def solve(descent, time, near, log_near):
         demand(way, h**2 * (pull[k] / 3.0 + pull[k + 1] / 6.0), clarabel.ZeroConeT(3))
         demand(there[3:6] - here[3:6] - h * u, 0.5 * h * (pull[k] + pull[k + 1]), clarabel.ZeroConeT(3))
         demand(there[6:] - here[6:] + h / exhaust * s, 0.0, clarabel.ZeroConeT(1))
-        demand(-sparse.vstack([s, u]), np.zeros(4), clarabel.SecondOrderConeT(4))
+        demand(-np.vstack([s, u]), np.zeros(4), clarabel.SecondOrderConeT(4))
         middle = 0.5 * (log_near[k] + log_near[k + 1])
         mean = 0.5 * (here[6:] + there[6:])
         most, least = np.exp(-middle), descent.minimum / descent.maximum * np.exp(-middle)
@@ -112,14 +112,14 @@ def solve(descent, time, near, log_near):
         if descent.tilt < np.pi:
             demand(np.cos(descent.tilt) * s - u[2:], 0.0, clarabel.NonnegativeConeT(1))
         if descent.slope > 0.0 and k > 0:
-            cone = sparse.vstack([here[2:3], np.tan(descent.slope) * here[:2]])
+            cone = np.vstack([here[2:3], np.tan(descent.slope) * here[:2]])
             demand(-cone, np.array([descent.depth / length, 0.0, 0.0]), clarabel.SecondOrderConeT(3))
     cost = np.zeros(total)
     cost[7 * (n + 1) + 3 :: 4] = h
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = 1e-10
-    matrix = sparse.csc_matrix(sparse.vstack(rows, format="csc"))
+    matrix = sparse.csc_matrix(np.vstack(rows))
     empty = sparse.csc_matrix((total, total))
     solution = clarabel.DefaultSolver(empty, cost, matrix, np.concatenate(right), kinds, settings).solve()
     if str(solution.status) not in ("Solved", "AlmostSolved"):

@@ -1,6 +1,16 @@
 """Truths of guidance, a module per family."""
 
-from tests.support.checks.guidance import analytic, astar, bank, hover, network, planar_network, rendezvous, slews
+from tests.support.checks.guidance import (
+    analytic,
+    astar,
+    bank,
+    convex,
+    hover,
+    network,
+    planar_network,
+    rendezvous,
+    slews,
+)
 
-MODULES = (analytic, astar, bank, hover, network, planar_network, rendezvous, slews)
+MODULES = (analytic, astar, bank, convex, hover, network, planar_network, rendezvous, slews)
 TRUTHS = {name: truth for module in MODULES for name, truth in module.TRUTHS.items()}
