@@ -7,11 +7,13 @@ from ..mathlib.lunar.convex.expansion import PLAN, DescentTask, PlanSummary
 from ..mathlib.lunar.convex.flight_time import TimeBracket, first_bracket, is_met, plan_descent, replan_bracket
 from ..mathlib.lunar.convex.problem import INTERVALS
 from ..mathlib.lunar.convex.tracking import mean_thrust, reference, tracking_thrust
-from ..mathlib.vectors import norm, vector
+from ..mathlib.vectors import all_below, norm, vector
 from .informed_guidance import LIMIT_GLIDE_SLOPE, LIMIT_PLACE
 from .polynomial_guidance import GLIDE_TOLERANCE
 from .zem_zev import ZemZevGuidance
 
+LARGEST = 1e9  # m, m/s, kg, that are planned with
+SMALLEST_MASS = 1e-3  # kg
 LOWEST_BRAKING = 0.7  # of the first time, where that brakes at about constant thrust, ...
 LOWEST_EFFORT = 0.4  # ... and where it is that of least effort: times from which a search begins
 CLEARANCE = 5.0  # m of a start outside of the glide slope above the one that is lowered for it
@@ -28,8 +30,9 @@ class ConvexGuidance(ZemZevGuidance):
     the start and where the vehicle is 30 m off it; in between the vehicle is steered back to it. Below end_time to go
     the thrust acceleration is linear in time (ZEM/ZEV). Status 1, with `limit`, where a plan from below the glide slope
     leaves it (2), where the target is out of reach and the plan has the least miss, or an old plan is kept because no
-    new one meets the target (8), and where ZEM/ZEV commands for want of a plan and leaves a limit; 3 at the start where
-    that has no time either. With frozen_time_to_go the law is ZEM/ZEV throughout.
+    new one meets the target (8), and where ZEM/ZEV commands for want of a plan and leaves a limit; 2 where position,
+    velocity or mass are none to plan with; 3 at the start where there is no time. With frozen_time_to_go the law is
+    ZEM/ZEV throughout.
     Source: Acikmese and Ploen 2007; Blackmore, Acikmese and Scharf 2010; the solver is that of Vandenberghe 2010 with a
     Riccati recursion; time of flight and tracking are ours.
     Assumes constant gravity or gravity_correction.
@@ -167,8 +170,16 @@ class ConvexGuidance(ZemZevGuidance):
                 self.expected_time = time
         self.check(self.expected_time)
 
+    def is_sound(self) -> bool:
+        """True if what is known of the vehicle can be planned with."""
+        known = all_below(self.position, LARGEST) and all_below(self.velocity, LARGEST)
+        return known and self.mass > SMALLEST_MASS and self.mass < LARGEST and self.maximum_thrust > 0.0
+
     def solve(self) -> None:
         self.measure_glide()
+        if not self.is_sound():
+            self.status = TerminalStatus.NOT_CONVERGED
+            return
         if self.plan_frozen():
             self.handed_over = True
         if not self.handed_over:

@@ -70,7 +70,7 @@ def test_a_settled_plan_is_that_of_another_solver(descent, time):
     assert rows(plan, POSITION, INTERVALS + 1) == pytest.approx(path.position, abs=1.0)
 
 
-def drawn(random, kind):
+def random_start(random, kind):
     """A start and a time: braking, or near the ground with glide slope and tilt."""
     if kind < 2:
         base, time = ((C1, 200.0), (C2, 300.0))[kind]
@@ -85,13 +85,13 @@ def drawn(random, kind):
     return replace(A1, position=position, velocity=velocity), random.uniform(40.0, 80.0)
 
 
-def test_drawn_starts_agree_with_another_solver():
+def test_random_starts_agree_with_another_solver():
     """To 1e-6 at the tolerance that is flown with; where Clarabel finds no path, the plan misses the target."""
     random = np.random.default_rng(SEED)
     count = either(300, 18)
     reached = 0
     for number in range(count):
-        descent, time = drawn(random, number % 3)
+        descent, time = random_start(random, number % 3)
         plan = [0.0] * PLAN
         seed_plan(task_of(descent), time, plan)
         expansion = rows(plan, POSITION, INTERVALS + 1), np.array(plan[LOG_MASS:])

@@ -81,7 +81,7 @@ def solve(descent, time, near, log_near):
     speed = length / second
     h, exhaust = time / n / second, descent.exhaust / speed
     gravity = descent.gravity(near)
-    pull = gravity / acceleration
+    field = gravity / acceleration
     total = 7 * (n + 1) + 4 * n
     eye = np.eye(total)
     state = [eye[7 * k : 7 * k + 7] for k in range(n + 1)]
@@ -100,15 +100,15 @@ def solve(descent, time, near, log_near):
     for k in range(n):
         here, there, u, s = state[k], state[k + 1], control[k][:3], control[k][3:]
         way = there[:3] - here[:3] - h * here[3:6] - 0.5 * h**2 * u
-        demand(way, h**2 * (pull[k] / 3.0 + pull[k + 1] / 6.0), clarabel.ZeroConeT(3))
-        demand(there[3:6] - here[3:6] - h * u, 0.5 * h * (pull[k] + pull[k + 1]), clarabel.ZeroConeT(3))
+        demand(way, h**2 * (field[k] / 3.0 + field[k + 1] / 6.0), clarabel.ZeroConeT(3))
+        demand(there[3:6] - here[3:6] - h * u, 0.5 * h * (field[k] + field[k + 1]), clarabel.ZeroConeT(3))
         demand(there[6:] - here[6:] + h / exhaust * s, 0.0, clarabel.ZeroConeT(1))
         demand(-np.vstack([s, u]), np.zeros(4), clarabel.SecondOrderConeT(4))
         middle = 0.5 * (log_near[k] + log_near[k + 1])
         mean = 0.5 * (here[6:] + there[6:])
-        most, least = np.exp(-middle), descent.minimum / descent.maximum * np.exp(-middle)
-        demand(s + most * mean, most * (1.0 + middle), clarabel.NonnegativeConeT(1))
-        demand(-s - least * mean, -least * (1.0 + middle), clarabel.NonnegativeConeT(1))
+        upper, lower = np.exp(-middle), descent.minimum / descent.maximum * np.exp(-middle)
+        demand(s + upper * mean, upper * (1.0 + middle), clarabel.NonnegativeConeT(1))
+        demand(-s - lower * mean, -lower * (1.0 + middle), clarabel.NonnegativeConeT(1))
         if descent.tilt < np.pi:
             demand(np.cos(descent.tilt) * s - u[2:], 0.0, clarabel.NonnegativeConeT(1))
         if descent.slope > 0.0 and k > 0:

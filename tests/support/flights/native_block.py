@@ -104,9 +104,9 @@ def fly(block, descent, factor=1.0, shifts=(), **parameters):
 
         def slope(moment, y, thrust=thrust, direction=direction, rate=rate, since=since):
             along = direction + rate * (moment - since)
-            pull = central(y[np.newaxis, :3])[0]
+            field = central(y[np.newaxis, :3])[0]
             return np.concatenate(
-                [y[3:6], thrust / y[6] * along / np.linalg.norm(along) + pull, [-thrust / EXHAUST_SPEED]]
+                [y[3:6], thrust / y[6] * along / np.linalg.norm(along) + field, [-thrust / EXHAUST_SPEED]]
             )
 
         k1 = slope(time, state)

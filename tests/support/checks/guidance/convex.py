@@ -94,10 +94,10 @@ def planned(position, velocity, memory):
     else:
         memory["elapsed"] += STEP
     path, elapsed = memory["path"], memory["elapsed"]
-    place, speed = state_at(path, elapsed)
+    at, speed = state_at(path, elapsed)
     thrust = mean_thrust(path, elapsed)
     largest = MAXIMUM / MASS
-    correction = FREQUENCY**2 * (place - position) + 2.0 * DAMPING * FREQUENCY * (speed - velocity)
+    correction = FREQUENCY**2 * (at - position) + 2.0 * DAMPING * FREQUENCY * (speed - velocity)
     size = np.linalg.norm(thrust)
     limit = min(CORRECTION * largest, COAST * size if size < WEAK * largest else np.inf)
     thrust = thrust + correction * min(1.0, limit / max(np.linalg.norm(correction), 1e-9))
@@ -111,9 +111,9 @@ def flight_along(position, velocity, seed, samples):
     random = np.random.default_rng(seed)
     rows = [(np.asarray(position), np.asarray(velocity))]
     for number in range(1, samples):
-        place, speed = state_at(path, number * STEP)
+        at, speed = state_at(path, number * STEP)
         off = 3.0 if number == samples // 2 else 1.0
-        rows.append((place + 4.0 * off * random.uniform(-1.0, 1.0, 3), speed + off * random.uniform(-1.0, 1.0, 3)))
+        rows.append((at + 4.0 * off * random.uniform(-1.0, 1.0, 3), speed + off * random.uniform(-1.0, 1.0, 3)))
     return rows
 
 
