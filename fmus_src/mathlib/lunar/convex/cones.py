@@ -27,7 +27,7 @@ SHIFT = 9 * ROWS  # of the multiplier's step, and what the gradient is formed of
 CORRECTION = 10 * ROWS
 SCALED_SLACK = 11 * ROWS
 SCALED_MULTIPLIER = 12 * ROWS
-FIELDS = 13 * ROWS
+FIELDS = 13 * ROWS + 4  # with as many as the largest cone has behind the last, for the proof of indices
 
 
 def lorentz(c: list, at: int, size: int) -> float:

@@ -23,7 +23,7 @@ from .cones import (
     scale_down,
     scale_up,
 )
-from .problem import CONES, POINT, ROWS, DescentProblem, cone_at, set_gradient, set_rows
+from .problem import CONES, LARGER, POINT, ROWS, DescentProblem, cone_row, cone_size, set_gradient, set_rows
 from .recursion import solve_direction
 
 
@@ -31,7 +31,8 @@ def gap_along(p: DescentProblem, c: list, step: float) -> float:
     """Return the complementarity gap after a ``step`` in slacks and multipliers."""
     total = 0.0
     for j in range(CONES):
-        row, size = cone_at(p, j)
+        row = cone_row(j) % ROWS
+        size = cone_size(p, j) % LARGER
         for i in range(size):
             slack = c[SLACK + row + i] + step * c[SLACK_STEP + row + i]
             total = total + slack * (c[MULTIPLIER + row + i] + step * c[MULTIPLIER_STEP + row + i])
@@ -43,7 +44,8 @@ def set_residual(p: DescentProblem, expansion: list, point: list, c: list) -> fl
     set_rows(p, expansion, point, 1.0, c, RESIDUAL)
     largest = 0.0
     for j in range(CONES):
-        row, size = cone_at(p, j)
+        row = cone_row(j) % ROWS
+        size = cone_size(p, j) % LARGER
         for i in range(size):
             c[RESIDUAL + row + i] = c[SLACK + row + i] - c[RESIDUAL + row + i]
             if abs(c[RESIDUAL + row + i]) > largest:
@@ -57,7 +59,8 @@ def set_direction(
     """Set the direction in point, slacks and multipliers for the corrections in ``c``, and both scaled ones."""
     keep = 1.0 - centring
     for j in range(CONES):
-        row, size = cone_at(p, j)
+        row = cone_row(j) % ROWS
+        size = cone_size(p, j) % LARGER
         if size > 0:
             divide_by_lambda(c, row, size)
             scale_down(c, row, size, CORRECTION, SHIFT)
@@ -68,7 +71,8 @@ def set_direction(
     solve_direction(p, c, gains, gradient, step)
     set_rows(p, expansion, step, 0.0, c, SLACK_STEP)
     for j in range(CONES):
-        row, size = cone_at(p, j)
+        row = cone_row(j) % ROWS
+        size = cone_size(p, j) % LARGER
         if size > 0:
             for i in range(size):
                 c[MULTIPLIER_STEP + row + i] = c[SHIFT + row + i] - keep * c[MULTIPLIER + row + i]
@@ -83,7 +87,8 @@ def largest_step(p: DescentProblem, c: list) -> float:
     """Return the largest step that leaves slacks and multipliers in their cones, infinite where any does."""
     inverse = 0.0
     for j in range(CONES):
-        row, size = cone_at(p, j)
+        row = cone_row(j) % ROWS
+        size = cone_size(p, j) % LARGER
         if size > 0:
             slack = inverse_step(c, row, size, SCALED_SLACK)
             multiplier = inverse_step(c, row, size, SCALED_MULTIPLIER)
@@ -99,7 +104,8 @@ def largest_step(p: DescentProblem, c: list) -> float:
 def set_correction(p: DescentProblem, c: list, centring: float, second_order: bool) -> None:
     """Set the right sides of the complementarity: none for the predictor, with ``second_order`` Mehrotra's."""
     for j in range(CONES):
-        row, size = cone_at(p, j)
+        row = cone_row(j) % ROWS
+        size = cone_size(p, j) % LARGER
         if size > 0:
             if second_order:
                 multiply_scaled(c, row, size, centring)
@@ -111,7 +117,8 @@ def set_correction(p: DescentProblem, c: list, centring: float, second_order: bo
 def scale_cones(p: DescentProblem, c: list) -> bool:
     """Set the scaling of all cones; False where one of them is not inside its cone."""
     for j in range(CONES):
-        row, size = cone_at(p, j)
+        row = cone_row(j) % ROWS
+        size = cone_size(p, j) % LARGER
         if size > 0:
             inside = scale_cone(c, row, size)
             if not inside:

@@ -44,6 +44,7 @@ END_POSITION = 240
 END_VELOCITY = 244
 ROWS = 248
 KINDS = 5  # of cones in an interval
+LARGER = 5  # than the rows of any cone
 CONES = 122
 
 # What a problem is expanded about: gravity at the nodes, and over the intervals log mass and thrust limits.
@@ -73,34 +74,37 @@ class DescentProblem(Record):
     time = Field(unit="s", description="unit of time")
 
 
-def cone_at(p: DescentProblem, j: int) -> tuple[int, int]:
-    """Return the first row and the number of rows of cone ``j``; 0 rows where the problem is without it."""
-    k = j // KINDS
+# Callers take the row modulo ROWS and the size modulo LARGER, by which every index is proven to be inside its list.
+def cone_row(j: int) -> int:
+    """Return the first row of cone ``j``."""
+    first = STAGE * (j // KINDS)
     kind = j % KINDS
-    first = STAGE * k
-    if k == INTERVALS:
-        return first + CONTROL * kind, CONTROL
+    if j // KINDS == INTERVALS:
+        return first + CONTROL * kind
     if kind == 0:
-        return first, CONTROL
-    if kind == 1:
-        return first + UPPER, 1
-    if kind == 2:
-        return first + LOWER, 1
-    if kind == 3:
-        if p.tilted:
-            return first + TILT, 1
-        return first + TILT, 0
-    if p.sloped and k > 0:
-        return first + GLIDE, 3
-    return first + GLIDE, 0
+        return first
+    return first + CONTROL - 1 + kind
+
+
+def cone_size(p: DescentProblem, j: int) -> int:
+    """Return the number of rows of cone ``j``; 0 where the problem is without it."""
+    kind = j % KINDS
+    if kind == 0 or j // KINDS == INTERVALS:
+        return CONTROL
+    if kind == 3 and not p.tilted:
+        return 0
+    if kind < 4:
+        return 1
+    if p.sloped and j >= KINDS:
+        return 3
+    return 0
 
 
 def count_cones(p: DescentProblem) -> float:
     """Return the number of cones, which is the degree of the complementarity."""
     count = 0
     for j in range(CONES):
-        _, size = cone_at(p, j)
-        if size > 0:
+        if cone_size(p, j) > 0:
             count = count + 1
     return float(count)
 

@@ -26,7 +26,7 @@ from .problem import (
     DescentProblem,
 )
 
-# What the recursion leaves of an interval: R as a Cholesky factor (4 x 4), and K = R^-1 (S + B'PA) (4 x 7).
+# Left of an interval: R as a Cholesky factor (4 x 4), its diagonal inverted, and K = R^-1 (S + B'PA) (4 x 7).
 FACTORS = 16 * INTERVALS
 GAINS = FACTORS + 28 * INTERVALS
 
@@ -78,7 +78,7 @@ def add_stage_hessian(p: DescentProblem, expansion: list, c: list, k: int, r: li
 
 
 def decompose(r: list, gains: list, at: int) -> bool:
-    """Set the Cholesky factor of R (4 x 4) in ``gains`` from ``at`` on; False where a pivot is not above 0."""
+    """Set the Cholesky factor of R (4 x 4) in ``gains``, its diagonal inverted; False where a pivot is not above 0."""
     for j in range(CONTROL):
         for i in range(j, CONTROL):
             entry = r[4 * i + j]
@@ -87,9 +87,9 @@ def decompose(r: list, gains: list, at: int) -> bool:
             if i == j:
                 if not (entry > 0.0 and math.isfinite(entry)):
                     return False
-                gains[at + 4 * i + j] = math.sqrt(entry)
+                gains[at + 4 * i + j] = 1.0 / math.sqrt(entry)
             else:
-                gains[at + 4 * i + j] = entry / gains[at + 4 * j + j]
+                gains[at + 4 * i + j] = entry * gains[at + 4 * j + j]
     return True
 
 
@@ -99,12 +99,12 @@ def substitute(gains: list, at: int, x: list, first: int, stride: int) -> None:
         entry = x[first + stride * i]
         for n in range(i):
             entry = entry - gains[at + 4 * i + n] * x[first + stride * n]
-        x[first + stride * i] = entry / gains[at + 5 * i]
+        x[first + stride * i] = entry * gains[at + 5 * i]
     for i in range(CONTROL - 1, -1, -1):
         entry = x[first + stride * i]
         for n in range(i + 1, CONTROL):
             entry = entry - gains[at + 4 * n + i] * x[first + stride * n]
-        x[first + stride * i] = entry / gains[at + 5 * i]
+        x[first + stride * i] = entry * gains[at + 5 * i]
 
 
 def factorise(p: DescentProblem, expansion: list, c: list, gains: list) -> bool:
