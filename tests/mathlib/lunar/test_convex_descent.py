@@ -23,7 +23,7 @@ from perilune.fmus_src.mathlib.lunar.convex.expansion import (
 )
 from perilune.fmus_src.mathlib.lunar.convex.flight_time import is_met
 from perilune.fmus_src.mathlib.vectors import vector
-from tests.support.flights.convex_descent import A1, C1, C2, INTERVALS, MU, RADIUS, settle, solve
+from tests.support.flights.convex_descent import A1, C1, C2, INTERVALS, MU, RADIUS, approach, settle, solve
 from tests.support.lengths import either
 
 FINE = 1e-8
@@ -77,12 +77,7 @@ def random_start(random, kind):
         position = base.position * random.uniform(0.97, 1.03) + np.array([0.0, random.uniform(-3e3, 3e3), 0.0])
         velocity = base.velocity * random.uniform(0.98, 1.02) + np.array([0.0, random.uniform(-20.0, 20.0), 0.0])
         return replace(base, position=position, velocity=velocity), time * random.uniform(0.97, 1.1)
-    azimuth, ground = random.uniform(-math.pi, math.pi), random.uniform(500.0, 2500.0)
-    heading = azimuth + math.pi + random.uniform(-0.35, 0.35)
-    speed = random.uniform(20.0, 80.0)
-    position = np.array([ground * math.cos(azimuth), ground * math.sin(azimuth), random.uniform(1500.0, 2500.0)])
-    velocity = np.array([speed * math.cos(heading), speed * math.sin(heading), -random.uniform(10.0, 50.0)])
-    return replace(A1, position=position, velocity=velocity), random.uniform(40.0, 80.0)
+    return approach(random), random.uniform(40.0, 80.0)
 
 
 def test_random_starts_agree_with_another_solver():

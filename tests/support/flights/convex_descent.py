@@ -156,3 +156,13 @@ A1 = Descent(
     slope=np.radians(15.0),
     tilt=np.radians(60.0),
 )
+
+
+def approach(random):
+    """A start drawn near the ground: 0.5 to 2.5 km away, 1.4 to 2.4 km above, towards the target and sinking."""
+    azimuth, ground = random.uniform(-np.pi, np.pi), random.uniform(500.0, 2500.0)
+    heading = azimuth + np.pi + random.uniform(-0.35, 0.35)
+    speed = random.uniform(20.0, 80.0)
+    position = np.array([ground * np.cos(azimuth), ground * np.sin(azimuth), random.uniform(1500.0, 2500.0)])
+    velocity = np.array([speed * np.cos(heading), speed * np.sin(heading), -random.uniform(10.0, 50.0)])
+    return replace(A1, position=position, velocity=velocity)

@@ -8,17 +8,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize_scalar
 
 from perilune.fmus_src.guidance.convex import PATIENCE, ConvexGuidance
 from perilune.fmus_src.guidance.zem_zev import ZemZevGuidance
+from perilune.fmus_src.paths import ROOT
 from perilune.fmus_src.runtime import Component
 from perilune.fmus_src.variables import Input, Parameter
-from tests.support.flights.convex_descent import A1, C1, C2, MAXIMUM, settle
+from tests.support.flights.convex_descent import A1, C1, C2, MAXIMUM, approach, settle
 from tests.support.flights.native_block import STEP, begin, fly
 from tests.support.kernels.comparison import bits
+from tests.support.lengths import either
 
 GOOD, CLAMPED, NOT_CONVERGED, NO_SOLUTION = range(4)
 THRUST, GLIDE_SLOPE, UNREACHED = 1, 2, 8
+ROWS = {"C1": "100 km", "C2": "267 km", "A1": "1.5 km"}
+PAGE = ROOT / "docs" / "theory" / "convex_guidance.md"
 SLACK, MARGIN = 1.02, 0.92  # of the time of flight, and of the thrust
 STARTS = {"C1": (C1, 180.96, 1.006), "C2": (C2, 275.05, 1.003), "A1": (A1, 40.90, 1.02)}  # best time with full thrust
 
@@ -37,10 +42,38 @@ def test_flights_end_at_the_target_with_little_more_than_the_bound(name):
     assert flight.miss < 0.05
     assert flight.speed < 0.05
     assert bound < flight.propellant < allowance * bound
+    row = next(line for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith(f"| {ROWS[name]} |"))
+    excess = 100.0 * (flight.propellant / bound - 1.0)
+    planned = flight.outputs["time_to_go"][0]
+    assert row == f"| {ROWS[name]} | {planned:.2f} | {flight.propellant:.2f} | {excess:.2f} |"
     assert set(flight.outputs["status"]) == {GOOD}
     assert flight.tilt < descent.tilt + 1e-3
     if descent.slope:
         assert flight.outputs["glide_margin"].min() > -1.0
+
+
+def test_approaches_keep_glide_slope_and_tilt_near_the_bound():
+    """Within 2 % of Clarabel's best time with the full thrust, of which 8 % are kept in reserve."""
+    random = np.random.default_rng(8)
+    excess = []
+    for number in range(either(60, 4)):
+        descent = approach(random)
+        flight = fly(ConvexGuidance, descent)
+        assert flight.miss < 0.05, number
+        assert flight.speed < 0.05
+        assert set(flight.outputs["status"]) == {GOOD}
+        assert flight.tilt < descent.tilt + 1e-2
+        assert flight.outputs["glide_margin"].min() > -1.0
+
+        def burnt(time, descent=descent):
+            path = settle(descent, time, 2)
+            return descent.mass if path is None else propellant(path, descent)
+
+        time = flight.rows[-1, 0]
+        bound = minimize_scalar(burnt, bounds=(0.85 * time, 1.02 * time), method="bounded", options={"xatol": 0.05}).fun
+        excess.append(flight.propellant / bound - 1.0)
+    assert min(excess) > 0.0
+    assert max(excess) < 0.02
 
 
 @pytest.mark.parametrize("name", STARTS)
