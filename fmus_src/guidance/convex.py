@@ -43,7 +43,9 @@ class ConvexGuidance(ZemZevGuidance):
     plan = State([0.0] * PLAN, frozen=True, description="thrust, and path with gravity and log mass at its nodes")
     plan_time = State(0.0, unit="s", frozen=True, description="duration of the plan")
     since_plan = State(0.0, unit="s", frozen=True, description="time since a plan was last tried")
-    planned_margin = State(1.0, unit="1", description="largest thrust of the next plan over maximum_thrust")
+    planned_margin = State(
+        1.0, unit="1", frozen=True, description="largest thrust of the next plan over maximum_thrust"
+    )
     handed_over = State(False, description="ZEM/ZEV commands")
 
     def forget(self) -> None:
@@ -182,11 +184,10 @@ class ConvexGuidance(ZemZevGuidance):
             return
         if self.plan_frozen():
             self.handed_over = True
-        if not self.handed_over:
-            if not self.chosen:
-                self.plan_first()
-            else:
-                self.stay_on_course()
+        elif not self.chosen:
+            self.plan_first()
+        elif not self.handed_over:
+            self.stay_on_course()
         if self.handed_over:
             self.end_linearly()
         else:
@@ -227,8 +228,6 @@ class ConvexGuidance(ZemZevGuidance):
         self.report()
         if time > 0.0:
             self.command_profile(time)
-        elif not self.started:
-            self.handed_over = False  # the next sample may have a plan
 
     def report(self) -> None:
         """Set the status from the limits that are left."""
