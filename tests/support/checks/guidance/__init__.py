@@ -4,6 +4,7 @@ from tests.support.checks.guidance import (
     analytic,
     astar,
     bank,
+    convex,
     descent_laws,
     hover,
     jerk_limited,
@@ -13,5 +14,17 @@ from tests.support.checks.guidance import (
     slews,
 )
 
-MODULES = (analytic, astar, bank, descent_laws, hover, jerk_limited, network, planar_network, rendezvous, slews)
+MODULES = (
+    analytic,
+    astar,
+    bank,
+    convex,
+    descent_laws,
+    hover,
+    jerk_limited,
+    network,
+    planar_network,
+    rendezvous,
+    slews,
+)
 TRUTHS = {name: truth for module in MODULES for name, truth in module.TRUTHS.items()}

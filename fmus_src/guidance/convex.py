@@ -1,0 +1,236 @@
+"""Convex powered-descent guidance: a plan of least propellant by an interior-point method, and its tracking."""
+
+from ..block import Output, Parameter, State
+from ..interfaces.ports.landing import TerminalStatus
+from ..kernel.records import replace
+from ..mathlib.lunar.convex.expansion import PLAN, DescentTask, PlanSummary
+from ..mathlib.lunar.convex.flight_time import TimeBracket, first_bracket, is_met, plan_descent, replan_bracket
+from ..mathlib.lunar.convex.problem import INTERVALS
+from ..mathlib.lunar.convex.tracking import mean_thrust, reference, tracking_thrust
+from ..mathlib.vectors import all_below, norm, vector
+from .informed_guidance import LIMIT_GLIDE_SLOPE, LIMIT_PLACE
+from .polynomial_guidance import GLIDE_TOLERANCE
+from .zem_zev import ZemZevGuidance
+
+LARGEST = 1e9  # m, m/s, kg, that are planned with
+SMALLEST_MASS = 1e-3  # kg
+LOWEST_BRAKING = 0.7  # of the first time, where that brakes at about constant thrust, ...
+LOWEST_EFFORT = 0.4  # ... and where it is that of least effort: times from which a search begins
+CLEARANCE = 5.0  # m of a start outside of the glide slope above the one that is lowered for it
+OFF_COURSE = 30.0  # m from the plan, at which another is made, ...
+PATIENCE = 5.0  # ... s after the last one at the earliest
+END_LOAD = 1.1  # thrust over the largest of a linear end for which the time is chosen anew
+LATE = 1.03  # of the time left, beyond which a plan uses more of the thrust
+
+
+class ConvexGuidance(ZemZevGuidance):
+    """Thrust of least propellant within thrust, glide slope and tilt, planned on events and tracked.
+
+    A plan has 24 intervals of constant thrust acceleration, whose time of flight is 1.02 times the best. It is made at
+    the start and where the vehicle is 30 m off it; in between the vehicle is steered back to it. Below end_time to go
+    the thrust acceleration is linear in time (ZEM/ZEV). Status 1, with `limit`, where a plan from below the glide slope
+    leaves it (2), where the target is out of reach and the plan has the least miss, or an old plan is kept because no
+    new one meets the target (8), and where ZEM/ZEV commands for want of a plan and leaves a limit; 2 where position,
+    velocity or mass are none to plan with; 3 at the start where there is no time. With frozen_time_to_go the law is
+    ZEM/ZEV throughout.
+    Source: Acikmese and Ploen 2007; Blackmore, Acikmese and Scharf 2010; the solver is that of Vandenberghe 2010 with a
+    Riccati recursion; time of flight and tracking are ours.
+    Assumes constant gravity or gravity_correction.
+    """
+
+    end_time = Parameter(8.0, unit="s", minimum=0.0, description="time to go from which ZEM/ZEV commands")
+    solver_iterations = Output(0, direct=True, description="iterations of the interior point for the last plan")
+    plan = State([0.0] * PLAN, frozen=True, description="thrust, and path with gravity and log mass at its nodes")
+    plan_time = State(0.0, unit="s", frozen=True, description="duration of the plan")
+    since_plan = State(0.0, unit="s", frozen=True, description="time since a plan was last tried")
+    planned_margin = State(
+        1.0, unit="1", frozen=True, description="largest thrust of the next plan over maximum_thrust"
+    )
+    handed_over = State(False, description="ZEM/ZEV commands")
+
+    def forget(self) -> None:
+        self.chosen = False
+        self.checked_time = 0.0
+        self.choices = 0
+        self.limit = 0
+        self.handed_over = False
+        self.plan_time = 0.0
+        self.since_plan = 0.0
+
+    def task(self) -> DescentTask:
+        """Return the descent from here with the limits that plans keep."""
+        return DescentTask(
+            position=self.position,
+            velocity=self.velocity,
+            target=self.target_position,
+            arrival=self.target_velocity,
+            mass=self.mass,
+            maximum=self.planned_margin * self.maximum_thrust,
+            minimum=self.minimum_thrust,
+            exhaust=self.exhaust_speed(),
+            tilt=self.largest_tilt,
+            slope=self.glide_slope,
+            depth=self.glide_offset,
+            central=self.gravity_correction,
+            gravity=self.gravity,
+            parameter=self.gravitational_parameter,
+            radius=self.moon_radius,
+        )
+
+    def take(self, s: PlanSummary, plan: list) -> None:
+        """Fly a plan from now on."""
+        for i in range(PLAN):
+            self.plan[i] = plan[i]
+        self.plan_time = s.time
+        self.predicted_propellant = s.propellant
+        self.predicted_miss = s.position_miss
+        self.expected_time = s.time
+
+    def plan_first(self) -> None:
+        """Plan from the guess of the time, and fly that; or hand over."""
+        time = self.braking_time()
+        lowest = LOWEST_BRAKING
+        if not time > 0.0:
+            time = self.effort_time(0.0)
+            lowest = LOWEST_EFFORT
+        self.limit = 0
+        self.choices = self.choices + 1
+        self.since_plan = 0.0
+        self.planned_margin = self.thrust_margin
+        self.chosen = False
+        if time > 0.0:
+            plan = [0.0] * PLAN
+            s = self.find_plan(first_bracket(time, lowest), plan)
+            self.chosen = s.solved
+            if s.solved:
+                self.take(s, plan)
+                if not is_met(s):
+                    self.limit = self.limit + LIMIT_PLACE
+        self.handed_over = not self.chosen
+
+    def find_plan(self, bracket: TimeBracket, plan: list) -> PlanSummary:
+        """Set a plan, where none is solved with the glide slope: with one that the start is above, then without."""
+        task = self.task()
+        first = bracket
+        outside = self.glide_slope > 0.0 and self.glide_margin < 0.0
+        if outside:
+            first = replace(bracket, growths=0)
+        s = plan_descent(task, first, plan)
+        iterations = s.iterations
+        if outside and not s.solved:
+            self.limit = LIMIT_GLIDE_SLOPE
+            s = plan_descent(replace(task, depth=task.depth + CLEARANCE - self.glide_margin), bracket, plan)
+            iterations = iterations + s.iterations
+        if self.glide_slope > 0.0 and not s.solved:
+            self.limit = LIMIT_GLIDE_SLOPE
+            s = plan_descent(replace(task, slope=0.0), bracket, plan)
+            iterations = iterations + s.iterations
+        self.solver_iterations = iterations
+        return s
+
+    def replan(self) -> None:
+        """Plan from here with about the time that is left; an old plan stays unless the target is met.
+
+        A plan uses all the thrust that it may, so that a late correction of knowledge can make the next one far longer:
+        that is made with half of the reserve of thrust instead.
+        """
+        plan = [0.0] * PLAN
+        bracket = replan_bracket(self.expected_time)
+        self.choices = self.choices + 1
+        self.since_plan = 0.0
+        self.limit = LIMIT_PLACE
+        s = plan_descent(self.task(), bracket, plan)
+        iterations = s.iterations
+        if is_met(s):
+            self.limit = 0
+            self.take(s, plan)
+        if not is_met(s) or s.time > LATE * bracket.time:
+            self.planned_margin = 0.5 * (self.planned_margin + 1.0)
+            s = plan_descent(self.task(), bracket, plan)
+            iterations = iterations + s.iterations
+            if is_met(s):
+                self.limit = 0
+                self.take(s, plan)
+        self.solver_iterations = iterations
+
+    def is_end_due(self) -> bool:
+        """True if ZEM/ZEV is to command: near the end where it leaves no limit by much, and for the last burn."""
+        if self.expected_time <= self.hold_time() + self.cycle:
+            return True
+        if self.expected_time > self.end_time:
+            return False
+        cost = self.cost_of(self.expected_time, self.flown_kr, 1.0)
+        return cost.depth <= GLIDE_TOLERANCE and cost.tilt_excess <= 0.0 and cost.load <= END_LOAD
+
+    def hand_over(self) -> None:
+        """Go over to ZEM/ZEV, with the time that is left unless its thrust does not suffice."""
+        self.handed_over = True
+        self.chosen = True
+        if self.cost_of(self.expected_time, self.flown_kr, 1.0).load > self.thrust_margin:
+            time = self.choose_time()
+            if time > 0.0:
+                self.expected_time = time
+        self.check(self.expected_time)
+
+    def is_sound(self) -> bool:
+        """True if what is known of the vehicle can be planned with."""
+        known = all_below(self.position, LARGEST) and all_below(self.velocity, LARGEST)
+        return known and self.mass > SMALLEST_MASS and self.mass < LARGEST and self.maximum_thrust > 0.0
+
+    def solve(self) -> None:
+        self.measure_glide()
+        if not self.is_sound():
+            self.status = TerminalStatus.NOT_CONVERGED
+            return
+        if self.plan_frozen():
+            self.handed_over = True
+        elif not self.chosen:
+            self.plan_first()
+        elif not self.handed_over:
+            self.stay_on_course()
+        if self.handed_over:
+            self.end_linearly()
+        else:
+            self.track()
+
+    def stay_on_course(self) -> None:
+        """Plan again, or hand over, where it is due."""
+        if self.is_end_due():
+            self.hand_over()
+            return
+        if self.started:
+            self.since_plan = self.since_plan + self.cycle
+        step = self.plan_time / float(INTERVALS)
+        position, _ = reference(self.plan, step, self.plan_time - self.expected_time)
+        if norm(position - self.position) > OFF_COURSE and self.since_plan >= PATIENCE:
+            self.replan()
+
+    def track(self) -> None:
+        """Command the plan's thrust with the correction back to it."""
+        self.time_to_go = self.expected_time
+        step = self.plan_time / float(INTERVALS)
+        elapsed = self.plan_time - self.expected_time
+        position, velocity = reference(self.plan, step, elapsed)
+        planned = mean_thrust(self.plan, step, elapsed, self.burn_span(self.time_to_go))
+        largest = self.maximum_thrust / self.mass
+        thrust = tracking_thrust(planned, position - self.position, velocity - self.velocity, largest)
+        size = norm(thrust)
+        self.command.thrust_acceleration = size
+        if size > 0.0:
+            self.command.thrust_direction = thrust / size
+        self.command.thrust_direction_rate = vector(0.0, 0.0, 0.0)
+        self.report()
+
+    def end_linearly(self) -> None:
+        """Command ZEM/ZEV."""
+        time = self.time_left()
+        self.time_to_go = time
+        self.report()
+        if time > 0.0:
+            self.command_profile(time)
+
+    def report(self) -> None:
+        """Set the status from the limits that are left."""
+        self.status = TerminalStatus.GOOD
+        if self.limit > 0:
+            self.status = TerminalStatus.CLAMPED

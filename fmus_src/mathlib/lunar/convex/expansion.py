@@ -1,0 +1,174 @@
+"""A descent in SI units as a convex problem expanded about a plan, and its solution as the next plan. Kernel functions.
+
+A plan is a flat list: thrust acceleration (m/s2) of the intervals; position (m), velocity (m/s), gravity (m/s2) and
+log mass over the mass at its start of the nodes, landing-site frame.
+"""
+
+import math
+
+from ....kernel.functions import cos, exp, expm1, log, tan
+from ....kernel.records import Field, Record
+from ...vectors import Vector3, clip, norm, vector
+from ..gravity import central_gravity
+from .iteration import TOLERANCE, solve_cones
+from .problem import (
+    CONTROL,
+    EXPANSION,
+    INTERVALS,
+    LOWER_LIMIT,
+    MIDDLE,
+    NODES,
+    POINT,
+    STATE,
+    STATES,
+    UPPER_LIMIT,
+    DescentProblem,
+)
+
+THRUST = 0
+POSITION = 72
+VELOCITY = 147
+GRAVITY = 222
+LOG_MASS = 297
+PLAN = 322
+
+LOWEST_LOG_MASS = -5.0  # that a problem is expanded about
+SEED_BURNT = 0.75  # of the mass, and of what the largest thrust burns
+
+
+class DescentTask(Record):
+    """Start, end and limits of a descent, landing-site frame."""
+
+    position = Field(Vector3, unit="m", description="now")
+    velocity = Field(Vector3, unit="m/s", description="now")
+    target = Field(Vector3, unit="m", description="position to arrive at")
+    arrival = Field(Vector3, unit="m/s", description="velocity to arrive with")
+    mass = Field(unit="kg", description="now")
+    maximum = Field(unit="N", description="largest thrust")
+    minimum = Field(unit="N", description="least thrust")
+    exhaust = Field(unit="m/s", description="exhaust speed")
+    tilt = Field(unit="rad", description="largest tilt of thrust from z; pi: off")
+    slope = Field(unit="rad", description="least elevation seen from the target; 0: off")
+    depth = Field(unit="m", description="of the glide cone's apex below the target")
+    central = Field(bool, description="gravity is that of a sphere")
+    gravity = Field(unit="m/s2", description="constant gravity")
+    parameter = Field(unit="m3/s2", description="gravitational parameter of the sphere")
+    radius = Field(unit="m", description="from the sphere's centre to the site")
+
+
+class PlanSummary(Record):
+    """What a solved plan takes and misses."""
+
+    time = Field(unit="s", description="of flight")
+    solved = Field(bool, description="the iterations converged; false: the plan is as before")
+    iterations = Field(int, description="of the interior point")
+    impulse = Field(unit="m/s", description="sum of h s")
+    slope = Field(unit="m/s2", description="derivative of the objective by the time of flight")
+    propellant = Field(unit="kg", description="propellant")
+    position_miss = Field(unit="m", description="distance from the target at the end")
+    velocity_miss = Field(unit="m/s", description="difference from the velocity to arrive with")
+
+
+def gravity_of(task: DescentTask, position: Vector3) -> Vector3:
+    """Return gravity (m/s2) at a position (m)."""
+    if task.central:
+        return central_gravity(position, task.radius, task.parameter)
+    return vector(0.0, 0.0, -task.gravity)
+
+
+def vector_of(plan: list, at: int) -> Vector3:
+    """Return three numbers of a plan."""
+    return vector(plan[at], plan[at + 1], plan[at + 2])
+
+
+def store(plan: list, at: int, v: Vector3) -> None:
+    """Set three numbers of a plan."""
+    plan[at] = v.x
+    plan[at + 1] = v.y
+    plan[at + 2] = v.z
+
+
+def seed_plan(task: DescentTask, time: float, plan: list) -> None:
+    """Set what a first problem is expanded about: positions on a straight line, and a mass that falls evenly."""
+    burnt = clip(SEED_BURNT * task.maximum / task.mass * time / task.exhaust, 0.0, SEED_BURNT)
+    for k in range(NODES):
+        fraction = float(k) / float(INTERVALS)
+        store(plan, POSITION + 3 * k, task.position + fraction * (task.target - task.position))
+        plan[LOG_MASS + k] = log(1.0 - fraction * burnt)
+
+
+def expand(task: DescentTask, time: float, plan: list, expansion: list) -> DescentProblem:
+    """Return the scaled problem of a ``time`` (s) expanded about a plan, and set its data."""
+    acceleration = task.maximum / task.mass
+    length = norm(task.position - task.target)
+    if not length > 1.0:
+        length = 1.0
+    unit = math.sqrt(length / acceleration)
+    speed = acceleration * unit
+    for k in range(NODES):
+        store(expansion, 3 * k, gravity_of(task, vector_of(plan, POSITION + 3 * k)) / acceleration)
+    for k in range(INTERVALS):
+        middle = clip(0.5 * (plan[LOG_MASS + k] + plan[LOG_MASS + k + 1]), LOWEST_LOG_MASS, 0.0)
+        expansion[MIDDLE + k] = middle
+        expansion[UPPER_LIMIT + k] = exp(-middle)
+        expansion[LOWER_LIMIT + k] = task.minimum / task.maximum * exp(-middle)
+    return DescentProblem(
+        step=time / unit / float(INTERVALS),
+        exhaust=task.exhaust / speed,
+        position=(task.position - task.target) / length,
+        velocity=task.velocity / speed,
+        arrival=task.arrival / speed,
+        tilted=task.tilt < math.pi,
+        upright=cos(task.tilt),
+        sloped=task.slope > 0.0,
+        slope=tan(task.slope),
+        depth=task.depth / length,
+        length=length,
+        acceleration=acceleration,
+        time=unit,
+    )
+
+
+def take_point(task: DescentTask, p: DescentProblem, expansion: list, point: list, time: float, plan: list) -> None:
+    """Set a plan of a ``time`` (s) from the point of a solution."""
+    h = time / float(INTERVALS)
+    r = task.position
+    v = task.velocity
+    for k in range(NODES):
+        store(plan, POSITION + 3 * k, r)
+        store(plan, VELOCITY + 3 * k, v)
+        here = p.acceleration * vector_of(expansion, 3 * k)
+        store(plan, GRAVITY + 3 * k, here)
+        plan[LOG_MASS + k] = point[STATES + STATE * k + 6]
+        if k < INTERVALS:
+            there = p.acceleration * vector_of(expansion, 3 * k + 3)
+            u = p.acceleration * vector_of(point, CONTROL * k + 1)
+            store(plan, THRUST + 3 * k, u)
+            r = r + h * v + 0.5 * h * h * u + h * h * (here / 3.0 + there / 6.0)
+            v = v + h * u + 0.5 * h * (here + there)
+
+
+def improve_plan(task: DescentTask, time: float, plan: list) -> PlanSummary:
+    """Solve the problem of a ``time`` (s) expanded about a plan, and set the plan to its solution."""
+    return improve_plan_to(task, time, TOLERANCE, plan)
+
+
+def improve_plan_to(task: DescentTask, time: float, tolerance: float, plan: list) -> PlanSummary:
+    """Solve as `improve_plan`, to another ``tolerance`` of gap and residuals."""
+    expansion = [0.0] * EXPANSION
+    point = [0.0] * POINT
+    p = expand(task, time, plan, expansion)
+    solution = solve_cones(p, expansion, tolerance, point)
+    if solution.solved:
+        take_point(task, p, expansion, point, time, plan)
+    last = 3 * INTERVALS
+    return PlanSummary(
+        time=time,
+        solved=solution.solved,
+        iterations=solution.iterations,
+        impulse=solution.impulse * p.acceleration * p.time,
+        slope=solution.slope * p.acceleration,
+        propellant=-task.mass * expm1(plan[LOG_MASS + INTERVALS]),
+        position_miss=norm(vector_of(plan, POSITION + last) - task.target),
+        velocity_miss=norm(vector_of(plan, VELOCITY + last) - task.arrival),
+    )

@@ -1,0 +1,87 @@
+"""The time of flight of least propellant, by bisection on plans. Kernel functions.
+
+Propellant over time falls steeply where the thrust does not suffice, and then rises gently: the time looked for is the
+shortest at which a plan is solved, meets its place and has propellant rise with time. Plans are expanded about the
+last one that was solved.
+"""
+
+from ....kernel.records import Field, Record, replace
+from .expansion import DescentTask, PlanSummary, improve_plan, seed_plan
+
+FIRST_HIGH = 1.2  # of the first time
+GROWTH = 1.3
+GROWTHS = 5
+BISECTIONS = 9
+SETTLINGS = 2  # solutions of the upper time, before ...
+TIME_SLACK = 1.02  # ... of it is planned, for 0.1 % of propellant
+REPLAN_LOW = 0.8  # of the time that is left, when a plan is made anew
+REPLAN_HIGH = 1.5
+REPLAN_BISECTIONS = 8
+POSITION_TOLERANCE = 1.0  # m
+VELOCITY_TOLERANCE = 0.1  # m/s
+
+
+class TimeBracket(Record):
+    """Times between which a search goes on."""
+
+    time = Field(unit="s", description="guess")
+    low = Field(unit="s", description="too short")
+    high = Field(unit="s", description="long enough")
+    growths = Field(int, description="times that the upper one may grow")
+    bisections = Field(int, description="bisections")
+
+
+def is_met(s: PlanSummary) -> bool:
+    """True if a plan ends at its target."""
+    return s.solved and s.position_miss < POSITION_TOLERANCE and s.velocity_miss < VELOCITY_TOLERANCE
+
+
+def is_long_enough(s: PlanSummary) -> bool:
+    """True if a plan ends at its target and would take more with more time."""
+    return is_met(s) and s.slope > 0.0
+
+
+def first_bracket(time: float, lowest: float) -> TimeBracket:
+    """Return the bracket of a first plan, from a guess of the ``time`` (s) and the ``lowest`` fraction of it."""
+    return TimeBracket(time=time, low=lowest * time, high=FIRST_HIGH * time, growths=GROWTHS, bisections=BISECTIONS)
+
+
+def replan_bracket(time: float) -> TimeBracket:
+    """Return the bracket of a plan made anew with ``time`` (s) to go."""
+    return TimeBracket(
+        time=time, low=REPLAN_LOW * time, high=REPLAN_HIGH * time, growths=0, bisections=REPLAN_BISECTIONS
+    )
+
+
+def plan_descent(task: DescentTask, bracket: TimeBracket, plan: list) -> PlanSummary:
+    """Set a plan of the best time in a bracket, whose upper time may grow; ``iterations`` of the summary are of all.
+
+    Where no time is long enough, the summary is that of the last: not solved, or solved with its least miss.
+    """
+    low = bracket.low
+    high = bracket.high
+    seed_plan(task, high, plan)
+    s = improve_plan(task, high, plan)
+    iterations = s.iterations
+    for _ in range(bracket.growths):
+        if not is_long_enough(s):
+            low = high
+            high = GROWTH * high
+            seed_plan(task, high, plan)
+            s = improve_plan(task, high, plan)
+            iterations = iterations + s.iterations
+    if is_long_enough(s):
+        for _ in range(bracket.bisections):
+            middle = 0.5 * (low + high)
+            s = improve_plan(task, middle, plan)
+            iterations = iterations + s.iterations
+            if is_long_enough(s):
+                high = middle
+            else:
+                low = middle
+        for _ in range(SETTLINGS):
+            s = improve_plan(task, high, plan)
+            iterations = iterations + s.iterations
+        s = improve_plan(task, TIME_SLACK * high, plan)
+        iterations = iterations + s.iterations
+    return replace(s, iterations=iterations)

@@ -1,0 +1,67 @@
+"""Flight along a plan of a descent: the reference, and what corrects deviations from it. Kernel functions."""
+
+from ...vectors import Vector3, clip, limit_length, norm, vector
+from .expansion import GRAVITY, POSITION, THRUST, VELOCITY, vector_of
+from .problem import INTERVALS
+
+FREQUENCY = 0.15  # rad/s, of the error's oscillator ...
+DAMPING = 0.9  # ... and its damping ratio
+CORRECTION = 0.12  # of the largest thrust
+WEAK = 0.3  # of the largest thrust: where a plan thrusts less, as in coasts, ...
+COAST_CORRECTION = 0.7  # ... corrections are limited to so much of it, and the axis is not turned over
+
+
+def interval_at(step: float, elapsed: float) -> int:
+    """Return the interval of ``step`` (s) in which a plan is after ``elapsed`` (s)."""
+    k = 0
+    for i in range(1, INTERVALS):
+        if elapsed >= float(i) * step:
+            k = i
+    return k
+
+
+def reference(plan: list, step: float, elapsed: float) -> tuple[Vector3, Vector3]:
+    """Return position (m) and velocity (m/s) of a plan with intervals of ``step`` (s) after ``elapsed`` (s)."""
+    k = interval_at(step, elapsed)
+    time = elapsed - float(k) * step
+    u = vector_of(plan, THRUST + 3 * k)
+    here = vector_of(plan, GRAVITY + 3 * k)
+    change = vector_of(plan, GRAVITY + 3 * k + 3) - here
+    r = vector_of(plan, POSITION + 3 * k)
+    v = vector_of(plan, VELOCITY + 3 * k)
+    square = time * time
+    position = r + time * v + 0.5 * square * (u + here) + square * time / (6.0 * step) * change
+    return position, v + time * (u + here) + square / (2.0 * step) * change
+
+
+def mean_thrust(plan: list, step: float, elapsed: float, span: float) -> Vector3:
+    """Return the mean thrust acceleration (m/s2) of a plan over a ``span`` (s) from ``elapsed`` (s) on.
+
+    Before its start and after its end a plan goes on with its first and its last thrust.
+    """
+    k = interval_at(step, elapsed)
+    end = elapsed + span
+    if k == INTERVALS - 1 or not end > float(k + 1) * step:
+        return vector_of(plan, THRUST + 3 * k)
+    total = vector(0.0, 0.0, 0.0)
+    for i in range(INTERVALS):
+        begin = clip(float(i) * step, elapsed, end)
+        close = clip(float(i + 1) * step, elapsed, end)
+        if i == INTERVALS - 1:
+            close = end
+        total = total + (close - begin) * vector_of(plan, THRUST + 3 * i)
+    return total / span
+
+
+def tracking_thrust(feedforward: Vector3, position_error: Vector3, velocity_error: Vector3, largest: float) -> Vector3:
+    """Return the thrust acceleration (m/s2) that follows a plan.
+
+    ``feedforward`` (m/s2) is the plan's, ``position_error`` (m) and ``velocity_error`` (m/s) are its position and
+    velocity less the present ones, and ``largest`` (m/s2) is the largest thrust over mass.
+    """
+    correction = FREQUENCY * FREQUENCY * position_error + 2.0 * DAMPING * FREQUENCY * velocity_error
+    limit = CORRECTION * largest
+    size = norm(feedforward)
+    if size < WEAK * largest and COAST_CORRECTION * size < limit:
+        limit = COAST_CORRECTION * size
+    return feedforward + limit_length(correction, limit)
