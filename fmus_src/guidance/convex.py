@@ -62,7 +62,7 @@ class ConvexGuidance(ZemZevGuidance):
         return DescentTask(
             position=self.position,
             velocity=self.velocity,
-            target=self.target_position,
+            target=self.aim_position,
             arrival=self.target_velocity,
             mass=self.mass,
             maximum=self.planned_margin * self.maximum_thrust,

@@ -11,7 +11,7 @@ import pytest
 from scipy import stats
 
 import perilune
-from docs.figures.terminal_comparison import largest_difference, simulate_methods
+from docs.figures.papers.fomichev_li import largest_difference, simulate_methods
 from perilune.fmus_src.paths import ROOT
 from tests.papers.test_fomichev_li import SYSTEM, TABLE
 from tests.support.lengths import LONG, either

@@ -1,4 +1,4 @@
-"""Draws velocity error over position error of three methods: `python -m docs.figures.terminal_comparison`.
+"""Draws velocity error over position error of three methods: `python -m docs.figures.papers.fomichev_li`.
 
 Figure 5 of Fomichev and Li 2017, from the middle of the box of initial states, and the differences that its claim is
 about: relative difference of the velocity errors of two methods at the same position error, the largest over ranges of
@@ -18,7 +18,7 @@ from perilune.analysis.reports.common.style import house_style, look, new_figure
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.verbs.run import simulate
 
-from .pictures import IMAGES, write_picture
+from ..pictures import IMAGES, write_picture
 
 SYSTEM = "lunar_terminal_guidance"
 METHODS = {
