@@ -31,8 +31,7 @@ class SteeringState(Record):
     direction = Field(Vector3, unit="1", description="lambda, of the thrust at the time K")
     turning = Field(Vector3, unit="1/s", description="its derivative lambda'")
     centre = Field(unit="s", description="K")
-    change = Field(unit="1", description="last change of the time over the time")
-    exists = Field(bool, description="false: the iteration has no solution")
+    change = Field(unit="1", description="last change of the time over the time; below 0: there is no solution")
 
 
 class SteeringProblem(Record):
@@ -106,10 +105,14 @@ def iterate_steering(s: SteeringState, p: SteeringProblem) -> SteeringState:
         turning=(offset - dot(offset, direction) * direction) / spread,
         centre=i.K,
         change=abs(time - s.time) / time,
-        exists=True,
     )
 
 
 def missing(s: SteeringState) -> SteeringState:
     """Return a state without a solution."""
-    return replace(s, change=1.0, exists=False)
+    return replace(s, change=-1.0)
+
+
+def has_solution(s: SteeringState) -> bool:
+    """True if the last iteration had a solution."""
+    return s.change >= 0.0
