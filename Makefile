@@ -73,7 +73,7 @@ checks: .venv/ready
 	$(BIN)/python -m tests.support.checks
 
 # The pictures of docs/images, each below 100 kB; those of modal synthesis take two minutes.
-FIGURES := concept system_figures readme_figure rendezvous_figures modal_comparison papers.fomichev_li papers.huang descent_laws
+FIGURES := concept system_figures readme_figure rendezvous_figures modal_comparison papers.fomichev_li papers.huang laws.descent
 
 figures: build
 	for name in $(FIGURES); do $(BIN)/python -m docs.figures.$$name || exit 1; done

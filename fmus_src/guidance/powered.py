@@ -4,7 +4,13 @@ from ..block import Parameter, State
 from ..interfaces.ports.landing import TerminalStatus
 from ..kernel.records import replace
 from ..mathlib.lunar.gravity import central_gravity
-from ..mathlib.lunar.powered_explicit import SETTLED, SteeringProblem, SteeringState, iterate_steering
+from ..mathlib.lunar.powered_explicit import (
+    SETTLED,
+    SteeringProblem,
+    SteeringState,
+    has_solution,
+    iterate_steering,
+)
 from ..mathlib.vectors import across, clip, norm, vector
 from .informed_guidance import LIMIT_THRUST
 from .zem_zev import ZemZevGuidance
@@ -58,9 +64,9 @@ class PoweredGuidance(ZemZevGuidance):
 
     def iterate(self, time: float, count: int) -> None:
         """Iterate ``count`` times at most from a time to go (s)."""
-        self.steering = replace(self.steering, time=time, change=1.0, exists=True)
+        self.steering = replace(self.steering, time=time, change=1.0)
         for _ in range(count):
-            if self.steering.exists and self.steering.change > SETTLED:
+            if self.steering.change > SETTLED:
                 self.steering = iterate_steering(self.steering, self.problem(self.steering.time))
 
     def begin_steering(self) -> None:
@@ -72,7 +78,6 @@ class PoweredGuidance(ZemZevGuidance):
             turning=vector(0.0, 0.0, 0.0),
             centre=0.0,
             change=1.0,
-            exists=True,
         )
         self.iterate(self.first_time(), FIRST_ITERATIONS)
         self.choices = self.choices + 1
@@ -93,14 +98,14 @@ class PoweredGuidance(ZemZevGuidance):
         if not self.started:
             if not self.chosen:
                 self.begin_steering()
-                self.chosen = self.steering.exists and self.steering.change <= SETTLED
+                self.chosen = has_solution(self.steering) and self.steering.change <= SETTLED
             if not self.chosen:
                 self.status = TerminalStatus.NO_SOLUTION
                 self.time_to_go = 0.0
                 return
         else:
             self.iterate(self.expected_time, ITERATIONS)
-        if not self.steering.exists:
+        if not has_solution(self.steering):
             self.status = TerminalStatus.NOT_CONVERGED
             return
         self.time_to_go = self.steering.time

@@ -22,7 +22,7 @@ MEANS = {  # of the successful
     "position, m": "aim_error",
     "peak demand, N": "largest_demand",
 }
-SMALLEST = {  # of all
+MINIMUM = {  # of all
     "least margin to the cone, m": "glide_margin",
     "least cosine of tilt": "least_upright",
     "lowest altitude over the target, m": "lowest_height",
@@ -60,7 +60,7 @@ def expected_cells(actual):
     yield "pinpoint, %", [pinpoint]
     for column, metric in MEANS.items():
         yield column, [np.mean(metrics[metric][success])] if success.any() else []
-    for column, metric in SMALLEST.items():
+    for column, metric in MINIMUM.items():
         if metric in metrics:
             yield column, [np.min(metrics[metric])]
     groups = [success & (np.arange(len(success)) % 3 == i) for i in range(3)]  # a grid varies from trial to trial

@@ -12,7 +12,7 @@ from tests.support.lengths import either
 
 SYSTEM = "lunar_landing"
 BRAKING = ["zem_zev_guidance", "fractional_guidance", "apollo_guidance", "powered_guidance"]
-SMALLEST = {"laws_terminal": 253.0, "laws_braking": 398.0}  # kg; no point mass takes less from any start of the box
+MINIMUM = {"laws_terminal": 253.0, "laws_braking": 398.0}  # kg; no point mass takes less from any start of the box
 pytestmark = pytest.mark.usefixtures("fmus")
 
 
@@ -20,12 +20,12 @@ def fly(campaign, laws, trials):
     return perilune.batch(SYSTEM, campaign, compare={"guidance": laws}, trials=trials).trials
 
 
-@pytest.mark.parametrize("campaign", SMALLEST)
+@pytest.mark.parametrize("campaign", MINIMUM)
 def test_laws_of_a_braking_hit_the_point(campaign):
     for law, actual in fly(campaign, BRAKING, either(60, 4)).items():
         assert actual.success.all(), law
         assert np.mean(actual.metrics["pinpoint"]) > 0.97, law
-        assert np.min(actual.metrics["propellant"]) > SMALLEST[campaign], law
+        assert np.min(actual.metrics["propellant"]) > MINIMUM[campaign], law
         assert np.max(actual.metrics["largest_demand"]) < 5400.0, law
 
 

@@ -18,8 +18,8 @@ MOST_BURNT = 0.999  # of tau, that a time to go may be
 SETTLED = 1e-6  # of the time to go
 SHORTEST = 1e-3  # s, that a time to go may be
 LARGEST_IMPULSE = 20.0  # exhaust speeds
-LEAST_SPREAD = 1e-9  # of S T, that Q - S K may be
-LEAST_OF_MINIMUM = 0.5  # of the least thrust, and ...
+SMALLEST_SPREAD = 1e-9  # of S T, that Q - S K may be
+LOWEST_OF_MINIMUM = 0.5  # of the least thrust, and ...
 MOST_OF_MAXIMUM = 1.3  # ... of the largest, which an iteration may try
 
 
@@ -31,8 +31,7 @@ class SteeringState(Record):
     direction = Field(Vector3, unit="1", description="lambda, of the thrust at the time K")
     turning = Field(Vector3, unit="1/s", description="its derivative lambda'")
     centre = Field(unit="s", description="K")
-    change = Field(unit="1", description="last change of the time over the time")
-    exists = Field(bool, description="false: the iteration has no solution")
+    change = Field(unit="1", description="last change of the time over the time; below 0: there is no solution")
 
 
 class SteeringProblem(Record):
@@ -89,14 +88,14 @@ def iterate_steering(s: SteeringState, p: SteeringProblem) -> SteeringState:
     divisor = p.exhaust * (burnt - x * exp(-x)) + dot(p.velocity, direction) * burnt
     thrust = s.thrust
     if divisor * along > 0.0:
-        thrust = clip(p.exhaust * p.mass * divisor / along, LEAST_OF_MINIMUM * p.minimum, MOST_OF_MAXIMUM * p.maximum)
+        thrust = clip(p.exhaust * p.mass * divisor / along, LOWEST_OF_MINIMUM * p.minimum, MOST_OF_MAXIMUM * p.maximum)
     tau = p.exhaust * p.mass / thrust
     time = tau * burnt
     if not time > SHORTEST:
         return missing(s)
     i = thrust_integrals(p.exhaust * x, tau, time, p.exhaust)
     spread = i.Q - i.S * i.K
-    if abs(spread) < LEAST_SPREAD * abs(i.S * time):
+    if abs(spread) < SMALLEST_SPREAD * abs(i.S * time):
         return missing(s)
     offset = p.way - time * p.velocity
     return SteeringState(
@@ -106,10 +105,14 @@ def iterate_steering(s: SteeringState, p: SteeringProblem) -> SteeringState:
         turning=(offset - dot(offset, direction) * direction) / spread,
         centre=i.K,
         change=abs(time - s.time) / time,
-        exists=True,
     )
 
 
 def missing(s: SteeringState) -> SteeringState:
     """Return a state without a solution."""
-    return replace(s, change=1.0, exists=False)
+    return replace(s, change=-1.0)
+
+
+def has_solution(s: SteeringState) -> bool:
+    """True if the last iteration had a solution."""
+    return s.change >= 0.0

@@ -44,7 +44,7 @@ CONSTRAINED = {"glide_slope": GLIDE, "largest_tilt": TILT}
         (A1, 45.02479230484734, 125.30875845488315),
     ],
 )
-def test_the_time_of_least_propellant(leg, time, impulse):
+def test_the_time_of_minimum_propellant(leg, time, impulse):
     """As printed, and close to what scipy finds: the largest thrust bounds it, or the impulse is flat there."""
     guidance = start(ZemZevGuidance, leg)
     assert guidance.time_to_go == pytest.approx(time, abs=1e-3)
@@ -68,7 +68,7 @@ def test_the_time_of_least_propellant(leg, time, impulse):
         (A1, 1.0, 59.69401286779201),
     ],
 )
-def test_the_time_of_least_effort(leg, weight, time):
+def test_the_time_of_minimum_effort(leg, weight, time):
     """As printed; and the integral of |a|^2/2 + weight over profiles by numpy is least there, to its curvature."""
     guidance = start(ZemZevGuidance, leg, time_choice=TimeChoice.EFFORT, time_weight=weight)
     assert guidance.time_to_go == pytest.approx(time, abs=1e-6)
@@ -87,7 +87,7 @@ def test_the_time_of_least_effort(leg, weight, time):
         assert best.x == pytest.approx(time, rel=2e-3)
 
 
-def test_hovering_above_the_target_takes_the_time_of_least_effort():
+def test_hovering_above_the_target_takes_the_time_of_minimum_effort():
     height = 500.0
     hover = Leg(np.array([0.0, 0.0, 2000.0]), np.zeros(3), np.array([0.0, 0.0, 1500.0]))
     guidance = start(ZemZevGuidance, hover, time_choice=TimeChoice.EFFORT, gravity_correction=False)

@@ -1,4 +1,4 @@
-"""Draws altitude over distance and thrust over time of the descent laws: `python -m docs.figures.descent_laws`.
+"""Draws altitude over distance and thrust over time of the descent laws: `python -m docs.figures.laws.descent`.
 
 The main braking of `lunar_landing` from the middle of its box, without errors of sensors.
 """
@@ -16,7 +16,7 @@ from perilune.analysis.reports.common.style import house_style, look, new_figure
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.verbs.run import simulate
 
-from .pictures import IMAGES, write_picture
+from ..pictures import IMAGES, write_picture
 
 SYSTEM = "lunar_landing"
 LAWS = {

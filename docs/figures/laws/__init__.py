@@ -1,0 +1,1 @@
+"""Figures of guidance laws on the same flight."""
