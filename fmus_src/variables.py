@@ -102,6 +102,10 @@ class Variable:
         kinds = {type(value) for value in self.elements}
         if len(kinds) != 1 or not kinds <= set(TYPE_NAMES):
             raise DeclarationError(f"{where}: start must be one float, int or bool, or a list of one of these")
+        whole = next((name for name, field in self.numbers_of_record() if field.kind in (int, bool)), None)
+        if whole is not None:
+            problem = f"the field {whole} of its record is no float, as all numbers of a record's variable are"
+            raise DeclarationError(f"{where}: {problem}; declare that value as a variable of its own")
         if self.columns is not None and (not self.is_array or self.columns < 1 or self.size % self.columns):
             raise DeclarationError(f"{where}: {self.size} elements do not make rows of {self.columns}")
         for unit in filter(None, self.units()):
@@ -118,6 +122,10 @@ class Variable:
             if self.maximum is not None and value > self.maximum:
                 problem = f"starts at {value}, above its maximum {self.maximum}"
                 raise DeclarationError(f"{where}: {problem}; give a smaller start, or a larger maximum")
+
+    def numbers_of_record(self) -> list[tuple[str, Field]]:
+        """Name and field of each number of a record; empty where it is none."""
+        return [] if self.record is None else flat_fields(self.record)
 
     if TYPE_CHECKING:  # instances hold plain values under the same name
 

@@ -6,7 +6,8 @@ Truth: FMI 2.0, section 2.2.9 (structured naming convention: a[1], a[2,3]), and 
 import pytest
 
 from perilune.fmus_src.block import Block
-from perilune.fmus_src.variables import DeclarationError, Input, Parameter
+from perilune.fmus_src.kernel.records import Field, Record
+from perilune.fmus_src.variables import DeclarationError, Input, Parameter, State
 
 
 def refusal(**variables):
@@ -35,6 +36,19 @@ def test_elements_of_a_vector_and_a_scalar():
 @pytest.mark.parametrize("columns", [0, 4, 7])
 def test_columns_that_do_not_divide_the_elements_are_refused(columns):
     assert "rows" in refusal(matrix=Parameter([0] * 6, columns=columns, description="a matrix"))
+
+
+@pytest.mark.parametrize("kind", [int, bool])
+def test_a_record_with_a_field_that_is_no_float_is_refused(kind):
+    """Its native FMU would store all numbers as those of one type."""
+
+    class Found(Record):
+        """A root."""
+
+        root = Field(unit="s", description="root")
+        exists = Field(kind, description="there is one")
+
+    assert "the field exists of its record is no float" in refusal(found=State(Found))
 
 
 def test_columns_of_a_scalar_are_refused():
