@@ -42,13 +42,13 @@ def test_columns_that_do_not_divide_the_elements_are_refused(columns):
 def test_a_record_with_a_field_that_is_no_float_is_refused(kind):
     """Its native FMU would store all numbers as those of one type."""
 
-    class Found(Record):
+    class Crossing(Record):
         """A root."""
 
         root = Field(unit="s", description="root")
         exists = Field(kind, description="there is one")
 
-    assert "the field exists of its record is no float" in refusal(found=State(Found))
+    assert "the field exists of its record is no float" in refusal(crossing=State(Crossing))
 
 
 def test_columns_of_a_scalar_are_refused():

@@ -39,7 +39,8 @@ def expand(values: Mapping[str, object], dimensions: int = 0) -> dict[str, np.nd
 class Check:
     """Row n has the outputs at t_n and the inputs from t_n to t_(n+1).
 
-    Vectors are arrays of (rows, elements). ``tolerances``: output -> (absolute, relative), for all its elements.
+    Vectors are arrays of (rows, elements). ``tolerances``: output -> (absolute, relative), for all its elements, or
+    for one of them by its own name.
     """
 
     truth: str
@@ -71,8 +72,8 @@ class Check:
             "[tolerances]",
         ]
         for name, array in self.outputs.items():
-            absolute, relative = self.tolerances[name]
             for column in expand({name: array}, 1):
+                absolute, relative = self.tolerances.get(column, self.tolerances[name])
                 lines.append(f"{json.dumps(column)} = {{ absolute = {absolute!r}, relative = {relative!r} }}")
         return "\n".join([*lines, ""])
 

@@ -125,7 +125,7 @@ def touchdown_monitor():
 
 def site_divert():
     """The site moved at the first row from divert_time on: the new target is as high above the sphere as the first."""
-    rows, time, radius = 9, 0.6, 1.7e6
+    rows, time, radius = 13, 0.6, 1.7e6
     offset, target = np.array([1500.0, -700.0]), np.array([400.0, 300.0, 150.0])
     centre = np.array([0.0, 0.0, -radius])
     altitude = np.linalg.norm(target - centre) - radius
