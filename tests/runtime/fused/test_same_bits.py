@@ -4,6 +4,7 @@ Truth: the same system flown instruction by instruction.
 """
 
 import re
+import sys
 
 import numpy as np
 import pytest
@@ -77,8 +78,9 @@ def test_a_transformation_to_infinity(tiny_folder, tmp_path, offset):
     assert fused == native
 
 
-def test_foreign_fmus_are_called_beside(tiny_folder, tmp_path):
+def test_foreign_fmus_are_called_beside(tiny_folder, tmp_path, monkeypatch):
     """The stranger is no FMU of ours, and in Python: it is called as ever."""
+    monkeypatch.delitem(sys.modules, "stranger", raising=False)  # of an FMU that another test simulated with FMPy
     ssd = document(
         system(
             component("ramp", "ramp", "output y Real m"),
