@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ctypes
+import os
 import random
 import shutil
 import sys
@@ -12,6 +14,7 @@ from perilune.fmus_src.paths import ROOT
 
 # numba compiles functions of these folders, and none that atheris has instrumented.
 COMPILED = ("analysis/runtime/flight/compiled", "fmus_src")
+END = ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_void_p)(lambda status, _: os._exit(status))
 SEEDS, LONGEST = 20, 4096  # inputs to begin with, bytes
 LIMITS = ["-timeout=20", "-rss_limit_mb=2500", "-len_control=0", f"-max_len={LONGEST}"]  # s for one input, memory
 
@@ -36,6 +39,8 @@ def fuzz(name: str, folder: Path, runs: int) -> None:
         (corpus / f"seed_{seed}").write_bytes(random.Random(seed).randbytes(LONGEST // 4))
     options = [f"-runs={runs}", *LIMITS, "-seed=1", f"-artifact_prefix={folder}/", str(corpus)]
     atheris.Setup([sys.argv[0], *options], execute)
+    # libFuzzer ends its runs by exit(), in which destructors of pyarrow may wait for its threads for ever
+    ctypes.CDLL(None).on_exit(END, None)
     atheris.Fuzz()
 
 
