@@ -51,7 +51,7 @@ class OrbitalDerivativeControl(OrbitalControl):
         return s
 
     def stands_delay(self, e: Matrix) -> bool:
-        """Whether all three eigenvalues of e have positive real parts (Hurwitz's condition on -e)."""
+        """Return True if all three eigenvalues of e have positive real parts (Hurwitz's condition on -e)."""
         trace = e[0, 0] + e[1, 1] + e[2, 2]
         xy = e[0, 0] * e[1, 1] - e[0, 1] * e[1, 0]
         xz = e[0, 0] * e[2, 2] - e[0, 2] * e[2, 0]

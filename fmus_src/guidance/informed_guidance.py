@@ -53,7 +53,7 @@ class InformedGuidance(TerminalGuidance, interface=True):
     predicted_miss = Output(0.0, unit="m", direct=True, description="distance from the target at the end of the plan")
 
     def exhaust_speed(self) -> float:
-        """Of the engine (m/s)."""
+        """Return the exhaust speed of the engine (m/s)."""
         return STANDARD_GRAVITY * self.specific_impulse
 
     def glide_height(self, offset: Vector3) -> float:

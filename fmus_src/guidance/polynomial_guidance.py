@@ -31,7 +31,7 @@ class TimeChoice(Enumeration):
 
 
 class ProfileCost(Record):
-    """What a profile takes."""
+    """Cost of a profile: impulse, and how far limits are exceeded."""
 
     objective = Field(unit="m/s", description="impulse with prices on limits exceeded")
     impulse = Field(unit="m/s", description="integral of thrust acceleration")
@@ -105,7 +105,7 @@ class PolynomialGuidance(InformedGuidance, interface=True):
         return ProfileCost(objective=objective, impulse=impulse, load=load, depth=depth, tilt_excess=tilt_excess)
 
     def objective(self, time: float, kr: float) -> float:
-        """What the choice of time and gain minimises (m/s)."""
+        """Return the objective (m/s) of the choice of time and gain."""
         return self.cost_of(time, kr, self.thrust_margin).objective
 
     def best_time(self, first: float, shortest: float, spacing: float, kr: float) -> float:

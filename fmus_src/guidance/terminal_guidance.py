@@ -225,7 +225,7 @@ class TerminalGuidance(Block, interface=True):
                 self.finish(t + h)
 
     def burn_span(self, time: float) -> float:
-        """How long (s) a command lasts that is given with ``time`` (s) to go."""
+        """Return how long (s) a command lasts that is given with ``time`` (s) to go."""
         held = self.hold_time()
         if self.plan_frozen():
             held = self.cycle  # no last burn

@@ -15,7 +15,7 @@ HALVINGS = 200  # more than a double needs
 
 
 class JerkLimits(Record):
-    """What a rotation is limited to."""
+    """Limits of a rotation."""
 
     rate = Field(unit="rad/s", description="largest rate, above 0")
     acceleration = Field(unit="rad/s2", description="largest angular acceleration, above 0")

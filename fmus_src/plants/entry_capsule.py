@@ -44,7 +44,7 @@ class CapsuleStatus(Enumeration):
 
 
 class Atmosphere(Enumeration):
-    """Which standard the air is of."""
+    """Standard of the atmosphere."""
 
     US_1976 = member("US standard atmosphere 1976")
     GOST_4401_81 = member("GOST 4401-81")

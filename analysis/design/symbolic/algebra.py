@@ -1,4 +1,4 @@
-"""What the formulas share: sympy where it is installed, matrices of exact elements, and their simplest form."""
+"""Common parts of the formulas: sympy where it is installed, matrices of exact elements, and their simplest form."""
 
 from __future__ import annotations
 

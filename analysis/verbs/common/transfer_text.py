@@ -1,4 +1,4 @@
-"""What `perilune design transfer` prints of adjoint system, finite switches and the turn in free fall."""
+"""Lines that `perilune design transfer` prints of adjoint system, finite switches and the turn in free fall."""
 
 from __future__ import annotations
 

@@ -57,7 +57,7 @@ class DescentTask(Record):
 
 
 class PlanSummary(Record):
-    """What a solved plan takes and misses."""
+    """Duration, propellant and misses of a solved plan."""
 
     time = Field(unit="s", description="of flight")
     solved = Field(bool, description="the iterations converged; false: the plan is as before")

@@ -54,7 +54,7 @@ FIRST_CONE_SLACK = 1e-1
 
 
 class ConeSolution(Record):
-    """How an iteration ended."""
+    """Outcome of the iterations."""
 
     solved = Field(bool, description="gap and residuals are below their tolerance")
     iterations = Field(int, description="iterations")
