@@ -148,7 +148,7 @@ def test_a_cluster_that_is_gone(line, whole, place, tmp_path, capsys, monkeypatc
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert {"scheduler": "is gone", "workers": "had no worker for 2 s"}[lost] in said
-    assert f"; completed trials are stored in {out}: the same command with --resume goes on" in said
+    assert f"; completed trials are stored in {out}: resume with the same command and --resume, or with shard" in said
     assert main([*line, "--output", str(out), "--resume"]) == 0
     assert bytes_of(out) == whole
 
@@ -197,7 +197,7 @@ def other_perilune(folder, change):
 
 
 def changed_source(copy):
-    path = copy / "analysis" / "progress.py"
+    path = copy / "analysis" / "common" / "progress.py"
     path.write_text(path.read_text() + "\n")
 
 
