@@ -13,7 +13,8 @@ class ApolloGuidance(PolynomialGuidance):
     horizontal towards the target at the start and then fixed. The time to go is that at which the jerk along this
     axis becomes target_jerk, by Newton's method from the time of the cycle before. Below freeze_time it only counts
     down. Status 3 where it has no time at the start, as with a jerk of the wrong sign; a later failure counts down.
-    The law has no limit of thrust: status 1 tells where the rest of the flight exceeds it.
+    time_choice and time_weight change nothing. The law has no limit of thrust: status 1 tells where the rest of the
+    flight exceeds it.
     Source: Klumpp 1974, "Apollo lunar descent guidance", Automatica 10(2), equations 8 to 12; defaults are scaled to
     a thrust acceleration of 5 m/s2. Assumes constant gravity or gravity_correction.
     """

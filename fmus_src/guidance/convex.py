@@ -19,7 +19,7 @@ LOWEST_EFFORT = 0.4  # ... and where it is that of least effort: times from whic
 CLEARANCE = 5.0  # m of a start outside of the glide slope above the one that is lowered for it
 OFF_COURSE = 30.0  # m from the plan, at which another is made, ...
 PATIENCE = 5.0  # ... s after the last one at the earliest
-END_LOAD = 1.1  # thrust over the largest of a linear end for which the time is chosen anew
+END_LOAD = 1.1  # thrust over the largest of a linear end for which another time is chosen
 LATE = 1.03  # of the time left, beyond which a plan uses more of the thrust
 
 

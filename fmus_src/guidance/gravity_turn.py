@@ -2,8 +2,9 @@
 
 from ..block import Parameter, State
 from ..interfaces.ports.landing import TerminalStatus
+from ..kernel.functions import expm1
 from ..mathlib.lunar.gravity import altitude_of, from_centre
-from ..mathlib.lunar.gravity_turn import gravity_turn
+from ..mathlib.lunar.gravity_turn import GravityTurn, gravity_turn
 from ..mathlib.vectors import Vector3, across, dot, norm, vector
 from .informed_guidance import LIMIT_THRUST, InformedGuidance
 
@@ -12,8 +13,9 @@ class GravityTurnGuidance(InformedGuidance):
     """Thrust of constant ratio to gravity against the velocity, to rest at the height of target_position.
 
     It has no place and no velocity to meet: the horizontal part of target_position and target_velocity change
-    nothing, and it is not for frozen_time_to_go. Over the sphere (gravity_correction) gravity is central less the
-    centrifugal part. With ignition_fraction there is no thrust until the demand is that fraction of maximum_thrust.
+    nothing, nor do minimum_thrust, thrust_margin and largest_tilt, and it is not for frozen_time_to_go. Over the sphere
+    (gravity_correction) gravity is central less the centrifugal part. With ignition_fraction there is no thrust until
+    the demand is that fraction of maximum_thrust.
     Status 1 where the demand exceeds maximum_thrust, 3 at or below the target's height or ascending.
     Source: Citron, Dunin and Meissinger 1964.
     Assumes gravity that is constant over the rest of the flight.
@@ -58,7 +60,18 @@ class GravityTurnGuidance(InformedGuidance):
             if turn.ratio > 0.0:
                 self.status = TerminalStatus.GOOD
                 self.time_to_go = turn.duration
+                self.predict(turn, turn.ratio * g, up)
                 self.brake(turn.ratio * g, speed, g * up)
+
+    def predict(self, turn: GravityTurn, thrust: float, up: Vector3) -> None:
+        """Set propellant and miss of a turn with a thrust acceleration (m/s2), over level ground."""
+        self.predicted_propellant = -self.mass * expm1(-thrust * turn.duration / self.exhaust_speed())
+        way = across(self.aim_position - self.position, up)
+        level = across(self.velocity, up)
+        speed = norm(level)
+        if speed > 0.0:
+            way = way - turn.distance / speed * level
+        self.predicted_miss = norm(way)
 
     def brake(self, thrust: float, speed: float, gravity: Vector3) -> None:
         """Command a thrust acceleration (m/s2) against the velocity, of a ``speed`` (m/s), under ``gravity``."""

@@ -17,6 +17,7 @@ LIMIT_TILT = 4
 LIMIT_PLACE = 8
 ROUNDS = 20  # to a time and the gravity corrected over it that agree
 AGREED = 1e-10  # s
+NEARLY_AGREED = 1e-6  # s, where rounding of long times is what keeps them apart
 
 
 class InformedGuidance(TerminalGuidance, interface=True):
@@ -86,6 +87,7 @@ class InformedGuidance(TerminalGuidance, interface=True):
     def effort_time(self, weight: float) -> float:
         """Return the time-to-go (s) of least effort with a ``weight`` (m2/s4) of time; 0 where there is none."""
         time = 0.0
+        change = 0.0
         for _ in range(10 * ROUNDS):
             dr, dv = self.remaining_over(time)
             root = weighted_effort_time(dr, self.velocity, dv, self.gravity, weight)
@@ -93,7 +95,9 @@ class InformedGuidance(TerminalGuidance, interface=True):
             time = root
             if change < AGREED:
                 return time
-        return time
+        if change < NEARLY_AGREED:
+            return time
+        return 0.0
 
     def first_time(self) -> float:
         """Return the time-to-go (s) that a search begins with; 0 where there is none."""

@@ -47,7 +47,7 @@ class PolynomialGuidance(InformedGuidance, interface=True):
 
     The time is that of least propellant with thrust_margin maximum_thrust as the largest thrust, or that of least
     effort; it is chosen at the start and counted down. Every 2 s, while more than 10 s are left, the largest thrust of
-    the rest is compared with maximum_thrust, and the time is chosen anew where it is exceeded, 30 times at most. What
+    the rest is compared with maximum_thrust, and another time is chosen where it is exceeded, 30 times at most. What
     then still exceeds a limit is flown with status 1. Source: Lu 2019 and 2020 for the law; the choice of time is ours.
     Assumes constant gravity or gravity_correction, and thrust limits without a dead band.
     """

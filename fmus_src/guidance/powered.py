@@ -24,7 +24,7 @@ class PoweredGuidance(ZemZevGuidance):
     """Linear-tangent steering with a constant thrust that solves for the range, and ZEM/ZEV near the end.
 
     Three iterations a cycle. Above end_time to go it commands the constant thrust that meets position and velocity;
-    below it the thrust acceleration is linear in time, whose time is that of the hand-over, or chosen anew where its
+    below it the thrust acceleration is linear in time, whose time is that of the hand-over, or another one where its
     thrust exceeds thrust_margin of the largest. Status 1 where the thrust is outside minimum_thrust and
     maximum_thrust, at which it is then flown; 2 where an iteration has no solution; 3 at the start where the first
     iterations do not converge, as in hovering descents. With frozen_time_to_go the law is ZEM/ZEV throughout.

@@ -89,7 +89,7 @@ def _with_line(curve: Curve, frequency: float, response: complex) -> Curve:
 
 
 def _shift(before: Classical, after: Classical) -> tuple[float, float]:
-    """How far the crossings have moved (dB, deg): inf where one has appeared or vanished."""
+    """Return the largest change of the crossings (dB, deg): inf where one has appeared or vanished."""
     gain = _largest(before.gain, after.gain, lambda old, new: abs(decibels(old.value) - decibels(new.value)))
     phase = _largest(before.phase, after.phase, lambda old, new: abs(np.degrees(old.value - new.value)))
     return gain, phase

@@ -39,7 +39,7 @@ class OverflowedError(StudyError):
 
 
 class LoopError(StudyError):
-    """What decides on a loop without margins: its ``verdict``, and why in the message."""
+    """Verdict on a loop without margins, with the reason as its message."""
 
     def __init__(self, message: str, verdict: Verdict) -> None:
         super().__init__(message)

@@ -42,7 +42,7 @@ class NotMeasurableError(RuntimeError):
 
 
 class UnstableError(LoopError):
-    """What a disturbance has changed grows without end, by ``growth`` a sample."""
+    """Growth without bound of the change that a disturbance makes, by ``growth`` a sample."""
 
     def __init__(self, growth: float) -> None:
         super().__init__(f"unstable, grows {growth:.5g}-fold a sample", Verdict.FAIL)
@@ -194,8 +194,10 @@ class Injector:
         return u[rows], v[rows]
 
     def _overflow(self, error: OverflowedError, base: dict[str, np.ndarray]) -> Exception:
-        """What an overflow says of the loop: that what was added, or the flight itself where no ``base`` is known, grew
-        until then; the error itself where it did not."""
+        """Return the verdict of an overflow: growth of the disturbance, or of the flight where no ``base`` is known.
+
+        The error itself where nothing grew.
+        """
         signals = self._behind(error.signals)
         reached = len(next(iter(signals.values())))
         with np.errstate(all="ignore"):

@@ -23,7 +23,7 @@ ROUNDING = 1e-12  # of an output's size, below which it is rounding
 
 @dataclass(frozen=True)
 class Silence:
-    """Where it ends: ``component`` is the first on the path whose outputs do not move; None where that is not known.
+    """End of a signal path, at the first ``component`` whose outputs do not move; None where that is not known.
 
     ``growth`` is the factor a sample by which an output parts from the undisturbed flight, None where none does.
     """

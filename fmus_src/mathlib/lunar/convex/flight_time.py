@@ -14,7 +14,7 @@ GROWTHS = 5
 BISECTIONS = 9
 SETTLINGS = 2  # solutions of the upper time, before ...
 TIME_SLACK = 1.02  # ... of it is planned, for 0.1 % of propellant
-REPLAN_LOW = 0.8  # of the time that is left, when a plan is made anew
+REPLAN_LOW = 0.8  # of the time that is left, at a replan
 REPLAN_HIGH = 1.5
 REPLAN_BISECTIONS = 8
 POSITION_TOLERANCE = 1.0  # m
@@ -47,7 +47,7 @@ def first_bracket(time: float, lowest: float) -> TimeBracket:
 
 
 def replan_bracket(time: float) -> TimeBracket:
-    """Return the bracket of a plan made anew with ``time`` (s) to go."""
+    """Return the bracket of a replan with ``time`` (s) to go."""
     return TimeBracket(
         time=time, low=REPLAN_LOW * time, high=REPLAN_HIGH * time, growths=0, bisections=REPLAN_BISECTIONS
     )

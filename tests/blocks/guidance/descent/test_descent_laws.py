@@ -4,10 +4,13 @@ Truth: the printed times and impulses, computed apart; scipy's minimiser over pr
 analytic guidance with an equal time; the target itself (flights over a round Moon).
 """
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from perilune.fmus_src.guidance.analytic_exact import AnalyticExactGuidance
@@ -31,6 +34,7 @@ from tests.support.descent.laws import (
 )
 from tests.support.descent.polynomial_laws import EXHAUST, Leg, Limits
 
+G = 1.624219  # m/s2
 ZEM_ZEV = (1.0, 6.0, np.zeros(3))
 GLIDE, TILT = np.radians(15.0), np.radians(60.0)
 CONSTRAINED = {"glide_slope": GLIDE, "largest_tilt": TILT}
@@ -210,6 +214,25 @@ def test_less_thrust_than_known_makes_the_law_choose_anew():
     guidance = start(ZemZevGuidance, C1, thrust_margin=1.0)
     fly(guidance, C1, loss=0.06)
     assert guidance.choices > 1
+
+
+def test_a_gravity_turn_predicts_its_miss_and_propellant():
+    """From 2500 m aside at 100 m/s, 60 deg and 2000 m above: 1780.183 m along (DOP853 of the hodograph has it)."""
+    guidance = GravityTurnGuidance(gravity=G, mass=560.0, position=[2500.0, 0.0, 2100.0])
+    guidance.velocity = [-100.0 * math.sin(math.pi / 3.0), 0.0, -50.0]
+    guidance.target_position = [0.0, 0.0, 100.0]
+    guidance.initialize()
+
+    def fall(_, y):
+        size = np.hypot(y[2], y[3])
+        thrust = guidance.thrust_acceleration / size
+        return [y[2], y[3], -thrust * y[2], -thrust * y[3] - G]
+
+    start_of_turn = [2500.0, 2100.0, *guidance.velocity[::2]]
+    flown = solve_ivp(fall, (0.0, 0.999 * guidance.time_to_go), start_of_turn, rtol=1e-10, atol=1e-8)
+    assert guidance.predicted_miss == pytest.approx(abs(flown.y[0, -1]), abs=0.1)
+    spent = 1.0 - math.exp(-guidance.thrust_acceleration * guidance.time_to_go / (9.80665 * 319.0))
+    assert guidance.predicted_propellant == pytest.approx(560.0 * spent, rel=1e-12)
 
 
 def test_a_gravity_turn_has_a_height_and_no_place():
