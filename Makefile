@@ -85,6 +85,11 @@ screenshots: build browser
 bench: build
 	$(BIN)/python -m benchmarks.importers
 
+# Instructions, counted by callgrind (Debian's valgrind), and time of a plan and of a cycle of each descent law.
+guidance-cost: build
+	@command -v valgrind >/dev/null || { apt-get update -qq && apt-get install -y -qq valgrind >/dev/null; }
+	$(BIN)/python -m benchmarks.guidance_cost
+
 # Trials a second of a landing here and in Basilisk's Monte Carlo controller, on the same draws: five minutes.
 bench-basilisk: build $(CROSSCHECK)/ready $(BASILISK)/ready
 	PYTHONPATH=$(CURDIR):$(BASILISK) $(BIN)/python -m benchmarks.basilisk $(CURDIR)/$(CROSSCHECK)/bin/python
@@ -179,4 +184,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench bench-basilisk large crosscheck basilisk sanitize fuzz processors emulator windows browser browser-firefox lint clean
+.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench guidance-cost bench-basilisk large crosscheck basilisk sanitize fuzz processors emulator windows browser browser-firefox lint clean

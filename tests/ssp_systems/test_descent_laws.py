@@ -84,10 +84,10 @@ def test_without_a_divert_a_flight_has_the_bits_of_one_that_knows_none(law):
 
 
 def test_a_divert_to_the_target_itself_is_the_same_flight():
-    """The law has no memory but its time, which it finds again."""
-    faults = ["guidance.divert_count=override:1@60"]
-    plain = perilune.simulate(SYSTEM, parameters=["ideal.ssv"])
-    other = perilune.simulate(SYSTEM, parameters=["ideal.ssv"], faults=faults)
+    """A law without memory but its time, which it solves for again."""
+    exact = {"parameters": ["ideal.ssv"], "use": {"guidance": "analytic_exact_guidance"}}
+    plain = perilune.simulate(SYSTEM, **exact)
+    other = perilune.simulate(SYSTEM, **exact, faults=["guidance.divert_count=override:1@60"])
     assert plain.time.size == other.time.size
     for i in (1, 2, 3):
         signal = f"plant.position[{i}]"

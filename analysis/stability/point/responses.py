@@ -26,7 +26,9 @@ LEAST_LOOK = 0.03
 MOST_BLUR = 1e-3
 INTEGRATOR = 0.1  # of the lowest frequency that is looked at: 0.002 of the lowest gain crossover
 SLOW_ANGLE = np.pi / 8  # rad
-ONE_STEP = (1e-6,)  # of differences, where a plateau has been seen at the same point already
+# Steps of differences at a point whose plateau is known: near the cube root of the rounding of a double, where
+# central differences err least
+ONE_STEP = (1e-5,)
 BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped oscillations
 
 

@@ -39,7 +39,7 @@ ELSEWHERE = {
     "perilune export basilisk_": "tests/examples/test_basilisk.py, where Basilisk is installed",
     "perilune run lunar_landing --use plant=basilisk_moon_lander": "likewise",
     "perilune batch lunar_landing --campaign compare --use plant=basilisk_moon_lander": "likewise",
-    "perilune run lunar_landing --parameters ideal.ssv --set plant.internal_step=0.05": "likewise",
+    "perilune run lunar_landing --parameters ideal.ssv --use guidance=analytic_exact_guidance": "likewise",
     "perilune diff ours.parquet basilisk.parquet": "likewise",
     "perilune run build/fmus/python/basilisk_orbiter.fmu": "likewise",
     "perilune run StateSpace.fmu": "tests/runtime/fmi3/test_systems.py, with the Reference-FMU",
