@@ -5,6 +5,7 @@ It prints the time of the initialisation and of every step, us."""
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import sys
 import time
@@ -44,6 +45,8 @@ def main() -> None:
     slave.terminate()
     slave.freeInstance()
     shutil.rmtree(folder)
+    sys.stdout.flush()
+    os._exit(0)  # pythonfmu's loader may abort in its destructor when the process ends
 
 
 if __name__ == "__main__":
