@@ -52,10 +52,10 @@ def descent_problem(inputs: Mapping[str, Sequence[float]], where: tuple[str, str
         problem = f"{number['minimum_thrust']:g} N is negative, or not below the largest thrust"
         raise InputError(file, f"{element}.minimum_thrust", problem, REMEDY)
     position, velocity, target = (tuple(map(float, inputs[name])) for name in VECTORS)
-    distance, most = math.dist(position, target), number["maximum_thrust"] / number["mass"]
+    distance, full = math.dist(position, target), number["maximum_thrust"] / number["mass"]
     if not distance > 0.0:
         raise InputError(file, f"{element}.target", "the descent starts there", REMEDY)
-    problem = PointMassProblem(
+    descent = PointMassProblem(
         start_position=position,
         start_velocity=velocity,
         end_position=target,
@@ -63,11 +63,11 @@ def descent_problem(inputs: Mapping[str, Sequence[float]], where: tuple[str, str
         gravity=CentralGravity(number["gravitational_parameter"], number["moon_radius"]),
         exhaust_speed=number["specific_impulse"] * STANDARD_GRAVITY,
         least=number["minimum_thrust"] / number["mass"],
-        most=most,
+        most=full,
         length=distance,
-        speed=math.sqrt(distance * most),
+        speed=math.sqrt(distance * full),
         largest_tilt=number["largest_tilt"] if "largest_tilt" in inputs else None,
         glide_slope=number["glide_slope"] if "glide_slope" in inputs else None,
         glide_offset=number["glide_offset"],
     )
-    return problem, number["mass"]
+    return descent, number["mass"]

@@ -42,9 +42,9 @@ def _bracket(problem: PointMassProblem) -> tuple[float, float]:
     best, minimum = None, 1.0
     for index, time in enumerate(times):
         path = solve_fixed_time(problem, float(time), COARSE)
-        value = 1.0 if path is None else path.propellant_fraction
-        if value < minimum:
-            best, minimum = index, value
+        fraction = 1.0 if path is None else path.propellant_fraction
+        if fraction < minimum:
+            best, minimum = index, fraction
         elif best is not None:
             return float(times[max(0, best - 1)]), float(time)
     raise PlanError(f"bound: the vehicle cannot do it in any time from {times[0]:.3g} to {times[-1]:.3g} s")
