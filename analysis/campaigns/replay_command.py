@@ -15,13 +15,13 @@ from .spec.plan import BatchPlan
 
 def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:
     """The command that simulates one trial of one variant of a plan again."""
-    options = {"campaign": _campaign_name(plan), **_options(plan, variant)}
+    options = {"campaign": campaign_name(plan), **_options(plan, variant)}
     return write_command(REPLAY, {"source": plan.system, "trial": trial}, options)
 
 
 def campaign_command(plan: BatchPlan, variant: Variant) -> str:
     """The command that simulates a plan with one of its variants."""
-    return write_command(BATCH, {"system": plan.system, "campaign": _campaign_name(plan)}, _options(plan, variant))
+    return write_command(BATCH, {"system": plan.system, "campaign": campaign_name(plan)}, _options(plan, variant))
 
 
 def replay_of_folder(folder: Path, configurations: Collection[object], configuration: str, trial: int) -> str:
@@ -30,7 +30,8 @@ def replay_of_folder(folder: Path, configurations: Collection[object], configura
     return write_command(REPLAY, {"source": folder, "trial": trial}, options)
 
 
-def _campaign_name(plan: BatchPlan) -> str:
+def campaign_name(plan: BatchPlan) -> str:
+    """Return what a command calls a plan's campaign: by name one of the system, else by path."""
     inside = plan.campaign.file.partition("!")[2]  # of a system's own campaign
     return PurePosixPath(inside).stem if inside else plan.campaign.file
 

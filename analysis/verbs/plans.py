@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Unpack
 
-from ...fmus_src.paths import IS_CHECKOUT, PACKAGE
 from ..common.errors import InputError, UnwrittenError
 from ..design.trajectories.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
 from ..design.trajectories.landing_study import LandingStudy, landing_study
@@ -30,6 +29,7 @@ from ..design.transfers.hover_study import HoverStudy, hover_study
 from ..reports.plan_pages import write_hover_page, write_landing_page
 from ..runtime.system.options import SystemOptions, system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
+from .common.stores import check_stored_system
 from .common.transfer_text import adjoint_lines, burns_text, finite_lines, free_fall_lines
 from .options.design import BOUND, TRANSFER, BoundOptions, TransferOptions, VehicleOptions
 from .options.option import FilePath, options_of
@@ -256,11 +256,7 @@ def _check_store(prepared: PreparedSystem | None, changed: Sequence[str]) -> Non
     """Refuse to store a bound that is not that of the system as its files say, or in a folder that cannot hold it."""
     if prepared is None:
         raise InputError("`store`", "", "no system to store it with", "name a system")
-    if not prepared.archive.path.is_dir():
-        raise InputError("`store`", str(prepared.archive.path), "not a folder", "unpack the .ssp and name its folder")
-    if not IS_CHECKOUT and prepared.archive.path.is_relative_to(PACKAGE):
-        problem = "a system of the installed package, which is not written to"
-        raise InputError("`store`", str(prepared.archive.path), problem, "copy this folder and name the copy")
+    check_stored_system(prepared.archive)
     if changed:
         problem = "a stored bound is that of the system's own values"
         raise InputError("`store`", f"`{changed[0]}`", problem, "leave one out")

@@ -38,12 +38,14 @@ READERS = {
     "c.toml": "design search c.toml",
     "a.parquet": "batch good.ssp --campaign good.toml --draws a.parquet --output out",
     "a.json": "validate a.json",
+    "lookup.csv": "batch good.ssp --campaign lookup.toml --output out",
     "inside/SystemStructure.ssd": "run inside",
     "alone/OspSystemStructure.xml": "run alone/OspSystemStructure.xml",
     "within/ramp.fmu": "run within",
     "within/a.ssv": "run within --parameters a.ssv",
     "within/campaigns/a.toml": "batch within --campaign a --output out",
 }
+LOOKUP = '[lookup.bound]\nfile = "lookup.csv"\ncolumn = "x"\ninputs = { one = 1 }\n'
 NAMED = {"within/campaigns/a.toml": "campaign"}  # in other words than by its file
 
 
@@ -51,6 +53,7 @@ def in_place_of(name: str, make: Callable[[Path], object]) -> Write:
     def write(folder: Path, fmus: Path) -> None:
         pack(folder / "good.ssp", fmus, document(system(RAMP, GAIN)))
         (folder / "good.toml").write_text(GOOD)
+        (folder / "lookup.toml").write_text(GOOD + LOOKUP)
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         if name.startswith("within/"):

@@ -1,6 +1,6 @@
 """The bench of descent laws: campaigns `laws_*` of the lunar landing, reduced.
 
-Truth: the target in force (terminal errors), the least propellant of a point mass from the same starts (a bound), the
+Truth: the target in force (terminal errors), the stored bound of each trial, which no flight can undercut, the
 same system without a divert (equal bits).
 """
 
@@ -12,7 +12,6 @@ from tests.support.lengths import either
 
 SYSTEM = "lunar_landing"
 BRAKING = ["zem_zev_guidance", "fractional_guidance", "apollo_guidance", "powered_guidance"]
-MINIMUM = {"laws_terminal": 253.0, "laws_braking": 398.0}  # kg; no point mass takes less from any start of the box
 pytestmark = pytest.mark.usefixtures("fmus")
 
 
@@ -20,12 +19,12 @@ def fly(campaign, laws, trials):
     return perilune.batch(SYSTEM, campaign, compare={"guidance": laws}, trials=trials).trials
 
 
-@pytest.mark.parametrize("campaign", MINIMUM)
+@pytest.mark.parametrize("campaign", ["laws_terminal", "laws_braking"])
 def test_laws_of_a_braking_hit_the_point(campaign):
     for law, actual in fly(campaign, BRAKING, either(60, 4)).items():
         assert actual.success.all(), law
         assert np.mean(actual.metrics["pinpoint"]) > 0.97, law
-        assert np.min(actual.metrics["propellant"]) > MINIMUM[campaign], law
+        assert np.min(actual.metrics["excess"]) > 0.0, law
         assert np.max(actual.metrics["largest_demand"]) < 5400.0, law
 
 

@@ -95,6 +95,7 @@ ROWS = [
     ("new system made_here", 0),
     ("new system Made", 2),
     ("design bound --speed 0", 2),
+    ("design bounds lunar_landing --campaign terminal_box", 2),
     ("docs --json {folder}", 2),
     ("export forming_filter --flavour python", 0),
     ("export nothing", 2),
@@ -106,6 +107,7 @@ ELSEWHERE = {
     "docs": "0: test_docs.py",
     "show": "0: tests/show/test_process.py",
     "design bound": "0 and 1: test_plan.py",
+    "design bounds": "0 and 1: test_trial_bounds.py",
 }
 
 UNDECIDED = f"""

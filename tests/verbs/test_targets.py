@@ -72,6 +72,7 @@ ARGUMENTS = {
     "design search": ["none.toml"],
     "design transfer": [],
     "design bound": [],
+    "design bounds": ["lunar_landing", "--campaign", "laws_approach", "--trials", "1", "--workers", "1"],
     "stability": ["robot_rendezvous"],
     "benchmark": [],
     "docs": [],

@@ -124,9 +124,10 @@ def _check_columns(path: Path, schema: pyarrow.Schema, campaign: Declared) -> No
         if name not in schema.names:
             raise InputError(path, name, "is drawn, and no column has it", "add the column")
     for name, count in Counter(schema.names).items():
-        if stream_component(name) is None and name not in (TRIAL, *sampled, *campaign.derived):
-            known = [*sampled, *campaign.derived, STREAMS]
-            raise InputError(path, name, f"{campaign.file} draws and derives no such value", suggestion(name, known))
+        known = [*sampled, *campaign.derived, *(lookup.name for lookup in campaign.lookups)]
+        if stream_component(name) is None and name not in (TRIAL, *known):
+            remedy = suggestion(name, [*known, STREAMS])
+            raise InputError(path, name, f"{campaign.file} draws and derives no such value", remedy)
         if count > 1:
             raise InputError(path, name, "two columns of this name", "leave one of them out")
         if not any(is_of(schema.field(name).type) for is_of in numbers):

@@ -95,10 +95,10 @@ def draw_table(campaign: Declared) -> DrawTable:
 
 
 def table_of(campaign: Declared, drawn: Mapping[str, np.ndarray], trials: range | None = None) -> DrawTable:
-    """The table with these draws, an array (trials,) by name, and what the campaign derives of them.
+    """The table with these draws, an array (trials,) by name, what the campaign derives of them, and its lookups.
 
     ``trials`` are the numbers of their trials, by default all of the campaign. Raises InputError where a derived
-    value is not finite.
+    value is not finite, or a lookup has not so many trials.
     """
     numbers = range(campaign.trials) if trials is None else trials
     names = input_names(campaign)
@@ -109,6 +109,7 @@ def table_of(campaign: Declared, drawn: Mapping[str, np.ndarray], trials: range 
         if wrong.size:
             problem = f"{formula.text!r} is {columns[name][wrong[0]]} in trial {numbers[wrong[0]]}"
             raise InputError(*formula.where, problem, "keep the expression finite over the range of the draws")
+    columns |= {lookup.name: lookup.numbers_of(numbers) for lookup in campaign.lookups}
     return DrawTable(len(numbers), columns)
 
 

@@ -51,13 +51,24 @@ class SystemDocument(TypedDict):
     files: dict[str, str]
 
 
+class AttachedDocument(TypedDict):
+    """A table that a campaign's file looks up."""
+
+    label: str
+    content: str
+
+
 class SourceDocument(TypedDict, total=False):
-    """A campaign's file, with those that it extends; ``position`` is that of its own entries among theirs."""
+    """A campaign's file, with those that it extends; ``position`` is that of its own entries among theirs.
+
+    ``attached`` are the tables of its lookups, by their paths as it says them.
+    """
 
     label: Required[str]
     content: Required[str]
     extends: list[SourceDocument]
     position: int
+    attached: dict[str, AttachedDocument]
 
 
 class CampaignDocument(SourceDocument, total=False):
@@ -119,8 +130,9 @@ class Manifest:
 
 
 def _contents(campaign: SourceDocument) -> list[str]:
-    """The contents of a campaign's file, and of those that it extends."""
-    return [campaign["content"], *(name for part in campaign.get("extends", []) for name in _contents(part))]
+    """The contents of a campaign's file, of its tables, and of those that it extends."""
+    attached = (table["content"] for table in campaign.get("attached", {}).values())
+    return [campaign["content"], *attached, *(name for part in campaign.get("extends", []) for name in _contents(part))]
 
 
 def read_manifest(folder: Path) -> Manifest:

@@ -33,6 +33,7 @@ from .manifest import (
     CONTENTS,
     FILE,
     SAME_VERSION,
+    AttachedDocument,
     CampaignDocument,
     Manifest,
     ResetDocument,
@@ -135,8 +136,15 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
 def _source(source: CampaignSource, label: str, keep: Callable[[bytes, str], str]) -> SourceDocument:
     """The contents of a campaign's file, and of those that it extends."""
     extends = [_source(part, part.label, keep) for part in source.extends]
-    own: SourceDocument = {"label": label, "content": keep(source.raw, source.label)}
-    return {**own, "extends": extends, "position": source.position} if extends else own
+    document: SourceDocument = {"label": label, "content": keep(source.raw, source.label)}
+    attached: dict[str, AttachedDocument] = {
+        name: {"label": label, "content": keep(content, name)}
+        for name, (label, content) in source.attached.items()
+        if content is not None
+    }
+    if attached:
+        document["attached"] = attached
+    return {**document, "extends": extends, "position": source.position} if extends else document
 
 
 def _table(columns: Mapping[str, np.ndarray]) -> bytes:
@@ -226,7 +234,11 @@ def _restore_options(manifest: Manifest, folder: Path) -> SystemOptions:
 def _restore_source(contents: Path, campaign: SourceDocument) -> CampaignSource:
     extends = tuple(_restore_source(contents, part) for part in campaign.get("extends", []))
     data = content_path(contents, campaign["content"]).read_bytes()
-    return CampaignSource(campaign["label"], data, extends, campaign.get("position", 0))
+    attached = {
+        name: (table["label"], content_path(contents, table["content"]).read_bytes())
+        for name, table in campaign.get("attached", {}).items()
+    }
+    return CampaignSource(campaign["label"], data, extends, campaign.get("position", 0), attached)
 
 
 def _restore_archive(contents: Path, manifest: Manifest) -> SystemArchive:

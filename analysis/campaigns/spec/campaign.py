@@ -13,6 +13,7 @@ from ...common.errors import InputError, suggestion
 from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import Layer
 from ..draws.declared import Draw, input_names
+from ..draws.lookup import Lookup
 from .expressions import Expression
 from .faults import CampaignFault
 from .requirements import Requirement
@@ -99,8 +100,8 @@ class Campaign:
     earlier derived values. ``settings`` and ``compare`` are [set] and [compare], ``configurations``
     [configuration.NAME], of which ``selected`` is the only one that is simulated; ``group`` is the drawn or derived
     value by which [group] sums trials up, ``faults`` are [fault], ``scatters`` [scatter], ``requirements``
-    [requirement], ``draw_scheme`` is one of `SCHEMES`. ``file`` is what errors name. ``sweeps`` are the draws that the
-    command line has added, as texts by name (sweeps.py).
+    [requirement], ``lookups`` [lookup], ``draw_scheme`` is one of `SCHEMES`. ``file`` is what errors name. ``sweeps``
+    are the draws that the command line has added, as texts by name (sweeps.py).
     """
 
     file: str
@@ -124,6 +125,7 @@ class Campaign:
     requirements: tuple[Requirement, ...] = ()
     draw_scheme: str = "table"
     sweeps: Mapping[str, str] = field(default_factory=dict)
+    lookups: tuple[Lookup, ...] = ()
 
     def __post_init__(self) -> None:
         if self.trials < 1:
@@ -144,8 +146,34 @@ class Campaign:
         return Layer(use=variant.use, parameters=self.parameters + variant.parameters, set=settings, places=places)
 
     def input_names(self) -> list[str]:
-        """Names of all drawn and derived values."""
-        return input_names(self) + list(self.derived)
+        """Return the names of all drawn and derived values, and of lookups."""
+        return input_names(self) + list(self.derived) + [lookup.name for lookup in self.lookups]
+
+    def metrics_of_lookups(self) -> list[str]:
+        """Return the names of the metrics that need a lookup."""
+        looked_up = {lookup.name for lookup in self.lookups}
+        return [metric.name for metric in self.metrics if metric.names & looked_up]
+
+    def without_lookups(self) -> Campaign:
+        """Return the campaign for trials that are not its own: without lookups and the metrics that need them.
+
+        Raises InputError where [success] or [requirement] needs one of these.
+        """
+        dropped = set(self.metrics_of_lookups())
+        asking = {
+            "success": self.success,
+            **{f"requirement.{each.name}": each.expression for each in self.requirements},
+        }
+        for element, formula in asking.items():
+            for name in sorted(formula.names & dropped):
+                problem = f"{name} needs a lookup, whose numbers are of the campaign's own trials"
+                raise InputError(self.file, element, problem, "use another campaign for trials that are not its own")
+        return replace(
+            self,
+            lookups=(),
+            metrics=tuple(metric for metric in self.metrics if metric.name not in dropped),
+            scatters=tuple(each for each in self.scatters if not {each.x, each.y} & dropped),
+        )
 
     def place_of(self, drawn: str) -> str:
         """Where a drawn value is asked for, as errors name it: the file, or the option that sweeps it."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -14,7 +14,9 @@ from ...runtime.ssp.names import split_name
 from ...runtime.system.checks import check_fault
 from ...runtime.system.fmu import NOT_VARIED, STRUCTURAL
 from ...runtime.system.prepared import PreparedSystem
+from ..draws.declared import input_names
 from ..draws.given import ALL, stream_column
+from ..draws.lookup import Lookup
 from .faults import check_drawn
 from .metrics import names_needed
 from .plan import BatchPlan, with_streams
@@ -33,6 +35,7 @@ def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
         for fault in plan.faults:
             check_fault(prepared.network, fault)
     check_draws(plan, systems.values())
+    check_lookups(plan, systems)
     return systems
 
 
@@ -59,6 +62,38 @@ def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
             for fault in trials.faults:
                 check_drawn(fault, prepared.network)
         first += part.trials
+
+
+def check_lookups(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> None:
+    """Refuse tables that are not those of the plan's trials in every variant. Raises InputError."""
+    for lookup in plan.campaign.lookups:
+        checked: list[dict[str, float]] = []
+        for variant, prepared in systems.items():
+            constants = lookup_constants(plan, prepared, lookup)
+            if constants in checked:
+                continue
+            checked.append(constants)
+            first = 0
+            for part in plan.draw_parts():
+                trials = range(first, first + part.trials)
+                lookup.check(lookup.input_columns({**constants, **part.columns}, part.trials), trials, variant)
+                first = trials.stop
+
+
+def lookup_constants(plan: BatchPlan, prepared: PreparedSystem, lookup: Lookup) -> dict[str, float]:
+    """The parameters of a variant that the inputs of a lookup refer to, without those that are drawn, by name.
+
+    Raises InputError for a name that is none of either.
+    """
+    sampled = {*input_names(plan.campaign), *plan.campaign.derived}
+    constants = {}
+    for formula in lookup.formulas:
+        for name in sorted(formula.names - sampled):
+            if _is_signal(prepared, name) or _causality(prepared, name) in OVER_TIME:
+                problem = f"{name} varies over a flight"
+                raise InputError(*formula.where, problem, "use draws, derived values and parameters")
+            constants[name] = _constant(plan, prepared, name)
+    return constants
 
 
 def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
@@ -185,7 +220,9 @@ def _constant(plan: BatchPlan, prepared: PreparedSystem, name: str) -> float:
     """The value of a parameter that metrics refer to."""
     for component, fmu in prepared.network.fmus.items():
         variable = fmu.variables.get(name.removeprefix(f"{component}."))
-        if name.startswith(f"{component}.") and variable is not None and variable.start is not None:
+        if not name.startswith(f"{component}.") or variable is None or variable.type in TEXTS:
+            continue
+        if variable.start is not None:
             value = prepared.settings.variables.get((component, variable.name), variable.start)
             return float({"true": 1, "false": 0}.get(str(value).lower(), value))
     known = [f"{component}.{key}" for component, fmu in prepared.network.fmus.items() for key in fmu.variables]

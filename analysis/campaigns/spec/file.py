@@ -8,6 +8,7 @@ from pathlib import Path
 from ...common.errors import InputError, suggestion
 from ..draws.declared import Draw
 from ..draws.given import stream_component
+from ..draws.lookup import Lookup
 from .campaign import SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting, Variant
 from .distributions import read_draw
 from .expressions import RESERVED, Expression, is_name
@@ -23,7 +24,7 @@ COLUMNS = frozenset({"time", "trial", "variant", "status", "success"})
 REDUCTION_OF = {"band": "last_outside", "condition": "first", "delay": "first"}  # keys that go with one reduction only
 TABLE = (
     "system", "description", "trials", "seed", "parameters", "draw_scheme", "set", "compare", "configuration", "draw",
-    "derive", "fault", "group", "metric", "record", "success", "requirement", "scatter",
+    "derive", "fault", "group", "lookup", "metric", "record", "success", "requirement", "scatter",
 )  # fmt: skip
 SCATTER = ("x", "y", "circle", "title")
 
@@ -62,6 +63,27 @@ def _read_derived(table: Table, draws: tuple[Draw, ...]) -> dict[str, Expression
         _check_names_in(derived[name], known, "a draw or an earlier derived value")
         known.append(name)
     return derived
+
+
+def _lookup(name: str, table: Table, others: Iterable[str]) -> Lookup:
+    _check_name(table, name, others)
+    table.only(("file", "column", "inputs"))
+    file = table.get("file", text)
+    origin = table.where("file")[0]
+    label, content = table.attached.get((origin, file), (file, None))
+    inputs = table.table("inputs")
+    formulas = {key: sequence(_formula)(inputs, key, _listed(entry)) for key, entry in inputs.content.items()}
+    if not formulas:
+        raise table.error("inputs", "no input", "add what its numbers are made of: name = expression, or a list")
+    return Lookup(name, table.get("column", text), formulas, origin, file, label, content)
+
+
+def _listed(entry: object) -> list[object]:
+    return entry if isinstance(entry, list) else [entry]
+
+
+def _formula(table: Table, key: str, entry: object) -> Expression:
+    return expression(table, key, entry if isinstance(entry, str) else repr(number(table, key, entry)))
 
 
 def _check_names_in(formula: Expression, known: Iterable[str], kind: str) -> None:
@@ -176,7 +198,8 @@ def parse_campaign(table: Table) -> Campaign:
     draws = _draws(table.table("draw"))
     derived = _read_derived(table.table("derive"), draws)
     sampled = [name for draw in draws for name in draw.names] + list(derived)
-    metrics = _metrics(table.table("metric"), sampled)
+    lookups = tuple(_lookup(name, each, sampled) for name, each in table.table("lookup").subtables())
+    metrics = _metrics(table.table("metric"), [*sampled, *(lookup.name for lookup in lookups)])
     return Campaign(
         file=table.file,
         system=table.get("system", text),
@@ -196,6 +219,7 @@ def parse_campaign(table: Table) -> Campaign:
         group=_group(table.table("group"), sampled) if "group" in table.content else None,
         faults=_faults(table.table("fault"), sampled),
         scatters=tuple(_scatter(name, each, metrics) for name, each in table.table("scatter").subtables()),
+        lookups=lookups,
         requirements=read_requirements(table.table("requirement"), [metric.name for metric in metrics], draws),
     )
 

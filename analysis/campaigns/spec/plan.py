@@ -153,8 +153,11 @@ class BatchPlan:
         return replace(self, campaign=campaign, given=given, known_draws=draws)
 
     def of_samples(self, given: GivenDraws) -> BatchPlan:
-        """A plan that flies given draws, a trial for each: values derived of them, faults and metrics follow."""
-        campaign = replace(self.campaign, trials=given.trials)
+        """A plan that flies given draws, a trial for each: values derived of them, faults and metrics follow.
+
+        Lookups, whose numbers are of the campaign's own draws, are left out. Raises InputError.
+        """
+        campaign = replace(self.campaign.without_lookups(), trials=given.trials)
         return replace(self, campaign=campaign, given=given, known_draws=None)
 
     @cached_property

@@ -8,18 +8,20 @@ import posixpath
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from ...common.bounds import CAMPAIGN_BYTES, CAMPAIGN_FILES
+from ...common.bounds import CAMPAIGN_BYTES, CAMPAIGN_FILES, INPUT_BYTES
 from ...common.errors import InputError
 from ...common.regular import names_file, read_input
 from ...runtime.ssp.archive import SystemArchive
 from .table import Table
 
+LOOKUP, FILE = "lookup", "file"  # tables of which each refers to a file
 EXTENDS = "extends"
 HERE = "."  # in its list, the position of the file's own entries; the end where it is not listed
 Origin = tuple[str, int]  # file and line
+Attached = tuple[str, bytes | None]  # a file's label, and its content where there is one
 
 
 @dataclass(frozen=True)
@@ -27,17 +29,21 @@ class CampaignSource:
     """A campaign's file, ``raw`` with its ``label`` for messages, and the files that it ``extends``, in their order.
 
     ``position`` is the number of those whose entries come before its own, which are the last unless it says otherwise.
+    ``attached`` are the tables of its lookups, by their paths as it says them.
     """
 
     label: str
     raw: bytes
     extends: tuple[CampaignSource, ...] = ()
     position: int = 0
+    attached: Mapping[str, Attached] = field(default_factory=dict)
 
     @property
     def sha256(self) -> str:
-        """Of the file, and of all that it extends."""
+        """Of the file, of the tables that it looks up, and of all that it extends."""
         digest = hashlib.sha256(self.raw)
+        for _, content in self.attached.values():
+            digest.update(hashlib.sha256(content or b"").digest())
         for part in self.extends:
             digest.update(bytes.fromhex(part.sha256))
         return digest.hexdigest()
@@ -52,7 +58,8 @@ class CampaignSource:
         """The merged content. A later file's entry replaces an earlier one of the same name.
 
         The entries of [draw], [metric], [requirement], [fault], [scatter] and [configuration] are tables, those of
-        [set], [derive], [compare], [record], [group] and [success] are values. Raises InputError.
+        [set], [derive], [compare], [record], [group] and [success] are values, as are all in [lookup]. Raises
+        InputError.
         """
         content: dict[str, object] = {}
         origins: dict[str, Origin] = {}
@@ -63,7 +70,8 @@ class CampaignSource:
                 inherited = part.table()
                 _merge(content, inherited.content, part.label)
                 origins |= inherited.origins
-        return Table(content, self.label, origins=origins)
+        attached = {(file.label, name): each for file in self.files() for name, each in file.attached.items()}
+        return Table(content, self.label, origins=origins, attached=attached)
 
     def _add_own(self, content: dict[str, object], origins: dict[str, Origin]) -> None:
         own = parse_toml(self.raw, self.label)
@@ -87,7 +95,8 @@ def _read_source(
     raw: bytes, label: str, archive: SystemArchive | None, chain: tuple[str, ...], files: list[str]
 ) -> CampaignSource:
     """A file with those that it extends, which ``files`` collects; ``chain`` leads to it."""
-    names = parse_toml(raw, label).get(EXTENDS, [])
+    content = parse_toml(raw, label)
+    names = content.get(EXTENDS, [])
     names = [names] if isinstance(names, str) else names
     if not isinstance(names, list) or not all(isinstance(name, str) and name for name in names):
         raise InputError(label, EXTENDS, f"{names!r} is not a file", 'write extends = "FILE.toml", or a list of files')
@@ -97,14 +106,34 @@ def _read_source(
     for name in names:
         if name == HERE:
             continue
-        content, other = _find(name, label, archive)
+        inherited, other = _find(name, label, archive)
         if other in (*chain, label):
             path = " -> ".join([*chain, label, other])
             raise InputError(label, EXTENDS, f"a cycle: {path}", "remove one of these")
         CAMPAIGN_FILES.check(len(files), label, EXTENDS)
         files.append(other)
-        extended.append(_read_source(content, other, archive, (*chain, label), files))
-    return CampaignSource(label, raw, tuple(extended), names.index(HERE) if HERE in names else len(extended))
+        extended.append(_read_source(inherited, other, archive, (*chain, label), files))
+    attached = {name: _attach(name, label, archive) for name in _lookup_files(content)}
+    position = names.index(HERE) if HERE in names else len(extended)
+    return CampaignSource(label, raw, tuple(extended), position, attached)
+
+
+def _lookup_files(content: Mapping[str, object]) -> list[str]:
+    """The paths that the lookups of a file's content refer to."""
+    lookups = content.get(LOOKUP)
+    tables = lookups.values() if isinstance(lookups, Mapping) else ()
+    files = [table[FILE].strip() for table in tables if isinstance(table, Mapping) and isinstance(table.get(FILE), str)]
+    return list(dict.fromkeys(filter(None, files)))
+
+
+def _attach(name: str, origin: str, archive: SystemArchive | None) -> Attached:
+    """The file at a path relative to the file ``origin``, whose content may be missing."""
+    inside = None if archive is None else archive.name_of(origin)
+    if archive is not None and inside is not None:
+        path = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
+        return archive.label_of(path), archive.read(path, origin) if path in archive.files else None
+    file = Path(os.path.normpath(os.path.join(os.path.dirname(origin), name)))
+    return str(file), read_input(file, "look another file up", INPUT_BYTES) if names_file(file) else None
 
 
 def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes, str]:
@@ -175,9 +204,19 @@ def _merge(content: dict[str, object], later: Mapping[str, object], label: str) 
             table = Table(value, label, key)
             entries = dict(table.flat(of_tables=True) if key == "draw" else table.flat() if key in FLAT else value)
             earlier = content.get(key)
-            content[key] = {**earlier, **entries} if isinstance(earlier, Mapping) else entries
+            content[key] = _join(earlier, entries, deep=key == LOOKUP) if isinstance(earlier, Mapping) else entries
         else:
             content[key] = value
+
+
+def _join(earlier: Mapping[str, object], later: Mapping[str, object], deep: bool) -> dict[str, object]:
+    """Two tables as one, where ``deep`` also those of one name in both."""
+    both = {
+        name: _join(earlier[name], table, deep)  # type: ignore[arg-type]
+        for name, table in later.items()
+        if deep and isinstance(table, Mapping) and isinstance(earlier.get(name), Mapping)
+    }
+    return {**earlier, **later, **both}
 
 
 VARIANTS = ("compare", "configuration")  # tables of which a campaign has one

@@ -17,7 +17,9 @@ REQUIRED: Any = object()
 class Table:
     """One table of a TOML file; ``element`` is its place in the file, as in ``metric.position_error``.
 
-    ``origins`` has file and line of values by their place, where they are written in several files.
+    ``origins`` has file and line of values by their place, where they are written in several files; ``attached`` the
+    files that it refers to, each by the file that names it and that name: what messages call it, and its content, None
+    where there is no such file.
     """
 
     def __init__(
@@ -26,11 +28,13 @@ class Table:
         file: str,
         element: str = "",
         origins: Mapping[str, tuple[str, int]] | None = None,
+        attached: Mapping[tuple[str, str], tuple[str, bytes | None]] | None = None,
     ) -> None:
         self.content = content
         self.file = file
         self.element = element
         self.origins = origins or {}
+        self.attached = attached or {}
 
     def place(self, key: str) -> str:
         return f"{self.element}.{key}" if self.element else key
@@ -68,7 +72,7 @@ class Table:
         value = self.content.get(key, {})
         if not isinstance(value, dict):
             raise self.error(key, "not a table", f"write [{self.place(key)}] and its keys below it")
-        return Table(value, self.file, self.place(key), self.origins)
+        return Table(value, self.file, self.place(key), self.origins, self.attached)
 
     def subtables(self) -> list[tuple[str, Table]]:
         """Name and table of every entry; names are identifiers."""

@@ -86,7 +86,7 @@ def read_synthesis(path: Path) -> Synthesis:
         if key in whole.content:
             raise whole.error(key, f"not for a synthesis: {reason}", "drop it; perilune batch flies what was found")
     remainder = {key: value for key, value in whole.content.items() if key != SYNTHESIS}
-    campaign = parse_campaign(Table(remainder, whole.file, origins=whole.origins))
+    campaign = parse_campaign(Table(remainder, whole.file, origins=whole.origins, attached=whole.attached))
     table = whole.table(SYNTHESIS)
     settings_keys = [field.name for field in fields(SearchSettings)]
     table.only([*OWN_KEYS, *settings_keys])

@@ -1,8 +1,10 @@
-"""The point-mass problem at a fixed time as a sequence of convex ones, and the time of least propellant.
+"""The point-mass problem at a fixed time as a sequence of convex ones.
 
 Second-order cones, solved by Clarabel. Size of thrust acceleration s >= |u| in place of s = |u|, logarithm of the mass
 ratio z in place of the mass (Acikmese and Ploen 2007, "Convex programming approach to powered descent guidance for Mars
-landing"); thrust limits and gravity are expanded about the last solution until nothing changes.
+landing"); thrust limits and gravity are expanded about the last solution until nothing changes. Tilt and glide slope
+are cones (Acikmese, Carson and Blackmore 2013, "Lossless convexification of nonconvex control bound and pointing
+constraints of the soft landing optimal control problem").
 """
 
 from __future__ import annotations
@@ -12,20 +14,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
-from scipy.optimize import minimize_scalar
 
-from .path import OFF, PlanError, PlannedPath
+from .path import OFF, PlannedPath
 from .point_mass import PointMassProblem
 from .solvers import clarabel
 
-BOUND_INTERVALS = 240  # of a bound, unless others are requested
 SOLVES = 12  # three to six are needed
 CHANGE = 1e-7  # of the propellant fraction between two solves
 TOLERANCE = 1e-10
-COARSE = 40  # intervals of the search's first look
-GROWTH = 1.3  # from one time of it to the next
-FIRST, LAST = -8, 11  # times from 1/8 to 18 times the natural one
-ACCURACY = 1e-2  # s; the propellant is flat there
 
 
 @dataclass(frozen=True)
@@ -52,6 +48,7 @@ class PointMassPath:
         return float(np.max(self.size - np.linalg.norm(self.thrust_acceleration, axis=1)))
 
     def make_path(self, problem: PointMassProblem) -> PlannedPath:
+        """Return the path of a ``problem`` in a plane as plans have it."""
         force = self.thrust_acceleration
         throttle = self.size / problem.most * np.exp((self.log_mass[1:] + self.log_mass[:-1]) / 2.0)
         pitch = np.where(throttle > OFF, np.arctan2(force[:, 1], force[:, 0]), np.nan)
@@ -112,7 +109,7 @@ def _solve(
 
     gradient = problem.gravity.gradient(about) * (problem.length / unit)
     field = sparse.block_diag(list(gradient), format="csr")
-    pull = np.stack(problem.gravity.at(about[:, 0], about[:, 1]), axis=1)
+    pull = np.stack(problem.gravity.at(*about.T), axis=1)
     constant = pull.ravel() / unit - field @ (about.ravel() / problem.length)
     mean = sparse.csr_array(before / 3.0 + after / 6.0)
     half = sparse.csr_array((before + after) / 2.0)
@@ -132,6 +129,8 @@ def _solve(
     away = sparse.csr_array((here + there) / 2.0) @ z  # y = away z - middle
     maximum = problem.most / unit * ratio
     below = [(s + sparse.diags_array(maximum) @ away, maximum * (1.0 + middle))]
+    if problem.largest_tilt is not None:
+        below.append((math.cos(problem.largest_tilt) * s - u[axes - 1 :: axes], np.zeros(intervals)))
     thrust = _interleave([s, *(u[axis::axes] for axis in range(axes))])
     cones = [(thrust, np.zeros(thrust.shape[0]))]
     kinds = [clarabel().SecondOrderConeT(1 + axes)] * intervals
@@ -141,13 +140,21 @@ def _solve(
         offset = 1.0 + middle
         cones.append((_interleave([q, q, away]), -np.stack([offset - 0.5, offset + 0.5, middle], axis=1).ravel()))
         kinds += [clarabel().SecondOrderConeT(3)] * intervals
+    if problem.glide_slope is not None:
+        inner = slice(axes, -axes)  # the ends are fixed
+        slope = math.tan(problem.glide_slope)
+        level = [slope * r[inner][axis::axes] for axis in range(axes - 1)]
+        apex = np.array(problem.end_position) - np.eye(axes)[-1] * problem.glide_offset
+        offset = np.array([apex[-1], *(slope * apex[:-1])]) / problem.length
+        cones.append((_interleave([r[inner][axes - 1 :: axes], *level]), -np.tile(offset, intervals - 1)))
+        kinds += [clarabel().SecondOrderConeT(axes)] * (intervals - 1)
 
     rows = [matrix for matrix, _ in equal + below] + [-matrix for matrix, _ in cones]
     right = [value for _, value in equal + below + cones]
-    equalities = sum(matrix.shape[0] for matrix, _ in equal)
+    equalities, inequalities = (sum(matrix.shape[0] for matrix, _ in part) for part in (equal, below))
     cost = np.asarray((h / exhaust) * s.sum(axis=0)).ravel()
     solution = _clarabel(
-        cost, rows, right, [clarabel().ZeroConeT(equalities), clarabel().NonnegativeConeT(intervals), *kinds]
+        cost, rows, right, [clarabel().ZeroConeT(equalities), clarabel().NonnegativeConeT(inequalities), *kinds]
     )
     if solution is None:
         return None
@@ -183,37 +190,3 @@ def _clarabel(
     if status not in ("Solved", "AlmostSolved"):
         return None
     return np.array(solution.x)
-
-
-def least_propellant(problem: PointMassProblem, intervals: int) -> PointMassPath:
-    """The best path over all durations; raises `PlanError`."""
-    first, last = _bracket(problem)
-
-    paths: dict[float, PointMassPath] = {}
-
-    def propellant(duration: float) -> float:
-        nearest = min(paths, key=lambda other: abs(other - duration), default=None)
-        path = solve_fixed_time(problem, duration, intervals, None if nearest is None else paths[nearest])
-        if path is None:
-            return 1.0
-        paths[duration] = path
-        return path.propellant_fraction
-
-    best = minimize_scalar(propellant, bounds=(first, last), method="bounded", options={"xatol": ACCURACY})
-    if best.x not in paths:
-        raise PlanError(f"bound: no solution on {intervals} intervals near {best.x:.2f} s")
-    return paths[best.x]
-
-
-def _bracket(problem: PointMassProblem) -> tuple[float, float]:
-    """Durations (s) on both sides of the best, from coarse solutions at growing ones until it rises."""
-    times = problem.natural_time * GROWTH ** np.arange(FIRST, LAST + 1)
-    best, minimum = None, 1.0
-    for index, time in enumerate(times):
-        path = solve_fixed_time(problem, float(time), COARSE)
-        value = 1.0 if path is None else path.propellant_fraction
-        if value < minimum:
-            best, minimum = index, value
-        elif best is not None:
-            return float(times[max(0, best - 1)]), float(time)
-    raise PlanError(f"bound: the vehicle cannot do it in any time from {times[0]:.3g} to {times[-1]:.3g} s")

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 
 from ...common.progress import progress_bar
-from .convex_form import BOUND_INTERVALS, least_propellant
 from .declared_bound import Inputs
+from .least_time import BOUND_INTERVALS, least_propellant
 from .multiple_shooting import direct_propellant
 from .path import PlannedPath
 from .point_mass import PointMassProblem, landing_problem

@@ -1,4 +1,7 @@
-"""What a bound is asked of: a point mass that has any thrust direction in a plane, on a transfer or a landing."""
+"""The problem of a bound: a point mass with any thrust direction, in a plane or in space, on a transfer or a landing.
+
+Of two or three axes the last one points up.
+"""
 
 from __future__ import annotations
 
@@ -17,13 +20,14 @@ class UniformGravity:
 
     value: float
 
-    def at(self, x: Symbol, y: Symbol) -> tuple[Symbol, Symbol]:
-        """Gravity (m/s2) along and up at places (m): numbers, arrays or CasADi's symbols."""
-        return 0.0 * x, 0.0 * y - self.value
+    def at(self, *position: Symbol) -> tuple[Symbol, ...]:
+        """Return gravity (m/s2) by axis at a position (m) by axis: numbers, arrays or CasADi's symbols."""
+        *level, up = position
+        return (*(0.0 * x for x in level), 0.0 * up - self.value)
 
     def gradient(self, position: np.ndarray) -> np.ndarray:
         """Its derivative by position (1/s2) as matrices, one for each row of ``position`` (m)."""
-        return np.zeros((position.shape[0], 2, 2))
+        return np.zeros((*position.shape, position.shape[1]))
 
 
 @dataclass(frozen=True)
@@ -33,44 +37,52 @@ class CentralGravity:
     parameter: float
     radius: float
 
-    def at(self, x: Symbol, y: Symbol) -> tuple[Symbol, Symbol]:
-        """Gravity (m/s2) along and up at places (m): numbers, arrays or CasADi's symbols."""
-        up = y + self.radius
-        pull = self.parameter / (x**2 + up**2) ** 1.5
-        return -pull * x, -pull * up
+    def at(self, *position: Symbol) -> tuple[Symbol, ...]:
+        """Return gravity (m/s2) by axis at a position (m) by axis: numbers, arrays or CasADi's symbols."""
+        *level, height = position
+        up = height + self.radius
+        pull = self.parameter / sum((x**2 for x in (*level[1:], up)), start=level[0] ** 2) ** 1.5
+        return (*(-pull * x for x in level), -pull * up)
 
     def gradient(self, position: np.ndarray) -> np.ndarray:
         """Its derivative by position (1/s2) as matrices, one for each row of ``position`` (m): mu/r^3 (3 u u' - 1)."""
-        arm = np.add(position, (0.0, self.radius))
+        arm = position.copy()
+        arm[:, -1] += self.radius
         distance = np.linalg.norm(arm, axis=1)[:, np.newaxis, np.newaxis]
         up = arm[:, :, np.newaxis] / distance
-        return self.parameter / distance**3 * (3.0 * up * up.transpose(0, 2, 1) - np.eye(2))
+        return self.parameter / distance**3 * (3.0 * up * up.transpose(0, 2, 1) - np.eye(position.shape[1]))
 
 
 @dataclass(frozen=True)
 class PointMassProblem:
-    """From one state to another on least propellant, attitude free. Positions (m) and velocities (m/s) along and up.
+    """From one state to another on least propellant, attitude free. Positions (m) and velocities (m/s) along and up, or
+    along three axes of which the last is up.
 
     ``exhaust_speed`` in m/s; ``least`` and ``most`` are the engine's thrust limits over the initial mass, m/s2.
-    ``length`` (m) and ``speed`` (m/s) are the scales in which it is solved.
+    ``length`` (m) and ``speed`` (m/s) are the scales in which it is solved. ``largest_tilt`` (rad) limits the angle of
+    thrust from up, ``glide_slope`` (rad) that of the path over a cone whose apex lies ``glide_offset`` (m) below the
+    end; None: no such limit.
     """
 
-    start_position: tuple[float, float]
-    start_velocity: tuple[float, float]
-    end_position: tuple[float, float]
-    end_velocity: tuple[float, float]
+    start_position: tuple[float, ...]
+    start_velocity: tuple[float, ...]
+    end_position: tuple[float, ...]
+    end_velocity: tuple[float, ...]
     gravity: UniformGravity | CentralGravity
     exhaust_speed: float
     least: float
     most: float
     length: float
     speed: float
+    largest_tilt: float | None = None
+    glide_slope: float | None = None
+    glide_offset: float = 0.0
 
     @property
     def natural_time(self) -> float:
         """A time (s) of the order of the one that costs least: at mean speed, or at full thrust from rest."""
-        way = float(np.hypot(*np.subtract(self.end_position, self.start_position)))
-        speeds = float(np.hypot(*self.start_velocity) + np.hypot(*self.end_velocity))
+        way = math.dist(self.end_position, self.start_position)
+        speeds = math.hypot(*self.start_velocity) + math.hypot(*self.end_velocity)
         return min(2.0 * way / speeds if speeds > 0.0 else np.inf, 2.0 * (2.0 * way / self.most) ** 0.5)
 
 

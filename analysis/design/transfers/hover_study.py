@@ -12,7 +12,7 @@ import numpy as np
 from ....fmus_src.mathlib.hover.solution import PlanKind
 from ...common.errors import InputError
 from ...common.progress import progress_bar
-from ..trajectories.convex_form import BOUND_INTERVALS, least_propellant
+from ..trajectories.least_time import BOUND_INTERVALS, least_propellant
 from ..trajectories.path import PlanError, PlannedPath
 from ..trajectories.point_mass import transfer_problem
 from ..trajectories.vehicle import Margins, Transfer, Vehicle, limits_document

@@ -114,12 +114,13 @@ def component_statuses(result: BatchResult) -> list[ComponentStatus]:
 
 
 def draw_rows(campaign: Campaign) -> list[tuple[str, str, str]]:
-    """Name, distribution and arguments of each dispersed parameter, then derived ones with their expressions."""
+    """Return name, distribution and arguments of dispersed parameters, then derived ones, and tables of lookups."""
     rows = []
     for draw in campaign.draws:
         distribution = draw.distribution
         rows.append((", ".join(draw.names), distribution.keyword.replace("_", " "), distribution.describe()))
-    return rows + [(name, "derived", " ".join(formula.text.split())) for name, formula in campaign.derived.items()]
+    rows += [(name, "derived", " ".join(formula.text.split())) for name, formula in campaign.derived.items()]
+    return rows + [(each.name, "lookup", f"{each.column} of {each.file}") for each in campaign.lookups]
 
 
 def fmu_rows(fmus: dict[str, dict[str, str]]) -> list[tuple[str, str, str]]:

@@ -17,6 +17,7 @@ from ...campaigns.fly.campaign import Campaign
 from ...campaigns.fly.cluster.tasks import WorkersDiedError
 from ...campaigns.fly.manifest import FILE as MANIFEST
 from ...campaigns.replay_command import campaign_command, replay_command
+from ...campaigns.spec.file import parse_campaign
 from ...campaigns.spec.plan import BatchPlan, read_plan
 from ...campaigns.spec.sweeps import part_sweeps
 from ...common.errors import EndedError, ExitStatus, InputError
@@ -35,7 +36,7 @@ def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, An
         name, text = next(iter(sweeps.items()))
         raise InputError("`set`", f"{name}={text}", "a study has no sweeps", "give one value")
     series, draws = options["input"], options.get("draws")
-    return read_plan(
+    plan = read_plan(
         Path(system),
         os.fspath(campaign),
         settings,
@@ -50,6 +51,13 @@ def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, An
         draws=None if draws is None else Path(draws),
         sweeps=sweeps,
     )
+    if "trials" in options and draws is None:
+        return plan
+    read = parse_campaign(plan.source.table()) if plan.source is not None else plan.campaign
+    if dropped := read.metrics_of_lookups():
+        tables = ", ".join(lookup.name for lookup in read.lookups)
+        warnings.warn(f"{', '.join(dropped)}: left out, since {tables} is of the campaign's own trials", stacklevel=2)
+    return replace(plan, campaign=plan.campaign.without_lookups())
 
 
 def _read_compare(compare: Mapping[str, FilePath | Sequence[FilePath]]) -> dict[str, list[str]] | None:

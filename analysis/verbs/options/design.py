@@ -14,6 +14,7 @@ from ...design.trajectories.vehicle import (
     LANDING_VEHICLE,
     Margins,
 )
+from .campaigns import CAMPAIGN, SYSTEM
 from .option import FilePath, Option
 from .system import JsonFile, ReportFiles, Seed, SystemOptions
 from .verb import Argument, Verb
@@ -230,4 +231,28 @@ BOUND = Verb(
     function="plans.plan_landing_bound",
     examples={"perilune design bound": "a lower bound of what any such landing takes; needs the extra plan"},
     not_met=NO_PLAN,
+)
+
+
+class BoundsOptions(TypedDict, total=False):
+    """Options of design bounds"""
+
+    trials: Annotated[int | None, Option("instead of the campaign's number of trials", metavar="N")]
+    intervals: Annotated[int | None, Option("of each bound; default: 80", minimum=10, maximum=MOST_INTERVALS)]
+    workers: Annotated[int | None, Option("bounds in parallel; default: one per processor", metavar="N")]
+    store: Annotated[bool, Option("store the table where [lookup.bound] of the campaign reads it", False)]
+
+
+BOUNDS = Verb(
+    "design bounds",
+    "bound the propellant of each trial of a campaign, for a point mass with free attitude",
+    (SYSTEM, CAMPAIGN),
+    options=BoundsOptions,
+    files=JsonFile,
+    function="bounds.bound_trials",
+    examples={
+        "perilune design bounds lunar_landing --campaign laws_approach --trials 2": "lower bounds of what these "
+        "descents take; needs the extra plan"
+    },
+    not_met="a trial has no bound: its target is out of reach",
 )

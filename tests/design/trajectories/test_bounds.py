@@ -13,7 +13,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from perilune.analysis.design.trajectories.convex_form import least_propellant, solve_fixed_time
+from perilune.analysis.design.trajectories.convex_form import solve_fixed_time
+from perilune.analysis.design.trajectories.least_time import least_propellant
 from perilune.analysis.design.trajectories.multiple_shooting import direct_propellant
 from perilune.analysis.design.trajectories.path import PlanError
 from perilune.analysis.design.trajectories.point_mass import landing_problem, transfer_problem

@@ -1,0 +1,158 @@
+"""A table of numbers by trial, made elsewhere for the inputs of these trials, and whether it is still that.
+
+A row has the trial's number, the hash of its inputs and numbers; comments before them name the inputs:
+
+    # made by: perilune design bounds SYSTEM --campaign NAME --store
+    # input: mass = plant.initial_mass
+    trial,inputs,propellant
+    0,3f0c9b1a5d2e4c77,257.005382
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from ...common.errors import InputError, suggestion
+from .declared import Formula
+
+TRIAL, INPUTS = "trial", "inputs"  # the first two columns
+DIGITS = 16  # of SHA-256, hexadecimal
+MADE_BY, INPUT = "# made by: ", "# input: "
+WRITE = "write it anew; perilune design bounds writes that of [lookup.bound]"
+
+InputColumns = Mapping[str, Sequence[np.ndarray]]  # by name one or more numbers, each an array (trials,)
+
+
+def input_hashes(columns: InputColumns) -> list[str]:
+    """Return the hash of every trial's inputs, every bit of them, whatever their order."""
+    rows = {name: np.stack(values, axis=1).tolist() for name, values in sorted(columns.items())}
+    trials = len(next(iter(rows.values())))
+    hashes = []
+    for trial in range(trials):
+        text = "\n".join(f"{name} {' '.join(number.hex() for number in row[trial])}" for name, row in rows.items())
+        hashes.append(hashlib.sha256(text.encode()).hexdigest()[:DIGITS])
+    return hashes
+
+
+@dataclass(frozen=True)
+class TrialTable:
+    """The ``columns`` of a table, arrays (trials,) by name, and the ``hashes`` of its trials' inputs.
+
+    ``inputs`` are the formulas of the inputs, a text for each name; ``command`` has made the table, "" if unknown.
+    """
+
+    columns: Mapping[str, np.ndarray]
+    hashes: Sequence[str]
+    inputs: Mapping[str, str]
+    command: str = ""
+
+    @property
+    def remedy(self) -> str:
+        """What to do where it is not the table of a campaign's trials."""
+        return f"make it again: {self.command}" if self.command else WRITE
+
+    def write(self, decimals: Mapping[str, int]) -> bytes:
+        """Return the table as CSV, with so many decimals in each of its columns."""
+        lines = [f"{MADE_BY}{self.command}"] if self.command else []
+        lines += [f"{INPUT}{name} = {text}" for name, text in self.inputs.items()]
+        lines.append(",".join((TRIAL, INPUTS, *self.columns)))
+        for trial, hashed in enumerate(self.hashes):
+            numbers = (f"{column[trial]:.{decimals[name]}f}" for name, column in self.columns.items())
+            lines.append(",".join((str(trial), hashed, *numbers)))
+        return ("\n".join(lines) + "\n").encode()
+
+
+def read_trial_table(content: bytes, file: str) -> TrialTable:
+    """Return the table in a CSV file. Raises InputError."""
+    try:
+        lines = content.decode("utf-8").splitlines()
+    except UnicodeDecodeError as error:
+        raise InputError(file, f"byte {error.start}", "not UTF-8", WRITE) from error
+    comments = [line for line in lines if line.startswith("#")]
+    made = [line.removeprefix(MADE_BY).strip() for line in comments if line.startswith(MADE_BY)]
+    pairs = (line.removeprefix(INPUT).partition(" = ") for line in comments if line.startswith(INPUT))
+    rows = [line.split(",") for line in lines if line.strip() and not line.startswith("#")]
+    head = rows.pop(0) if rows else []
+    if head[:2] != [TRIAL, INPUTS] or len(set(head)) < len(head) or len(head) < 3:
+        raise InputError(file, "", f"its columns do not begin with {TRIAL},{INPUTS} and different names", WRITE)
+    numbers = np.empty((len(rows), len(head) - 2))
+    for trial, row in enumerate(rows):
+        if len(row) != len(head) or row[0] != str(trial):
+            raise InputError(file, f"row {trial}", f"not trial {trial} with {len(head)} columns", WRITE)
+        try:
+            numbers[trial] = [float(text) for text in row[2:]]
+        except ValueError as error:
+            raise InputError(file, f"row {trial}", f"not numbers: {', '.join(row[2:])}", WRITE) from error
+    columns = dict(zip(head[2:], numbers.T, strict=True))
+    return TrialTable(columns, [row[1] for row in rows], {name: text for name, _, text in pairs}, "".join(made[:1]))
+
+
+@dataclass(frozen=True)
+class Lookup:
+    """Numbers of trials under a ``name`` that metrics can use: a ``column`` of a table.
+
+    The table is made for ``inputs``: by name one or more formulas over draws, derived values and parameters. ``file``
+    is its path as the campaign's file ``origin`` says it, ``label`` that of messages, ``content`` None where there is
+    no such file.
+    """
+
+    name: str
+    column: str
+    inputs: Mapping[str, tuple[Formula, ...]]
+    origin: str
+    file: str
+    label: str = field(repr=False)
+    content: bytes | None = field(repr=False)
+
+    @property
+    def element(self) -> str:
+        """The place in the campaign's file."""
+        return f"lookup.{self.name}"
+
+    @property
+    def formulas(self) -> list[Formula]:
+        """All formulas of its inputs."""
+        return [formula for formulas in self.inputs.values() for formula in formulas]
+
+    @cached_property
+    def table(self) -> TrialTable:
+        """The table. Raises InputError where there is none, or it has no such column."""
+        if self.content is None:
+            raise InputError(self.origin, f"{self.element}.file", f"no file {self.file}", WRITE)
+        table = read_trial_table(self.content, self.label)
+        if self.column not in table.columns:
+            remedy = suggestion(self.column, table.columns)
+            raise InputError(self.origin, f"{self.element}.column", f"{self.label} has no {self.column!r}", remedy)
+        return table
+
+    def numbers_of(self, trials: range) -> np.ndarray:
+        """Return the numbers of trials in a row. Raises InputError where the table has not so many."""
+        rows = len(self.table.hashes)
+        if trials.stop > rows:
+            problem = f"{rows} trials, and the campaign has {trials.stop} or more"
+            raise InputError(self.label, "", problem, f"give `trials` {rows} at most, or {self.table.remedy}")
+        return self.table.columns[self.column][trials.start : trials.stop]
+
+    def input_columns(self, known: Mapping[str, np.ndarray | float], trials: int) -> InputColumns:
+        """Return the inputs of so many trials; ``known`` are draws, derived values and parameters by name."""
+        return {
+            name: [np.array(np.broadcast_to(formula.evaluate(known), (trials,)), dtype=float) for formula in formulas]
+            for name, formulas in self.inputs.items()
+        }
+
+    def check(self, columns: InputColumns, trials: range, variant: str) -> None:
+        """Refuse a table that was made for other inputs than these ``columns`` of a variant. Raises InputError."""
+        different = sorted(self.table.inputs.keys() ^ self.inputs.keys())
+        if different:
+            problem = f"made with, or without, {', '.join(different)}, unlike [{self.element}.inputs]"
+            raise InputError(self.label, "input", problem, self.table.remedy)
+        hashes = self.table.hashes[trials.start : trials.stop]
+        for trial, made, actual in zip(trials, hashes, input_hashes(columns), strict=True):
+            if made != actual:
+                problem = f"made for other inputs ({', '.join(self.inputs)}) than {variant} has"
+                raise InputError(self.label, f"trial {trial}", problem, self.table.remedy)

@@ -1,0 +1,150 @@
+"""Bounds of least propellant of a campaign's trials: `perilune.bound_trials`, `perilune design bounds`."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Unpack
+
+import numpy as np
+
+from ..campaigns.draws.lookup import InputColumns, Lookup, TrialTable, input_hashes
+from ..campaigns.fly.workers import worker_count
+from ..campaigns.replay_command import campaign_name
+from ..campaigns.spec.checks import check_draws, lookup_constants, prepare_variants
+from ..campaigns.spec.plan import BatchPlan, read_plan
+from ..common.atomic import write_atomically
+from ..common.errors import InputError, UnwrittenError
+from ..common.progress import progress_bar
+from ..design.trajectories.descent_problem import check_roles, descent_problem
+from ..design.trajectories.many_bounds import INTERVALS, bound_descents
+from ..runtime.ssp.archive import SystemArchive
+from ..runtime.system.options import SystemOptions
+from .common.stores import check_stored_system
+from .options.command import write_command
+from .options.design import BOUNDS, BoundsOptions
+from .options.option import FilePath
+from .options.verb import verb
+
+LOOKUP = "bound"  # the lookup that is computed here
+DECIMALS = {"propellant": 6, "duration": 2}  # of the columns of its table, kg and s
+
+
+@dataclass(frozen=True, eq=False)
+class TrialBounds:
+    """Least ``propellant`` (kg) and its ``duration`` (s) of every trial of a ``campaign``, arrays (trials,), on so many
+    ``intervals``; nan where there is no such descent. ``file`` is where the table is stored, if it was requested.
+    """
+
+    campaign: str
+    propellant: np.ndarray
+    duration: np.ndarray
+    intervals: int
+    file: Path | None = None
+
+    def lines(self) -> list[str]:
+        """Return what `perilune design bounds` prints."""
+        known = self.propellant[np.isfinite(self.propellant)]
+        lines = [f"{self.campaign}: {self.propellant.size} trials ({self.intervals} intervals)"]
+        if known.size:
+            mean, low, high = math.fsum(known) / known.size, known.min(), known.max()
+            lines.append(f"  bound {mean:.3f} kg on average, {low:.3f} to {high:.3f} kg")
+        return lines + ([] if self.file is None else [f"stored: {self.file}"])
+
+    def to_json(self) -> dict[str, object]:
+        """Return the numbers of all trials, None where there is none."""
+        columns = {"propellant_kg": self.propellant, "duration_s": self.duration}
+        lists = {name: [x if math.isfinite(x) else None for x in column.tolist()] for name, column in columns.items()}
+        return {"campaign": self.campaign, "intervals": self.intervals, **lists}
+
+    def problems(self) -> list[str]:
+        """Return a line for the trials that have no bound."""
+        missing = np.flatnonzero(~np.isfinite(self.propellant))
+        if not missing.size:
+            return []
+        return [f"{missing.size} trials, the first of them {missing[0]}, cannot reach the target in any time"]
+
+
+@verb(BOUNDS)
+def bound_trials(system: FilePath, campaign: FilePath, **options: Unpack[BoundsOptions]) -> TrialBounds:
+    """Bound the propellant of every trial of a campaign: `perilune design bounds`; needs the extra `plan`.
+
+    The campaign declares the inputs of the bound in [lookup.bound.inputs], see docs/planning.md; ``workers`` (default:
+    one per processor) does not change results. ``store`` writes the table where [lookup.bound] reads it. Raises
+    InputError.
+    """
+    plan = read_plan(Path(system), os.fspath(campaign), SystemOptions(), trials=options["trials"])
+    lookup = _find_lookup(plan)
+    count, intervals = worker_count(options["workers"]), options["intervals"] or INTERVALS
+    inputs, archive = _inputs_of(plan, lookup)
+    file = _target(lookup, archive) if options["store"] else None
+    bounded = replace(_solve(inputs, lookup, intervals, count), campaign=campaign_name(plan), file=file)
+    if file is not None:
+        written = {"trials": options["trials"], "intervals": options["intervals"], "store": True}
+        command = write_command(BOUNDS, {"system": plan.system, "campaign": bounded.campaign}, written)
+        texts = {name: ", ".join(formula.text for formula in row) for name, row in lookup.inputs.items()}
+        columns = {"propellant": bounded.propellant, "duration": bounded.duration}
+        try:
+            file.parent.mkdir(exist_ok=True)
+            write_atomically(file, TrialTable(columns, input_hashes(inputs), texts, command).write(DECIMALS))
+        except OSError as error:
+            raise UnwrittenError(error, bounded) from error
+    return bounded
+
+
+def _find_lookup(plan: BatchPlan) -> Lookup:
+    for lookup in plan.campaign.lookups:
+        if lookup.name == LOOKUP:
+            return lookup
+    problem = "it does not say what the bounds of its trials are made of"
+    raise InputError(plan.campaign.file, f"lookup.{LOOKUP}", problem, 'add one: "Planning" in the documentation')
+
+
+def _inputs_of(plan: BatchPlan, lookup: Lookup) -> tuple[InputColumns, SystemArchive]:
+    """The inputs of all trials, which its variants share, and the system. Raises InputError."""
+    where = _element_of(lookup)
+    check_roles({name: len(formulas) for name, formulas in lookup.inputs.items()}, where)
+    plan = replace(plan, campaign=replace(plan.campaign, lookups=(), metrics=()))  # its table may be missing
+    systems = prepare_variants(plan)
+    check_draws(plan, systems.values())
+    table = plan.draws.of_part(range(plan.campaign.trials))
+    (first, inputs), *others = (
+        (variant, lookup.input_columns({**lookup_constants(plan, system, lookup), **table.columns}, table.trials))
+        for variant, system in systems.items()
+    )
+    for variant, other in others:
+        if input_hashes(other) != input_hashes(inputs):
+            problem = f"{variant} has other inputs than {first}"
+            raise InputError(*where, problem, "use parameters that all variants have alike")
+    return inputs, next(iter(systems.values())).archive
+
+
+def _solve(inputs: InputColumns, lookup: Lookup, intervals: int, workers: int) -> TrialBounds:
+    """The bounds of all trials, in parallel. Raises InputError."""
+    trials = range(next(iter(inputs.values()))[0].size)
+    numbers = ({name: [x[trial] for x in row] for name, row in inputs.items()} for trial in trials)
+    problems, masses = zip(*(descent_problem(each, _element_of(lookup)) for each in numbers), strict=True)
+    bounds = []
+    with progress_bar(total=len(trials), unit="trial") as progress:
+        for bound in bound_descents(problems, intervals, workers):
+            bounds.append(bound)
+            progress.update()
+    fractions, durations = np.array(bounds).T
+    return TrialBounds("", fractions * np.array(masses), durations, intervals)
+
+
+def _element_of(lookup: Lookup) -> tuple[str, str]:
+    return lookup.origin, f"{lookup.element}.inputs"
+
+
+def _target(lookup: Lookup, archive: SystemArchive) -> Path:
+    """The file of a lookup's table. Raises InputError where it cannot be written."""
+    inside = archive.name_of(lookup.origin)
+    if inside is None:
+        return Path(lookup.label)
+    check_stored_system(archive)
+    origin = archive.files[inside]
+    assert isinstance(origin, Path)  # of a folder
+    return Path(os.path.normpath(origin.parent / lookup.file))

@@ -1,0 +1,16 @@
+"""Systems whose folder takes what is computed for them."""
+
+from __future__ import annotations
+
+from ....fmus_src.paths import IS_CHECKOUT, PACKAGE
+from ...common.errors import InputError
+from ...runtime.ssp.archive import SystemArchive
+
+
+def check_stored_system(archive: SystemArchive) -> None:
+    """Refuse `store` for a system that is no folder, or is one of the installed package. Raises InputError."""
+    if not archive.path.is_dir():
+        raise InputError("`store`", str(archive.path), "not a folder", "unpack the .ssp and name its folder")
+    if not IS_CHECKOUT and archive.path.is_relative_to(PACKAGE):
+        problem = "a system of the installed package, which is not written to"
+        raise InputError("`store`", str(archive.path), problem, "copy this folder and name the copy")
