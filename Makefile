@@ -4,6 +4,7 @@ BIN := .venv/bin
 # Basilisk: an environment of its own for cross-checks, and a folder next to ours for a plant.
 CROSSCHECK := build/crosscheck
 BASILISK := $(CURDIR)/build/basilisk
+IMPORTERS := $(CURDIR)/build/importers
 # On a terminal pip shows what it does, in a log nothing.
 QUIET := $(shell [ -t 2 ] || echo --quiet)
 
@@ -98,6 +99,15 @@ bench-basilisk: build $(CROSSCHECK)/ready $(BASILISK)/ready
 large: build
 	$(BIN)/python -m benchmarks.large_systems
 
+# Every exported FMU in the importers of the package index: the table of docs/guides/importers.md; a quarter of an hour.
+importers: build $(IMPORTERS)/ready
+	PYTHONPATH=$(CURDIR):$$(echo $(IMPORTERS)/lib/python3*/site-packages) LD_LIBRARY_PATH=$(IMPORTERS)/lib \
+		$(BIN)/python -m tests.importers
+
+$(IMPORTERS)/ready: .venv/ready
+	$(BIN)/pip install $(QUIET) --disable-pip-version-check --no-deps --ignore-installed --prefix $(IMPORTERS) ecospy==0.7.2 tbb==2023.2.0 tcmlib==1.6.0
+	touch $@
+
 # The same flights here and in Basilisk, which has an environment of its own: the tables and the figure of docs/concepts/crosscheck.md.
 crosscheck: build $(CROSSCHECK)/ready
 	$(BIN)/python -m crosscheck $(CROSSCHECK)/bin/python
@@ -184,4 +194,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench guidance-cost bench-basilisk large crosscheck basilisk sanitize fuzz processors emulator windows browser browser-firefox lint clean
+.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench guidance-cost bench-basilisk large importers crosscheck basilisk sanitize fuzz processors emulator windows browser browser-firefox lint clean

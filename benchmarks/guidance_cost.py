@@ -127,17 +127,17 @@ def main() -> None:
         with tempfile.TemporaryDirectory() as folder:
             recording = record_guidance(law)
             program = compile_steps(law, recording, Path(folder))
-            counts, native = count_instructions(program), time_steps([str(program)])
+            steps, native = count_instructions(program), time_steps([str(program)])
             fmu = BUILD / "fmus" / "python" / f"{law}.fmu"
             stored = Path(folder) / "recording.json"
             stored.write_text(json.dumps(vars(recording)))
             python = time_steps([sys.executable, "-m", "benchmarks.recorded_steps", str(fmu), str(stored)])
-        cells = (
-            f"{max(counts)}, {median(counts):.0f}",
+        columns = (
+            f"{max(steps)}, {median(steps):.0f}",
             f"{max(native):.1f}, {median(native):.2f}",
             f"{max(python) / max(native):.0f}, {median(python) / median(native):.0f}",
         )
-        print(f"| `{law}` | {' | '.join(cells)} |", flush=True)
+        print(f"| `{law}` | {' | '.join(columns)} |", flush=True)
 
 
 if __name__ == "__main__":
