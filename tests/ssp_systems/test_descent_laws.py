@@ -109,3 +109,13 @@ def test_a_dead_band_is_left_out():
     thrust = flight["allocation.thrust"][:-25] / 5099.0
     assert np.count_nonzero(thrust == 1.0) > 100
     assert np.all((thrust < 0.63 + 1e-9) | (thrust > 1.0 - 1e-9))
+
+
+def test_a_replay_has_the_metrics_that_read_a_state():
+    """The target in force is a state of the guidance, which no connection carries."""
+    (actual,) = fly("laws_divert_braking", ["zem_zev_guidance"], 1).values()
+    replayed = perilune.replay(
+        SYSTEM, 0, campaign="laws_divert_braking", trials=1, compare={"guidance": ["zem_zev_guidance"]}
+    )
+    expected = {name: values[0] for name, values in actual.metrics.items()}
+    assert replayed.replayed.outcome.metrics == expected
