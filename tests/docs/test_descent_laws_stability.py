@@ -29,9 +29,9 @@ HALF_DIGIT = [0.5e-3, 0.5e-2, 0.5e-2, 0.5e-2]
 
 def margins_of(loop):
     """Crossover (rad/s), gain margin (dB), phase margin (deg), delay margin (s)."""
-    found = loop.classical
-    gain, phase = DECIBEL * np.log(found.gain_margin.value), np.degrees(found.phase_margin.value)
-    return found.phase_margin.frequency, gain, phase, found.delay_margin
+    margins = loop.classical
+    gain, phase = DECIBEL * np.log(margins.gain_margin.value), np.degrees(margins.phase_margin.value)
+    return margins.phase_margin.frequency, gain, phase, margins.delay_margin
 
 
 def assert_agree(row, actual):
