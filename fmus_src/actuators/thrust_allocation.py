@@ -40,6 +40,12 @@ class ThrustAllocation(Allocation):
     thrust_error = Parameter(
         0.0, unit="1", minimum=0.0, description="relative error of thrust, 1 sigma, constant over a flight"
     )
+    thrust_offset = Parameter(
+        0.0,
+        unit="1",
+        minimum=-1.0,
+        description="relative error of thrust that every flight has, added to the random one",
+    )
     thrust_lead = Parameter(0.0, unit="s", minimum=0.0, description="the burn ends so much earlier than demanded")
     direction_lead = Parameter(0.0, unit="s", minimum=0.0, description="the direction is that of so much later")
     dead_band_low = Parameter(
@@ -57,7 +63,7 @@ class ThrustAllocation(Allocation):
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)
         error = normal(self.generator)
-        self.thrust_factor = 1.0 + self.thrust_error * error
+        self.thrust_factor = 1.0 + self.thrust_offset + self.thrust_error * error
         self.command_thrust()
         self.thrust = self.commanded_thrust
         self.pass_direction()

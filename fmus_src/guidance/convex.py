@@ -7,7 +7,7 @@ from ..mathlib.lunar.convex.expansion import PLAN, DescentTask, PlanSummary
 from ..mathlib.lunar.convex.flight_time import TimeBracket, first_bracket, is_met, plan_descent, replan_bracket
 from ..mathlib.lunar.convex.problem import INTERVALS
 from ..mathlib.lunar.convex.tracking import mean_thrust, reference, tracking_thrust
-from ..mathlib.vectors import all_below, norm, vector
+from ..mathlib.vectors import all_below, clip, norm, vector
 from .informed_guidance import LIMIT_GLIDE_SLOPE, LIMIT_PLACE
 from .polynomial_guidance import GLIDE_TOLERANCE
 from .zem_zev import ZemZevGuidance
@@ -18,6 +18,7 @@ LOWEST_BRAKING = 0.7  # of the first time, where that brakes at about constant t
 LOWEST_EFFORT = 0.4  # ... and where it is that of least effort: times from which a search begins
 CLEARANCE = 5.0  # m of a start outside of the glide slope above the one that is lowered for it
 OFF_COURSE = 30.0  # m from the plan, at which another is made, ...
+CLOSING = 1.0  # m/s, times the time to go the same near the end, which leaves no time to fly an offset out, ...
 PATIENCE = 5.0  # ... s after the last one at the earliest
 END_LOAD = 1.1  # thrust over the largest of a linear end for which another time is chosen
 LATE = 1.03  # of the time left, beyond which a plan uses more of the thrust
@@ -27,12 +28,12 @@ class ConvexGuidance(ZemZevGuidance):
     """Thrust of least propellant within thrust, glide slope and tilt, planned on events and tracked.
 
     A plan has 24 intervals of constant thrust acceleration, whose time of flight is 1.02 times the best. It is made at
-    the start and where the vehicle is 30 m off it; in between the vehicle is steered back to it. Below end_time to go
-    the thrust acceleration is linear in time (ZEM/ZEV). Status 1, with `limit`, where a plan from below the glide slope
-    leaves it (2), where the target is out of reach and the plan has the least miss, or an old plan is kept because no
-    new one meets the target (8), and where ZEM/ZEV commands for want of a plan and leaves a limit; 2 where position,
-    velocity or mass are none to plan with; 3 at the start where there is no time. With frozen_time_to_go the law is
-    ZEM/ZEV throughout.
+    the start and where the vehicle is 30 m off it, or 1 m for each second to go if that is less; in between the vehicle
+    is steered back to it. Below end_time to go the thrust acceleration is linear in time (ZEM/ZEV). Status 1, with
+    `limit`, where a plan from below the glide slope leaves it (2), where the target is out of reach and the plan has
+    the least miss, or an old plan is kept because no new one meets the target (8), and where ZEM/ZEV commands for want
+    of a plan and leaves a limit; 2 where position, velocity or mass are none to plan with; 3 at the start where there
+    is no time. With frozen_time_to_go the law is ZEM/ZEV throughout.
     Source: Acikmese and Ploen 2007; Blackmore, Acikmese and Scharf 2010; the solver is that of Vandenberghe 2010 with a
     Riccati recursion; time of flight and tracking are ours.
     Assumes constant gravity or gravity_correction.
@@ -202,7 +203,8 @@ class ConvexGuidance(ZemZevGuidance):
             self.since_plan = self.since_plan + self.cycle
         step = self.plan_time / float(INTERVALS)
         position, _ = reference(self.plan, step, self.plan_time - self.expected_time)
-        if norm(position - self.position) > OFF_COURSE and self.since_plan >= PATIENCE:
+        allowed = clip(CLOSING * self.expected_time, 0.0, OFF_COURSE)
+        if norm(position - self.position) > allowed and self.since_plan >= PATIENCE:
             self.replan()
 
     def track(self) -> None:

@@ -23,6 +23,7 @@ class FractionalGuidance(PolynomialGuidance):
     A kr above 6 straightens the end towards the final thrust acceleration a_f, which is upright for a_f along z. With
     gain_choice = searched, time and kr are those of least propellant with a price on glide slope and tilt.
     Status 3 where gamma or gamma_2 is negative or both are equal, and no profile exists.
+    With frozen_time_to_go a gain that is searched for is 6.
     Source: Lu 2019 and 2020; the search is ours.
     Assumes constant gravity or gravity_correction.
     """
@@ -41,6 +42,10 @@ class FractionalGuidance(PolynomialGuidance):
             gamma = 1.0
         return DescentShape(final=self.final_thrust_acceleration, gamma=gamma, kr=kr)
 
+    def take_gain(self) -> None:
+        if self.gain_choice == GainChoice.FIXED:
+            self.flown_kr = self.kr
+
     def objective(self, time: float, kr: float) -> float:
         """Return the impulse (m/s) with prices on thrust, glide slope and tilt."""
         cost = self.cost_of(time, kr, self.thrust_margin)
@@ -49,7 +54,7 @@ class FractionalGuidance(PolynomialGuidance):
     def search_time(self, first: float) -> float:
         """Return the time to go (s) of the least objective, and set flown_kr; of a ``first`` time (s)."""
         if self.gain_choice == GainChoice.FIXED:
-            self.flown_kr = self.kr
+            self.take_gain()
             if not is_regular(self.shape(self.kr)):
                 return 0.0
             return self.best_time(first, SHORTEST, SPACING, self.kr)

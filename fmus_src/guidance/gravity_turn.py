@@ -27,6 +27,10 @@ class GravityTurnGuidance(InformedGuidance):
     )
     burning = State(False, description="thrust has begun")
 
+    def plan_frozen(self) -> bool:
+        """False: the law has no time to hold."""
+        return False
+
     def forget(self) -> None:
         self.burning = self.burning and self.commanding  # a divert leaves the engine on
 

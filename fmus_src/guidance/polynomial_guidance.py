@@ -62,6 +62,9 @@ class PolynomialGuidance(InformedGuidance, interface=True):
         """Return the numbers of the law with the gain ``kr``; here those of ZEM/ZEV, for kr 6."""
         return DescentShape(final=vector(0.0, 0.0, 0.0), gamma=1.0, kr=kr)
 
+    def take_gain(self) -> None:
+        """Set flown_kr where the gain is a parameter."""
+
     def forget(self) -> None:
         self.chosen = False
         self.checked_time = 0.0
@@ -155,6 +158,7 @@ class PolynomialGuidance(InformedGuidance, interface=True):
     def time_left(self) -> float:
         """Return the time to go (s): chosen at the start and where the thrust does not suffice, else counted down."""
         if self.plan_frozen():
+            self.take_gain()
             return self.frozen_time_to_go
         time = self.expected_time
         if not self.chosen:

@@ -41,6 +41,10 @@ class LandingInputs(Block, interface=True):
     redesignation_2 = Input(
         [0.0, 0.0], unit="m", frame="landing site", description="move of the site, x and y, read when hover 2 ends"
     )
+    divert_count = Input(
+        0, description="of diverts of the braking guidance; a change during the braking moves the site"
+    )
+    divert_position = landing.POSITION.input("target of the braking after a divert, above the new site")
     sampled_time = State(0.0, unit="s", description="when the inputs were sampled")
     sampled_position = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimated_position then")
     sampled_velocity = State([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimated_velocity then")
@@ -59,6 +63,8 @@ class LandingInputs(Block, interface=True):
     sampled_ground_contact = State(False, description="ground_contact then")
     sampled_move_1 = State([0.0, 0.0], unit="m", frame="landing site", description="redesignation_1 then")
     sampled_move_2 = State([0.0, 0.0], unit="m", frame="landing site", description="redesignation_2 then")
+    sampled_divert = State(0, description="divert_count then")
+    sampled_divert_position = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="divert_position then")
     is_sampled = State(False, description="the inputs of the cycle under way have been sampled")
     cycles = State(0, description="cycles completed")
     start_time = State(0.0, unit="s", description="start of the flight")
@@ -78,6 +84,8 @@ class LandingInputs(Block, interface=True):
         self.sampled_plan = self.hover_plan
         self.sampled_hover_finished = self.hover_finished
         self.sampled_hover_status = self.hover_status
+        self.sampled_divert = self.divert_count
+        self.sampled_divert_position = self.divert_position
         self.sampled_propellant = self.predicted_propellant
         self.sampled_probe_contact = self.probe_contact
         self.sampled_ground_contact = self.ground_contact

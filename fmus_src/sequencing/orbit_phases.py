@@ -7,6 +7,7 @@ from ..interfaces.ports.landing import CommandSource, TerminalStatus
 from ..kernel.enumerations import Enumeration, member
 from ..kernel.functions import cos
 from ..mathlib.lunar.gravity import altitude_of, from_centre
+from ..mathlib.lunar.landing_site import site_below
 from ..mathlib.orbits.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range, lowest_altitude
 from ..mathlib.vectors import dot, norm
 from ..units import deg
@@ -65,6 +66,7 @@ class OrbitPhases(LandingSequence, interface=True):
     unsolved_since = State(
         NEVER, unit="s", description="the braking guidance has had no solution from then on; -1: it has"
     )
+    flown_divert = State(0, description="divert_count that the site belongs to")
     elsewhere = State(False, description="braking goes on to an end far from the site")
 
     def face_back(self, time: float) -> None:
@@ -146,6 +148,13 @@ class OrbitPhases(LandingSequence, interface=True):
     def begin_braking(self) -> None:
         """The braking guidance's command, without thrust until the axis is on it."""
         self.take_over(CommandSource.BRAKING, False)
+        self.flown_divert = self.sampled_divert
+
+    def divert_site(self) -> None:
+        """Move the site below the target that the braking is diverted to."""
+        if self.sampled_divert != self.flown_divert:
+            self.flown_divert = self.sampled_divert
+            self.site = site_below(self.sampled_divert_position, self.moon_radius)
 
     def ignite(self, answered: bool, ahead: float) -> None:
         """Turn the engine on once the axis is on the guidance's direction, or after a while in any case."""
@@ -159,6 +168,7 @@ class OrbitPhases(LandingSequence, interface=True):
     def brake(self, t: float, ahead: float) -> int:
         """Ignite, and look for the end. What the guidance put out before the phase began does not count."""
         answered = self.sampled_command_time >= self.phase_time[LandingPhase.BRAKING - 1] - ROUNDING
+        self.divert_site()
         if not self.engine_on:
             self.ignite(answered, ahead)
         if self.sampled_braking_status < TerminalStatus.NOT_CONVERGED or not answered:

@@ -86,8 +86,22 @@ def test_a_row_is_what_its_command_gives(words, row):
             assert float(number) == pytest.approx(value, abs=0.501 * 10.0**-decimals), column
 
 
+@pytest.mark.skipif(not LONG, reason="60 flights of six laws")
+@pytest.mark.usefixtures("fmus")
+def test_last_demands_are_those_of_the_flights():
+    stated = re.findall(r"(\d\.\d\d) for `(\w+)`", PAGE)
+    assert len(stated) == 6
+    for number, law in stated:
+        (actual,) = perilune.batch(
+            "lunar_landing", "laws_robust", trials=60, compare={"guidance": [law]}
+        ).trials.values()
+        demands = [trace["guidance.thrust_acceleration"] * trace["plant.mass"] for trace in actual.traces.values()]
+        last = np.mean([demand[demand > 0.0][-1] for demand in demands]) / 5099.0
+        assert float(number) == pytest.approx(last, abs=0.00501), law
+
+
 def test_every_command_has_its_table():
-    assert len(BENCH.findall(PAGE)) == PAGE.count("--campaign laws_") == 6
+    assert len(BENCH.findall(PAGE)) == PAGE.count("--campaign laws_") == 7
 
 
 def test_what_to_choose_has_the_excess_of_the_tables():

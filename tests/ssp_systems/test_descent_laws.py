@@ -62,9 +62,17 @@ def test_laws_near_the_ground(campaign):
     assert np.all(flown["gravity_turn_guidance"].metrics["pinpoint"] == 0.0)
 
 
+def test_three_percent_less_thrust_than_known_fails_no_law():
+    """At most one in a hundred of the laws that know the engine."""
+    for law, actual in fly("laws_thrust", [*BRAKING, "convex_guidance"], either(300, 2)).items():
+        assert np.mean(actual.success) >= 0.99, law
+        assert np.max(actual.metrics["aim_error"]) < 20.0, law
+
+
 def test_bad_knowledge_and_a_dead_band_of_thrust():
     """A law that ends with a thrust above the band gets the whole thrust then, and is too fast."""
-    for law, actual in fly("laws_robust", ["analytic_exact_guidance", "zem_zev_guidance"], either(60, 3)).items():
+    laws = ["analytic_exact_guidance", "zem_zev_guidance", "convex_guidance"]
+    for law, actual in fly("laws_robust", laws, either(60, 3)).items():
         assert np.max(actual.metrics["aim_error"]) < 20.0, law
         assert np.max(actual.metrics["velocity_error"]) < 6.0, law
         assert (np.mean(actual.metrics["pinpoint"]) > 0.9) == (law == "analytic_exact_guidance")
@@ -100,3 +108,13 @@ def test_a_dead_band_is_left_out():
     thrust = flight["allocation.thrust"][:-25] / 5099.0
     assert np.count_nonzero(thrust == 1.0) > 100
     assert np.all((thrust < 0.63 + 1e-9) | (thrust > 1.0 - 1e-9))
+
+
+def test_a_replay_has_the_metrics_that_read_a_state():
+    """The target in force is a state of the guidance, which no connection carries."""
+    (actual,) = fly("laws_divert_braking", ["zem_zev_guidance"], 1).values()
+    replayed = perilune.replay(
+        SYSTEM, 0, campaign="laws_divert_braking", trials=1, compare={"guidance": ["zem_zev_guidance"]}
+    )
+    expected = {name: values[0] for name, values in actual.metrics.items()}
+    assert replayed.replayed.outcome.metrics == expected

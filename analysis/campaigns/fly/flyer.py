@@ -65,7 +65,13 @@ class Flyer:
                 faults = self.plan.list_faults()
                 log = self._log_of(variant)
                 simulation = open_simulation(
-                    prepared, apart=self._apart, varied=names.varied, wanted=wanted, faults=faults, log=log
+                    prepared,
+                    apart=self._apart,
+                    varied=names.varied,
+                    wanted=wanted,
+                    more=names.signals,  # a state of an FMU is not among all that is exchanged
+                    faults=faults,
+                    log=log,
                 )
                 self._ready[variant] = simulation, names
         return self._ready[variant]
@@ -166,7 +172,13 @@ class Flyer:
         """Return a trial with the wanted signals recorded, None for all."""
         faults, log, sampled = self.plan.list_faults(), self._log_of(variant), self.values_for(trial)
         with open_simulation(
-            prepared, apart=self._apart, varied=names.varied, wanted=wanted, faults=faults, log=log
+            prepared,
+            apart=self._apart,
+            varied=names.varied,
+            wanted=wanted,
+            more=names.signals,
+            faults=faults,
+            log=log,
         ) as simulation:
             simulation.set_faults(sampled.faults_of(trial))
             simulation.set(sampled.parameters(prepared, trial))

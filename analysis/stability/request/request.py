@@ -91,7 +91,7 @@ def read_request(
     """
     archive = open_system(system)
     times = tuple(sorted(set(map(float, at))))
-    declaration = _select(read_description(archive, options.variant), loops, times)
+    declaration = _select(read_description(archive, options.variant), loops, times, options)
     request = Request(archive.name, archive.label, str(system), options, declaration, at=times)
     if campaign is None:
         without = {"configuration": configuration, "trials": trials, "seed": seed, "trial": trial, "draws": draws}
@@ -111,7 +111,7 @@ def read_request(
     return replace(request, options=_values_of_trial(plan, options, trial))
 
 
-def _select(description: Description, names: Sequence[str], at: Sequence[float]) -> Declaration:
+def _select(description: Description, names: Sequence[str], at: Sequence[float], options: SystemOptions) -> Declaration:
     """The declaration with just the loops that are asked for."""
     declared = read_declaration(description)
     by_name = {loop.name: loop for loop in declared.loops}
@@ -135,7 +135,7 @@ def _select(description: Description, names: Sequence[str], at: Sequence[float])
         here = [point for point in declared.points if point.name in requested]
         points, sweeps = (*_shift(here, at), *cuts), ()
         # points that differ by their time only are one when times are given: the first with the same settings
-        same = {point.name: (point.layer, point.until) for point in here}
+        same = {point.name: (_remaining(point.layer, options), point.until) for point in here}
         origins = {name: next(other for other in same if same[other] == same[name]) for name in same}
         for index, loop in enumerate(wanted):
             if loop.name in by_name:
@@ -150,6 +150,13 @@ def _select(description: Description, names: Sequence[str], at: Sequence[float])
         tuple(wanted),
         tuple(sweep for sweep in sweeps if sweep.loop in retained),
     )
+
+
+def _remaining(layer: Layer, options: SystemOptions) -> Layer:
+    """Return what of a point's settings the user's leave in force."""
+    use = {component: fmu for component, fmu in layer.use.items() if component not in options.use}
+    values = {name: value for name, value in layer.set.items() if name not in options.set}
+    return replace(layer, use=use, set=values)
 
 
 def _shift(points: Sequence[Point], at: Sequence[float]) -> list[Point]:

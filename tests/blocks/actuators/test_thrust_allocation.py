@@ -146,6 +146,12 @@ def test_thrust_error_is_normal_constant_over_a_flight_and_off_by_default():
     assert allocation(4.8, seed=9).thrust == MASS * 4.8
 
 
+def test_an_offset_of_thrust_is_that_of_every_flight():
+    assert allocation(4.8, thrust_offset=-0.03).thrust == pytest.approx(0.97 * MASS * 4.8, rel=1e-15)
+    plain, low = (allocation(4.8, thrust_error=0.01, seed=5, thrust_offset=offset).thrust for offset in (0.0, -0.03))
+    assert plain - low == pytest.approx(0.03 * MASS * 4.8, rel=1e-12)
+
+
 @pytest.mark.parametrize("limit", [0.02, 0.3])
 def test_slew_turns_at_the_limit_along_the_great_circle(limit):
     """The demand jumps by 1.2 rad: the flown direction trails at limit * time until it arrives."""

@@ -9,6 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from perilune.fmus_src.guidance.apollo import ApolloGuidance
+from perilune.fmus_src.guidance.fractional import FractionalGuidance
 from perilune.fmus_src.interfaces.ports.landing import UNLIMITED
 from tests.support.descent.laws import TO_A_PLACE
 from tests.support.flights.linear_thrust import GRAVITY, POSITION, TARGET, VELOCITY, impulse_and_miss
@@ -61,6 +63,17 @@ def test_least_effort_about_hovering(guidance_class, time):
     position_gain, velocity_gain = gains(guidance, TARGET, np.zeros(3))
     assert position_gain == pytest.approx(-6.0 / time**2 * np.eye(3), abs=1e-6 / time**2)
     assert velocity_gain == pytest.approx(-4.0 / time * np.eye(3), abs=1e-6 / time)
+
+
+@pytest.mark.parametrize("guidance_class", [FractionalGuidance, ApolloGuidance])
+@pytest.mark.parametrize("time", [5.0, 60.0])
+def test_a_quartic_about_its_final_thrust(guidance_class, time):
+    """a0 = a_f + 12 dr/T^2 - 6 V/T, with the gain 12 that both laws declare."""
+    guidance = commanded(guidance_class, TARGET, np.zeros(3), frozen_time_to_go=time)
+    assert guidance.flown_kr == 12.0
+    position_gain, velocity_gain = gains(guidance, TARGET, np.zeros(3))
+    assert position_gain == pytest.approx(-12.0 / time**2 * np.eye(3), abs=1e-5 / time**2)
+    assert velocity_gain == pytest.approx(-6.0 / time * np.eye(3), abs=1e-5 / time)
 
 
 @pytest.mark.parametrize("guidance_class", EXACT)

@@ -217,3 +217,15 @@ def test_what_holds_of_any_flight(start, flight):
             if block.finished:
                 assert phase == 9
                 return
+
+
+def test_a_divert_of_the_braking_moves_the_site_and_one_before_does_not():
+    """The site is where the sphere meets the line from its centre to the target diverted to."""
+    target = np.array([300.0, -400.0, 2400.0])
+    flown = Flown(3, **at(0.1, 15e3), divert_count=1, divert_position=target.tolist())
+    assert flown.step(5).site == [0.0, 0.0, 0.0]
+    block = flown.step(3, divert_count=2)
+    from_centre = target - CENTRE
+    expected = RADIUS / np.linalg.norm(from_centre) * from_centre + CENTRE
+    assert block.site == pytest.approx(expected.tolist(), abs=1e-6)
+    assert flown.step(3, divert_position=[0.0, 0.0, 0.0]).site == pytest.approx(expected.tolist(), abs=1e-6)

@@ -4,6 +4,10 @@ With x the offset from the target, v its rate, k = mu/r^3 and T the frozen time-
 
     a0 = (-6/T^2 - n) x - (4/T) v        a1 = (12/T^3 + n/T) x + (6/T^2) v        x'' = a + n x
 
+or with the gain 12 of Apollo's quartic and a final thrust that hovers, which is quadratic in time,
+
+    a0 = (-12/T^2 - n) x - (6/T) v       a1 = (48/T^3 + n/T) x + (18/T^2) v
+
 where n is the gradient of gravity, -k across and 2 k along the vertical: `gravity_correction` takes it as linear in
 time. Communication points are h apart, and estimates are the truth.
 
@@ -27,10 +31,11 @@ ATTITUDE_LAG, THRUST_LAG = 0.5, 0.1  # s
 
 @dataclass(frozen=True)
 class HoverLoop:
-    """One axis with a time-to-go (s): ``vertical``, or one of the two across."""
+    """One axis with a time-to-go (s): ``vertical``, or one of the two across; ``quartic`` is Apollo's law."""
 
     time_to_go: float
     vertical: bool
+    quartic: bool = False
 
     @property
     def gradient(self) -> float:
@@ -44,6 +49,9 @@ class HoverLoop:
         ahead = 0.5 * STEP if self.vertical else STEP + ATTITUDE_LAG
         now = np.array([-6.0 / time**2 - n, -4.0 / time])
         slope = np.array([12.0 / time**3 + n / time, 6.0 / time**2])
+        if self.quartic:
+            now = np.array([-12.0 / time**2 - n, -6.0 / time])
+            slope = np.array([48.0 / time**3 + n / time, 18.0 / time**2])
         return now + ahead * slope
 
     @property

@@ -116,6 +116,17 @@ def test_off_course_a_plan_is_made_anew_but_not_sooner_than_after_its_patience()
     assert flight.speed < 0.05
 
 
+@pytest.mark.parametrize(("left", "replanned"), [(42.0, False), (12.0, True)])
+def test_near_the_end_a_smaller_offset_makes_another_plan(left, replanned):
+    """An offset of 20 m: with 42 s to go it is flown out, with 12 s another plan starts from it."""
+    time = fly(ConvexGuidance, C1).outputs["time_to_go"][0] - left
+    flight = fly(ConvexGuidance, C1, shifts=[(time, np.array([0.0, 20.0, 0.0]))])
+    changed = STEP * (1 + np.flatnonzero(np.diff(flight.outputs["choices"])))
+    assert (np.abs(changed - time) < 2.0 * STEP).any() == replanned
+    assert flight.miss < 0.05
+    assert flight.speed < 0.05
+
+
 def test_a_late_correction_takes_of_the_reserve_of_thrust():
     """With 0.92 of the thrust a plan would be more than 3 % late; half of the reserve makes up for it."""
     flight = fly(ConvexGuidance, C1, shifts=[(110.0, np.array([-700.0, 0.0, 0.0]))])
