@@ -86,6 +86,22 @@ def test_a_row_is_what_its_command_gives(words, row):
             assert float(number) == pytest.approx(value, abs=0.501 * 10.0**-decimals), column
 
 
+@pytest.mark.skipif(not LONG, reason="120 flights")
+@pytest.mark.usefixtures("fmus")
+def test_a_longer_last_burn_of_convex_plans():
+    for last_burn, velocity, pinpoint in ((2.0, 1.04, 59), (3.0, 0.44, 60)):
+        (actual,) = perilune.batch(
+            "lunar_landing",
+            "laws_braking",
+            trials=60,
+            compare={"guidance": ["convex_guidance"]},
+            set={"guidance.last_burn": last_burn},
+        ).trials.values()
+        assert f"{velocity} m/s" in PAGE
+        assert np.max(actual.metrics["velocity_error"]) == pytest.approx(velocity, abs=0.00501)
+        assert np.sum(actual.metrics["pinpoint"]) == pinpoint
+
+
 @pytest.mark.skipif(not LONG, reason="60 flights of six laws")
 @pytest.mark.usefixtures("fmus")
 def test_last_demands_are_those_of_the_flights():
