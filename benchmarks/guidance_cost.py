@@ -58,7 +58,7 @@ class Recording:
         lines = [f"static const double STEP = {self.step!r};"]
         for kind, ctype in (("Real", "double"), ("Integer", "fmi2Integer"), ("Boolean", "fmi2Boolean")):
             names = self.parameters[kind]
-            values = [repr(value) if kind == "Real" else str(int(value)) for value in names.values()]
+            values = [repr(number) if kind == "Real" else str(int(number)) for number in names.values()]
             lines.append(self._references(f"{kind.upper()}S", list(names)))
             lines.append(f"static const {ctype} {kind.upper()}_VALUES[] = {{{', '.join(values)}}};")
         lines.append(self._references("INPUTS", list(self.inputs)))

@@ -28,8 +28,8 @@ def main() -> None:
     slave.setupExperiment(startTime=0.0)
     setters = {"Real": slave.setReal, "Integer": slave.setInteger, "Boolean": slave.setBoolean}
     for kind, parameters in recording["parameters"].items():
-        for name, value in parameters.items():
-            setters[kind]([reference[name]], [value if kind == "Real" else int(value)])
+        for name, number in parameters.items():
+            setters[kind]([reference[name]], [number if kind == "Real" else int(number)])
     references = [reference[name] for name in recording["inputs"]]
     rows = [list(row) for row in zip(*recording["inputs"].values(), strict=True)]
     slave.setReal(references, rows[0])

@@ -43,9 +43,9 @@ def write_table(outcomes: dict[str, list[Outcome]]) -> tuple[str, list[str]]:
     for kind, trials in outcomes.items():
         counts = []
         for master in MASTERS:
-            own = [trial for trial in trials if trial.master == master]
-            counts.append(f"{sum(not trial.problem for trial in own)} of {len(own)}")
-            refused[master].update(f"{kind}: {trial.fmu}: {trial.problem}" for trial in own if trial.problem)
+            flown = [trial for trial in trials if trial.master == master]
+            counts.append(f"{sum(not trial.problem for trial in flown)} of {len(flown)}")
+            refused[master].update(f"{kind}: {trial.fmu}: {trial.problem}" for trial in flown if trial.problem)
         lines.append(f"| {kind} | {' | '.join(counts)} |")
     return "\n".join(lines) + "\n", [f"{master}: {text}" for master, problems in refused.items() for text in problems]
 

@@ -41,7 +41,7 @@ def scalar_outputs(fmu: Path) -> list[str]:
     ]
 
 
-def own_step(fmu: Path) -> float | None:
+def system_step(fmu: Path) -> float | None:
     """Return the internal step (s) of one FMU of a system, of which communication steps are multiples."""
     experiment = fmpy.read_model_description(str(fmu), validate=False).defaultExperiment
     is_system = not (catalogue().keys() & {fmu.stem})
@@ -50,7 +50,7 @@ def own_step(fmu: Path) -> float | None:
 
 def fly(master: str, fmu: Path, outputs: Iterable[str]) -> dict[str, float]:
     """Return the outputs after STEPS steps. Raises RuntimeError with the importer's last line."""
-    step = own_step(fmu) or STEP
+    step = system_step(fmu) or STEP
     command = [sys.executable, "-m", "tests.importers.worker", master, str(fmu), repr(step), str(STEPS), *outputs]
     done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT)
     lines = [line.removeprefix(MARK) for line in done.stdout.splitlines() if line.startswith(MARK)]
@@ -60,16 +60,18 @@ def fly(master: str, fmu: Path, outputs: Iterable[str]) -> dict[str, float]:
     return {name: float.fromhex(text) for name, text in json.loads(lines[-1]).items()}
 
 
-def agree(value: float, truth: float, tolerance: float) -> bool:
+def agree(number: float, truth: float, tolerance: float) -> bool:
     """True if two values are the same, or as near as a relative tolerance allows."""
-    return value == truth or abs(value - truth) <= tolerance * abs(truth) or (math.isnan(value) and math.isnan(truth))
+    return (
+        number == truth or abs(number - truth) <= tolerance * abs(truth) or (math.isnan(number) and math.isnan(truth))
+    )
 
 
 def try_importers(fmu: Path, masters: Iterable[str]) -> list[Outcome]:
     """Return how each importer does with an FMU."""
     outputs = scalar_outputs(fmu)
     truth = fly("FMPy", fmu, outputs)
-    tolerance = 0.0 if own_step(fmu) is None else CLOSE
+    tolerance = 0.0 if system_step(fmu) is None else CLOSE
     outcomes = []
     for master in masters:
         problem = ""

@@ -17,7 +17,7 @@ def main() -> None:
     name, fmu, step, steps, *outputs = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
         values = MASTERS[name](Path(fmu), float(step), int(steps), outputs, Path(folder))
-    print(MARK + json.dumps({key: value.hex() for key, value in values.items()}), flush=True)
+    print(MARK + json.dumps({key: number.hex() for key, number in values.items()}), flush=True)
     os._exit(0)  # what importers and loaders do at the end of a process is not what is tried here
 
 
