@@ -137,8 +137,10 @@ def test_killed_workers_fly_again(cluster, line, place):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("lost", ["scheduler", "workers"])
-def test_a_cluster_that_is_gone(line, whole, place, tmp_path, capsys, monkeypatch, lost):
+def test_a_cluster_that_is_gone(line, place, tmp_path, capsys, monkeypatch, lost):
+    """After the first of sixteen shards."""
     monkeypatch.setattr(flights, "WITHOUT_WORKERS", 2.0)
+    line = [*line[:-1], "400"]
     out = place / f"without_{lost}"
     with dask_cluster(tmp_path) as alone:
         watch = threading.Thread(target=lambda: (until(lambda: shards_in(out) >= 1), alone.end(lost)))
@@ -150,7 +152,8 @@ def test_a_cluster_that_is_gone(line, whole, place, tmp_path, capsys, monkeypatc
     assert {"scheduler": "is gone", "workers": "had no worker for 2 s"}[lost] in said
     assert f"; completed trials are stored in {out}: resume with the same command and --resume, or with shard" in said
     assert main([*line, "--output", str(out), "--resume"]) == 0
-    assert bytes_of(out) == whole
+    assert main([*line, "--output", str(place / f"complete_{lost}"), "--workers", "1"]) == 0
+    assert bytes_of(out) == bytes_of(place / f"complete_{lost}")
 
 
 def test_ctrl_c_leaves_what_can_be_gone_on_with(cluster, line, whole, place, capsys):
