@@ -53,7 +53,8 @@ _WRAPPER_NAMES_TEXT = """
     pass_parameters perilune_place power_of_two prepare_get prepare_set put_double put_int python_repr refuse
     refuse_end refuse_integer refuse_integration refuse_interface refuse_null refuse_point refuse_real refuse_reference
     refuse_set refuse_sizes refuse_step refuse_type refuse_wide reset restart restore_state save_state serialise
-    serialised_size set_fault set_start settle state_space terminate type_name whole_ceil whole_floor whole_trunc
+    serialised_size set_fault set_start settle state_space take_samples terminate type_name whole_ceil whole_floor
+    whole_trunc
 """
 VECTOR_OPERATIONS = ("add", "subtract", "negative", "scale", "multiply", "divide", "quotient")
 WRAPPER_NAMES = frozenset(
