@@ -80,13 +80,13 @@ def find_failure(fmu: Path, step: float) -> str | None:
 
 def failures(form: str, blocks: Sequence[type[Block]]) -> dict[tuple[str, float], str]:
     """What ends flights, by FMU and step (s)."""
-    found = {(block.fmu_name, step): find_failure(fmu_of(block, form), step) for block in blocks for step in STEPS}
-    return {key: message for key, message in found.items() if message is not None}
+    endings = {(block.fmu_name, step): find_failure(fmu_of(block, form), step) for block in blocks for step in STEPS}
+    return {key: message for key, message in endings.items() if message is not None}
 
 
-def row(label: str, cells: Sequence[object]) -> str:
+def row(label: str, numbers: Sequence[object]) -> str:
     """A row of a table."""
-    return f"| {' | '.join([label, *map(str, cells)])} |"
+    return f"| {' | '.join([label, *map(str, numbers)])} |"
 
 
 def samples_row() -> str:

@@ -35,8 +35,8 @@ SAMPLED = [block for block in catalogue().values() if "sample_period" in block.v
 FORMS = [
     (block, form)
     for number, block in enumerate(SAMPLED)
-    for place, form in enumerate(("native", "python", "fmi3"))
-    if not (block.python_only and form != "python") and (number + 2 * place) % either(1, 6) == 0
+    for shift, form in enumerate(("native", "python", "fmi3"))
+    if not (block.python_only and form != "python") and (number + 2 * shift) % either(1, 6) == 0
 ]
 
 
