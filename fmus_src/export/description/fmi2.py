@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from lxml import etree
 
@@ -25,18 +25,18 @@ def model_description(
     block_class: type[Block],
     *,
     guid: str,
-    generation_tool: str,
+    origin: Mapping[str, str],
     needs_execution_tool: bool,
     sources: Sequence[str] = (),
     native_memory: bool = False,
 ) -> bytes:
     """modelDescription.xml of a block.
 
-    ``sources`` lists the C files under ``sources/`` that an importer compiles; ``native_memory``
-    says that the FMU uses the importer's memory functions. Value references number the elements
-    of all variables in order of declaration.
+    ``origin`` has the attributes of `origin.origin`. ``sources`` lists the C files under ``sources/`` that an importer
+    compiles; ``native_memory`` says that the FMU uses the importer's memory functions. Value references number the
+    elements of all variables in order of declaration.
     """
-    root = start_description(block_class.fmu_name, guid, block_class.summary(), generation_tool)
+    root = start_description(block_class.fmu_name, guid, block_class.summary(), origin)
     simulation = etree.SubElement(
         root,
         "CoSimulation",
