@@ -42,12 +42,15 @@ def test_variables_are_those_declared(fmus, name):
         units = declared.units()
         for element, start, unit in zip(declared.element_names(), declared.elements, units, strict=True):
             actual = variables[element]
-            assert (actual.causality, actual.type) == (declared.causality, declared.type_name)
+            assert (actual.causality, actual.type) == (declared.causality, declared.fmi_type)
+            if declared.enumeration:
+                items = {item.name: int(item.value) for item in actual.declaredType.items}
+                assert items == {name: number for number, name in declared.enumeration.names.items()}
             assert actual.description.startswith(re.sub(r"\s+", " ", declared.description))
             if isinstance(declared, Parameter | Input):
-                value = {"Real": float, "Integer": int, "Boolean": lambda text: text == "true"}[actual.type](
-                    actual.start
-                )
+                value = {"Real": float, "Integer": int, "Enumeration": int, "Boolean": lambda text: text == "true"}[
+                    actual.type
+                ](actual.start)
                 assert value == start
             if actual.type == "Real":
                 assert actual.unit == unit

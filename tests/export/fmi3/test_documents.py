@@ -69,8 +69,10 @@ def test_a_block_is_described_as_in_fmi_2(name: str, tmp_path: Path) -> None:
         for each in elements:
             for key in ("causality", "variability", "initial", "unit", "min", "max", "nominal", "description"):
                 assert getattr(variable, key) == getattr(each, key), (variable.name, key)
-            kind = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}[each.type]
-            assert variable.type == kind or (variable.type, kind) == ("Enumeration", "Int32")
+            assert variable.type == {"Real": "Float64", "Integer": "Int32"}.get(each.type, each.type)
+            if each.type == "Enumeration":
+                items = [[(i.name, i.value, i.description) for i in v.declaredType.items] for v in (variable, each)]
+                assert items[0] == items[1]
     for kind in ("outputs", "initialUnknowns"):
         expected = {
             unknown.variable.name.partition("[")[0]: {each.name.partition("[")[0] for each in unknown.dependencies}
