@@ -16,7 +16,7 @@ from .start_values import StartError, describe_violation, start_range
 # How far a communication point may miss a sample instant: importers round t0 + n h, or add up h.
 SAMPLE_TOLERANCE = 1e-6  # of a sample period
 TIME_TOLERANCE = 1e-15  # of the time
-STEP_LIMIT = 1_000_000  # of a block's own integration in a communication step
+STEP_LIMIT = 1_000_000  # samples, and steps of a block's own integration, in a communication step
 INTEGRATION_STEPS = ("longest_step", "internal_step")  # names of the longest of them (s): the first that a block has
 POINT_TOLERANCE = 1e-3  # of a step: communication points carry the rounding of whoever adds them up
 
@@ -45,7 +45,7 @@ class Component:
     references number the elements of all variables in order of declaration.
 
     Raises what the block's arithmetic raises (ZeroDivisionError, ValueError, OverflowError) and
-    `StepError` when more than one sample, or too many integration steps, fall into a communication step; `StartError`
+    `StepError` when too many samples, or integration steps, fall into a communication step; `StartError`
     where a parameter is outside its bounds, or a parameter or an input is not finite.
     """
 
@@ -196,27 +196,46 @@ class Component:
             raise StepError(f"the step ends at {end!r} s, after the stop time of {stop!r} s")
 
     def do_step(self, t: float, h: float) -> None:
-        """Advance from t to t + h (s); a sampled block steps at its sample instants only."""
-        if self.sampled and self.block.sample_period > 0.0:
-            period = self.block.sample_period
-            margin = SAMPLE_TOLERANCE * period + TIME_TOLERANCE * abs(t + h)
-            due = self.start_time + (self.tick + 1) * period
-            if t + h < due - margin:
-                return
-            if t + h >= due + period - margin:
-                raise StepError(
-                    f"communication step {h!r} s holds more than one sample of sample_period {period!r} s; "
-                    "use a communication step no longer than the period, or a longer period"
-                )
+        """Advance from t to t + h (s); a sampled block steps at its sample instants only, at each of them.
+
+        With one instant the block's step is the importer's; with several there is a step from each instant to the
+        next, as of an importer that steps by the period and holds its inputs.
+        """
+        period = self.block.sample_period if self.sampled else 0.0
+        if not period > 0.0:
+            self.check_integration(h)
+            self.block.step(t, h)
+            return
+        margin = SAMPLE_TOLERANCE * period + TIME_TOLERANCE * abs(t + h)
+        due = self.start_time + (self.tick + 1) * period
+        if t + h < due - margin:
+            return
+        if t + h < due + period - margin:
             self.tick += 1
-        if self.integration_step is not None:
-            longest = getattr(self.block, self.integration_step)
-            if h > STEP_LIMIT * longest:
-                raise StepError(
-                    f"communication step {h!r} s holds more than {STEP_LIMIT} integration steps of {longest!r} s; "
-                    "use a shorter communication step, or a longer internal_step"
-                )
-        self.block.step(t, h)
+            self.check_integration(h)
+            self.block.step(t, h)
+            return
+        last = (t + h + margin - self.start_time) / period
+        if last - self.tick >= STEP_LIMIT + 1:
+            raise StepError(
+                f"communication step {h!r} s holds more than {STEP_LIMIT} samples of sample_period {period!r} s; "
+                "use a shorter communication step, or a longer period"
+            )
+        self.check_integration(h)
+        for tick in range(self.tick, int(last)):
+            self.tick = tick + 1
+            self.block.step(self.start_time + tick * period, period)
+
+    def check_integration(self, h: float) -> None:
+        """Refuse a communication step of h (s) with too many steps of the block's own integration."""
+        if self.integration_step is None:
+            return
+        longest = getattr(self.block, self.integration_step)
+        if h > STEP_LIMIT * longest:
+            raise StepError(
+                f"communication step {h!r} s holds more than {STEP_LIMIT} integration steps of {longest!r} s; "
+                "use a shorter communication step, or a longer internal_step"
+            )
 
     def get_state(self) -> dict[str, Any]:
         """Complete state: every variable and the life-cycle counters. Raises StateError for a block with more."""

@@ -93,7 +93,7 @@ def _filled(head: list[str], rows: list[list[str]]) -> str:
 
 
 def _name(variable: Variable) -> list[str]:
-    return [f"`{sized_name(variable)}`", variable.type_name]
+    return [f"`{sized_name(variable)}`", variable.fmi_type]
 
 
 def _range(variable: Variable) -> list[str]:

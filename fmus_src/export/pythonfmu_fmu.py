@@ -10,12 +10,14 @@ from pathlib import Path
 from pythonfmu import FmuBuilder
 
 from ..block import Block
+from ..catalogue import is_shipped
 from ..evidence.block import add_evidence
 from ..own_digests import note_own
 from .archive import content_guid, read_zip, write_zip
 from .attributes import check_attributes
 from .closure import Closure, closure_of
 from .description.fmi2 import model_description
+from .description.origin import accompanying_files, origin
 
 SCRIPT = '''"""FMU script of {fmu_name}, generated; the block is in {package}/{block_path}."""
 
@@ -51,14 +53,16 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
         script_class=f"{block_class.__name__}Slave",
     )
     files = _with_pythonfmu(closure, script_name, script)
-    tool = f"Perilune with PythonFMU {version('pythonfmu')}"
-    files["modelDescription.xml"] = model_description(
-        block_class, guid="", generation_tool=tool, needs_execution_tool=True
-    )
-    guid = content_guid(files)
-    files["modelDescription.xml"] = model_description(
-        block_class, guid=guid, generation_tool=tool, needs_execution_tool=True
-    )
+    is_ours = is_shipped(block_class)
+    files |= accompanying_files(2, is_ours=is_ours, runs_python=True)
+    tool = f"Perilune {version('perilune')} with PythonFMU {version('pythonfmu')}"
+
+    def describe(guid: str) -> bytes:
+        about = origin(tool, is_ours=is_ours, is_final=guid != "")
+        return model_description(block_class, guid=guid, origin=about, needs_execution_tool=True)
+
+    files["modelDescription.xml"] = describe("")
+    files["modelDescription.xml"] = describe(content_guid(files))
     write_zip(path, add_evidence(block_class, files))
     note_own(path)
     return path

@@ -150,7 +150,7 @@ class Variables:
             yield FmuVariable(
                 f"{candidate.label}.{variable.name}",
                 "parameter",
-                variable.type,
+                _in_a_system(variable.type),
                 path,
                 variable.description or "",
                 given if given is not None else _start(variable, candidate),
@@ -160,7 +160,7 @@ class Variables:
             )
 
     def _exposed(self, name: str) -> FmuVariable:
-        type_name = self.model.types[name]
+        type_name = _in_a_system(self.model.types[name])
         unit = self.model.units[name] if type_name == "Real" else None
         path = self.model.members.new(f"local_{name}")
         return FmuVariable(name, "local", type_name, path, self._describe(name), unit=unit)
@@ -217,7 +217,12 @@ def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, Candidate
 
 
 def _type_of(node: Node) -> str:
-    return "Integer" if node.type_name == "Enumeration" else node.type_name or "Real"
+    return _in_a_system(node.type_name or "Real")
+
+
+def _in_a_system(type_name: str) -> str:
+    """The type of what a system's FMU hands on: components may have two enumerations of one name, so Integers."""
+    return "Integer" if type_name == "Enumeration" else type_name
 
 
 def _typed(node: Node, value: float | str) -> ParameterValue:
@@ -225,4 +230,4 @@ def _typed(node: Node, value: float | str) -> ParameterValue:
 
 
 def _start(variable: Variable, candidate: Candidate) -> ParameterValue:
-    return parse_value(variable.start_text, variable.type, candidate.fmu.label, variable.name)
+    return parse_value(variable.start_text, _in_a_system(variable.type), candidate.fmu.label, variable.name)

@@ -75,9 +75,9 @@ def check_aliases(network: Network) -> None:
 
 
 def check_samples(network: Network, settings: Settings, step: float, periods: dict[str, int]) -> None:
-    """Refuse a sample period shorter than what its component steps by, of which two samples would fall into one step.
+    """Refuse a sample period shorter than what its component steps by.
 
-    Raises InputError.
+    The FMU would take several samples in a step, of which others see the last one. Raises InputError.
     """
     for component, fmu in network.fmus.items():
         variable = fmu.variables.get("sample_period")

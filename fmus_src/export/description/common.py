@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from lxml import etree
 
 from ...block import Block
+from ...kernel.enumerations import Enumeration
 from ...units import UnitDefinition, unit_definition
 from ...variables import Output, Parameter, State, Variable
 
@@ -20,7 +21,7 @@ LOG_CATEGORIES = {
 
 
 def start_description(
-    name: str, guid: str, description: str, generation_tool: str, convention: str = "structured"
+    name: str, guid: str, description: str, origin: Mapping[str, str], convention: str = "structured"
 ) -> etree._Element:
     """The root of a modelDescription.xml of FMI 2.0, with the convention that names of variables follow."""
     return etree.Element(
@@ -29,8 +30,8 @@ def start_description(
         modelName=name,
         guid=guid,
         description=description,
-        generationTool=generation_tool,
         variableNamingConvention=convention,
+        **origin,
     )
 
 
@@ -58,6 +59,26 @@ def define_units(
             if meaning.offset:
                 numbers["offset"] = repr(meaning.offset)
             etree.SubElement(unit, "BaseUnit", numbers)
+
+
+def enumerations_by_name(model: str, used: Iterable[type[Enumeration] | None]) -> dict[str, type[Enumeration]]:
+    """The enumerations of a model's variables, sorted. Raises ValueError for two of one name."""
+    enumerations: dict[str, type[Enumeration]] = {}
+    for each in filter(None, used):
+        if enumerations.setdefault(each.__name__, each) is not each:
+            raise ValueError(f"{model}: two enumerations are called {each.__name__}; rename one")
+    return dict(sorted(enumerations.items()))
+
+
+def about_enumeration(enumeration: type[Enumeration]) -> str:
+    """The description of its type."""
+    return one_line((enumeration.__doc__ or "").strip())
+
+
+def add_items(parent: etree._Element, enumeration: type[Enumeration]) -> None:
+    """Add its members, with their meanings."""
+    for number, label in enumeration.names.items():
+        etree.SubElement(parent, "Item", name=label, value=str(number), description=enumeration.meanings[number])
 
 
 def add_log_categories(root: etree._Element) -> None:

@@ -40,18 +40,18 @@ def system_description(
     dependencies: Mapping[str, Sequence[str]],
     *,
     guid: str,
-    generation_tool: str,
+    origin: Mapping[str, str],
     experiment: Mapping[str, float],
     sources: Sequence[str],
     units: Mapping[str, UnitDefinition],
 ) -> bytes:
     """modelDescription.xml; value references number the ``variables`` in order.
 
-    ``dependencies`` are the inputs that outputs depend on directly, ``experiment`` attributes of DefaultExperiment,
-    ``units`` those of the system's own description.
+    ``dependencies`` are the inputs that outputs depend on directly, ``origin`` the attributes of `origin.origin`,
+    ``experiment`` those of DefaultExperiment, ``units`` those of the system's own description.
     """
     convention = "structured" if all(STRUCTURED.fullmatch(each.name) for each in variables) else "flat"
-    root = start_description(name, guid, one_line(description), generation_tool, convention)
+    root = start_description(name, guid, one_line(description), origin, convention)
     simulation = etree.SubElement(
         root,
         "CoSimulation",

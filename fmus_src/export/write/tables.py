@@ -51,7 +51,7 @@ def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) 
             f"#define SAMPLE_TOLERANCE {SAMPLE_TOLERANCE!r} /* of a sample period */",
             f"#define TIME_TOLERANCE {TIME_TOLERANCE!r} /* of the time */",
             f"#define POINT_TOLERANCE {POINT_TOLERANCE!r} /* of a step */",
-            f"#define STEP_LIMIT {STEP_LIMIT} /* of integration in a communication step */",
+            f"#define STEP_LIMIT {STEP_LIMIT} /* samples, and steps of integration, in a communication step */",
             "",
             "/* Declared start values. */",
             *starts.text,

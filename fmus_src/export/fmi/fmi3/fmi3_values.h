@@ -85,15 +85,15 @@ static inline Status prepare_set(Component *component, const char *function, Var
 }
 
 /* The first element of a variable in the instance. */
-static inline void *elements_of(Component *component, fmi3ValueReference reference)
+static inline void *elements_of(fmi3Instance instance, fmi3ValueReference reference)
 {
-    return (char *)&component->now.block + ELEMENTS[VARIABLES[reference].first].offset;
+    return (char *)&instance_of(instance)->now.block + ELEMENTS[VARIABLES[reference].first].offset;
 }
 
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
     fmi3Float64 values[], size_t value_count)
 {
-    Component *component = instance;
+    Component *component = instance_of(instance);
     const Status status =
         prepare_get(component, "fmi3GetFloat64", TYPE_FLOAT64, references, count, values, value_count);
     if (status != STATUS_OK) return status;
@@ -102,7 +102,7 @@ fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference refere
             *values++ = component->now.time;
             continue;
         }
-        const double *from = elements_of(component, references[i]);
+        const double *from = (const double *)elements_of(instance, references[i]);
         for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) *values++ = from[k];
     }
     return STATUS_OK;
@@ -111,11 +111,11 @@ fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference refere
 fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
     fmi3Int32 values[], size_t value_count)
 {
-    Component *component = instance;
+    Component *component = instance_of(instance);
     const Status status = prepare_get(component, "fmi3GetInt32", TYPE_INT32, references, count, values, value_count);
     if (status != STATUS_OK) return status;
     for (size_t i = 0; i < count; i++) {
-        const int64_t *from = elements_of(component, references[i]);
+        const int64_t *from = (const int64_t *)elements_of(instance, references[i]);
         for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) {
             if (from[k] < INT32_MIN || from[k] > INT32_MAX) {
                 return refuse_wide(component, references[i], from[k], "Int32");
@@ -132,10 +132,10 @@ fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference referenc
         fmi3##Type values[], size_t value_count)                                                                      \
     {                                                                                                                 \
         const Status status =                                                                                         \
-            prepare_get(instance, "fmi3Get" #Type, TYPE, references, count, values, value_count);                     \
+            prepare_get(instance_of(instance), "fmi3Get" #Type, TYPE, references, count, values, value_count);        \
         if (status != STATUS_OK) return status;                                                                       \
         for (size_t i = 0; i < count; i++) {                                                                          \
-            const Stored *from = elements_of(instance, references[i]);                                                \
+            const Stored *from = (const Stored *)elements_of(instance, references[i]);                                \
             for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) *values++ = from[k];                         \
         }                                                                                                             \
         return STATUS_OK;                                                                                             \
@@ -149,10 +149,10 @@ GETTER(Boolean, TYPE_BOOLEAN, bool)
         const fmi3##Type values[], size_t value_count)                                                                \
     {                                                                                                                 \
         const Status status =                                                                                         \
-            prepare_set(instance, "fmi3Set" #Type, TYPE, references, count, values, value_count);                     \
+            prepare_set(instance_of(instance), "fmi3Set" #Type, TYPE, references, count, values, value_count);        \
         if (status != STATUS_OK) return status;                                                                       \
         for (size_t i = 0; i < count; i++) {                                                                          \
-            Stored *to = elements_of(instance, references[i]);                                                        \
+            Stored *to = (Stored *)elements_of(instance, references[i]);                                              \
             for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) to[k] = *values++;                           \
         }                                                                                                             \
         return STATUS_OK;                                                                                             \
