@@ -12,10 +12,10 @@ from pathlib import Path
 import fmpy
 
 from ....analysis.common.errors import InputError
+from ...paths import IS_CHECKOUT, ROOT
 
-RELEASED = datetime(
-    2026, 11, 29, tzinfo=UTC
-)  # of this version; the date of its FMUs, so that builds are the same bytes
+# The release of this version, which its FMUs are dated with, so that builds are the same bytes.
+RELEASED = datetime(2026, 11, 29, tzinfo=UTC)
 EPOCH = "SOURCE_DATE_EPOCH"  # s since 1970; of reproducible-builds.org
 STANDARD = Path(fmpy.__file__).parent / "c-code"  # headers under BSD-2, licence inside
 STANDARD_HEADERS = {
@@ -79,7 +79,9 @@ def _text_of(date: datetime) -> str:
 
 @cache
 def _licence(package: str) -> str:
-    """The licence of an installed package."""
+    """Return the licence of an installed package, or of Perilune in a checkout."""
+    if package == "perilune" and IS_CHECKOUT:  # where metadata next to the sources may be found first, without it
+        return (ROOT / "LICENSE").read_text(encoding="utf-8")
     text = distribution(package).read_text("licenses/LICENSE")
     assert text is not None, f"{package} is installed without its licence"
     return text
