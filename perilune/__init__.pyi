@@ -56,6 +56,7 @@ from .analysis.verbs.show import ServedCampaigns as ServedCampaigns
 from .analysis.verbs.show import show as show
 from .analysis.verbs.stability import StabilityReport as StabilityReport
 from .analysis.verbs.stability import stability as stability
+from .analysis.verbs.system import System as System
 from .analysis.verbs.validate import validate as validate
 from .analysis.verbs.verify import Verifications as Verifications
 from .analysis.verbs.verify import verify as verify

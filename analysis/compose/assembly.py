@@ -34,12 +34,12 @@ def load_fmus(source: SystemSource, archive: SystemArchive, flavour: str | None 
                 loaded[label] = load_fmu(read(), label)
             fmus[name] = loaded[label]
         except InputError as error:
-            if names_fmu(component.fmu) or error.element != name:
+            if names_fmu(component.fmu) or error.element != name or component.fmu in fmu_flavours():
                 problems.append(error.text)
                 continue
             remedy = f"{suggestion(component.fmu, fmu_flavours())}; {HOW_TO_BUILD}"
             problems.append(source.problem(component.where, f"no FMU {component.fmu} is built", remedy).text)
-    for name in dict.fromkeys((*source.parameters, *(p for c in source.components.values() for p in c.parameters))):
+    for name in source.parameter_sets:
         if not archive.has(set_source(name)):
             known = [Path(each).name for each in archive.files if each.endswith(".ssv")]
             problem = f"no parameter set {name} in the system's folder"

@@ -13,6 +13,7 @@ from ..runtime.ssp.experiment import OURS as STEP
 from ..runtime.system.fmu import Fmu
 from .source import SystemSource
 from .units import collect_units
+from .values import write_values
 from .wiring import ConnectorSource, Point, Wiring
 
 RESOURCES = "resources/"
@@ -47,7 +48,7 @@ def _head(source: SystemSource, fmus: Mapping[str, Fmu], wiring: Wiring, units: 
     yield from (spaces[0], f"{spaces[1]}>")
     yield f"  <ssd:System name={name}{about}>"
     yield from _connectors(_of("", wiring, _system_order(source, wiring)), "    ")
-    yield from _bindings(source.parameters, "    ")
+    yield from _bindings(source.parameters, "    ", write_values(source, fmus, wiring))
     yield "    <ssd:Elements>"
     for component, fmu in fmus.items():
         yield from _component(source, component, fmu, wiring)
@@ -98,12 +99,14 @@ def _connectors(connectors: Mapping[str, ConnectorSource], margin: str) -> Itera
         yield f"{margin}</ssd:Connectors>"
 
 
-def _bindings(names: Iterable[str], margin: str) -> Iterator[str]:
-    lines = [
-        f"{margin}  <ssd:ParameterBinding {PARAMETER_SET} source={quoteattr(set_source(name))}/>" for name in names
-    ]
+def _bindings(names: Iterable[str], margin: str, values: Iterable[str] = ()) -> Iterator[str]:
+    lines = [f"  <ssd:ParameterBinding {PARAMETER_SET} source={quoteattr(set_source(name))}/>" for name in names]
+    if inline := [f"      {line}" for line in values]:
+        lines += [f"  <ssd:ParameterBinding {PARAMETER_SET}>", "    <ssd:ParameterValues>", *inline]
+        lines += ["    </ssd:ParameterValues>", "  </ssd:ParameterBinding>"]
     if lines:
-        yield from (f"{margin}<ssd:ParameterBindings>", *lines, f"{margin}</ssd:ParameterBindings>")
+        lines = ["<ssd:ParameterBindings>", *lines, "</ssd:ParameterBindings>"]
+    yield from (margin + line for line in lines)
 
 
 def _point(side: str, point: Point) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -14,6 +14,7 @@ from ..common.bounds import CAMPAIGN_BYTES, XML_BYTES
 from ..common.errors import InputError
 from ..common.regular import read_input
 from ..runtime.ssp.conversions import Unit
+from ..runtime.ssp.given_values import ParameterValue
 
 SYSTEM_FILE = "system.toml"
 ANNOTATIONS_FILE = "annotations.xml"
@@ -30,8 +31,10 @@ TOP = (
     *LISTS,
     "components",
     "system",
+    "set",
     "units",
 )
+SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
 COMPONENT_NAME = re.compile(r"[^\s.,\[\]>]+")
 
 
@@ -58,8 +61,8 @@ class SystemSource:
     """A system as its `system.toml` states it. Times in s.
 
     ``connectors`` are those of the system itself, kind by name; ``declare`` are connectors that nothing is connected
-    to, ``unconnected`` inputs that keep the start value of their FMU; ``annotations`` is the content of
-    ssd:Annotations, byte for byte.
+    to, ``unconnected`` inputs that keep the start value of their FMU; ``set`` are values of parameters in their
+    variables' units; ``annotations`` is the content of ssd:Annotations, byte for byte.
     """
 
     name: str
@@ -73,9 +76,16 @@ class SystemSource:
     connectors: Mapping[str, str] = field(default_factory=dict)
     declare: tuple[Entry, ...] = ()
     unconnected: tuple[Entry, ...] = ()
+    set: Mapping[str, SetValue] = field(default_factory=dict)
     units: Mapping[str, Unit] = field(default_factory=dict)
     annotations: bytes = b""
     file: str = SYSTEM_FILE
+
+    @property
+    def parameter_sets(self) -> list[str]:
+        """The names of all parameter sets, the system's and its components'."""
+        inner = (name for component in self.components.values() for name in component.parameters)
+        return list(dict.fromkeys((*self.parameters, *inner)))
 
     def problem(self, where: str, problem: str, remedy: str) -> InputError:
         """Return the error of a place in the file."""
@@ -110,6 +120,7 @@ def read_source(path: Path) -> tuple[SystemSource, bytes]:
         connectors=_connectors(system),
         declare=_entries(table, "declare", places),
         unconnected=_entries(table, "unconnected", places),
+        set=dict(_values(table.table("set"))),
         units=dict(_units(table.table("units"))),
         annotations=annotations,
         file=label,
@@ -168,6 +179,16 @@ def _connectors(table: Table) -> dict[str, str]:
                 raise table.error(kind, f"{name} is {kinds[name]}, too", "name it under one of both")
             kinds[name] = kind
     return kinds
+
+
+def _values(table: Table) -> Iterator[tuple[str, SetValue]]:
+    for name, value in table.flat():
+        for each in value if isinstance(value, list) else [value]:
+            if not isinstance(each, int | float):
+                raise table.error(
+                    name, f"{each!r} is neither a number nor true or false", "write one, or a list of them"
+                )
+        yield name, value  # type: ignore[misc]
 
 
 def _units(table: Table) -> Iterator[tuple[str, Unit]]:

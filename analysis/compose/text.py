@@ -37,6 +37,9 @@ def _lines(source: SystemSource) -> Iterator[str]:
         yield from ("", "[system]")
         for kind in KINDS:
             yield from _list(kind, (name for name, each in source.connectors.items() if each == kind))
+    if source.set:
+        yield from ("", "[set]")
+        yield from (f"{_text(name)} = {json.dumps(value)}" for name, value in source.set.items())
     if source.units:
         yield from ("", "[units]")
         for name, unit in source.units.items():

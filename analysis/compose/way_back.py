@@ -11,6 +11,7 @@ from ..common.errors import InputError
 from ..runtime.ssp.archive import OSP_SUFFIX, SystemArchive
 from ..runtime.ssp.description import Component, Description, Element
 from ..runtime.ssp.dimensions import Shape, array_shapes, element_names
+from ..runtime.ssp.parameter_sets import Assignment, read_binding
 from ..runtime.ssp.reading import read_description
 from ..runtime.system.fmu import Fmu
 from .assembly import load_fmus
@@ -18,6 +19,7 @@ from .document import RESOURCES, fmu_source, set_source, write_document
 from .likeness import find_difference
 from .source import ComponentSource, Entry, SystemSource
 from .units import underived_units
+from .values import read_values
 from .wiring import ARROW, INDEX, Point, wire
 
 ANNOTATIONS = re.compile(rb"<ssd:Annotations>(.*)</ssd:Annotations>\s*</ssd:SystemStructureDescription>\s*$", re.DOTALL)
@@ -35,6 +37,9 @@ def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSourc
     if name.endswith(OSP_SUFFIX):
         raise InputError(description.file, "", "is no SSD", KEEP.replace("SSD", "file"))
     components = dict(_components(description))
+    bindings, values = list(description.system.bindings), list[Assignment]()
+    if bindings and bindings[-1].inline is not None:
+        values, _ = read_binding(archive, description.file, bindings.pop(), description.units)
     source = SystemSource(
         name=description.name,
         components=components,
@@ -42,7 +47,8 @@ def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSourc
         start_time=description.start_time,
         stop_time=description.stop_time,
         step=description.step,
-        parameters=_parameters(description, description.system),
+        parameters=_parameters(description, replace(description.system, bindings=bindings)),
+        set=read_values(values),
         annotations=_annotations(data, description),
         file=description.file,
     )

@@ -243,7 +243,7 @@ class _Wirer:
                 similar = get_close_matches(name, {output.partition(".")[2] for output in outputs}, 1, NEAR)
                 sources = [output for output in outputs if output.partition(".")[2] in similar]
                 nearest = f"connect it ({', '.join(sources)}?)" if sources else "connect it"
-                remedy = f"{nearest}, or name it under unconnected or declare"
+                remedy = f"{nearest}, or name it under unconnected"
                 problem = f"input {component}.{name} is not connected"
                 self.problems.append(self.source.problem(where, problem, remedy))
 

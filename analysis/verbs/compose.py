@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Unpack
@@ -54,15 +55,16 @@ def compose(what: FilePath, **options: Unpack[ComposeOptions]) -> Composition:
     """Write a system's SSD from its `system.toml`, or the `system.toml` of a system: `perilune compose`.
 
     ``what`` is the path of a .toml file, beside which SystemStructure.ssd is written, or a system, whose
-    `system.toml` is the result's ``toml``, and is written to ``output`` with its annotations beside it. Nothing is
-    written over an SSD that was edited, and nothing at all if the system would not fly. Raises InputError, with a line
-    for each problem.
+    `system.toml` is the result's ``toml``, and is written to ``output``: beside it its annotations, and in another
+    folder than the system's the files that it names. Nothing is written over an SSD that was edited, and nothing at all
+    if the system would not fly. Raises InputError, with a line for each problem.
     """
     path, output = Path(what), options["output"]
     if path.suffix != ".toml":
-        source = source_of(open_system(path))
+        archive = open_system(path)
+        source = source_of(archive)
         check_file("`output`", None if output is None else Path(output), (".toml",))
-        return Composition(source, () if output is None else tuple(write_source(source, Path(output))))
+        return Composition(source, () if output is None else tuple(write_source(source, archive, Path(output))))
     if output is not None:
         problem = f"an SSD is written beside its file, as {DESCRIPTION}"
         raise InputError("`output`", os.fspath(output), problem, "leave it out")
@@ -76,18 +78,20 @@ def compose(what: FilePath, **options: Unpack[ComposeOptions]) -> Composition:
 def compose_file(path: Path) -> tuple[SystemSource, bytes]:
     """Return what a `system.toml` states and its SSD, checked as `simulate` would. Raises InputError."""
     source, raw = read_source(path)
-    document = compose_document(source, folder_archive(path.parent, {}))
-    document = add_mark(document, path.name, raw)
-    check_document(path.parent, document)
-    return source, document
+    return source, compose_source(source, path.parent, raw, path.name, {})
 
 
-def check_document(folder: Path, document: bytes) -> None:
-    """Refuse an SSD with which the system of a folder would not fly. Raises InputError."""
-    archive = folder_archive(folder, {DESCRIPTION: document})
+def compose_source(source: SystemSource, folder: Path, raw: bytes, file: str, files: Mapping[str, bytes]) -> bytes:
+    """Return the SSD of a system in a folder, with its mark; ``files`` are to be there, too, by archive name.
+
+    ``raw`` is the content of its ``file``. Raises InputError for one that would not fly.
+    """
+    document = add_mark(compose_document(source, folder_archive(folder, files)), file, raw)
+    archive = folder_archive(folder, {**files, DESCRIPTION: document})
     try:
         prepared = prepare_system(archive)
     except MissingStopTimeError as error:
         prepared = prepare_system(archive, SystemOptions(stop_time=error.earliest))
     read_figures(prepared)
     read_declaration(prepared.network.description)
+    return document
