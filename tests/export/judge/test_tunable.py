@@ -21,6 +21,7 @@ from perilune.fmus_src.kernel.records import Field, Record
 from perilune.fmus_src.kernel.vector_types import Vector3
 from perilune.fmus_src.runtime import Component
 from tests.support.lengths import either
+from tests.support.tuned import another
 
 ONCE = "a variable that is computed once follows from it: {}"
 
@@ -225,16 +226,6 @@ def test_a_block_without_a_kernel_proves_nothing() -> None:
 
     assert find_fixed(Library) == {"gain": "a block with Python only proves nothing"}
     assert find_fixed(Other) == {"gain": "a block outside the kernel language proves nothing"}
-
-
-def another(value: float | int | bool, low: float | None, high: float | None) -> float | int | bool:
-    """Return another value of the same type within bounds; the same one where there is none."""
-    if isinstance(value, bool):
-        return not value
-    options = (
-        [value + 1, value - 1] if isinstance(value, int) else [1.1 * value + 0.01, 0.9 * value - 0.01, 0.5 * value]
-    )
-    return next((each for each in options if (low is None or each >= low) and (high is None or each <= high)), value)
 
 
 KERNELS = [block for block in catalogue().values() if not block.python_only]
