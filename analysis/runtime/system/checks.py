@@ -98,7 +98,7 @@ def refuse_fixed(network: Network, name: str, where: tuple[str, str]) -> None:
     variable = network.fmus[component].variables.get(own) if component else None
     if variable is not None and variable.causality == "parameter" and not variable.is_tunable:
         remedy = f"set it before the start, `set` {name}=VALUE, or take a parameter that is tunable"
-        raise InputError(*where, f"{name} is a parameter that is fixed after initialisation", remedy)
+        raise InputError(*where, "a parameter that is fixed after initialisation", remedy)
 
 
 def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: bool = False) -> Variable:
