@@ -140,26 +140,26 @@ class Component:
             self.write(references, values)
             self.unsettled = True
             return
-        places = self.tuned.get(tuple(references))
-        if places is None:
-            places = self.tuned[tuple(references)] = self.find_tuned(references)
-        if places:
-            self.check_tuned([(references[place], values[place]) for place in places if place < len(values)])
+        tuned = self.tuned.get(tuple(references))
+        if tuned is None:
+            tuned = self.tuned[tuple(references)] = self.find_tuned(references)
+        if tuned:
+            self.check_tuned([(references[k], values[k]) for k in tuned if k < len(values)])
         self.write(references, values)
 
     def find_tuned(self, references: list[int]) -> list[int]:
-        """Return the places of tunable parameters among references. Raises TuningError for fixed and computed ones."""
-        places = []
-        for place, reference in enumerate(references):
+        """Return positions of tunable parameters among references. Raises TuningError for fixed and computed ones."""
+        tuned = []
+        for k, reference in enumerate(references):
             name, index = self.elements[reference]
             variable = self.block.variables[name]
             if name in self.tunable:
-                places.append(place)
+                tuned.append(k)
             elif not isinstance(variable, Input):
                 fixed = isinstance(variable, Parameter)
                 why = "a parameter, fixed after initialisation" if fixed else "computed and cannot be set"
                 raise TuningError(f"{variable.element_names()[max(index, 0)]} is {why}")
-        return places
+        return tuned
 
     def check_tuned(self, settings: list[tuple[int, Any]]) -> None:
         """Refuse parameters outside their bounds, given by value reference."""

@@ -94,8 +94,8 @@ def check_samples(network: Network, settings: Settings, step: float, periods: di
 
 def refuse_fixed(network: Network, name: str, where: tuple[str, str]) -> None:
     """Refuse the name of a parameter that cannot be changed in flight. Raises InputError."""
-    component, own = split_name(name, network.fmus)
-    variable = network.fmus[component].variables.get(own) if component else None
+    component, short = split_name(name, network.fmus)
+    variable = network.fmus[component].variables.get(short) if component else None
     if variable is not None and variable.causality == "parameter" and not variable.is_tunable:
         remedy = f"set it before the start, `set` {name}=VALUE, or take a parameter that is tunable"
         raise InputError(*where, "a parameter that is fixed after initialisation", remedy)
@@ -144,13 +144,13 @@ def check_value(variable: Variable, kind: str, value: float | bool, where: tuple
         check_bounds(variable, float(value), where)
 
 
-def check_bounds(variable: Variable, value: float, where: tuple[str, str]) -> None:
+def check_bounds(variable: Variable, number: float, where: tuple[str, str]) -> None:
     """Refuse a value of a tunable parameter outside the bounds that its FMU declares. Raises InputError."""
     low, high = (None if text is None else float(text) for text in (variable.minimum, variable.maximum))
-    if low is not None and value < low:
-        raise InputError(*where, f"{value:.12g} is below its minimum {low:.12g}", "give a larger value")
-    if high is not None and value > high:
-        raise InputError(*where, f"{value:.12g} is above its maximum {high:.12g}", "give a smaller value")
+    if low is not None and number < low:
+        raise InputError(*where, f"{number:.12g} is below its minimum {low:.12g}", "give a larger value")
+    if high is not None and number > high:
+        raise InputError(*where, f"{number:.12g} is above its maximum {high:.12g}", "give a smaller value")
 
 
 def check_fault(network: Network, fault: Fault) -> None:

@@ -200,8 +200,8 @@ def _check_type(series: InputSeries, column: str, type_name: str, stored: Repres
 
 def _check_bounds(network: Network, series: InputSeries, column: str, name: str) -> None:
     """Refuse values of a tunable parameter outside its bounds; inputs may leave theirs."""
-    component, own = split_name(name, network.fmus)
-    variable = network.fmus[component].variables[own] if component else None
+    component, short = split_name(name, network.fmus)
+    variable = network.fmus[component].variables[short] if component else None
     if variable is not None and variable.is_tunable:
         values = series.columns[column]
         for row in {int(np.argmin(values)), int(np.argmax(values))} if values.size else ():

@@ -2,7 +2,7 @@
 
 A parameter is tunable where functions that `step` reaches read it, and nothing that the steps read without ever writing
 it follows from it in `initialize`: the next step then computes what it would have computed with that value all along,
-from the states of now. What follows from what is found by dependence analysis without regard to the order of
+from the states of now. What follows from what is computed by dependence analysis without regard to the order of
 assignments, but with control dependence (Ferrante, Ottenstein and Warren 1987): a test decides what its branches
 assign, and what stands after a return, break or continue inside them.
 """
@@ -36,7 +36,7 @@ KNOWN: WeakKeyDictionary[type[Block], Mapping[str, str | None]] = WeakKeyDiction
 def find_fixed(block_class: type[Block]) -> Mapping[str, str | None]:
     """Return for each parameter, by name, why it is fixed after initialisation; None for a tunable one."""
     if block_class not in KNOWN:
-        KNOWN[block_class] = _judge(block_class)
+        KNOWN[block_class] = _find_reasons(block_class)
     return KNOWN[block_class]
 
 
@@ -45,7 +45,7 @@ def tunable_parameters(block_class: type[Block]) -> list[str]:
     return [name for name, reason in find_fixed(block_class).items() if reason is None]
 
 
-def _judge(block_class: type[Block]) -> Mapping[str, str | None]:
+def _find_reasons(block_class: type[Block]) -> Mapping[str, str | None]:
     parameters = {name: each for name, each in block_class.variables.items() if isinstance(each, Parameter)}
     kernel = None if block_class.python_only else typecheck(block_class)
     if kernel is None or kernel.step is None or kernel.violations:
@@ -69,7 +69,7 @@ def _prove(kernel: Kernel, parameters: Iterable[str]) -> dict[str, str | None]:
     reasons: dict[str, str | None] = {}
     for name in parameters:
         following = _following(start, SELF + name)
-        once = [
+        constant = [
             each
             for each, variable in variables.items()
             if isinstance(variable, State | Output)
@@ -77,8 +77,8 @@ def _prove(kernel: Kernel, parameters: Iterable[str]) -> dict[str, str | None]:
             and SELF + each not in written
             and (each in in_steps or isinstance(variable, Output))
         ]
-        if once:
-            reasons[name] = COMPUTED_ONCE.format(", ".join(once))
+        if constant:
+            reasons[name] = COMPUTED_ONCE.format(", ".join(constant))
         elif name in in_steps:
             reasons[name] = None
         else:
@@ -98,18 +98,18 @@ def _following(sources: dict[str, Names], name: str) -> set[str]:
 
 def _reads(function: Function) -> set[str]:
     """Return the names of the block's variables that a function, or one that it reaches, reads."""
-    found: set[str] = set()
+    names: set[str] = set()
     known, ahead = {function}, [function]
     while ahead:
         each = ahead.pop()
-        parts = [part for statement in body_of(each.source.node) for part in ast.walk(statement)]
-        stored = {id(_holder(part)) for part in parts if isinstance(getattr(part, "ctx", None), ast.Store)}
-        loaded = [part.attr for part in parts if isinstance(part, ast.Attribute) and is_self_attribute(part)
+        nodes = [part for statement in body_of(each.source.node) for part in ast.walk(statement)]
+        stored = {id(_holder(part)) for part in nodes if isinstance(getattr(part, "ctx", None), ast.Store)}
+        loaded = [part.attr for part in nodes if isinstance(part, ast.Attribute) and is_self_attribute(part)
                   and id(part) not in stored]  # fmt: skip
-        found.update(name for name in loaded if name in each.block_class.variables)
+        names.update(name for name in loaded if name in each.block_class.variables)
         ahead += [callee for callee in each.callees() if callee not in known]
         known.update(ahead)
-    return found
+    return names
 
 
 def _holder(target: ast.AST) -> ast.AST:
@@ -169,7 +169,7 @@ class _Flow:
 
     def _leaving(self, statements: list[ast.stmt], jumps: tuple[type[ast.stmt], ...]) -> Names | None:
         """Return what decides that one of the jumps leaves the statements; None where none does."""
-        found: Names | None = None
+        origins: Names | None = None
         for node in statements:
             inside: Names | None = frozenset() if isinstance(node, jumps) else None
             if isinstance(node, ast.If):
@@ -178,8 +178,8 @@ class _Flow:
                 inside = self._leaving(node.body, (ast.Return,))
             if inside is not None:
                 test = self._test(node) if isinstance(node, ast.If | ast.While | ast.For) else frozenset()
-                found = (found or frozenset()) | inside | test
-        return found
+                origins = (origins or frozenset()) | inside | test
+        return origins
 
     def _assign(self, target: ast.AST, origins: Names) -> None:
         for part in ast.walk(target):

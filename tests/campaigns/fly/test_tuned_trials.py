@@ -46,11 +46,11 @@ STEP, ROWS = 0.25, 9
 
 @pytest.fixture
 def ssp(tiny: Path, tmp_path: Path) -> Path:
-    parts = (
+    components = (
         component("ramp", "ramp", "output y Real m; output flag Boolean; output count Integer"),
         component("gain", "gain", "input u Real m; output y Real m"),
     )
-    text = document(system(*parts, connections=connection("ramp.y", "gain.u")), stop=STEP * (ROWS - 1), step=STEP)
+    text = document(system(*components, connections=connection("ramp.y", "gain.u")), stop=STEP * (ROWS - 1), step=STEP)
     return pack(tmp_path / "s.ssp", tiny, text)
 
 
@@ -60,8 +60,8 @@ def test_every_trial_changes_its_own_value(ssp: Path, tmp_path: Path) -> None:
     table = batch.table()
     time = STEP * np.arange(ROWS - 1)
     for trial, row in enumerate(table.to_pylist()):
-        slopes = row["draw.ramp.slope"] + np.where(time >= row["draw.t0"], row["draw.size"], 0.0)
-        assert row["metric.last"] == pytest.approx(1.0 + STEP * slopes.sum(), rel=1e-12)
+        rises = row["draw.ramp.slope"] + np.where(time >= row["draw.t0"], row["draw.size"], 0.0)
+        assert row["metric.last"] == pytest.approx(1.0 + STEP * rises.sum(), rel=1e-12)
         if trial < 2:
             assert perilune.replay(tmp_path / "out", trial).differences == ()
 

@@ -20,10 +20,10 @@ from perilune.fmus_src.kernel.matrices import Matrix, identity, zeros
 from perilune.fmus_src.kernel.records import Field, Record
 from perilune.fmus_src.kernel.vector_types import Vector3
 from perilune.fmus_src.runtime import Component
+from tests.support.kernels.comparison import another
 from tests.support.lengths import either
-from tests.support.tuned import another
 
-ONCE = "a variable that is computed once follows from it: {}"
+CONSTANT = "a variable that is computed once follows from it: {}"
 
 
 def scale(q: Matrix, factor: float) -> None:
@@ -57,7 +57,7 @@ class Paths(Block):
     by_state = Parameter(1.0, description="by way of a state that steps write")
     overwritten = Parameter(1.0, description="in the start of a state that steps write")
     unread = Parameter(1.0, description="in a constant that no step reads")
-    kept = Parameter(1.0, fixed="the ground relies on it", description="tunable but for its declaration")
+    relied = Parameter(1.0, fixed="the ground relies on it", description="tunable but for its declaration")
     x = Input(0.0, description="input")
     y = Output(0.0, description="output")
     state = State(0.0, description="written by steps")
@@ -105,13 +105,15 @@ class Paths(Block):
         read = self.constant + self.local_constant + self.test_constant + self.return_constant + self.break_constant
         read = read + float(self.bound_constant) + self.matrix_constant[0, 0] + self.index_constant[0]
         also = self.direct + self.by_local + self.by_test + self.by_return + self.by_break + self.by_bound
-        also = also + self.by_matrix + float(self.by_index) + self.by_state + self.overwritten + self.unread + self.kept
+        also = (
+            also + self.by_matrix + float(self.by_index) + self.by_state + self.overwritten + self.unread + self.relied
+        )
         self.written = read + self.state_constant
         self.state = self.state + h * self.gain * self.x
         self.y = self.state + also
 
 
-class Pull(Record):
+class Swing(Record):
     """A point on a spring."""
 
     position = Field(Vector3, unit="m", description="position")
@@ -126,7 +128,7 @@ class Spring(Block):
     first = Parameter(1.0, description="in the first call of a function alone")
     second = Parameter(1.0, description="in the second call alone")
     internal_step = Parameter(0.1, unit="s", minimum=1e-3, description="longest step")
-    motion = State(Pull)
+    motion = State(Swing)
     inverse_mass = State(1.0, description="1 / mass")
     from_first = State(0.0, description="of first")
     y = Output(0.0, description="output")
@@ -136,9 +138,9 @@ class Spring(Block):
         self.from_first = larger(self.first, 0.0)
         self.y = larger(self.second, 0.0)
 
-    def derivatives(self, t: float, s: Pull) -> Pull:
+    def derivatives(self, t: float, s: Swing) -> Swing:
         """Return the rates."""
-        return Pull(position=s.velocity, velocity=-self.stiffness * self.inverse_mass * s.position)
+        return Swing(position=s.velocity, velocity=-self.stiffness * self.inverse_mass * s.position)
 
     def step(self, t: float, h: float) -> None:
         self.motion = runge_kutta_4(self.derivatives, t, self.motion, h)
@@ -157,9 +159,9 @@ class Deciding(Block):
     def initialize(self) -> None:
         self.note = self.noted
         if self.limit > 0.0:
-            self.reach()
+            self.arrive()
 
-    def reach(self) -> None:
+    def arrive(self) -> None:
         """Note that it is reached."""
         self.reached = True
 
@@ -174,18 +176,18 @@ def test_every_way_to_a_constant_is_found() -> None:
         "sample_period": "the sample period",
         "start": "read at the start only",
         "never": "never read",
-        "direct": ONCE.format("constant"),
-        "by_local": ONCE.format("local_constant"),
-        "by_test": ONCE.format("test_constant"),
-        "by_return": ONCE.format("return_constant"),
-        "by_break": ONCE.format("break_constant"),
-        "by_bound": ONCE.format("bound_constant"),
-        "by_matrix": ONCE.format("matrix_constant"),
-        "by_index": ONCE.format("index_constant"),
-        "by_state": ONCE.format("state_constant"),
+        "direct": CONSTANT.format("constant"),
+        "by_local": CONSTANT.format("local_constant"),
+        "by_test": CONSTANT.format("test_constant"),
+        "by_return": CONSTANT.format("return_constant"),
+        "by_break": CONSTANT.format("break_constant"),
+        "by_bound": CONSTANT.format("bound_constant"),
+        "by_matrix": CONSTANT.format("matrix_constant"),
+        "by_index": CONSTANT.format("index_constant"),
+        "by_state": CONSTANT.format("state_constant"),
         "overwritten": None,
         "unread": None,
-        "kept": "the ground relies on it",
+        "relied": "the ground relies on it",
     }
     assert tunable_parameters(Paths) == ["gain", "overwritten", "unread"]
 
@@ -193,15 +195,15 @@ def test_every_way_to_a_constant_is_found() -> None:
 def test_methods_that_are_passed_on_are_read_and_calls_are_kept_apart() -> None:
     assert find_fixed(Spring) == {
         "stiffness": None,
-        "mass": ONCE.format("inverse_mass"),
-        "first": ONCE.format("from_first"),
+        "mass": CONSTANT.format("inverse_mass"),
+        "first": CONSTANT.format("from_first"),
         "second": None,
         "internal_step": "never read",
     }
 
 
 def test_a_call_that_a_test_decides_about_and_an_output_that_stands_are_found() -> None:
-    assert find_fixed(Deciding) == {"limit": ONCE.format("reached"), "noted": ONCE.format("note")}
+    assert find_fixed(Deciding) == {"limit": CONSTANT.format("reached"), "noted": CONSTANT.format("note")}
 
 
 def test_a_block_without_a_kernel_proves_nothing() -> None:
@@ -244,15 +246,15 @@ def test_nothing_that_steps_leave_alone_follows_from_a_tunable_parameter(block: 
         if name in tunable_parameters(block):
             other = Component(block)
             new = [another(value, variable.minimum, variable.maximum) for value in variable.elements]
-            places = list(range(first, first + variable.size))
-            other.set(places, new)
+            references = list(range(first, first + variable.size))
+            other.set(references, new)
             try:
                 other.start()
             except ArithmeticError:  # of a parameter that is not to be 1.1 times as large
                 first += variable.size
                 continue
             differ = {k for k, (a, b) in enumerate(zip(before, other.values(), strict=True)) if not same(a, b)}
-            constant = {flown.elements[k][0] for k in differ - set(places) - changed}
+            constant = {flown.elements[k][0] for k in differ - set(references) - changed}
             assert [each for each in sorted(constant) if not is_assigned(block, each)] == [], name
         first += variable.size
 

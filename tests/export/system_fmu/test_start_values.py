@@ -147,8 +147,8 @@ def test_a_reader_refuses_what_is_passed_on_to_it_and_nothing_is_changed(one, tm
 
 def test_a_parameter_of_a_component_changes_the_next_step(tiny_folder, tmp_path):
     """A ramp of 2 m/s, from 0.5 s on of 5 m/s; its start is fixed."""
-    parts = component("ramp", "ramp", "output y Real m")
-    ssd = document(system(parts, connections=connection("ramp.y", "y"), declared="output y Real m"), step=0.25)
+    ramp = component("ramp", "ramp", "output y Real m")
+    ssd = document(system(ramp, connections=connection("ramp.y", "y"), declared="output y Real m"), step=0.25)
     path = build_one(tmp_path / "one.fmu", pack(tmp_path / "s.ssp", tiny_folder / "native", ssd))
     slave = Slave(path, tmp_path / "one")
     rows = []

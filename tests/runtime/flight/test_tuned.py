@@ -6,6 +6,7 @@ and of the ramp, y(k + 1) = y(k) + slope h, where the step from t takes the slop
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -48,9 +49,9 @@ def packed(folder: Path, tiny: Path) -> Path:
     return pack(folder / "s.ssp", tiny, text)
 
 
-def ramp(slopes: list[float], start: float = 1.0) -> list[float]:
+def ramp(rises: list[float], start: float = 1.0) -> list[float]:
     """The ramp from the slope of each step."""
-    return np.cumsum([start, *(STEP * slope for slope in slopes)]).tolist()
+    return np.cumsum([start, *(STEP * slope for slope in rises)]).tolist()
 
 
 @pytest.mark.parametrize("algorithm", ["sequential", "jacobi"])
@@ -80,21 +81,21 @@ def test_our_fmus_fly_as_fmpy_flies_them(gains: dict[int, Path], version: int) -
     assert ours["gains.total"].tolist() == expected
 
 
-# kind, value, and the slope in [0.5, 1.25) s of a ramp of 2 m/s
+# kind, amount, and the slope in [0.5, 1.25) s of a ramp of 2 m/s
 KINDS = [("override", 5.0, 5.0), ("bias", -0.5, 1.5), ("freeze", 0.0, 2.0)]
 
 
-@pytest.mark.parametrize(("kind", "value", "inside"), KINDS)
+@pytest.mark.parametrize(("kind", "amount", "inside"), KINDS)
 def test_a_fault_lasts_as_long_as_its_window(
-    tiny: Path, tmp_path: Path, kind: str, value: float, inside: float
+    tiny: Path, tmp_path: Path, kind: str, amount: float, inside: float
 ) -> None:
     path = packed(tmp_path, tiny)
-    fault = perilune.Fault("ramp.slope", kind, value, 0.5, 1.25)
-    slopes = [2.0, 2.0, inside, inside, inside, 2.0, 2.0, 2.0]
+    fault = perilune.Fault("ramp.slope", kind, amount, 0.5, 1.25)
+    rises = [2.0, 2.0, inside, inside, inside, 2.0, 2.0, 2.0]
     flown = fly(path, [fault])
-    assert flown.signals["ramp.slope"].tolist() == [*slopes, 2.0]
-    assert flown.signals["ramp.y"].tolist() == ramp(slopes)
-    assert flown.signals["gain.y"].tolist() == [3.0 * y for y in ramp(slopes)]
+    assert flown.signals["ramp.slope"].tolist() == [*rises, 2.0]
+    assert flown.signals["ramp.y"].tolist() == ramp(rises)
+    assert flown.signals["gain.y"].tolist() == [3.0 * y for y in ramp(rises)]
     other = fly(path, [fault], set={"ramp.slope": 4.0})
     changed = {"override": 5.0, "bias": 3.5, "freeze": 4.0}[kind]
     assert other.signals["ramp.slope"].tolist() == [4.0, 4.0, changed, changed, changed, 4.0, 4.0, 4.0, 4.0]
@@ -134,8 +135,8 @@ def test_fused_steps_have_the_same_bits(tiny_folder: Path, tmp_path: Path) -> No
 def test_a_column_drives_a_parameter_of_a_component(tiny: Path, tmp_path: Path) -> None:
     series = np.array([(0.0, 1.0), (0.6, 7.0)], dtype=[("time", float), ("ramp.slope", float)])
     flown = perilune.simulate(packed(tmp_path, tiny), input=series)
-    slopes = [1.0, 1.0, 1.0, 7.0, 7.0, 7.0, 7.0, 7.0]
-    assert flown["ramp.y"].tolist() == ramp(slopes)
+    rises = [1.0, 1.0, 1.0, 7.0, 7.0, 7.0, 7.0, 7.0]
+    assert flown["ramp.y"].tolist() == ramp(rises)
     assert flown.provenance["input"]["signals"] == ["ramp.slope"]
 
 
@@ -148,13 +149,11 @@ REFUSED = {
 @pytest.mark.parametrize("name", REFUSED)
 def test_a_fixed_parameter_is_refused_with_what_to_do(tiny_folder: Path, tmp_path: Path, name: str) -> None:
     path = packed(tmp_path, tiny_folder / "native")
-    with pytest.raises(InputError) as error:
+    with pytest.raises(InputError, match=re.escape(REFUSED[name])):
         fly(path, [perilune.Fault(f"ramp.{name}", "override", 1)])
-    assert REFUSED[name] in str(error.value)
     series = np.array([(0.0, 1.0)], dtype=[("time", float), (f"ramp.{name}", float)])
-    with pytest.raises(InputError) as error:
+    with pytest.raises(InputError, match=re.escape(REFUSED[name])):
         perilune.simulate(path, input=series)
-    assert REFUSED[name] in str(error.value)
 
 
 def test_bounds_are_compared_before_the_flight_or_by_the_fmu_in_it(tiny_folder: Path, tmp_path: Path) -> None:

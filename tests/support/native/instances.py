@@ -1,4 +1,4 @@
-"""A block's flight by four faces with one interface: Python object, pythonfmu FMU, native FMUs of FMI 2.0 and 3.0.
+"""Instances of a block with one interface: Python object, pythonfmu FMU, native FMUs of FMI 2.0 and 3.0.
 
 Elements are numbered as FMI 2.0's value references. A saved state's numbers can be replaced where it is stored, without
 any function that sets variables.
@@ -26,7 +26,7 @@ Settings = dict[int, float | int | bool]
 FMI3_FUNCTIONS = {"Float64": "Float64", "Int32": "Int32", "Boolean": "Boolean", "Enumeration": "Int64"}
 
 
-class PlainFace:
+class PlainBlock:
     """The Python object."""
 
     def __init__(self, block: type[Block]) -> None:
@@ -64,7 +64,7 @@ class PlainFace:
         """Nothing to do."""
 
 
-class Fmi2Face:
+class Fmi2Fmu:
     """An FMU of FMI 2.0; a Python FMU has its state as JSON."""
 
     def __init__(self, block: type[Block], fmu: Path, folder: Path) -> None:
@@ -128,7 +128,7 @@ class Fmi2Face:
         self.slave.freeInstance()
 
 
-class Fmi3Face:
+class Fmi3Fmu:
     """A native FMU of FMI 3.0, whose arrays are set as wholes; its messages go to ``log``."""
 
     def __init__(self, block: type[Block], fmu: Path, folder: Path, log: list[str] | None = None) -> None:
