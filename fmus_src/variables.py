@@ -251,9 +251,9 @@ class Input(Variable):
 
 
 class Parameter(Variable):
-    """Set before the start, and between steps where the block's kernel proves that it may (`export.judge.tunable`).
+    """Quantity set before the start, and between steps where the block's kernel proves that it may.
 
-    ``fixed`` says why one that would be tunable is not to be changed after initialisation.
+    `export.judge.tunable` has the proof; ``fixed`` says why one that would be tunable is not to be changed then.
     """
 
     causality = "parameter"

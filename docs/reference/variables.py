@@ -107,7 +107,7 @@ def _frame(variable: Variable) -> str:
 
 
 def _in_flight(block: type[Block], variable: Variable) -> str:
-    """``tunable``, or why the parameter is fixed; nothing for those of an interface, which its blocks decide."""
+    """Return ``tunable``, or why the parameter is fixed; nothing for those of an interface, which its blocks decide."""
     if block.is_interface:
         return ""
     reason = find_fixed(block)[variable.name]

@@ -52,7 +52,7 @@ WRONG = {
 
 
 def instances_of(block: type[Block], folder: Path) -> list[Any]:
-    """All instances of a block of the catalogue, those of FMUs from the built ones."""
+    """Return instances of a block of the catalogue, those of FMUs from the built ones."""
     instances: list[Any] = [PlainBlock(block)]
     if block.fmu_name in NATIVE:
         instances.append(Fmi2Fmu(block, shipped_fmu(block.fmu_name, "native"), folder / "native"))
@@ -86,7 +86,7 @@ def fly_check(block: type[Block], instance: Any) -> tuple[int, list[Settings], f
 
 
 def fly_on(instance: Any, begin: int, rows: list[Settings], step: float) -> list[bytes]:
-    """The values after each further step, up to the first that fails, which stands as the end."""
+    """Return the values after each further step, up to the first that fails, which stands as the end."""
     points = []
     for n in range(begin, min(begin + AHEAD, len(rows) - 1)):
         instance.set(rows[n])

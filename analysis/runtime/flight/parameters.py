@@ -192,7 +192,7 @@ class Parameters:
             warnings.warn(text, stacklevel=2)
 
     def is_set_once(self, component: str) -> bool:
-        """Whether a component refuses parameters in initialisation mode."""
+        """True if a component refuses parameters in initialisation mode."""
         return self._network.fmus[component].digest in _set_once
 
     def learn_set_once(self, component: str) -> None:

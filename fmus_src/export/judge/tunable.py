@@ -1,4 +1,4 @@
-"""Which parameters of a block may change between steps, proved from its kernel; for each other one, why not.
+"""Proof from a block's kernel of which parameters may change between steps; for each other one the reason.
 
 A parameter is tunable where functions that `step` reaches read it, and nothing that the steps read without ever writing
 it follows from it in `initialize`: the next step then computes what it would have computed with that value all along,

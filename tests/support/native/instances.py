@@ -36,7 +36,7 @@ class PlainBlock:
         self.component.set(list(settings), list(settings.values()))
 
     def enter(self) -> None:
-        """Nothing to do: a new object is being initialised."""
+        """Do nothing: a new object is being initialised."""
 
     def start(self) -> None:
         self.component.start()
@@ -61,7 +61,7 @@ class PlainBlock:
         self.component.set_state(copy.deepcopy(state))
 
     def free(self) -> None:
-        """Nothing to do."""
+        """Do nothing."""
 
 
 class Fmi2Fmu:

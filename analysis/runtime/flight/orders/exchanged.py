@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 
 from ...fmi.variable import Variable
 from ...ssp.kinds import PARAMETERS
+from ...ssp.names import split_name
 from ...system.network import Network
 from .injections import Injection
 
@@ -51,10 +52,10 @@ class Exchanged:
 
 def find_tuned(network: Network, faulty: Collection[str]) -> set[str]:
     """Return the names of the tunable parameters that are driven over time or are among ``faulty`` names."""
-    return {
-        f"{component}.{variable.name}"
-        for component, fmu in network.fmus.items()
-        for variable in fmu.variables.values()
-        if variable.is_tunable
-        if f"{component}.{variable.name}" in network.driven or f"{component}.{variable.name}" in faulty
-    }
+    tuned = set()
+    for name in {*network.driven, *faulty}:
+        component, short = split_name(name, network.fmus)
+        variable = network.fmus[component].variables.get(short) if component else None
+        if variable is not None and variable.is_tunable:
+            tuned.add(name)
+    return tuned

@@ -61,7 +61,7 @@ class Fmi2Orders:
         self._set_once = set_once
 
     def take_bases(self) -> None:
-        """The own values of parameters that change in flight."""
+        """Fill the slots of parameters that change in flight with the values that they have without."""
         for _, first, count, base in self._tuned:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
 

@@ -24,7 +24,7 @@ class Fmi3Orders:
         self._table = table
 
     def take_bases(self) -> None:
-        """The own values of parameters that change in flight."""
+        """Fill the slots of parameters that change in flight with the values that they have without."""
         for first, count, base in self._transfers.bases:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
 

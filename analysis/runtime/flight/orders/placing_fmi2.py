@@ -67,7 +67,7 @@ def _by_function(network: Network, component: str, exchanged: Exchanged) -> list
 def _place_tuned(
     network: Network, component: str, exchanged: Exchanged, slots: Slots
 ) -> list[tuple[int, int, int, int]]:
-    """Slots of parameters that change in flight, and of their own values."""
+    """Add slots of parameters that change in flight, and of the values that they have without."""
     sets = []
     for kind, function in enumerate(SETTERS):
         variables = [

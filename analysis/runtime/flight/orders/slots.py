@@ -39,7 +39,7 @@ class Slots:
         self.initial.append(initial)
 
     def add_bases(self, component: str, variables: Sequence[Variable]) -> int:
-        """A slot for each parameter's own value, in a row; returns the first. They are not recorded."""
+        """Add a slot for the value of each parameter without change, in a row; return the first. None is recorded."""
         first = len(self.references)
         for variable in variables:
             name = f"{component}.{variable.name}{BASE}"
