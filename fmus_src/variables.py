@@ -256,9 +256,16 @@ class Input(Variable):
 
 
 class Parameter(Variable):
-    """Fixed after initialisation."""
+    """Quantity set before the start, and between steps where the block's kernel proves that it may.
+
+    `export.judge.tunable` has the proof; ``fixed`` says why one that would be tunable is not to be changed then.
+    """
 
     causality = "parameter"
+
+    def __init__(self, declared: Any, /, *, fixed: str = "", **declaration: Any) -> None:
+        super().__init__(declared, **declaration)
+        self.fixed = fixed
 
 
 class State(Variable):

@@ -18,6 +18,7 @@ from .attributes import check_attributes
 from .closure import Closure, closure_of
 from .description.fmi2 import model_description
 from .description.origin import accompanying_files, origin
+from .judge.tunable import tunable_parameters
 
 SCRIPT = '''"""FMU script of {fmu_name}, generated; the block is in {package}/{block_path}."""
 
@@ -32,6 +33,7 @@ from {package}.{block_module} import {class_name}
 
 class {script_class}(BlockSlave):
     block_class = {class_name}
+    tunable = {tunable}
 '''
 
 
@@ -50,6 +52,7 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
         block_path=f"{closure.block_module.replace('.', '/')}.py",
         block_module=closure.block_module,
         class_name=block_class.__name__,
+        tunable=tuple(tunable_parameters(block_class)),
         script_class=f"{block_class.__name__}Slave",
     )
     files = _with_pythonfmu(closure, script_name, script)

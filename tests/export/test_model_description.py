@@ -113,7 +113,7 @@ def test_markup_is_escaped_and_valid():
     )
     description = read_model_description(io.BytesIO(_zipped(text)))
     variables = {variable.name: variable for variable in description.modelVariables}
-    assert variables["number"].description == "a < b & c > d"
+    assert variables["number"].description == "a < b & c > d; not used by this block"
     assert description.description == 'Awkward values & <markup> in "words".'
     assert description.coSimulation.needsExecutionTool is False
 

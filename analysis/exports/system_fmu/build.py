@@ -136,6 +136,7 @@ def _declared(variable: FmuVariable) -> SystemVariable:
         variable.maximum,
         items,
         variable.items_name,
+        variable.tunable,
     )
 
 

@@ -12,7 +12,9 @@ from ...block import Block
 from ...kernel.enumerations import Enumeration
 from ...units import UnitDefinition, unit_definition
 from ...variables import Output, Parameter, State, Variable
+from ..judge.tunable import NEVER_READ, find_fixed
 
+UNREAD = "not used by this block"  # a parameter that it has in common with others
 STATE_ANNOTATION = "org.perilune.state"
 LOG_CATEGORIES = {
     "logStatusError": "what ended a step, with the traceback or source line",
@@ -95,11 +97,18 @@ def role(block_class: type[Block], variable: Variable) -> dict[str, str]:
     """
     attributes = {"causality": variable.causality}
     if isinstance(variable, Parameter):
-        return attributes | {"variability": "fixed", "initial": "exact"}
+        tunable = find_fixed(block_class)[variable.name] is None
+        return attributes | {"variability": "tunable" if tunable else "fixed", "initial": "exact"}
     sampled = "sample_period" in block_class.variables
     continuous = variable.type_name == "Real" and not (sampled and variable.causality != "input")
     attributes["variability"] = "continuous" if continuous else "discrete"
     return attributes | ({"initial": "calculated"} if isinstance(variable, Output | State) else {})
+
+
+def describe(block_class: type[Block], variable: Variable, description: str) -> str:
+    """Return the description of a variable's element, in one line, with a note where the block never reads it."""
+    never = isinstance(variable, Parameter) and find_fixed(block_class)[variable.name] == NEVER_READ
+    return one_line(f"{description}; {UNREAD}" if never else description)
 
 
 def start_text(variable: Variable, elements: Sequence[float | int | bool]) -> str:

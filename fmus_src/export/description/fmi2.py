@@ -15,9 +15,9 @@ from .common import (
     add_log_categories,
     add_units,
     boolean,
+    describe,
     enumerations_by_name,
     limits,
-    one_line,
     role,
     start_description,
     start_text,
@@ -66,7 +66,9 @@ def model_description(
     for variable in variables:
         indices[variable.name] = []
         for position, name in enumerate(variable.element_names()):
-            _scalar_variable(model_variables, variable, name, position, reference, role(block_class, variable))
+            about = describe(block_class, variable, variable.descriptions()[position])
+            named = {"name": name, "valueReference": str(reference), "description": about}
+            _scalar_variable(model_variables, variable, position, named | role(block_class, variable))
             reference += 1
             indices[variable.name].append(reference)  # ScalarVariable indices count from 1
     _structure(root, block_class, indices)
@@ -84,12 +86,8 @@ def _add_types(root: etree._Element, variables: Sequence[Variable]) -> None:
             add_items(kind, enumeration)
 
 
-def _scalar_variable(
-    parent: etree._Element, variable: Variable, name: str, position: int, reference: int, attributes: dict[str, str]
-) -> None:
-    description = one_line(variable.descriptions()[position])
-    named = {"name": name, "valueReference": str(reference), "description": description}
-    element = etree.SubElement(parent, "ScalarVariable", named | attributes)
+def _scalar_variable(parent: etree._Element, variable: Variable, position: int, attributes: dict[str, str]) -> None:
+    element = etree.SubElement(parent, "ScalarVariable", attributes)
     details: dict[str, str] = {}
     if not isinstance(variable, Output | State):
         details["start"] = start_text(variable, [variable.elements[position]])

@@ -14,9 +14,9 @@ from .common import (
     add_items,
     add_log_categories,
     add_units,
+    describe,
     enumerations_by_name,
     limits,
-    one_line,
     role,
     start_text,
 )
@@ -57,7 +57,8 @@ def model_description(block_class: type[Block], *, token: str, origin: Mapping[s
     etree.SubElement(root, "DefaultExperiment", startTime="0.0", stepSize=repr(block_class.default_step))
     model_variables = etree.SubElement(root, "ModelVariables")
     for variable in variables:
-        _add_variable(model_variables, variable, role(block_class, variable.declared))
+        about = describe(block_class, variable.declared, variable.description)
+        _add_variable(model_variables, variable, {"description": about} | role(block_class, variable.declared))
     etree.SubElement(
         model_variables,
         "Float64",
@@ -84,9 +85,7 @@ def _add_types(root: etree._Element, variables: list[ArrayVariable]) -> None:
 
 def _add_variable(parent: etree._Element, variable: ArrayVariable, attributes: dict[str, str]) -> None:
     declared = variable.declared
-    description = one_line(variable.description)
-    named = {"name": variable.name, "valueReference": str(variable.reference), "description": description}
-    attributes = named | attributes
+    attributes = {"name": variable.name, "valueReference": str(variable.reference)} | attributes
     if variable.enumeration:
         attributes["declaredType"] = variable.enumeration.__name__
     elif variable.type_name == "Float64" and variable.unit:

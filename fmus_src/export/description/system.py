@@ -13,7 +13,6 @@ from .common import add_log_categories, define_units, literal, one_line, start_d
 
 NAME = r"[A-Za-z_]\w*(?:\[\d+(?:,\d+)*\])?"
 STRUCTURED = re.compile(rf"{NAME}(?:\.{NAME})*", re.ASCII)  # FMI 2.0.4, 2.2.9, without derivatives and quoted names
-VARIABILITY = {"parameter": "fixed"}  # else by type
 
 
 @dataclass(frozen=True)
@@ -31,6 +30,7 @@ class SystemVariable:
     maximum: str | None = None
     items: Mapping[str, int] = field(default_factory=dict)
     items_name: str = ""
+    tunable: bool = False  # of a parameter
 
 
 def system_description(
@@ -88,9 +88,9 @@ def _add_types(root: etree._Element, variables: Sequence[SystemVariable]) -> Non
 def _add_variable(parent: etree._Element, variable: SystemVariable, reference: int) -> None:
     attributes = {"name": variable.name, "valueReference": str(reference)}
     attributes |= {"description": one_line(variable.description), "causality": variable.causality}
-    changing = "continuous" if variable.type == "Real" else "discrete"
-    attributes["variability"] = VARIABILITY.get(variable.causality, changing)
+    attributes["variability"] = "continuous" if variable.type == "Real" else "discrete"
     if variable.causality == "parameter":
+        attributes["variability"] = "tunable" if variable.tunable else "fixed"
         attributes["initial"] = "exact"
     elif variable.causality != "input":
         attributes["initial"] = "calculated"

@@ -47,17 +47,17 @@ RESERVED = frozenset(_RESERVED_TEXT.split())
 # What the wrappers of fmi/ call their own; block types and functions stay clear of these.
 _WRAPPER_NAMES_TEXT = """
     Block Byte Component DoubleInt64 Element Environment Fault Logger Mode Range Samples SavedState Snapshot Status
-    Trait Variable VariableType add_and_subtract advance check_arithmetic check_logging check_mode check_start_values
-    check_state checked_result copy_element count_samples create_instance deserialise do_step double_at element_of
-    elements_of end_step_with_fault end_with_fault exact_frexp exact_ldexp fail float_floor_divide float_modulo
-    free_state get_starts has_traits instance_of int_abs int_at int_floor_divide int_modulo is_header is_mode is_used
-    kind_name leave_initialisation lie_alike log_error mode_name model_hash model_initialize model_integration_step
-    model_sample_period model_set_start_time model_step name_element no_strings no_variables not_provided
-    pass_parameters perilune_place power_of_two prepare_get prepare_set put_double put_int python_repr refuse
-    refuse_end refuse_integer refuse_integration refuse_interface refuse_null refuse_point refuse_real refuse_reference
-    refuse_set refuse_sizes refuse_step refuse_type refuse_wide reset restart restore_state save_state serialise
-    serialised_size set_fault set_start settle state_space take_samples terminate type_name whole_ceil whole_floor
-    whole_trunc
+    Trait Variable VariableType accept_tuned add_and_subtract advance check_arithmetic check_logging check_mode
+    check_ranges check_start_values check_state checked_result copy_element count_samples create_instance deserialise
+    do_step double_at element_of elements_of end_step_with_fault end_with_fault exact_frexp exact_ldexp fail
+    float_floor_divide float_modulo free_state get_starts has_traits instance_of int_abs int_at int_floor_divide
+    int_modulo is_header is_mode is_used kind_name leave_initialisation lie_alike log_error mode_name model_hash
+    model_initialize model_integration_step model_sample_period model_set_start_time model_step name_element no_strings
+    no_variables not_provided pass_parameters perilune_place power_of_two prepare_get prepare_set put_double put_int
+    python_repr refuse refuse_end refuse_integration refuse_interface refuse_null refuse_point
+    refuse_reference refuse_set refuse_sizes refuse_step refuse_type refuse_value refuse_wide reset restart
+    restore_state save_state serialise serialised_size set_fault set_start settle state_space take_samples terminate
+    tune type_name whole_ceil whole_floor whole_trunc
 """
 VECTOR_OPERATIONS = ("add", "subtract", "negative", "scale", "multiply", "divide", "quotient")
 WRAPPER_NAMES = frozenset(

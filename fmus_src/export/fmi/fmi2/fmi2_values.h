@@ -54,7 +54,27 @@ static inline fmi2Status prepare_get(
     return fmi2OK;
 }
 
-/* fmi2OK where all the referenced elements may be set now: a wrong one leaves the others as they are. */
+static inline void *element_of(fmi2Component c, fmi2ValueReference reference)
+{
+    return (char *)&instance_of(c)->now.block + ELEMENTS[reference].offset;
+}
+
+/* Set elements of which some are tunable parameters, between steps. */
+static COLD fmi2Status tune(Component *component, const char *function, Trait kind,
+    const fmi2ValueReference references[], size_t count, const void *values)
+{
+    const Block before = component->now.block;
+    for (size_t i = 0; i < count; i++) {
+        void *to = element_of(component, references[i]);
+        if (kind == KIND_REAL) *(double *)to = ((const fmi2Real *)values)[i];
+        if (kind == KIND_INTEGER) *(int64_t *)to = ((const fmi2Integer *)values)[i];
+        if (kind == KIND_BOOLEAN) *(bool *)to = ((const fmi2Boolean *)values)[i] != fmi2False;
+    }
+    return accept_tuned(component, function, &before);
+}
+
+/* fmi2OK where all the referenced elements may be set now: a wrong one leaves the others as they are. Tunable parameters
+ * are set already then. */
 static inline fmi2Status prepare_set(Component *component, const char *function, Trait kind,
     const fmi2ValueReference references[], size_t count, const void *values)
 {
@@ -63,16 +83,15 @@ static inline fmi2Status prepare_set(Component *component, const char *function,
     if (count > 0 && (references == NULL || values == NULL)) return refuse_null(component, function, references);
     const bool stepping = component->now.mode == MODE_STEP;
     const uint32_t traits = kind | (stepping ? SET_BETWEEN_STEPS : SET_BEFORE_STEPS);
+    bool tunes = false;
     for (size_t i = 0; i < count; i++) {
-        if (!has_traits(references[i], traits)) return refuse(component, function, traits, references[i]);
+        if (has_traits(references[i], traits)) continue;
+        if (!has_traits(references[i], kind | TUNABLE)) return refuse(component, function, traits, references[i]);
+        tunes = true;
     }
+    if (tunes) return tune(component, function, kind, references, count, values);
     if (!stepping) component->now.unsettled = true;
     return fmi2OK;
-}
-
-static inline void *element_of(fmi2Component c, fmi2ValueReference reference)
-{
-    return (char *)&instance_of(c)->now.block + ELEMENTS[reference].offset;
 }
 
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Real value[])

@@ -60,7 +60,34 @@ static inline Status prepare_get(Component *component, const char *function, Var
     return STATUS_OK;
 }
 
-/* STATUS_OK where all the variables may be set now: a wrong one leaves the others as they are. */
+/* The first element of a variable in the instance. */
+static inline void *elements_of(fmi3Instance instance, fmi3ValueReference reference)
+{
+    return (char *)&instance_of(instance)->now.block + ELEMENTS[VARIABLES[reference].first].offset;
+}
+
+/* Set variables of which some are tunable parameters, between steps. */
+static COLD Status tune(Component *component, const char *function, VariableType type,
+    const fmi3ValueReference references[], size_t count, const void *values)
+{
+    const Block before = component->now.block;
+    size_t next = 0;
+    for (size_t i = 0; i < count; i++) {
+        void *to = elements_of(component, references[i]);
+        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++, next++) {
+            switch (type) {
+                case TYPE_FLOAT64: ((double *)to)[k] = ((const fmi3Float64 *)values)[next]; break;
+                case TYPE_INT32: ((int64_t *)to)[k] = ((const fmi3Int32 *)values)[next]; break;
+                case TYPE_ENUMERATION: ((int64_t *)to)[k] = ((const fmi3Int64 *)values)[next]; break;
+                case TYPE_BOOLEAN: ((bool *)to)[k] = ((const fmi3Boolean *)values)[next]; break;
+            }
+        }
+    }
+    return accept_tuned(component, function, &before);
+}
+
+/* STATUS_OK where all the variables may be set now: a wrong one leaves the others as they are. Tunable parameters are set
+ * already then. */
 static inline Status prepare_set(Component *component, const char *function, VariableType type,
     const fmi3ValueReference references[], size_t count, const void *values, size_t value_count)
 {
@@ -69,6 +96,7 @@ static inline Status prepare_set(Component *component, const char *function, Var
     if (count > 0 && (references == NULL || values == NULL)) return refuse_null(component, function, references);
     const bool stepping = component->now.mode == MODE_STEP;
     const uint32_t trait = stepping ? SET_BETWEEN_STEPS : SET_BEFORE_STEPS;
+    bool tunes = false;
     size_t elements = 0;
     for (size_t i = 0; i < count; i++) {
         const fmi3ValueReference reference = references[i];
@@ -76,18 +104,16 @@ static inline Status prepare_set(Component *component, const char *function, Var
         if (reference == TIME_REFERENCE) return fail(component, "%s: time is the independent variable", function);
         if (VARIABLES[reference].type != type) return refuse_type(component, function, reference);
         const uint32_t traits = ELEMENTS[VARIABLES[reference].first].traits;
-        if ((traits & trait) == 0) return refuse_set(component, function, reference, traits);
+        if ((traits & trait) == 0) {
+            if ((traits & TUNABLE) == 0) return refuse_set(component, function, reference, traits);
+            tunes = true;
+        }
         elements += VARIABLES[reference].size;
     }
     if (elements != value_count) return refuse_sizes(component, function, elements, value_count);
+    if (tunes) return tune(component, function, type, references, count, values);
     if (!stepping) component->now.unsettled = true;
     return STATUS_OK;
-}
-
-/* The first element of a variable in the instance. */
-static inline void *elements_of(fmi3Instance instance, fmi3ValueReference reference)
-{
-    return (char *)&instance_of(instance)->now.block + ELEMENTS[VARIABLES[reference].first].offset;
 }
 
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
