@@ -9,7 +9,7 @@ from typing import Any
 
 from ..common.errors import InputError
 from ..runtime.ssp.archive import OSP_SUFFIX, SystemArchive
-from ..runtime.ssp.description import Component, Description, Element
+from ..runtime.ssp.description import Binding, Component, Description, Element
 from ..runtime.ssp.dimensions import Shape, array_shapes, element_names
 from ..runtime.ssp.parameter_sets import Assignment, read_binding
 from ..runtime.ssp.reading import read_description
@@ -38,7 +38,7 @@ def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSourc
         raise InputError(description.file, "", "is no SSD", KEEP.replace("SSD", "file"))
     components = dict(_components(description))
     bindings, values = list(description.system.bindings), list[Assignment]()
-    if bindings and bindings[-1].inline is not None:
+    if bindings and bindings[-1].inline is not None and not _is_adapted(bindings[-1]):
         values, _ = read_binding(archive, description.file, bindings.pop(), description.units)
     source = SystemSource(
         name=description.name,
@@ -87,13 +87,17 @@ def _parameters(description: Description, element: Element) -> tuple[str, ...]:
     """The parameter sets bound to an element, by the names that a system.toml has for them."""
     names = []
     for binding in element.bindings:
-        if binding.source is None or binding.prefix or binding.mapping_source or binding.mapping_inline is not None:
+        if binding.source is None or _is_adapted(binding):
             where = f"ParameterBinding (line {binding.line})"
             problem = "with values inside, a prefix or a mapping has no place in a system.toml"
             raise InputError(description.file, where, problem, KEEP)
         name = binding.source.removeprefix(RESOURCES)
         names.append(name if set_source(name) == binding.source else binding.source)
     return tuple(names)
+
+
+def _is_adapted(binding: Binding) -> bool:
+    return bool(binding.prefix or binding.mapping_source) or binding.mapping_inline is not None
 
 
 def _annotations(ssd: bytes, description: Description) -> bytes:
