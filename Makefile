@@ -13,7 +13,8 @@ QUIET := $(shell [ -t 2 ] || echo --quiet)
 unexport PYTHONDONTWRITEBYTECODE
 test quick long long-campaigns explore: export OPENBLAS_NUM_THREADS = 1
 
-demo: .venv/ready web
+demo: .venv/demo
+	$(BIN)/python build_web.py
 	$(BIN)/python -m docs.figures.demo
 
 test: WEB := --tools
@@ -193,15 +194,26 @@ lint: .venv/ready
 	$(BIN)/mypy --warn-unused-ignores --follow-imports=silent tests/verbs/wrong_calls.py
 
 # The first thing that any target does: with another Python than pyproject.toml's it says so and makes nothing.
-.venv/ready: pyproject.toml constraints.txt setup.py
+.venv/python: pyproject.toml constraints.txt setup.py
 	@$(PYTHON) -c "import re, sys; \
 		low, high = map(int, re.findall(r'3\.(\d+)', re.search('requires-python.*', open('pyproject.toml').read()).group())); \
 		sys.exit(0 if (3, low) <= sys.version_info < (3, high) else 'Perilune needs Python 3.%d to 3.%d, and $(PYTHON) is %s; ' \
 		'give another one: make PYTHON=python3.%d' % (low, high - 1, sys.version.split()[0], high - 1))"
 	$(PYTHON) -m venv .venv
-	@echo 'Installing Perilune with its packages and tools into .venv; it takes about a minute ...'
 	$(BIN)/python -m pip install $(QUIET) --disable-pip-version-check 'setuptools>=77'
-	$(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --no-build-isolation --constraint constraints.txt --editable '.[dev]'
+	touch $@
+
+INSTALL = $(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --no-build-isolation --constraint constraints.txt --editable
+
+.venv/ready: .venv/python
+	@echo 'Installing Perilune with its packages and tools into .venv; it takes about a minute ...'
+	$(INSTALL) '.[dev]'
+	touch $@
+
+# Without the tools of tests and documentation, unless they are there.
+.venv/demo: .venv/python
+	@echo 'Installing Perilune with its packages into .venv ...'
+	[ -e .venv/ready ] || $(INSTALL) '.[build]'
 	touch $@
 
 clean:
