@@ -25,6 +25,7 @@ ROOT = Path(__file__).resolve().parent
 # As build_fmus.py, which a source distribution does not hold.
 BUILD_FMUS = "from perilune.fmus_src.export.command import main; raise SystemExit(main())"
 BUILD_DOCS = "from docs.reference.build import main; raise SystemExit(main())"
+ENVIRONMENT = dict(os.environ)  # without a date that nobody asks for: FMUs have the release's then
 EPOCH = int(os.environ.setdefault("SOURCE_DATE_EPOCH", "315532800"))  # s; of itself 1980, where the dates of zips begin
 MODE = 0o644  # of all files, whatever the umask of whoever builds
 BILL = "sboms/perilune.cdx.json"  # PEP 770: in .dist-info
@@ -50,7 +51,7 @@ class BuildWithFmus(build_py):
         options = ["--output", output, "--flavour", "native", "--portable"]
         for platform in ("linux64", "win64", "darwin64"):
             options += ["--platform", platform]
-        subprocess.run([sys.executable, "-c", BUILD_FMUS, *options], cwd=ROOT, check=True)
+        subprocess.run([sys.executable, "-c", BUILD_FMUS, *options], cwd=ROOT, env=ENVIRONMENT, check=True)
         shutil.rmtree(output / "ssp")  # holds the FMUs a second time
         scripts = ["--require", "--output", output / "web" / "bundles"]
         subprocess.run([sys.executable, ROOT / "build_web.py", *scripts], check=True)

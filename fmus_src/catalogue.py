@@ -30,6 +30,11 @@ def blocks_of(module: ModuleType) -> list[type[Block]]:
     return [block for block in blocks if not block.is_interface]
 
 
+def is_shipped(block_class: type[Block]) -> bool:
+    """True if a block is of Perilune, false of a user's."""
+    return block_class.__module__.startswith(f"{__package__}.")
+
+
 def catalogue() -> dict[str, type[Block]]:
     """Every block of the repository by FMU name, in order of kind and file.
 

@@ -5,18 +5,20 @@ Shared by the plain Python object and the pythonfmu FMU; the native wrapper does
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from typing import Any
 
 from .block import Block, Input, Output, Parameter, State
 from .kernel.matrix_types import Matrix
 from .kernel.records import Record
 from .kernel.vector_types import vector
-from .start_values import StartError, describe_violation, start_range
+from .start_values import StartError, TuningError, describe_violation, start_range
 
 # How far a communication point may miss a sample instant: importers round t0 + n h, or add up h.
 SAMPLE_TOLERANCE = 1e-6  # of a sample period
 TIME_TOLERANCE = 1e-15  # of the time
-STEP_LIMIT = 1_000_000  # of a block's own integration in a communication step
+STEP_LIMIT = 1_000_000  # samples, and steps of a block's own integration, in a communication step
 INTEGRATION_STEPS = ("longest_step", "internal_step")  # names of the longest of them (s): the first that a block has
 POINT_TOLERANCE = 1e-3  # of a step: communication points carry the rounding of whoever adds them up
 
@@ -42,14 +44,16 @@ class Component:
 
     Setting a variable during initialisation marks the instance; the next `settle` puts states
     and outputs back to their declared starts, checks parameters and inputs and runs `Block.initialize` again. Value
-    references number the elements of all variables in order of declaration.
+    references number the elements of all variables in order of declaration. Between steps inputs can be set, and the
+    parameters that are ``tunable`` (`export.judge.tunable`), which the next step reads: outputs stand till then.
 
     Raises what the block's arithmetic raises (ZeroDivisionError, ValueError, OverflowError) and
-    `StepError` when more than one sample, or too many integration steps, fall into a communication step; `StartError`
-    where a parameter is outside its bounds, or a parameter or an input is not finite.
+    `StepError` when too many samples, or integration steps, fall into a communication step; `StartError`
+    where a parameter is outside its bounds, or a parameter or an input is not finite; `TuningError` where another
+    variable is set between steps, or a tunable parameter to a value outside its bounds.
     """
 
-    def __init__(self, block_class: type[Block]) -> None:
+    def __init__(self, block_class: type[Block], tunable: Iterable[str] = ()) -> None:
         self.block: Any = block_class()
         self.sampled = "sample_period" in block_class.variables
         self.integration_step = integration_step(block_class)
@@ -72,6 +76,8 @@ class Component:
             first += variable.size
         # For each list of value references that was asked for: the variables behind it. Importers repeat theirs.
         self.known: dict[tuple[int, ...], list[Access]] = {}
+        self.tunable = frozenset(tunable)
+        self.tuned: dict[tuple[int, ...], list[int]] = {}  # tunable parameters among references, by place in the list
 
     def accesses(self, references: list[int]) -> list[Access]:
         """Variables behind value references, in order; those of which all elements are named come as wholes."""
@@ -129,10 +135,39 @@ class Component:
         return self.read(list(range(len(self.elements))))
 
     def set(self, references: list[int], values: list) -> None:
-        """Set inputs or parameters by value reference."""
-        self.write(references, values)
+        """Set inputs or parameters by value reference; between steps inputs and tunable parameters."""
         if self.initialising:
+            self.write(references, values)
             self.unsettled = True
+            return
+        tuned = self.tuned.get(tuple(references))
+        if tuned is None:
+            tuned = self.tuned[tuple(references)] = self.find_tuned(references)
+        if tuned:
+            self.check_tuned([(references[k], values[k]) for k in tuned if k < len(values)])
+        self.write(references, values)
+
+    def find_tuned(self, references: list[int]) -> list[int]:
+        """Return positions of tunable parameters among references. Raises TuningError for fixed and computed ones."""
+        tuned = []
+        for k, reference in enumerate(references):
+            name, index = self.elements[reference]
+            variable = self.block.variables[name]
+            if name in self.tunable:
+                tuned.append(k)
+            elif not isinstance(variable, Input):
+                fixed = isinstance(variable, Parameter)
+                why = "a parameter, fixed after initialisation" if fixed else "computed and cannot be set"
+                raise TuningError(f"{variable.element_names()[max(index, 0)]} is {why}")
+        return tuned
+
+    def check_tuned(self, settings: list[tuple[int, Any]]) -> None:
+        """Refuse parameters outside their bounds, given by value reference."""
+        ranges = dict(zip(self.checked, self.ranges, strict=True))
+        for reference, number in settings:
+            name, low, high = ranges.get(reference, ("", -math.inf, math.inf))
+            if not low <= number <= high:
+                raise TuningError(describe_violation(name, number, low, high))
 
     def write(self, references: list[int], values: list) -> None:
         """Put values, which have their variables' types, where the value references say."""
@@ -196,27 +231,46 @@ class Component:
             raise StepError(f"the step ends at {end!r} s, after the stop time of {stop!r} s")
 
     def do_step(self, t: float, h: float) -> None:
-        """Advance from t to t + h (s); a sampled block steps at its sample instants only."""
-        if self.sampled and self.block.sample_period > 0.0:
-            period = self.block.sample_period
-            margin = SAMPLE_TOLERANCE * period + TIME_TOLERANCE * abs(t + h)
-            due = self.start_time + (self.tick + 1) * period
-            if t + h < due - margin:
-                return
-            if t + h >= due + period - margin:
-                raise StepError(
-                    f"communication step {h!r} s holds more than one sample of sample_period {period!r} s; "
-                    "use a communication step no longer than the period, or a longer period"
-                )
+        """Advance from t to t + h (s); a sampled block steps at its sample instants only, at each of them.
+
+        With one instant the block's step is the importer's; with several there is a step from each instant to the
+        next, as of an importer that steps by the period and holds its inputs.
+        """
+        period = self.block.sample_period if self.sampled else 0.0
+        if not period > 0.0:
+            self.check_integration(h)
+            self.block.step(t, h)
+            return
+        margin = SAMPLE_TOLERANCE * period + TIME_TOLERANCE * abs(t + h)
+        due = self.start_time + (self.tick + 1) * period
+        if t + h < due - margin:
+            return
+        if t + h < due + period - margin:
             self.tick += 1
-        if self.integration_step is not None:
-            longest = getattr(self.block, self.integration_step)
-            if h > STEP_LIMIT * longest:
-                raise StepError(
-                    f"communication step {h!r} s holds more than {STEP_LIMIT} integration steps of {longest!r} s; "
-                    "use a shorter communication step, or a longer internal_step"
-                )
-        self.block.step(t, h)
+            self.check_integration(h)
+            self.block.step(t, h)
+            return
+        last = (t + h + margin - self.start_time) / period
+        if last - self.tick >= STEP_LIMIT + 1:
+            raise StepError(
+                f"communication step {h!r} s holds more than {STEP_LIMIT} samples of sample_period {period!r} s; "
+                "use a shorter communication step, or a longer period"
+            )
+        self.check_integration(h)
+        for tick in range(self.tick, int(last)):
+            self.tick = tick + 1
+            self.block.step(self.start_time + tick * period, period)
+
+    def check_integration(self, h: float) -> None:
+        """Refuse a communication step of h (s) with too many steps of the block's own integration."""
+        if self.integration_step is None:
+            return
+        longest = getattr(self.block, self.integration_step)
+        if h > STEP_LIMIT * longest:
+            raise StepError(
+                f"communication step {h!r} s holds more than {STEP_LIMIT} integration steps of {longest!r} s; "
+                "use a shorter communication step, or a longer internal_step"
+            )
 
     def get_state(self) -> dict[str, Any]:
         """Complete state: every variable and the life-cycle counters. Raises StateError for a block with more."""

@@ -1,4 +1,5 @@
-"""Values with which a block starts: Reals are finite, and parameters lie between their declared bounds.
+"""Values with which a block starts: Reals are finite, and parameters lie between their declared bounds, tunable
+ones between steps, too.
 
 The native wrapper compares with the same numbers, `fmi/instance/start_values.h`.
 """
@@ -15,6 +16,10 @@ LARGEST = sys.float_info.max  # in place of a bound that is not declared: neithe
 
 class StartError(ValueError):
     """A value with which a block cannot start; the message names variable, value and bound."""
+
+
+class TuningError(ValueError):
+    """A variable that cannot be set between steps, or not to that value; the message says which, and why."""
 
 
 def start_range(variable: Variable) -> tuple[float, float]:

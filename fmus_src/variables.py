@@ -153,8 +153,13 @@ class Variable:
 
     @property
     def type_name(self) -> str:
-        """FMI type: Real, Integer or Boolean."""
+        """The type of its values: Real, Integer or Boolean."""
         return TYPE_NAMES[type(self.elements[0])]
+
+    @property
+    def fmi_type(self) -> str:
+        """FMI 2.0 type: Enumeration where it has one, else that of its values."""
+        return "Enumeration" if self.enumeration is not None else self.type_name
 
     def element_names(self) -> list[str]:
         """FMI names of the elements: ``name``; ``name[1]``, ``name[2]``, ...; or ``name[1,1]``, ``name[1,2]``, ..."""
@@ -251,9 +256,16 @@ class Input(Variable):
 
 
 class Parameter(Variable):
-    """Fixed after initialisation."""
+    """Quantity set before the start, and between steps where the block's kernel proves that it may.
+
+    `export.judge.tunable` has the proof; ``fixed`` says why one that would be tunable is not to be changed then.
+    """
 
     causality = "parameter"
+
+    def __init__(self, declared: Any, /, *, fixed: str = "", **declaration: Any) -> None:
+        super().__init__(declared, **declaration)
+        self.fixed = fixed
 
 
 class State(Variable):

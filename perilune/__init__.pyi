@@ -19,6 +19,8 @@ from .analysis.verbs.bounds import TrialBounds as TrialBounds
 from .analysis.verbs.bounds import bound_trials as bound_trials
 from .analysis.verbs.compare import Comparison as Comparison
 from .analysis.verbs.compare import compare as compare
+from .analysis.verbs.compose import Composition as Composition
+from .analysis.verbs.compose import compose as compose
 from .analysis.verbs.describe import describe as describe
 from .analysis.verbs.diff import Differences as Differences
 from .analysis.verbs.diff import diff as diff
@@ -54,6 +56,7 @@ from .analysis.verbs.show import ServedCampaigns as ServedCampaigns
 from .analysis.verbs.show import show as show
 from .analysis.verbs.stability import StabilityReport as StabilityReport
 from .analysis.verbs.stability import stability as stability
+from .analysis.verbs.system import System as System
 from .analysis.verbs.validate import validate as validate
 from .analysis.verbs.verify import Verifications as Verifications
 from .analysis.verbs.verify import verify as verify

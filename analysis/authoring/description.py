@@ -18,7 +18,7 @@ CAUSALITIES = ("input", "output", "structuralParameter", "parameter", "calculate
 
 
 def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Mapping[str, str] | None = None) -> list:
-    """A row for each variable: name, size, causality, type, unit, value, limits, description, items of an Enumeration.
+    """A row for each variable: name, size, causality, tunable, type, unit, value, limits, description, items.
 
     ``values`` are put in place of the FMU's starts, in its own units, and ``origins`` say where they come from.
     ``size`` is 1, or as the elements are counted: 3, or [2, 3]; ``value`` is then a list, in row order.
@@ -38,6 +38,7 @@ def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Map
             "name": whole.group(1) if whole else name,
             "size": 1,
             "causality": variable.causality or "local",
+            "tunable": variable.is_tunable,
             "type": variable.type,
             "unit": variable.unit,
             "value": [value] if whole else value,

@@ -18,7 +18,7 @@ Demand = tuple[str, str, str]  # variable, causality, type
 def connectors_of(block: type[Block]) -> set[Demand]:
     """All variables that a connector can stand for."""
     return {
-        (name, variable.causality, variable.type_name)
+        (name, variable.causality, variable.fmi_type)
         for variable in block.variables.values()
         for name in variable.element_names()
     }

@@ -116,9 +116,9 @@ def _describe_fmu(name: str, options: System) -> Description:
 def _describe_slot(name: str) -> Description:
     slot = slots()[name]
     rows: list[dict[str, Any]] = [
-        {"name": name, "causality": variable.causality, "size": variable.size, "unit": variable.unit, "value": None,
-         "minimum": variable.minimum, "maximum": variable.maximum, "from": None, "description": variable.description,
-         "items": []}
+        {"name": name, "causality": variable.causality, "tunable": False, "size": variable.size, "unit": variable.unit,
+         "value": None, "minimum": variable.minimum, "maximum": variable.maximum, "from": None,
+         "description": variable.description, "items": []}
         for name, variable in slot.variables.items()
     ]  # fmt: skip
     return Description(

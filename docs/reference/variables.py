@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.evidence.variable_text import bounds_text, sized_name, start_text, unit_text
+from perilune.fmus_src.export.judge.tunable import find_fixed
 from perilune.fmus_src.kernel.records import Field, Record, count_numbers
 from perilune.fmus_src.variables import Input, Output, Parameter, State, Variable
 
@@ -34,7 +35,7 @@ def outputs(block: type[Block]) -> str:
 
 
 def parameters(block: type[Block]) -> str:
-    """The table of its parameters with what they are unless set, and between what they may be set."""
+    """The table of its parameters: what they are unless set, between what they may be set, and whether in flight."""
     rows = [
         [
             *_name(variable),
@@ -42,11 +43,12 @@ def parameters(block: type[Block]) -> str:
             escaped(unit_text(variable)),
             bounds_text(variable),
             _frame(variable),
+            _in_flight(block, variable),
             _words(variable),
         ]
         for variable in declared(block, Parameter)
     ]
-    return _filled(["parameter", "type", "default", "unit", "bounds", "frame", "what it is"], rows)
+    return _filled(["parameter", "type", "default", "unit", "bounds", "frame", "in flight", "what it is"], rows)
 
 
 def states(block: type[Block]) -> str:
@@ -93,7 +95,7 @@ def _filled(head: list[str], rows: list[list[str]]) -> str:
 
 
 def _name(variable: Variable) -> list[str]:
-    return [f"`{sized_name(variable)}`", variable.type_name]
+    return [f"`{sized_name(variable)}`", variable.fmi_type]
 
 
 def _range(variable: Variable) -> list[str]:
@@ -102,6 +104,14 @@ def _range(variable: Variable) -> list[str]:
 
 def _frame(variable: Variable) -> str:
     return escaped(variable.frame or "")
+
+
+def _in_flight(block: type[Block], variable: Variable) -> str:
+    """Return ``tunable``, or why the parameter is fixed; nothing for those of an interface, which its blocks decide."""
+    if block.is_interface:
+        return ""
+    reason = find_fixed(block)[variable.name]
+    return "tunable" if reason is None else f"fixed: {escaped(reason)}"
 
 
 def _words(variable: Variable) -> str:

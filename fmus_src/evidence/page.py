@@ -74,7 +74,7 @@ def _table(variables: Sequence[Variable]) -> etree._Element:
     for each in variables:
         start = "" if isinstance(each, Output) else start_text(each)
         limits = [unit_text(each), bounds_text(each), each.frame or ""]
-        rows.append([sized_name(each), each.type_name, start, *limits, each.description])
+        rows.append([sized_name(each), each.fmi_type, start, *limits, each.description])
     filled = [index for index in range(len(rows[0])) if any(row[index] for row in rows[1:])]
     header, *others = [[row[index] for index in filled] for row in rows]
     lines = [builder.TR(*map(builder.TH, header)), *(builder.TR(*map(builder.TD, row)) for row in others)]

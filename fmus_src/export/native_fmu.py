@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 
-import fmpy
-
 from ..block import Block
+from ..catalogue import is_shipped
 from ..evidence.block import add_evidence
 from ..own_digests import note_own
 from ..paths import CACHE
@@ -16,17 +15,13 @@ from .archive import content_guid, write_zip
 from .compilers import PLATFORMS, SOURCE_OPTIONS
 from .description import fmi2, fmi3
 from .description.build import build_description
+from .description.origin import STANDARD, STANDARD_HEADERS, accompanying_files, origin
 from .description.terminals import FILE as TERMINALS_FILE
 from .description.terminals import terminals
 from .libraries import build_library
 from .write.translate import translate
 
 C_FILES = Path(__file__).parent / "fmi"
-STANDARD = Path(fmpy.__file__).parent / "c-code"  # headers under BSD-2, licence inside
-STANDARD_HEADERS = {
-    2: ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h"),
-    3: ("fmi3FunctionTypes.h", "fmi3Functions.h", "fmi3PlatformTypes.h"),
-}
 
 
 def wrapper_files(fmi: int, model: str = "block") -> list[Path]:
@@ -87,13 +82,15 @@ def build_native_fmu(
 def _files(block_class: type[Block], guid: str, fmi: int) -> dict[str, bytes]:
     """The FMU without its binaries and its check."""
     files = {f"sources/{name}": text for name, text in native_sources(block_class, guid, fmi).items()}
-    tool, main = f"Perilune {version('perilune')}", f"{block_class.fmu_name}.c"
+    main, is_ours = f"{block_class.fmu_name}.c", is_shipped(block_class)
+    files |= accompanying_files(fmi, is_ours=is_ours)
+    about = origin(f"Perilune {version('perilune')}", is_ours=is_ours, is_final=guid != "")
     if fmi == 3:
-        files["modelDescription.xml"] = fmi3.model_description(block_class, token=guid, generation_tool=tool)
+        files["modelDescription.xml"] = fmi3.model_description(block_class, token=guid, origin=about)
         files["sources/buildDescription.xml"] = build_description(block_class.fmu_name, main, SOURCE_OPTIONS)
         connected = terminals(block_class)
         return files if connected is None else files | {TERMINALS_FILE: connected}
     files["modelDescription.xml"] = fmi2.model_description(
-        block_class, guid=guid, generation_tool=tool, needs_execution_tool=False, sources=[main]
+        block_class, guid=guid, origin=about, needs_execution_tool=False, sources=[main]
     )
     return files

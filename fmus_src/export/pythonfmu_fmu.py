@@ -10,12 +10,15 @@ from pathlib import Path
 from pythonfmu import FmuBuilder
 
 from ..block import Block
+from ..catalogue import is_shipped
 from ..evidence.block import add_evidence
 from ..own_digests import note_own
 from .archive import content_guid, read_zip, write_zip
 from .attributes import check_attributes
 from .closure import Closure, closure_of
 from .description.fmi2 import model_description
+from .description.origin import accompanying_files, origin
+from .judge.tunable import tunable_parameters
 
 SCRIPT = '''"""FMU script of {fmu_name}, generated; the block is in {package}/{block_path}."""
 
@@ -30,6 +33,7 @@ from {package}.{block_module} import {class_name}
 
 class {script_class}(BlockSlave):
     block_class = {class_name}
+    tunable = {tunable}
 '''
 
 
@@ -48,17 +52,20 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
         block_path=f"{closure.block_module.replace('.', '/')}.py",
         block_module=closure.block_module,
         class_name=block_class.__name__,
+        tunable=tuple(tunable_parameters(block_class)),
         script_class=f"{block_class.__name__}Slave",
     )
     files = _with_pythonfmu(closure, script_name, script)
-    tool = f"Perilune with PythonFMU {version('pythonfmu')}"
-    files["modelDescription.xml"] = model_description(
-        block_class, guid="", generation_tool=tool, needs_execution_tool=True
-    )
-    guid = content_guid(files)
-    files["modelDescription.xml"] = model_description(
-        block_class, guid=guid, generation_tool=tool, needs_execution_tool=True
-    )
+    is_ours = is_shipped(block_class)
+    files |= accompanying_files(2, is_ours=is_ours, runs_python=True)
+    tool = f"Perilune {version('perilune')} with PythonFMU {version('pythonfmu')}"
+
+    def describe(guid: str) -> bytes:
+        about = origin(tool, is_ours=is_ours, is_final=guid != "")
+        return model_description(block_class, guid=guid, origin=about, needs_execution_tool=True)
+
+    files["modelDescription.xml"] = describe("")
+    files["modelDescription.xml"] = describe(content_guid(files))
     write_zip(path, add_evidence(block_class, files))
     note_own(path)
     return path

@@ -35,22 +35,31 @@ class BlockSlave(Fmi2Slave):
     """
 
     block_class: ClassVar[type[Block]]
+    tunable: ClassVar[tuple[str, ...]] = ()  # names of parameters that may be set between steps
 
     def __init__(self, **keywords: Any) -> None:
         super().__init__(**keywords)
         keep_source(__package__.partition(".")[0])
         self.modelName = self.block_class.fmu_name
-        self.component = Component(self.block_class)
+        self.component = Component(self.block_class, self.tunable)
         self.component.block.fmu_resources = self.resources
         self.time: float | None = None  # end of the last step; not known of a state put back
         self.stop_time = math.inf
         self.get_real = self.get_integer = self.get_boolean = self.get_values
-        self.set_real = self.set_integer = self.set_boolean = self.component.set
+        self.set_real = self.set_integer = self.set_boolean = self.set_values
 
     def get_values(self, references: list[int]) -> list:
         """Values by reference; a failing initialisation is logged and raised."""
         try:
             return self.component.get(references)
+        except Exception:
+            self.log_failure()
+            raise
+
+    def set_values(self, references: list[int], values: list) -> None:
+        """Set inputs or parameters by reference; a refusal is logged and raised."""
+        try:
+            self.component.set(references, values)
         except Exception:
             self.log_failure()
             raise

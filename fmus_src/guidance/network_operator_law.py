@@ -46,6 +46,7 @@ class NetworkOperatorLaw(Block, interface=True):
         columns=SIZE,
         minimum=0,
         maximum=23,
+        fixed="its edges are decoded once",
         description="network operator: unary operations above the diagonal, binary ones on it",
     )
     q = Parameter([1.50049, 13.54590, 12.96753], unit="1", description="parameters of the law")

@@ -55,7 +55,7 @@ class Single(Block):
 
 
 def describe(block: type[Block]) -> str:
-    text = model_description(block, guid="", generation_tool="", needs_execution_tool=False).decode()
+    text = model_description(block, guid="", origin={}, needs_execution_tool=False).decode()
     return text.replace(block.fmu_name, "")
 
 

@@ -66,7 +66,8 @@ def test_elements_are_got_and_set_in_any_order_and_number():
     component.write(list(range(count)), [float(k) for k in range(count)])
     for chosen in ([2, 1], [0, 2, 3], [8, 7, 6], [1, 2, 1], [4, 5, 6, 7, 8, 9, 10, 11], []):
         assert component.get(chosen) == [float(k) for k in chosen]
-    component.set([2, 1, 9], [-2.0, -1.0, -9.0])
+    component.set([2, 1], [-2.0, -1.0])
+    component.write([9], [-9.0])
     assert component.block.level == [-1.0, -2.0]
     assert component.get([9, 10, 1]) == [-9.0, 10.0, -1.0]
     for bad in ([-1], [count]):

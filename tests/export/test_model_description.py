@@ -22,7 +22,7 @@ BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 
 
 def read(block):
-    text = model_description(block, guid="{g}", generation_tool="test", needs_execution_tool=True)
+    text = model_description(block, guid="{g}", origin={"generationTool": "test"}, needs_execution_tool=True)
     return etree.fromstring(text)
 
 
@@ -42,12 +42,15 @@ def test_variables_are_those_declared(fmus, name):
         units = declared.units()
         for element, start, unit in zip(declared.element_names(), declared.elements, units, strict=True):
             actual = variables[element]
-            assert (actual.causality, actual.type) == (declared.causality, declared.type_name)
+            assert (actual.causality, actual.type) == (declared.causality, declared.fmi_type)
+            if declared.enumeration:
+                items = {item.name: int(item.value) for item in actual.declaredType.items}
+                assert items == {name: number for number, name in declared.enumeration.names.items()}
             assert actual.description.startswith(re.sub(r"\s+", " ", declared.description))
             if isinstance(declared, Parameter | Input):
-                value = {"Real": float, "Integer": int, "Boolean": lambda text: text == "true"}[actual.type](
-                    actual.start
-                )
+                value = {"Real": float, "Integer": int, "Enumeration": int, "Boolean": lambda text: text == "true"}[
+                    actual.type
+                ](actual.start)
                 assert value == start
             if actual.type == "Real":
                 assert actual.unit == unit
@@ -105,17 +108,19 @@ def test_awkward_values_come_back_to_the_last_bit():
 
 
 def test_markup_is_escaped_and_valid():
-    text = model_description(Odd, guid="{g}", generation_tool="a & b", needs_execution_tool=False, sources=("odd.c",))
+    text = model_description(
+        Odd, guid="{g}", origin={"generationTool": "a & b"}, needs_execution_tool=False, sources=("odd.c",)
+    )
     description = read_model_description(io.BytesIO(_zipped(text)))
     variables = {variable.name: variable for variable in description.modelVariables}
-    assert variables["number"].description == "a < b & c > d"
+    assert variables["number"].description == "a < b & c > d; not used by this block"
     assert description.description == 'Awkward values & <markup> in "words".'
     assert description.coSimulation.needsExecutionTool is False
 
 
 def test_two_calls_give_the_same_bytes():
     def make():
-        return model_description(Odd, guid="{g}", generation_tool="t", needs_execution_tool=True)
+        return model_description(Odd, guid="{g}", origin={"generationTool": "t"}, needs_execution_tool=True)
 
     assert make() == make()
 

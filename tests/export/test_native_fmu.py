@@ -14,8 +14,9 @@ from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export import compilers, libraries
 from perilune.fmus_src.export.compilers import CompilationFailed, CompilerMissing, local_platform
+from perilune.fmus_src.export.description.origin import STANDARD_HEADERS
 from perilune.fmus_src.export.libraries import build_library
-from perilune.fmus_src.export.native_fmu import STANDARD_HEADERS, build_native_fmu, wrapper_files
+from perilune.fmus_src.export.native_fmu import build_native_fmu, wrapper_files
 from perilune.fmus_src.export.write.names import WRAPPER_NAMES
 from perilune.fmus_src.runtime import Component
 from tests.support import kernels

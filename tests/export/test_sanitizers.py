@@ -9,6 +9,7 @@ import pytest
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.judge.tunable import tunable_parameters
 from perilune.fmus_src.export.native_fmu import native_sources
 from tests.support import kernels, lengths
 from tests.support.kernels.native_instance import GUID
@@ -29,9 +30,9 @@ def test_no_sanitizer_objects(block: type[Block], tmp_path: Path) -> None:
     command = [*find_compiler(), "-I", ".", "-o", "driver", str(DRIVER), f"{block.fmu_name}.c", "-lm"]
     compiled = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert compiled.returncode == 0, compiled.stderr
-    variables = block.variables.values()
+    variables, tunable = block.variables.values(), tunable_parameters(block)
     kinds = "".join(variable.type_name[0].lower() * variable.size for variable in variables)
-    causalities = "".join(variable.causality[0] * variable.size for variable in variables)
+    causalities = "".join(("t" if each.name in tunable else each.causality[0]) * each.size for each in variables)
     arguments = [GUID, kinds, causalities, str(block.default_step), str(STEPS)]
     done = subprocess.run([str(tmp_path / "driver"), *arguments], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr

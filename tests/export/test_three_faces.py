@@ -30,7 +30,7 @@ BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = lengths.size(1000)
 # Two divide a step into hundreds where their drawn time constants are short, the others plan at most steps.
 LONG = ("attitude_moon_lander", "spherical_moon_lander", "hover_guidance", "convex_guidance")
-STEADY = ("slew_jerk_limited", "slew_step")  # whose outputs change once in a flight; drawn rates are mostly too large
+STEADY = ("site_divert", "slew_jerk_limited", "slew_step")  # with outputs that change once in a flight, or mostly never
 TYPES = ("Real", "Integer", "Boolean")
 
 

@@ -26,10 +26,12 @@ class Rule:
 
 def lists_its_sources(description: ModelDescription, members: frozenset[str]) -> bool:
     """True if the listed C files are exactly those of the folder sources."""
-    assert description.coSimulation is not None
-    listed = {f"sources/{name}" for name in description.coSimulation.sourceFiles or ()}
-    if "sources/buildDescription.xml" in members:
-        return True  # of FMI 3.0, whose list FMPy checks
+    listed = {
+        f"sources/{name}"
+        for configuration in description.buildConfigurations
+        for files in configuration.sourceFileSets
+        for name in files.sourceFiles
+    }
     return listed == {name for name in members if name.startswith("sources/") and name.endswith(".c")}
 
 

@@ -210,7 +210,10 @@ CASES = {
         ["guidance.terminal_step", "0.5"],
     ),
     "a number for a truth": ([*RUN, "--set", "guidance.gravity_correction=2"], ["gravity_correction", "true or false"]),
-    "beyond the largest": ([*RUN, "--set", "guidance.terminal_step=2"], ["guidance.terminal_step", "2", "maximum"]),
+    "beyond the largest": (
+        [*RUN, "--set", "guidance.terminal_step=2"],
+        ["guidance.terminal_step", "no item 2", "use one of EXACT, STOP"],
+    ),
     "below the least": ([*RUN, "--set", "guidance.gravity=-1"], ["guidance.gravity", "-1", "minimum"]),
     "a connected input": (
         [*RUN, "--set", "plant.thrust=5"],

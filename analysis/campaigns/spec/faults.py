@@ -162,6 +162,6 @@ def fault_of_trials(declared: CampaignFault, draws: Mapping[str, np.ndarray], nu
 def check_drawn(fault: DrawnFault, network: Network) -> None:
     """Refuse a fault that the system cannot have. Raises InputError."""
     declared = fault.declared
-    variable = changeable(network, declared.connector, declared.where("connector"))
+    variable = changeable(network, declared.connector, declared.where("connector"), tunable=True)
     for value in () if fault.value is None else np.unique(fault.value[fault.flies]).tolist():
         check_value(variable, declared.kind, value, declared.where("value"))

@@ -61,7 +61,7 @@ class _Reader(AnnotationReader):
             loaded = {fmu.label: fmu for fmu in prepared.network.fmus.values()}
             options = prepared.options
             options = replace(options, parameters=(*options.parameters, names[START]))
-            prepared = prepare_system(prepared.archive.path, options, loaded)
+            prepared = prepare_system(prepared.archive, options, loaded)
         inputs: dict[str, float | tuple[float, ...]] = {}
         for role in VECTORS:
             inputs[role] = tuple(self.value(element, prepared, f"{names[role]}[{index}]") for index in (1, 2, 3))

@@ -11,11 +11,12 @@ from pathlib import Path, PurePath
 from ....fmus_src.evidence.manifest import Related, add_manifest
 from ....fmus_src.export.archive import content_guid, write_zip
 from ....fmus_src.export.compilers import PLATFORMS
+from ....fmus_src.export.description.origin import accompanying_files, origin
 from ....fmus_src.export.description.system import SystemVariable, system_description
 from ....fmus_src.export.libraries import build_library
 from ....fmus_src.export.native_fmu import read_wrapper
 from ....fmus_src.own_digests import note_own
-from ....fmus_src.paths import CACHE
+from ....fmus_src.paths import CACHE, SYSTEMS
 from ....fmus_src.units import BASE_UNITS, UnitDefinition
 from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive
@@ -57,7 +58,9 @@ def build_system_fmu(
     _check_names(variables.declared, model.network.file)
     name = _model_identifier(archive.name, model)
     others = other_parameter_sets(preparation, model.network.description.system, variables.declared)
-    files = _files(name, model, variables, others, content_guid(_files(name, model, variables, others, "")))
+    is_ours = archive.path.resolve().is_relative_to(SYSTEMS.resolve())
+    guid = content_guid(_files(name, model, variables, others, is_ours, ""))
+    files = _files(name, model, variables, others, is_ours, guid)
     sources = {file.removeprefix("sources/"): text for file, text in files.items() if file.startswith("sources/")}
     for platform in platforms:
         library = build_library(sources, f"{name}.c", platform, CACHE, portable=portable)
@@ -68,7 +71,9 @@ def build_system_fmu(
     note_own(path)
 
 
-def _files(name: str, model: SystemModel, variables: Variables, others: OtherSets, guid: str) -> dict[str, bytes]:
+def _files(
+    name: str, model: SystemModel, variables: Variables, others: OtherSets, is_ours: bool, guid: str
+) -> dict[str, bytes]:
     """The FMU without its binaries and its manifest."""
     about = model.network.description.system.about or f"the system {name}"
     sources = read_wrapper(2, "system")
@@ -82,7 +87,7 @@ def _files(name: str, model: SystemModel, variables: Variables, others: OtherSet
         [_declared(each) for each in variables.declared],
         dependencies,
         guid=guid,
-        generation_tool=f"Perilune {version('perilune')}",
+        origin=origin(f"Perilune {version('perilune')}", is_ours=is_ours, is_final=guid != ""),
         experiment={
             "startTime": first.start,
             "stopTime": float(f"{first.start + first.steps * first.step:.12g}"),  # 0.3, not 0.30000000000000004
@@ -95,6 +100,7 @@ def _files(name: str, model: SystemModel, variables: Variables, others: OtherSet
         "modelDescription.xml": description,
         **{f"sources/{file}": text for file, text in sources.items()},
         **others.files,
+        **accompanying_files(2, is_ours=is_ours),
         PAGE: system_page(name, about, model, variables.declared, dependencies, others),
         README: system_readme(name, about).encode(),
     }
@@ -130,6 +136,7 @@ def _declared(variable: FmuVariable) -> SystemVariable:
         variable.maximum,
         items,
         variable.items_name,
+        variable.tunable,
     )
 
 

@@ -121,10 +121,10 @@ def candidate_name(use: str) -> str:
 
 def _start_of(network: Network, name: str) -> float | bool | str:
     """The start of an input of the system: that of the first input of a component that it reaches."""
-    start, type_name = _start_reached(network, name), network.nodes[name].type_name
-    if start is None or type_name == "Enumeration":
+    start, node = _start_reached(network, name), network.nodes[name]
+    if start is None or (node.type_name == "Enumeration" and start not in node.enumeration.values()):
         return _no_start(network, name)
-    return {"Boolean": bool, "Integer": int}.get(type_name or "", float)(start)
+    return {"Boolean": bool, "Integer": int, "Enumeration": int}.get(node.type_name or "", float)(start)
 
 
 def _no_start(network: Network, name: str) -> float | bool | str:
@@ -147,7 +147,8 @@ def _start_reached(network: Network, name: str) -> float | None:
         else:
             fmu = network.fmus[target.component]
             variable = fmu.variables[target.variable]
-            begin = parse_value(variable.start_text, variable.type, fmu.label, variable.name)
+            kind = "Integer" if variable.type == "Enumeration" else variable.type
+            begin = parse_value(variable.start_text, kind, fmu.label, variable.name)
             start = None if isinstance(begin, str) else float(begin)
         if start is not None:
             return (start - link.transformation.offset) / link.transformation.factor

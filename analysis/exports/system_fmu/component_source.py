@@ -23,13 +23,14 @@ TABLES = re.compile(
     r"^/\* In order of declaration. \*/\nstatic const Element.*?(?=^static void model_initialize)", re.M | re.S
 )
 ELEMENT = re.compile(r"\{offsetof\(Block, ([^)]+)\), (KIND_\w+) \| (ROLE_\w+), \d+\},")
+GIVEN = ("ROLE_PARAMETER", "ROLE_TUNABLE", "ROLE_INPUT")
 REMEDY = "build it again with this Perilune"
 
 
 @dataclass(frozen=True)
 class Member:
     """A variable of a block in its C struct: ``kind`` is KIND_REAL, KIND_INTEGER or KIND_BOOLEAN, ``role`` ROLE_INPUT,
-    ROLE_OUTPUT, ROLE_PARAMETER or ROLE_STATE."""
+    ROLE_OUTPUT, ROLE_PARAMETER, ROLE_TUNABLE or ROLE_STATE."""
 
     path: str
     kind: str
@@ -58,7 +59,7 @@ class ComponentSource:
     @property
     def given(self) -> dict[str, bool]:
         """The struct's members, whole, that are parameters and inputs, and whether they are arrays of C."""
-        given = [each.path for each in self.members if each.role in ("ROLE_PARAMETER", "ROLE_INPUT")]
+        given = [each.path for each in self.members if each.role in GIVEN]
         return {re.split(r"[.\[]", path)[0]: re.match(r"\w+\[", path) is not None for path in given}
 
 

@@ -51,7 +51,7 @@ HEADER = """\
 FOOTER = """\
 #define HAS_FINISHED(component) ((component)->now.block.has_finished)
 
-#include "fmi2_wrapper.c"
+#include "fmi2_wrapper.h"
 #include "system_steps.h"
 """
 

@@ -38,6 +38,7 @@ class FmuVariable:
     items: Sequence[str] = ()
     first_item: int = 1
     items_name: str = ""
+    tunable: bool = False
 
     @property
     def kind(self) -> str:
@@ -47,7 +48,8 @@ class FmuVariable:
     @property
     def role(self) -> str:
         """What the wrapper lets be done with it."""
-        return {"input": "ROLE_INPUT", "parameter": "ROLE_PARAMETER"}.get(self.causality, "ROLE_OUTPUT")
+        parameter = "ROLE_TUNABLE" if self.tunable else "ROLE_PARAMETER"
+        return {"input": "ROLE_INPUT", "parameter": parameter}.get(self.causality, "ROLE_OUTPUT")
 
     @property
     def is_member(self) -> bool:
@@ -57,13 +59,14 @@ class FmuVariable:
 
 @dataclass(frozen=True)
 class Passed:
-    """A parameter of a component that connections of a ``network`` bring the value of a system's: its path, and the
-    chain of names."""
+    """A parameter of a component that connections of a ``network`` bring the value of a system's: its path, the chain
+    of names, and whether the component's FMU lets it be set between steps."""
 
     path: str
     kind: str
     chain: tuple[str, ...]
     network: Network
+    tunable: bool
 
 
 class Variables:
@@ -83,6 +86,7 @@ class Variables:
         chosen = [self._slot(name, slots[name], default) for name, default in defaults.items()]
         inside = [each for program in _by_candidate(model) for each in self._component_parameters(*program)]
         exposed = [self._exposed(name) for name in model.exposed]
+        system = [replace(each, tunable=self._are_readers_tunable(each)) for each in system]
         self.declared = _with_unique_types([*system, *chosen, *inside, *exposed, *self._faults()])
         self.effective |= {each.name: each.start for each in [*system, *inside] if each.start is not None}
 
@@ -106,6 +110,26 @@ class Variables:
                 variable = self._of_node(node, "parameter", "parameter", "parameter of the system", _typed(node, value))
                 self.parameter_paths[name] = variable.path
                 yield variable
+
+    def _are_readers_tunable(self, declared: FmuVariable) -> bool:
+        """Return True for a parameter of the system that components read as parameters that are all tunable.
+
+        One that drives signals or inputs, which initialisation sets, is fixed.
+        """
+        name = declared.name
+        if declared.causality != "parameter":
+            return False
+        read = [each.tunable for each in self.passed if each.chain[0] == name]
+        reached, ahead = set[str](), [name]
+        links = [link for choice in self.model.choices for link in choice.prepared.network.links()]
+        while ahead:
+            each = ahead.pop()
+            reached.add(each)
+            ahead += [
+                link.target.name for link in links if link.source.name == each and link.target.name not in reached
+            ]
+        chains = {each for passed in self.passed for each in passed.chain}
+        return bool(read) and all(read) and reached <= chains
 
     def _of_node(
         self, node: Node, causality: str, prefix: str, description: str, start: ParameterValue | None = None
@@ -143,24 +167,27 @@ class Variables:
                 if chain:
                     if given is not None:
                         self.effective[f"{candidate.label}.{variable.name}"] = given
-                    self.passed.append(Passed(path, candidate.member(variable.name).kind, tuple(chain), network))
+                    self.passed.append(
+                        Passed(path, candidate.member(variable.name).kind, tuple(chain), network, _is_tunable(variable))
+                    )
                     continue
             elif variable.causality != "input" or full in network.driver:
                 continue
             yield FmuVariable(
                 f"{candidate.label}.{variable.name}",
                 "parameter",
-                variable.type,
+                _in_a_system(variable.type),
                 path,
                 variable.description or "",
                 given if given is not None else _start(variable, candidate),
                 variable.unit if variable.type == "Real" else None,
                 variable.minimum,
                 variable.maximum,
+                tunable=_is_tunable(variable),
             )
 
     def _exposed(self, name: str) -> FmuVariable:
-        type_name = self.model.types[name]
+        type_name = _in_a_system(self.model.types[name])
         unit = self.model.units[name] if type_name == "Real" else None
         path = self.model.members.new(f"local_{name}")
         return FmuVariable(name, "local", type_name, path, self._describe(name), unit=unit)
@@ -216,8 +243,18 @@ def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, Candidate
                 yield program, candidate
 
 
+def _is_tunable(variable: Variable) -> bool:
+    """Return True for what a component's FMU lets be set between steps."""
+    return variable.variability == "tunable" or variable.causality == "input"
+
+
 def _type_of(node: Node) -> str:
-    return "Integer" if node.type_name == "Enumeration" else node.type_name or "Real"
+    return _in_a_system(node.type_name or "Real")
+
+
+def _in_a_system(type_name: str) -> str:
+    """The type of what a system's FMU hands on: components may have two enumerations of one name, so Integers."""
+    return "Integer" if type_name == "Enumeration" else type_name
 
 
 def _typed(node: Node, value: float | str) -> ParameterValue:
@@ -225,4 +262,4 @@ def _typed(node: Node, value: float | str) -> ParameterValue:
 
 
 def _start(variable: Variable, candidate: Candidate) -> ParameterValue:
-    return parse_value(variable.start_text, variable.type, candidate.fmu.label, variable.name)
+    return parse_value(variable.start_text, _in_a_system(variable.type), candidate.fmu.label, variable.name)

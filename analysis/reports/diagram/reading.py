@@ -11,6 +11,7 @@ from ....fmus_src.catalogue import block_kinds
 from ...runtime.ssp.conversions import IDENTITY, Transformation
 from ...runtime.ssp.description import Component, Connection, Connector, DictionaryReference, Element, Point, System
 from ...runtime.ssp.kinds import PARAMETERS
+from ...runtime.ssp.names import split_name
 from ...runtime.system.fault import Fault
 from ...runtime.system.flattening import orient
 from ...runtime.system.network import Node
@@ -93,8 +94,7 @@ class _Reader:
         return block
 
     def owner(self, fault: Fault) -> str:
-        node = self.network.nodes.get(fault.name)
-        return "" if node is None else node.component or ""
+        return split_name(fault.name, self.network.fmus)[0]
 
     def add_ports(self, block: Block, element: Element, path: str) -> None:
         """The connectors of an element, on both sides for a dictionary's signals; an FMU's other outputs, too."""

@@ -7,6 +7,7 @@ from dataclasses import replace
 from lxml import etree
 
 from ...runtime.ssp.conversions import BASE_UNITS, Unit
+from ...runtime.ssp.types import WHOLE
 from .declared import Arc, Band, Curve, Error, Path, Point, Pulses
 from .signal_reader import ROWS, SignalReader
 
@@ -47,7 +48,7 @@ def read_pulses(reader: SignalReader, element: etree._Element) -> Pulses:
     reader.attributes(element, ("lengths",), ("count", "remainder", "total", "labels", "title"))
     lengths = reader.signal(element, "lengths", unit=SECOND)
     return Pulses(
-        count=reader.scalar(element, "count", ("Integer",)) if "count" in element.attrib else None,
+        count=reader.scalar(element, "count", WHOLE) if "count" in element.attrib else None,
         remainder=reader.optional(element, "remainder", lambda name: reader.signal(element, name, like=lengths)),
         total=reader.optional(element, "total", lambda name: reader.scalar(element, name)),
         lengths=lengths,

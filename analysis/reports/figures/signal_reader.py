@@ -12,10 +12,11 @@ from ...runtime.flight.program import layout_of
 from ...runtime.ssp.annotations import AnnotationReader
 from ...runtime.ssp.conversions import Unit
 from ...runtime.ssp.names import elements, split_name
+from ...runtime.ssp.types import WHOLE
 from ...runtime.system.prepared import PreparedSystem
 from .declared import Rows, Signal
 
-NUMBERS = ("Real", "Integer")
+NUMBERS = ("Real", *WHOLE)
 ROWS = ("where", "from", "to")
 TRUTHS = {"true": True, "false": False}
 

@@ -10,6 +10,7 @@ from ...common.errors import suggestion
 from ...design.trajectories.declared_bound import read_inputs
 from ...design.trajectories.stored_bound import MissingBound, find_bound
 from ...runtime.ssp.documents import tag
+from ...runtime.ssp.types import WHOLE
 from ...runtime.system.prepared import PreparedSystem
 from .declared import LANDING, MEASURES, BoundValues, Budget, Figure, Item, Limit, Limits, Phase, Phases
 from .history_readers import SECOND
@@ -32,13 +33,13 @@ def read_phases(reader: SignalReader, element: etree._Element) -> Phases:
     if "status" in attributes and "status_times" in attributes:
         raise reader.refuse(element, "status and status_times", "give one of them")
     parts = reader.parts(element, ("Phase", "Meaning"))
-    signal = reader.scalar(element, "signal", ("Integer",))
+    signal = reader.scalar(element, "signal", WHOLE)
     return Phases(
         title=reader.title(element, signal.label),
         signal=signal,
         phases=_phases(reader, element, parts["Phase"]),
         spent=reader.optional(element, "spent", lambda name: reader.scalar(element, name)),
-        status=reader.optional(element, "status", lambda name: reader.scalar(element, name, ("Integer",))),
+        status=reader.optional(element, "status", lambda name: reader.scalar(element, name, WHOLE)),
         status_times=reader.optional(element, "status_times", lambda name: reader.signal(element, name, unit=SECOND)),
         meanings=_meanings(reader, parts["Meaning"]),
         notes=tuple(reader.notes),

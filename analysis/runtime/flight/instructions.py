@@ -81,6 +81,7 @@ class InstructionList(Rows):
             for start, source, target in texts.connections[component]:
                 if known is None or start in known:
                     self.rows.append([code, source, 0, target, 1, component, 0])
+        self.orders[component].take_bases()
         begun = len(self.rows)
         self.drive(component, started=known is None)
         self.connect(component, known)
@@ -88,6 +89,7 @@ class InstructionList(Rows):
 
     def carry(self, component: int) -> None:
         """Values and faults to the inputs of a component, which is not given them."""
+        self.orders[component].take_bases()
         self.connect(component)
         self.orders[component].carry()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import warnings
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
@@ -32,11 +32,19 @@ class Parameters:
 
     ``ranges`` [component, type of TYPE_KIND, 4] are the first one, how many there are, and how many of them, the first
     ones, are set again in initialisation mode and read back after it. Those of a component of FMI 3.0 are
-    ``transfers``, rows of ``table``, one for each variable with all its elements.
+    ``transfers``, rows of ``table``, one for each variable with all its elements. Those that are ``tuned`` change in
+    flight and are not read back.
     """
 
-    def __init__(self, network: Network, settings: Settings, table: TransferTable | None = None) -> None:
+    def __init__(
+        self,
+        network: Network,
+        settings: Settings,
+        table: TransferTable | None = None,
+        tuned: Collection[str] = (),
+    ) -> None:
         self._network = network
+        self._tuned = tuned
         self._table = TransferTable() if table is None else table
         self.transfers: dict[int, ComponentTransfers] = {}
         self._layout: dict[int, tuple[str, int]] = {}  # of FMI 3.0: type and first byte
@@ -52,7 +60,7 @@ class Parameters:
                 self.transfers[index] = self._place_transfers(component, fmu, given[component])
                 continue
             grades = {
-                name: _grade(fmu, fmu.variables[name], driven=f"{component}.{name}" in network.driver)
+                name: self._grade(component, fmu.variables[name], driven=f"{component}.{name}" in network.driver)
                 for name in given[component]
             }
             for kind in range(4):
@@ -98,13 +106,25 @@ class Parameters:
                 transfers.structural.append(transfer)
                 transfers.back.append(transfer)
                 continue
-            grade = _grade(fmu, elements[0], driven=driven)
+            grade = max(self._grade(component, each, driven=driven) for each in elements)
             transfers.before.append(transfer)
             if grade <= 1 and fmu.digest not in _set_once:
                 transfers.repeated.append(transfer)
             if grade == 0:
                 transfers.back.append(transfer)
         return transfers
+
+    def _grade(self, component: str, variable: Variable, *, driven: bool) -> int:
+        """0: set in initialisation mode too, and read back; 1: not read back; 2: set before initialisation mode only.
+
+        FMI 2.0 lets inputs and what has initial="exact" be set in that mode; other values the FMU calculates itself
+        from then on, and an input that is connected is given anew.
+        """
+        settable = variable.causality in ("input", "parameter") or variable.initial == "exact"
+        if not settable or (driven and variable.causality == "input"):
+            return 2
+        unreadable = _unreadable.get(self._network.fmus[component].digest, ())
+        return int(f"{component}.{variable.name}" in self._tuned or (variable.array or variable.name) in unreadable)
 
     def _start(self, component: str, name: str) -> ParameterValue:
         """The start of an element whose array is given, though it is not."""
@@ -171,6 +191,10 @@ class Parameters:
             text = f"{fmu.label}: {name} cannot be read back: whether {component} takes its value is not known"
             warnings.warn(text, stacklevel=2)
 
+    def is_set_once(self, component: str) -> bool:
+        """True if a component refuses parameters in initialisation mode."""
+        return self._network.fmus[component].digest in _set_once
+
     def learn_set_once(self, component: str) -> None:
         """Not to set an FMU's parameters in initialisation mode, which it has refused; they are read back."""
         _set_once.add(self._network.fmus[component].digest)
@@ -178,15 +202,3 @@ class Parameters:
     def blank(self) -> arrays.Settings:
         """Arrays of the same layout, to read into."""
         return arrays.Settings(*(np.zeros_like(array) for array in self.values))
-
-
-def _grade(fmu: Fmu, variable: Variable, *, driven: bool) -> int:
-    """0: set in initialisation mode too, and read back; 1: not read back; 2: set before initialisation mode only.
-
-    FMI 2.0 lets inputs and what has initial="exact" be set in that mode; other values the FMU calculates itself from
-    then on, and an input that is connected is given anew.
-    """
-    settable = variable.causality in ("input", "parameter") or variable.initial == "exact"
-    if not settable or (driven and variable.causality == "input"):
-        return 2
-    return 1 if (variable.array or variable.name) in _unreadable.get(fmu.digest, ()) else 0

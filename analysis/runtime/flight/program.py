@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -30,14 +30,15 @@ from .orders.rows import Callee
 from .orders.slots import Slots
 from .orders.texts import Texts
 from .orders.transfers import ComponentTransfers, TransferTable
-from .parameters import Parameters
+from .parameters import Key, Parameters
 
 
 @dataclass
 class Layout:
     """Where everything lies: slots by name, the parameters, the Strings and Binaries that are exchanged.
 
-    ``unfed`` are slots of array elements that nothing is connected to, whose array is given as a whole.
+    ``unfed`` are slots of array elements that nothing is connected to, whose array is given as a whole; ``bases`` those
+    of what parameters that change in flight have without the change.
     """
 
     slots: dict[str, int]
@@ -47,6 +48,7 @@ class Layout:
     texts: Texts
     binaries: Texts
     unfed: frozenset[str] = frozenset()
+    bases: Mapping[Key, int] = field(default_factory=dict)
 
 
 def build_program(
@@ -96,7 +98,7 @@ class _Builder:
         self.table = TransferTable()
         self.component_slots: dict[int, ComponentSlots] = {}  # of components of FMI 2.0
         self.transfers: dict[int, ComponentTransfers] = {}  # of components of FMI 3.0
-        self.parameters = Parameters(network, settings, self.table)
+        self.parameters = Parameters(network, settings, self.table, self.exchanged.tuned)
         self.texts, self.binaries = (Texts(network, settings, kind) for kind in TEXTS)
         placing = TransferPlacing(network, self.exchanged, self.signals, self.table)
         for index, name in enumerate(self.names):
@@ -185,7 +187,9 @@ class _Builder:
             self.parameters.ranges[index].tolist(),
             self.texts.ranges[index].tolist(),
             slots.recorded,
+            slots.tuned,
             one_by_one=self.parameters.is_one_by_one(self.names[index]),
+            set_once=self.parameters.is_set_once(self.names[index]),
         )
 
     def fmi3(self, instances: Mapping[str, Callee]) -> arrays.Fmi3 | None:
@@ -212,13 +216,17 @@ class _Builder:
         )
 
     def _fault_slot(self, injection: Injection) -> int:
-        changeable(self.network, injection.connector, ("connector", injection.connector))  # refuses all others
+        changeable(
+            self.network, injection.connector, ("connector", injection.connector), tunable=True
+        )  # refuses others
         return self.slots[injection.connector]
 
     def layout(self) -> Layout:
         table = self.signals
         texts = self.texts, self.binaries
-        return Layout(self.slots, table.types, table.units, self.parameters, *texts, frozenset(table.unfed))
+        return Layout(
+            self.slots, table.types, table.units, self.parameters, *texts, frozenset(table.unfed), table.bases
+        )
 
 
 def _tolerance(fmu: Fmu) -> float:

@@ -19,6 +19,7 @@ from ...common.percent import short_percent
 from ...common.visible import quote_formula
 from ..ssp.given_values import ParameterValue
 from ..ssp.names import elements, split_name, vectors
+from ..ssp.types import WHOLE
 from ..system.fault import Fault
 from ..system.inputs import DrivenInput, InputFacts
 from ..system.network import Network
@@ -124,7 +125,7 @@ def _column_type(type_name: str, values: np.ndarray) -> pyarrow.DataType:
 
     if type_name == "Boolean":
         return pyarrow.bool_()
-    if type_name not in ("Integer", "Enumeration"):
+    if type_name not in WHOLE:
         return pyarrow.float64()
     largest = max(values.max(initial=0.0), -values.min(initial=0.0))
     return pyarrow.int32() if largest < 2**31 else pyarrow.int64() if largest < 2**63 else pyarrow.float64()
@@ -200,7 +201,7 @@ def status_lines(network: Network, flight: Flight) -> list[str]:
     lines = []
     for name, values in flight.signals.items():
         component, variable = split_name(name, network.fmus)
-        if variable != STATUS or not component or flight.types[name] != "Integer" or not values.any():
+        if variable != STATUS or not component or flight.types[name] not in WHOLE or not values.any():
             continue
         worst, last = int(np.max(values)), int(values[-1])
         first = float(flight.time[np.argmax(values == worst)])

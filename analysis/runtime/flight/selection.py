@@ -15,6 +15,7 @@ from ..system.fmu import NOT_VARIED, STRUCTURAL
 from ..system.network import Network
 from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
+from .orders.exchanged import find_tuned
 from .orders.injections import Injection, of_excitation, of_fault
 from .parameters import Key
 from .program import Layout
@@ -46,9 +47,12 @@ class Selection:
         return {name: _key(network, name) for name in self.varied}
 
     def settings(self, prepared: PreparedSystem, keys: Mapping[str, Key]) -> Settings:
-        """The system's settings, in which every varied parameter has a place, at its start value if need be."""
+        """The system's settings, in which every varied parameter, and each that changes in flight, has a place, at its
+        start value if need be."""
         variables = dict(prepared.settings.variables)
-        for name, (component, variable) in keys.items():
+        tuned = find_tuned(prepared.network, {fault.name for fault in self.faults})
+        changed = {name: _key(prepared.network, name) for name in sorted(tuned)}
+        for name, (component, variable) in {**changed, **keys}.items():
             fmu = prepared.network.fmus[component]
             declared = fmu.variables[variable]
             variables.setdefault(

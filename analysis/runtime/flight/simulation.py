@@ -125,12 +125,16 @@ class Simulation(BaseSimulation):
         self.loops.unlock(self._arguments(self.program, span, recording, excitation))
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
-        """See `BaseSimulation.set`; an element of an array that is partly connected is given with each step, too."""
+        """See `BaseSimulation.set`; an element of an array that is partly connected is given with each step, too, and
+        so are parameters that change in flight."""
         super().set(values)
         self._give_unfed()
 
     def _give_unfed(self) -> None:
         """Let elements of partly connected arrays begin with the values that parameters have."""
+        for key, slot in self.layout.bases.items():
+            if key in self.layout.parameters:
+                self.program.initial[slot] = float(self.layout.parameters[key])
         if self.fmi3 is not None:
             for name in self.layout.unfed & self._varied.keys():
                 slot, number = self.layout.slots[name], self.layout.parameters[self._varied[name]]
@@ -183,8 +187,11 @@ class Simulation(BaseSimulation):
 
     @property
     def group_size(self) -> int:
-        """Of FMUs of our own, which can be trusted to reset, and write no log. Systems with FMI 3.0 have no groups."""
+        """Of FMUs of our own, which can be trusted to reset, and write no log. Systems with FMI 3.0 have no groups,
+        nor have those with parameters that change in flight, whose own values the loop has from here.
+        """
         flies_groups = self.fmi3 is None and self._log is None and self.life_cycle.are_self_contained
+        flies_groups = flies_groups and not self.layout.bases
         return flights_in_group(self._recorded.size, rows_between(-1, self.prepared.steps)) if flies_groups else 0
 
     def fly_group(self, table: FlightTable) -> FlightGroup:

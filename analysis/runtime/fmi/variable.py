@@ -40,6 +40,11 @@ class Variable:
     index: int = 0  # among the array's elements
 
     @property
+    def is_tunable(self) -> bool:
+        """True for a parameter that may be set between steps."""
+        return self.causality == "parameter" and self.variability == "tunable"
+
+    @property
     def start_text(self) -> str:
         """The start as a text that can be read as a number, of one without NaN."""
         return "nan" if self.start is None else self.start

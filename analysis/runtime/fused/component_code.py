@@ -20,7 +20,7 @@ MACRO = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
 JOINED = re.compile(r"(\w+)##")  # the first part of a name that a macro joins
 USE = re.compile(r"^[A-Z_]+\((\w+)", re.MULTILINE)  # of a macro that defines something, its argument behind that part
 RESERVED = re.compile(r"_[_A-Z]")
-WRAPPER = '#include "fmi2_wrapper.c"'
+WRAPPER = '#include "fmi2_wrapper.h"'
 INSTEAD = {"fmi2Functions.h": "fmi2FunctionTypes.h"}  # its types alone: the functions are not in the unit
 NEEDED = '#include "fmi2_types.h"\n#include "life_cycle.h"'  # of the wrapper: an instance and its steps
 
@@ -42,7 +42,7 @@ STANDARD = frozenset(
         define undef ifdef ifndef elif endif defined error pragma
         size_t ptrdiff_t bool true false NULL int8_t uint8_t int16_t uint16_t int32_t uint32_t int64_t uint64_t
         uintptr_t INT32_MIN INT32_MAX INT64_MIN INT64_MAX UINT32_MAX UINT64_MAX UINT64_C INT64_C SIZE_MAX
-        INFINITY NAN HUGE_VAL offsetof PRId64 va_list va_start va_arg va_end snprintf vsnprintf sprintf
+        INFINITY NAN HUGE_VAL FLT_EVAL_METHOD offsetof PRId64 va_list va_start va_arg va_end snprintf vsnprintf sprintf
         abs atoi strtod calloc malloc free memcpy memmove memset memcmp strchr strcmp strcpy strlen strspn strstr
         fmod fabs sqrt floor ceil trunc isfinite isnan isinf signbit copysign
         pack push pop cold noinline always_inline visibility dllexport

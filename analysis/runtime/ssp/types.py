@@ -13,6 +13,7 @@ RUNTIME_TYPES = {
     "Enumeration": "Enumeration",
     "Binary": "Binary",
 }
+WHOLE = ("Integer", "Enumeration")  # the runtime's types of whole numbers
 GENERAL = ("Real", "Integer")  # the only ones of SSP 1.0, whatever an FMU of FMI 3.0 has
 
 
@@ -22,8 +23,12 @@ def runtime_type(name: str) -> str:
 
 
 def is_of_type(stored: str, declared: str) -> bool:
-    """Whether a variable's type is the one that is declared: Real and Integer are said of all of their kind."""
-    return stored == declared or (declared in GENERAL and runtime_type(stored) == declared)
+    """Whether a variable's type is the one that is declared: Real and Integer are said of all of their kind.
+
+    An Enumeration may be declared as Integer, too: its items are numbers, as older FMUs have them.
+    """
+    kinds = WHOLE if declared == "Integer" else (declared,)
+    return stored == declared or (declared in GENERAL and runtime_type(stored) in kinds)
 
 
 def integer_range(name: str) -> tuple[int, int]:

@@ -17,6 +17,7 @@ from ..ssp.given_values import ParameterValue, parse_value
 from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
 from ..ssp.parameter_sets import Assignment, Notes, SetValue, read_binding
+from ..ssp.types import WHOLE
 from .network import Network, Node
 from .options import SystemOptions
 from .passing.parameters import pass_parameters
@@ -255,7 +256,7 @@ def _mapped(assignment: Assignment, transformation: Transformation, type_name: s
 
 def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
     """A single value, which is a bare number in the variable's unit."""
-    if type_name in ("Real", "Integer", "Boolean") and RANGE in str(assignment.value):
+    if type_name in ("Real", "Boolean", *WHOLE) and RANGE in str(assignment.value):
         unit = f", in {node.unit.name}" if node.unit is not None else ""
         remedy = f"give one{unit}; low:high:step, a sweep, is for perilune batch"
         raise InputError(assignment.file, assignment.where, f"{assignment.value!r} is no single value", remedy)

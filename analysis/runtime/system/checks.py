@@ -75,9 +75,9 @@ def check_aliases(network: Network) -> None:
 
 
 def check_samples(network: Network, settings: Settings, step: float, periods: dict[str, int]) -> None:
-    """Refuse a sample period shorter than what its component steps by, of which two samples would fall into one step.
+    """Refuse a sample period shorter than what its component steps by.
 
-    Raises InputError.
+    The FMU would take several samples in a step, of which others see the last one. Raises InputError.
     """
     for component, fmu in network.fmus.items():
         variable = fmu.variables.get("sample_period")
@@ -92,21 +92,33 @@ def check_samples(network: Network, settings: Settings, step: float, periods: di
             raise InputError(file, f"{component}.sample_period", problem, remedy)
 
 
-def changeable(network: Network, name: str, where: tuple[str, str]) -> Variable:
+def refuse_fixed(network: Network, name: str, where: tuple[str, str]) -> None:
+    """Refuse the name of a parameter that cannot be changed in flight. Raises InputError."""
+    component, short = split_name(name, network.fmus)
+    variable = network.fmus[component].variables.get(short) if component else None
+    if variable is not None and variable.causality == "parameter" and not variable.is_tunable:
+        remedy = f"set it before the start, `set` {name}=VALUE, or take a parameter that is tunable"
+        raise InputError(*where, "a parameter that is fixed after initialisation", remedy)
+
+
+def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: bool = False) -> Variable:
     """The variable of a component's connector, ``component.connector``, whose value can be changed on its way.
 
-    These are outputs, and inputs that something is connected to or a series drives. ``where`` (file, element) is what
-    errors point to. Raises InputError.
+    These are outputs, and inputs that something is connected to or a series drives; with ``tunable`` such parameters,
+    too. ``where`` (file, element) is what errors point to. Raises InputError.
     """
     known: dict[str, Variable] = {}
     for component, fmu in network.fmus.items():
         for variable in fmu.variables.values():
             full = f"{component}.{variable.name}"
             fed = variable.causality == "input" and (full in network.driver or full in network.driven)
-            if (fed or variable.causality == "output") and variable.type not in TEXTS:
+            parameter = tunable and variable.is_tunable
+            if (fed or parameter or variable.causality == "output") and variable.type not in TEXTS:
                 known[full] = variable
     if name in known:
         return known[name]
+    if tunable:
+        refuse_fixed(network, name, where)
     component, own = split_name(name, network.fmus)
     unfed = network.fmus[component].variables.get(own) if component else None
     if unfed is not None and unfed.causality == "input":
@@ -128,9 +140,20 @@ def check_value(variable: Variable, kind: str, value: float | bool, where: tuple
         raise InputError(*where, f"{number_text(value)} is not of type {type_name}", "give a number")
     elif type_name != "Real" and not (value == round(value) and stored.limits[0] <= value <= stored.limits[1]):
         raise InputError(*where, f"{number_text(value)} is not of type {type_name}", f"give {stored.demand()}")
+    if variable.is_tunable and kind == "override":
+        check_bounds(variable, float(value), where)
+
+
+def check_bounds(variable: Variable, number: float, where: tuple[str, str]) -> None:
+    """Refuse a value of a tunable parameter outside the bounds that its FMU declares. Raises InputError."""
+    low, high = (None if text is None else float(text) for text in (variable.minimum, variable.maximum))
+    if low is not None and number < low:
+        raise InputError(*where, f"{number:.12g} is below its minimum {low:.12g}", "give a larger value")
+    if high is not None and number > high:
+        raise InputError(*where, f"{number:.12g} is above its maximum {high:.12g}", "give a smaller value")
 
 
 def check_fault(network: Network, fault: Fault) -> None:
     """Refuse a fault that the system cannot have. Raises InputError."""
     where = ("fault", fault.name)
-    check_value(changeable(network, fault.name, where), fault.kind, fault.value, where)
+    check_value(changeable(network, fault.name, where, tunable=True), fault.kind, fault.value, where)

@@ -105,7 +105,8 @@ def _is_driven(network: Network, component: str) -> bool:
     """Whether an input of a component is given values during the flight."""
     prefix = f"{component}."
     return any(link.target.component == component and not link.is_parameter for link in network.driver.values()) or any(
-        name.startswith(prefix) for name in network.driven
+        name.startswith(prefix) and not network.fmus[component].variables[name.removeprefix(prefix)].is_tunable
+        for name in network.driven
     )
 
 

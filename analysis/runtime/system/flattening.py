@@ -24,7 +24,8 @@ from .network import Link, Network, Node
 from .passing.units import convert_units
 
 SUMMED = ("Real", "Integer")
-WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"))  # types of source and target that fit though they differ
+# Types of source and target that fit though they differ.
+WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"), ("Enumeration", "Integer"), ("Enumeration", "Real"))
 
 
 def build_network(description: Description, load: Callable[[str, Component], Fmu]) -> Network:

@@ -1,4 +1,7 @@
-"""Inputs of a system: those that nothing is connected to, and those that a series of samples drives over time."""
+"""Inputs of a system: those that nothing is connected to, and those that a series of samples drives over time.
+
+A series drives tunable parameters likewise.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +17,8 @@ from ...common.errors import InputError, suggestion
 from ...common.machine.room import check_room
 from ..fmi.representations import OF_FMI2, REPRESENTATIONS, TEXTS, Representation
 from ..ssp.kinds import LED_OUT
+from ..ssp.names import split_name
+from .checks import check_bounds, refuse_fixed
 from .network import Link, Network, Node
 from .passing.settings import Settings
 from .series import InputSeries
@@ -144,8 +149,8 @@ class Drive:
 def find_driven(network: Network, series: InputSeries, alone: str | None) -> dict[str, str]:
     """The columns of a series by the inputs that they drive: connectors of the root, ``component.variable``.
 
-    These are inputs that nothing is connected to; those of a component that flies ``alone`` go by their own names,
-    too. Raises InputError for any other column, and for numbers that an input's type cannot have.
+    These are inputs that nothing is connected to, and tunable parameters; those of a component that flies ``alone`` go
+    by their own names, too. Raises InputError for any other column, and for numbers that its type cannot have.
     """
     types = {
         node.name: (node.type_name or "Real", REPRESENTATIONS[OF_FMI2[node.type_name or "Real"]])
@@ -157,7 +162,7 @@ def find_driven(network: Network, series: InputSeries, alone: str | None) -> dic
         f"{component}.{variable.name}": (variable.type, variable.representation)
         for component, fmu in network.fmus.items()
         for variable in fmu.variables.values()
-        if variable.causality == "input" and variable.type not in TEXTS
+        if (variable.causality == "input" or variable.is_tunable) and variable.type not in TEXTS
         if f"{component}.{variable.name}" not in network.driver
     }
     columns: dict[str, str] = {}
@@ -168,11 +173,13 @@ def find_driven(network: Network, series: InputSeries, alone: str | None) -> dic
             problem = f"is connected to {network.driver[name].source.name}, which would overwrite it"
             raise InputError(*where, problem, "drive an input that nothing is connected to, or give a `faults`")
         if name not in types:
+            refuse_fixed(network, name if alone is None else f"{alone}.{column}", where)
             known = types if alone is None else [text.removeprefix(f"{alone}.") for text in types]
             raise InputError(*where, "no such input", suggestion(column, known))
         if name in columns:
             raise InputError(*where, f"drives {name}, as column {columns[name]} does", "leave one of them out")
         _check_type(series, column, *types[name])
+        _check_bounds(network, series, column, name)
         columns[name] = column
     return columns
 
@@ -189,6 +196,16 @@ def _check_type(series: InputSeries, column: str, type_name: str, stored: Repres
     if wrong.any():
         row = int(np.flatnonzero(wrong)[0])
         raise InputError(series.file, series.place(row, column), f"{values[row]:.12g} {problem}", remedy)
+
+
+def _check_bounds(network: Network, series: InputSeries, column: str, name: str) -> None:
+    """Refuse values of a tunable parameter outside its bounds; inputs may leave theirs."""
+    component, short = split_name(name, network.fmus)
+    variable = network.fmus[component].variables[short] if component else None
+    if variable is not None and variable.is_tunable:
+        values = series.columns[column]
+        for row in {int(np.argmin(values)), int(np.argmax(values))} if values.size else ():
+            check_bounds(variable, float(values[row]), (series.file, series.place(row, column)))
 
 
 def drive_inputs(

@@ -152,16 +152,17 @@ def _connection_lines(document: Mapping[str, Any]) -> list[str]:
 def _variable_lines(rows: list[dict[str, Any]]) -> list[str]:
     lines = []
     titles = {
-        "input": "inputs",
-        "output": "outputs",
-        "structuralParameter": "structural parameters",
-        "parameter": "parameters",
+        ("input", False): "inputs",
+        ("output", False): "outputs",
+        ("structuralParameter", False): "structural parameters",
+        ("parameter", False): "parameters",
+        ("parameter", True): "tunable parameters",
     }
-    for causality, title in titles.items():
+    for kind, title in titles.items():
         chosen = [
             [f"  {row['name']}{_size(row)}", _value(row), row["unit"] or "", row["from"] or "", _about(row)]
             for row in rows
-            if row["causality"] == causality
+            if (row["causality"], row["tunable"]) == kind
         ]
         lines += [title, *text_table(chosen)] if chosen else []
     return lines

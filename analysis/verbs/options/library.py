@@ -188,6 +188,28 @@ NEW_SYSTEM = Verb(
 )
 
 
+class ComposeOptions(TypedDict, total=False):
+    """Options of compose"""
+
+    output: Annotated[
+        FilePath | None,
+        Option("of a system: write its file to F.toml, what it names beside it; default: print it", metavar="F.toml"),
+    ]
+
+
+COMPOSE = Verb(
+    "compose",
+    "write the SSD of a system from a short file, or the short file of a system",
+    (Argument("what", "FILE.toml|SYSTEM", "a system.toml, or a system or its folder", "systems_and_files"),),
+    options=ComposeOptions,
+    examples={
+        "perilune compose lunar_terminal_guidance": "its system.toml, printed",
+        "perilune compose lunar_terminal_guidance --output landing/system.toml": "the same as a file to start from",
+        "perilune compose landing/system.toml": "landing/SystemStructure.ssd",
+    },
+)
+
+
 FmuPlatform = Literal[
     "linux64",
     "win64",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .campaigns import BATCH, COMPARE, MERGE, PREPARE, REPLAY, RUN, SHARD, SHOW
 from .design import BOUND, BOUNDS, LAW, SEARCH, TRANSFER
-from .library import BENCHMARK, DESCRIBE, DIFF, DOCS, EXPORT, LIST, NEW_BLOCK, NEW_SYSTEM, VALIDATE, VERIFY
+from .library import BENCHMARK, COMPOSE, DESCRIBE, DIFF, DOCS, EXPORT, LIST, NEW_BLOCK, NEW_SYSTEM, VALIDATE, VERIFY
 from .studies import RARE, SENSITIVITY, STABILITY, WORST
 from .verb import Verb
 
@@ -12,7 +12,7 @@ PURPOSES = {  # headings of `perilune --help`
     "Simulate": (RUN, BATCH, REPLAY),
     "Study": (COMPARE, SHOW, DIFF, STABILITY, RARE, WORST, SENSITIVITY),
     "Inspect": (LIST, DESCRIBE, VALIDATE, VERIFY, BENCHMARK, DOCS),
-    "Create": (NEW_BLOCK, NEW_SYSTEM, LAW, SEARCH, TRANSFER, BOUND, BOUNDS),
+    "Create": (NEW_BLOCK, NEW_SYSTEM, COMPOSE, LAW, SEARCH, TRANSFER, BOUND, BOUNDS),
     "Distribute": (EXPORT, PREPARE, SHARD, MERGE),
 }
 VERBS: dict[str, Verb] = {verb.name: verb for verbs in PURPOSES.values() for verb in verbs}

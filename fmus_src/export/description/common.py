@@ -9,9 +9,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from lxml import etree
 
 from ...block import Block
+from ...kernel.enumerations import Enumeration
 from ...units import UnitDefinition, unit_definition
 from ...variables import Output, Parameter, State, Variable
+from ..judge.tunable import NEVER_READ, find_fixed
 
+UNREAD = "not used by this block"  # a parameter that it has in common with others
 STATE_ANNOTATION = "org.perilune.state"
 LOG_CATEGORIES = {
     "logStatusError": "what ended a step, with the traceback or source line",
@@ -20,7 +23,7 @@ LOG_CATEGORIES = {
 
 
 def start_description(
-    name: str, guid: str, description: str, generation_tool: str, convention: str = "structured"
+    name: str, guid: str, description: str, origin: Mapping[str, str], convention: str = "structured"
 ) -> etree._Element:
     """The root of a modelDescription.xml of FMI 2.0, with the convention that names of variables follow."""
     return etree.Element(
@@ -29,8 +32,8 @@ def start_description(
         modelName=name,
         guid=guid,
         description=description,
-        generationTool=generation_tool,
         variableNamingConvention=convention,
+        **origin,
     )
 
 
@@ -60,6 +63,26 @@ def define_units(
             etree.SubElement(unit, "BaseUnit", numbers)
 
 
+def enumerations_by_name(model: str, used: Iterable[type[Enumeration] | None]) -> dict[str, type[Enumeration]]:
+    """The enumerations of a model's variables, sorted. Raises ValueError for two of one name."""
+    enumerations: dict[str, type[Enumeration]] = {}
+    for each in filter(None, used):
+        if enumerations.setdefault(each.__name__, each) is not each:
+            raise ValueError(f"{model}: two enumerations are called {each.__name__}; rename one")
+    return dict(sorted(enumerations.items()))
+
+
+def about_enumeration(enumeration: type[Enumeration]) -> str:
+    """The description of its type."""
+    return one_line((enumeration.__doc__ or "").strip())
+
+
+def add_items(parent: etree._Element, enumeration: type[Enumeration]) -> None:
+    """Add its members, with their meanings."""
+    for number, label in enumeration.names.items():
+        etree.SubElement(parent, "Item", name=label, value=str(number), description=enumeration.meanings[number])
+
+
 def add_log_categories(root: etree._Element) -> None:
     """LogCategories of native and Python FMUs."""
     categories = etree.SubElement(root, "LogCategories")
@@ -74,11 +97,18 @@ def role(block_class: type[Block], variable: Variable) -> dict[str, str]:
     """
     attributes = {"causality": variable.causality}
     if isinstance(variable, Parameter):
-        return attributes | {"variability": "fixed", "initial": "exact"}
+        tunable = find_fixed(block_class)[variable.name] is None
+        return attributes | {"variability": "tunable" if tunable else "fixed", "initial": "exact"}
     sampled = "sample_period" in block_class.variables
     continuous = variable.type_name == "Real" and not (sampled and variable.causality != "input")
     attributes["variability"] = "continuous" if continuous else "discrete"
     return attributes | ({"initial": "calculated"} if isinstance(variable, Output | State) else {})
+
+
+def describe(block_class: type[Block], variable: Variable, description: str) -> str:
+    """Return the description of a variable's element, in one line, with a note where the block never reads it."""
+    never = isinstance(variable, Parameter) and find_fixed(block_class)[variable.name] == NEVER_READ
+    return one_line(f"{description}; {UNREAD}" if never else description)
 
 
 def start_text(variable: Variable, elements: Sequence[float | int | bool]) -> str:

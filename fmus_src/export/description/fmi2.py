@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from lxml import etree
 
@@ -10,11 +10,14 @@ from ...block import Block
 from ...variables import Output, Parameter, State, Variable
 from .common import (
     STATE_ANNOTATION,
+    about_enumeration,
+    add_items,
     add_log_categories,
     add_units,
     boolean,
+    describe,
+    enumerations_by_name,
     limits,
-    one_line,
     role,
     start_description,
     start_text,
@@ -25,18 +28,18 @@ def model_description(
     block_class: type[Block],
     *,
     guid: str,
-    generation_tool: str,
+    origin: Mapping[str, str],
     needs_execution_tool: bool,
     sources: Sequence[str] = (),
     native_memory: bool = False,
 ) -> bytes:
     """modelDescription.xml of a block.
 
-    ``sources`` lists the C files under ``sources/`` that an importer compiles; ``native_memory``
-    says that the FMU uses the importer's memory functions. Value references number the elements
-    of all variables in order of declaration.
+    ``origin`` has the attributes of `origin.origin`. ``sources`` lists the C files under ``sources/`` that an importer
+    compiles; ``native_memory`` says that the FMU uses the importer's memory functions. Value references number the
+    elements of all variables in order of declaration. Raises ValueError for two enumerations of one name.
     """
-    root = start_description(block_class.fmu_name, guid, block_class.summary(), generation_tool)
+    root = start_description(block_class.fmu_name, guid, block_class.summary(), origin)
     simulation = etree.SubElement(
         root,
         "CoSimulation",
@@ -53,6 +56,7 @@ def model_description(
             etree.SubElement(files, "File", name=name)
     variables = list(block_class.variables.values())
     add_units(root, variables)
+    _add_types(root, variables)
     add_log_categories(root)
     etree.SubElement(root, "DefaultExperiment", startTime="0.0", stepSize=repr(block_class.default_step))
     _state_layout(root, block_class, "json" if needs_execution_tool else "words")
@@ -62,26 +66,37 @@ def model_description(
     for variable in variables:
         indices[variable.name] = []
         for position, name in enumerate(variable.element_names()):
-            _scalar_variable(model_variables, variable, name, position, reference, role(block_class, variable))
+            about = describe(block_class, variable, variable.descriptions()[position])
+            named = {"name": name, "valueReference": str(reference), "description": about}
+            _scalar_variable(model_variables, variable, position, named | role(block_class, variable))
             reference += 1
             indices[variable.name].append(reference)  # ScalarVariable indices count from 1
     _structure(root, block_class, indices)
     return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)
 
 
-def _scalar_variable(
-    parent: etree._Element, variable: Variable, name: str, position: int, reference: int, attributes: dict[str, str]
-) -> None:
-    description = one_line(variable.descriptions()[position])
-    named = {"name": name, "valueReference": str(reference), "description": description}
-    element = etree.SubElement(parent, "ScalarVariable", named | attributes)
+def _add_types(root: etree._Element, variables: Sequence[Variable]) -> None:
+    """Add a SimpleType for each enumeration."""
+    enumerations = enumerations_by_name(root.get("modelName", ""), (each.enumeration for each in variables))
+    if enumerations:
+        definitions = etree.SubElement(root, "TypeDefinitions")
+        for name, enumeration in enumerations.items():
+            described = {"name": name, "description": about_enumeration(enumeration)}
+            kind = etree.SubElement(etree.SubElement(definitions, "SimpleType", described), "Enumeration")
+            add_items(kind, enumeration)
+
+
+def _scalar_variable(parent: etree._Element, variable: Variable, position: int, attributes: dict[str, str]) -> None:
+    element = etree.SubElement(parent, "ScalarVariable", attributes)
     details: dict[str, str] = {}
     if not isinstance(variable, Output | State):
         details["start"] = start_text(variable, [variable.elements[position]])
     unit = variable.units()[position]
     if variable.type_name == "Real" and unit:
         details["unit"] = unit
-    etree.SubElement(element, variable.type_name, details | limits(variable))
+    if variable.enumeration is not None:
+        details["declaredType"] = variable.enumeration.__name__
+    etree.SubElement(element, variable.fmi_type, details | limits(variable))
 
 
 def _state_layout(root: etree._Element, block_class: type[Block], encoding: str) -> None:

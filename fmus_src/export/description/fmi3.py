@@ -2,21 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from lxml import etree
 
 from ...block import Block
-from ...kernel.enumerations import Enumeration
 from ...variables import Output, Parameter, State
-from .common import STATE_ANNOTATION, add_log_categories, add_units, limits, one_line, role, start_text
+from .common import (
+    STATE_ANNOTATION,
+    about_enumeration,
+    add_items,
+    add_log_categories,
+    add_units,
+    describe,
+    enumerations_by_name,
+    limits,
+    role,
+    start_text,
+)
 from .variables import TIME, ArrayVariable, list_variables
 
 FMI_VERSION = "3.0"  # of all of 3.0.x, as fmi3GetVersion has it
 
 
-def model_description(block_class: type[Block], *, token: str, generation_tool: str) -> bytes:
+def model_description(block_class: type[Block], *, token: str, origin: Mapping[str, str]) -> bytes:
     """modelDescription.xml of a block's native FMU for co-simulation.
 
-    Value references number the variables in order of declaration, arrays as wholes; the last is time. Raises ValueError
+    ``origin`` has the attributes of `origin.origin`. Value references number the variables in order of declaration,
+    arrays as wholes; the last is time. Raises ValueError
     for a variable ``time``, and for two enumerations of one name.
     """
     root = etree.Element(
@@ -25,8 +38,8 @@ def model_description(block_class: type[Block], *, token: str, generation_tool: 
         modelName=block_class.fmu_name,
         instantiationToken=token,
         description=block_class.summary(),
-        generationTool=generation_tool,
         variableNamingConvention="structured",
+        **origin,
     )
     etree.SubElement(
         root,
@@ -44,7 +57,8 @@ def model_description(block_class: type[Block], *, token: str, generation_tool: 
     etree.SubElement(root, "DefaultExperiment", startTime="0.0", stepSize=repr(block_class.default_step))
     model_variables = etree.SubElement(root, "ModelVariables")
     for variable in variables:
-        _add_variable(model_variables, variable, role(block_class, variable.declared))
+        about = describe(block_class, variable.declared, variable.description)
+        _add_variable(model_variables, variable, {"description": about} | role(block_class, variable.declared))
     etree.SubElement(
         model_variables,
         "Float64",
@@ -61,26 +75,17 @@ def model_description(block_class: type[Block], *, token: str, generation_tool: 
 
 def _add_types(root: etree._Element, variables: list[ArrayVariable]) -> None:
     """An EnumerationType for each enumeration."""
-    enumerations: dict[str, type[Enumeration]] = {}
-    for used in filter(None, (variable.enumeration for variable in variables)):
-        other = enumerations.setdefault(used.__name__, used)
-        if other is not used:
-            raise ValueError(f"{root.get('modelName')}: two enumerations are called {used.__name__}; rename one")
+    enumerations = enumerations_by_name(root.get("modelName", ""), (variable.enumeration for variable in variables))
     if enumerations:
         definitions = etree.SubElement(root, "TypeDefinitions")
-        for name, enumeration in sorted(enumerations.items()):
-            attributes = {"name": name, "description": one_line((enumeration.__doc__ or "").strip())}
-            kind = etree.SubElement(definitions, "EnumerationType", attributes)
-            for number, label in enumeration.names.items():
-                meaning = enumeration.meanings[number]
-                etree.SubElement(kind, "Item", name=label, value=str(number), description=meaning)
+        for name, enumeration in enumerations.items():
+            attributes = {"name": name, "description": about_enumeration(enumeration)}
+            add_items(etree.SubElement(definitions, "EnumerationType", attributes), enumeration)
 
 
 def _add_variable(parent: etree._Element, variable: ArrayVariable, attributes: dict[str, str]) -> None:
     declared = variable.declared
-    description = one_line(variable.description)
-    named = {"name": variable.name, "valueReference": str(variable.reference), "description": description}
-    attributes = named | attributes
+    attributes = {"name": variable.name, "valueReference": str(variable.reference)} | attributes
     if variable.enumeration:
         attributes["declaredType"] = variable.enumeration.__name__
     elif variable.type_name == "Float64" and variable.unit:

@@ -13,7 +13,6 @@ from .common import add_log_categories, define_units, literal, one_line, start_d
 
 NAME = r"[A-Za-z_]\w*(?:\[\d+(?:,\d+)*\])?"
 STRUCTURED = re.compile(rf"{NAME}(?:\.{NAME})*", re.ASCII)  # FMI 2.0.4, 2.2.9, without derivatives and quoted names
-VARIABILITY = {"parameter": "fixed"}  # else by type
 
 
 @dataclass(frozen=True)
@@ -31,6 +30,7 @@ class SystemVariable:
     maximum: str | None = None
     items: Mapping[str, int] = field(default_factory=dict)
     items_name: str = ""
+    tunable: bool = False  # of a parameter
 
 
 def system_description(
@@ -40,18 +40,18 @@ def system_description(
     dependencies: Mapping[str, Sequence[str]],
     *,
     guid: str,
-    generation_tool: str,
+    origin: Mapping[str, str],
     experiment: Mapping[str, float],
     sources: Sequence[str],
     units: Mapping[str, UnitDefinition],
 ) -> bytes:
     """modelDescription.xml; value references number the ``variables`` in order.
 
-    ``dependencies`` are the inputs that outputs depend on directly, ``experiment`` attributes of DefaultExperiment,
-    ``units`` those of the system's own description.
+    ``dependencies`` are the inputs that outputs depend on directly, ``origin`` the attributes of `origin.origin`,
+    ``experiment`` those of DefaultExperiment, ``units`` those of the system's own description.
     """
     convention = "structured" if all(STRUCTURED.fullmatch(each.name) for each in variables) else "flat"
-    root = start_description(name, guid, one_line(description), generation_tool, convention)
+    root = start_description(name, guid, one_line(description), origin, convention)
     simulation = etree.SubElement(
         root,
         "CoSimulation",
@@ -88,9 +88,9 @@ def _add_types(root: etree._Element, variables: Sequence[SystemVariable]) -> Non
 def _add_variable(parent: etree._Element, variable: SystemVariable, reference: int) -> None:
     attributes = {"name": variable.name, "valueReference": str(reference)}
     attributes |= {"description": one_line(variable.description), "causality": variable.causality}
-    changing = "continuous" if variable.type == "Real" else "discrete"
-    attributes["variability"] = VARIABILITY.get(variable.causality, changing)
+    attributes["variability"] = "continuous" if variable.type == "Real" else "discrete"
     if variable.causality == "parameter":
+        attributes["variability"] = "tunable" if variable.tunable else "fixed"
         attributes["initial"] = "exact"
     elif variable.causality != "input":
         attributes["initial"] = "calculated"

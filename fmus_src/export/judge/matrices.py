@@ -8,9 +8,8 @@ from typing import Any
 from ...kernel import matrix_types
 from ...kernel.vector_types import VECTORS
 from .kernel import FLOAT, INT, MakeMatrix, Matrix, Several, Type, Vector
-from .records import RecordTypes
 from .source import find_global
-from .vectors import is_variable
+from .vectors import RecordTypes, is_variable
 
 MAKERS = {
     maker: maker.__name__

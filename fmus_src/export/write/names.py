@@ -30,10 +30,13 @@ from ..judge.kernel import (
 
 C_TYPES = {FLOAT: "double", INT: "int64_t", BOOL: "bool"}
 
-# Words that a Python name may be and a C name may not, and what the generated code itself uses.
+# Words that a Python name may be and a C or C++ name may not, and what the generated code itself uses.
 _RESERVED_TEXT = """
     auto break case char const continue default do double else enum extern float for goto if inline int long
     register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
+    alignas alignof and_eq bitand bitor catch compl constexpr const_cast decltype delete dynamic_cast explicit export
+    friend mutable namespace new noexcept not_eq nullptr operator or_eq private protected public reinterpret_cast
+    static_assert static_cast template this thread_local throw typeid typename using virtual wchar_t xor xor_eq
     bool true false linux unix NULL NAN INFINITY EOF errno stdin stdout stderr fault self
     acos asin atan atan2 cbrt ceil copysign cos cosh exp exp2 expm1 fabs floor fmod isfinite isinf isnan log
     log10 log1p log2 pow sin sinh sqrt tan tanh trunc whole_ceil whole_floor whole_trunc
@@ -44,16 +47,17 @@ RESERVED = frozenset(_RESERVED_TEXT.split())
 # What the wrappers of fmi/ call their own; block types and functions stay clear of these.
 _WRAPPER_NAMES_TEXT = """
     Block Byte Component DoubleInt64 Element Environment Fault Logger Mode Range Samples SavedState Snapshot Status
-    Trait Variable VariableType add_and_subtract advance check_arithmetic check_logging check_mode check_start_values
-    check_state checked_result copy_element count_samples create_instance deserialise do_step double_at element_of
-    elements_of end_step_with_fault end_with_fault exact_frexp exact_ldexp fail float_floor_divide float_modulo
-    free_state get_starts has_traits int_abs int_at int_floor_divide int_modulo is_header is_mode is_used kind_name
-    leave_initialisation lie_alike log_error mode_name model_hash model_initialize model_integration_step
-    model_sample_period model_set_start_time model_step name_element no_strings no_variables not_provided
-    pass_parameters perilune_place power_of_two prepare_get prepare_set put_double put_int python_repr refuse
-    refuse_end refuse_integer refuse_integration refuse_interface refuse_null refuse_point refuse_real refuse_reference
-    refuse_set refuse_sizes refuse_step refuse_type refuse_wide reset restart restore_state save_state serialise
-    serialised_size set_fault set_start settle state_space terminate type_name whole_ceil whole_floor whole_trunc
+    Trait Variable VariableType accept_tuned add_and_subtract advance check_arithmetic check_logging check_mode
+    check_ranges check_start_values check_state checked_result copy_element count_samples create_instance deserialise
+    do_step double_at element_of elements_of end_step_with_fault end_with_fault exact_frexp exact_ldexp fail
+    float_floor_divide float_modulo free_state get_starts has_traits instance_of int_abs int_at int_floor_divide
+    int_modulo is_header is_mode is_used kind_name leave_initialisation lie_alike log_error mode_name model_hash
+    model_initialize model_integration_step model_sample_period model_set_start_time model_step name_element no_strings
+    no_variables not_provided pass_parameters perilune_place power_of_two prepare_get prepare_set put_double put_int
+    python_repr refuse refuse_end refuse_integration refuse_interface refuse_null refuse_point
+    refuse_reference refuse_set refuse_sizes refuse_step refuse_type refuse_value refuse_wide reset restart
+    restore_state save_state serialise serialised_size set_fault set_start settle state_space take_samples terminate
+    tune type_name whole_ceil whole_floor whole_trunc
 """
 VECTOR_OPERATIONS = ("add", "subtract", "negative", "scale", "multiply", "divide", "quotient")
 WRAPPER_NAMES = frozenset(

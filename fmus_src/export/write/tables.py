@@ -12,10 +12,12 @@ from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, STEP_LIMIT, TIME_TOLER
 from ...start_values import LARGEST, start_range
 from ...variables import Input, Parameter
 from ..description.variables import list_variables
+from ..judge.tunable import tunable_parameters
 from .layout import Lines
 from .names import identifier, literal, member
 
 KINDS = {float: "KIND_REAL", int: "KIND_INTEGER", bool: "KIND_BOOLEAN"}
+TUNABLE = "ROLE_TUNABLE"
 ROLES = {"parameter": "ROLE_PARAMETER", "input": "ROLE_INPUT", "output": "ROLE_OUTPUT", "local": "ROLE_STATE"}
 
 
@@ -26,6 +28,7 @@ def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) 
     elements = Lines()
     elements.open("static const Element ELEMENTS[] = {")
     described: list[tuple[str, str]] = []
+    tunable = tunable_parameters(block_class)
     for name, variable in block_class.variables.items():
         values = ", ".join(map(literal, variable.elements))
         if variable.record is not None:
@@ -33,7 +36,7 @@ def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) 
         elif variable.is_array:
             values = f"{{{{{values}}}}}" if variable.is_vector or variable.shape else f"{{{values}}}"
         starts.add(f".{identifier(name)} = {values},")
-        kind, role = KINDS[type(variable.elements[0])], ROLES[variable.causality]
+        kind, role = KINDS[type(variable.elements[0])], TUNABLE if name in tunable else ROLES[variable.causality]
         for position in range(variable.size):
             place, traits = f"offsetof(Block, {member(variable, position)})", f"{kind} | {role}"
             described.append((place, traits))
@@ -51,7 +54,7 @@ def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) 
             f"#define SAMPLE_TOLERANCE {SAMPLE_TOLERANCE!r} /* of a sample period */",
             f"#define TIME_TOLERANCE {TIME_TOLERANCE!r} /* of the time */",
             f"#define POINT_TOLERANCE {POINT_TOLERANCE!r} /* of a step */",
-            f"#define STEP_LIMIT {STEP_LIMIT} /* of integration in a communication step */",
+            f"#define STEP_LIMIT {STEP_LIMIT} /* samples, and steps of integration, in a communication step */",
             "",
             "/* Declared start values. */",
             *starts.text,

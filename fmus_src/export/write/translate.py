@@ -40,7 +40,7 @@ HEADER = """\
 """
 
 FOOTER = """\
-#include "fmi{fmi}_wrapper.c"
+#include "fmi{fmi}_wrapper.h"
 #include "single_block.h"
 """
 

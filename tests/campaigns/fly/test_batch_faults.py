@@ -250,7 +250,7 @@ def test_nothing_says_faults_where_there_are_none(ssp, tmp_path):
     ("text", "own", "says"),
     [
         (SHIFTED.replace("gain.u", "gain.w"), [], "c.toml: fault.shifted.connector: no such connector of a component; "
-         "the nearest of 11 known names: gain.u, gain.y"),
+         "the nearest of 15 known names: gain.u, gain.y"),
         (SHIFTED.replace("gain.u", "ramp.count"), [], "c.toml: fault.shifted.value: "),
         (SHIFTED.replace("gain.u", "whole.c"), [], "c.toml: fault.shifted.value: a Boolean has no bias"),
         (SHIFTED.replace('"2 * size"', "true"), [], "c.toml: fault.shifted.value: true is not of type Real"),

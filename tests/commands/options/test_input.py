@@ -69,7 +69,7 @@ def test_batch(tiny, tmp_path, inputs, capsys):
     ("text", "expected"),
     [
         ("time,u\n0,1\n1,high\n", "line 3, column u: 'high' is not a number; give a number"),
-        ("time,w\n0,1\n", "column w: no such input; use one of u"),
+        ("time,w\n0,1\n", "column w: no such input; use one of factor, u"),
         ("u\n0\n", "line 1: the first column is 'u', not time; write"),
     ],
 )

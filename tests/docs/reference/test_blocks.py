@@ -71,6 +71,9 @@ def test_the_page_has_every_variable(name):
             assert f"| {variable.unit} |" in rows[whole]
         if variable.min is not None:
             assert f"{float(variable.min):g}" in rows[whole]
+        if variable.causality == "parameter":
+            assert ("| tunable |" in rows[whole]) == (variable.variability == "tunable")
+            assert ("| fixed: " in rows[whole]) == (variable.variability == "fixed")
     assert {name.partition(".")[0] for name in seen} == set(catalogue()[name].variables)
 
 

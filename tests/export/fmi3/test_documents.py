@@ -34,14 +34,16 @@ def describe(block: type[Block], folder: Path) -> tuple[ModelDescription, ModelD
     """The block as FMPy reads it in FMI 2.0 and 3.0; what it says of the latter is checked."""
     path = folder / "block.fmu"
     with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr("modelDescription.xml", fmi3.model_description(block, token="{1}", generation_tool="test"))
+        archive.writestr(
+            "modelDescription.xml", fmi3.model_description(block, token="{1}", origin={"generationTool": "test"})
+        )
         archive.writestr("sources/block.c", "")
         text = build_description(block.fmu_name, "block.c", SOURCE_OPTIONS)
         archive.writestr("sources/buildDescription.xml", text)
     assert validate_fmu(str(path)) == []
     old = io.BytesIO()
     with zipfile.ZipFile(old, "w") as archive:
-        text = fmi2.model_description(block, guid="{1}", generation_tool="test", needs_execution_tool=False)
+        text = fmi2.model_description(block, guid="{1}", origin={"generationTool": "test"}, needs_execution_tool=False)
         archive.writestr("modelDescription.xml", text)
     return fmpy.read_model_description(old), fmpy.read_model_description(str(path))
 
@@ -67,8 +69,10 @@ def test_a_block_is_described_as_in_fmi_2(name: str, tmp_path: Path) -> None:
         for each in elements:
             for key in ("causality", "variability", "initial", "unit", "min", "max", "nominal", "description"):
                 assert getattr(variable, key) == getattr(each, key), (variable.name, key)
-            kind = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}[each.type]
-            assert variable.type == kind or (variable.type, kind) == ("Enumeration", "Int32")
+            assert variable.type == {"Real": "Float64", "Integer": "Int32"}.get(each.type, each.type)
+            if each.type == "Enumeration":
+                items = [[(i.name, i.value, i.description) for i in v.declaredType.items] for v in (variable, each)]
+                assert items[0] == items[1]
     for kind in ("outputs", "initialUnknowns"):
         expected = {
             unknown.variable.name.partition("[")[0]: {each.name.partition("[")[0] for each in unknown.dependencies}
@@ -177,7 +181,7 @@ def test_matrices_records_and_enumerations(tmp_path: Path) -> None:
     assert (phase.name, phase.description) == ("Phase", "What it does.")
     items = [(each.name, each.value, each.description) for each in phase.items]
     assert items == [("CLIMB", "2", "upwards"), ("FALL", "3", "down & out")]
-    text = fmi3.model_description(Everything, token="", generation_tool="")
+    text = fmi3.model_description(Everything, token="", origin={})
     (layout,) = etree.fromstring(text).find("Annotations/Annotation[@type='org.perilune.state']")
     assert (layout.get("encoding"), layout.get("frozen")) == ("words", str(variables["motion.position"].valueReference))
 
@@ -217,9 +221,9 @@ def test_a_start_beyond_32_bits_is_refused(number: int) -> None:
     wide = type("Wide", (Extremes,), {"__doc__": "Too wide.", "count": Parameter(number, description="count")})
     message = f"count: starts at {number}, beyond the 32 bits of FMI"
     with pytest.raises(ValueError, match=message):
-        fmi3.model_description(wide, token="", generation_tool="")
+        fmi3.model_description(wide, token="", origin={})
     with pytest.raises(ValueError, match=message):
-        fmi2.model_description(wide, guid="", generation_tool="", needs_execution_tool=False)
+        fmi2.model_description(wide, guid="", origin={}, needs_execution_tool=False)
 
 
 def test_a_variable_time_is_refused() -> None:
@@ -232,7 +236,7 @@ def test_a_variable_time_is_refused() -> None:
             self.time = t
 
     with pytest.raises(ValueError, match=r"Clock\.time: a variable time, which is the independent one of FMI 3\.0"):
-        fmi3.model_description(Clock, token="", generation_tool="")
+        fmi3.model_description(Clock, token="", origin={})
 
 
 def test_two_enumerations_of_one_name_are_refused() -> None:
@@ -248,4 +252,4 @@ def test_two_enumerations_of_one_name_are_refused() -> None:
             self.first = 2
 
     with pytest.raises(ValueError, match="two: two enumerations are called Phase; rename one"):
-        fmi3.model_description(Two, token="", generation_tool="")
+        fmi3.model_description(Two, token="", origin={})

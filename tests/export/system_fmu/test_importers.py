@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.fmus_src.export.native_fmu import STANDARD
+from perilune.fmus_src.export.description.origin import STANDARD
 from tests.support.builders import component, document, pack, system
 from tests.support.foreign.osp import HEAD, libcosim, simulator
 from tests.support.lengths import either

@@ -118,3 +118,46 @@ def test_a_component_that_would_take_more_than_a_million_integration_steps_ends_
         "d: StepError: the step holds more than a million integration steps; use a longer internal_step, "
         "in the step from t = 0.0 s over h = 0.25 s"
     ]
+
+
+def test_parameters_that_all_readers_can_change_are_tunable(one, tmp_path):
+    """k is passed on to its readers before the next step; the other's factor, and the choice, stay."""
+    slave = Slave(one, tmp_path / "one", u=2.0, k=0.5, **WIDE)
+    tunable = {name for name, each in slave.variables.items() if each.variability == "tunable"}
+    assert tunable == {"k", "d.factor"}
+    slave.step(0.5)
+    assert slave.get("y") == 1.0
+    slave.set({"k": 3.0, "d.factor": 7.0})  # beyond what the candidate that is not chosen may have
+    assert slave.get("y") == 1.0
+    slave.step(0.5)
+    assert slave.get("y") == 6.0
+    assert slave.get("d.factor") == 7.0
+
+
+def test_a_reader_refuses_what_is_passed_on_to_it_and_nothing_is_changed(one, tmp_path):
+    slave = Slave(one, tmp_path / "one", u=2.0, k=0.5, **NARROW)
+    slave.step(0.5)
+    with pytest.raises(FMICallException):
+        slave.set({"k": 3.0})
+    assert slave.messages == ["fmi2SetReal: c.narrow.factor = 3.0 is above its maximum 1.0"]
+    assert slave.get("k") == 0.5
+    slave.step(0.5)
+    assert slave.get("y") == 1.0
+
+
+def test_a_parameter_of_a_component_changes_the_next_step(tiny_folder, tmp_path):
+    """A ramp of 2 m/s, from 0.5 s on of 5 m/s; its start is fixed."""
+    ramp = component("ramp", "ramp", "output y Real m")
+    ssd = document(system(ramp, connections=connection("ramp.y", "y"), declared="output y Real m"), step=0.25)
+    path = build_one(tmp_path / "one.fmu", pack(tmp_path / "s.ssp", tiny_folder / "native", ssd))
+    slave = Slave(path, tmp_path / "one")
+    rows = []
+    for n in range(4):
+        if n == 2:
+            slave.set({"ramp.slope": 5.0})
+        slave.step(0.25)
+        rows.append(slave.get("y"))
+    assert rows == [1.5, 2.0, 3.25, 4.5]
+    with pytest.raises(FMICallException):
+        slave.set({"ramp.start": 5.0})
+    assert slave.messages == ["fmi2SetReal: ramp.start is a parameter, fixed after initialisation"]

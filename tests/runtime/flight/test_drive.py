@@ -119,8 +119,8 @@ def test_nested_and_whole(tiny, tmp_path):
     ("given", "options", "expected"),
     [
         ({"gain.u": [0.0]}, {}, "input: column gain.u: is connected to u, which would overwrite it; drive"),
-        ({"gain.factor": [0.0]}, {}, "input: column gain.factor: no such input; use one of free.u, u"),
-        ({"w": [0.0]}, {}, "input: column w: no such input; use one of free.u, u"),
+        ({"gain.factor": [0.0]}, {"set": {"gain.factor": 1}}, "set: gain.factor: is driven by column gain.factor of"),
+        ({"w": [0.0]}, {}, "input: column w: no such input; use one of free.factor, free.u, gain.factor, u"),
         ({"u": [0.0]}, {"set": {"u": 1}}, "set: u: is driven by column u of the inputs over time; leave out"),
         ({"free.u": [0.0]}, {"set": {"free.u": 1}}, "set: free.u: is driven by column free.u of the inputs"),
     ],

@@ -24,7 +24,7 @@ SCALE(3)
 static const Element ELEMENTS[] = {{{{0}}}};
 _UNIT_EXPORT double compute(double x) {{ return TWICE(scale_3(x)) + 1.5e1 + 0x1.8p1; }}
 _UNIT_EXPORT const char *say(void) {{ return "compute TWICE {factor} /* as it is */"; }}
-#include "fmi2_wrapper.c"
+#include "fmi2_wrapper.h"
 """
 
 

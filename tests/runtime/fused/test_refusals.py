@@ -42,7 +42,7 @@ def test_c_of_another_build():
     with pytest.raises(InputError, match=r"^x\.fmu: sources: its C is not of the interface .*; export it again"):
         component_code({"ramp.c": "int main(void) { return 0; }"}, "ramp", "k0_", "x.fmu")
     with pytest.raises(InputError, match=r"^x\.fmu: sources/fmi2_types\.h: is missing"):
-        component_code({"ramp.c": '#include "fmi2_wrapper.c"\n'}, "ramp", "k0_", "x.fmu")
+        component_code({"ramp.c": '#include "fmi2_wrapper.h"\n'}, "ramp", "k0_", "x.fmu")
 
 
 def test_c_that_has_an_instance_otherwise_than_the_binary(tiny_folder, tmp_path, monkeypatch):

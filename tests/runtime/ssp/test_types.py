@@ -29,4 +29,6 @@ def test_real_and_integer_are_said_of_all_of_their_kind():
     assert is_of_type("UInt64", "Integer")
     assert is_of_type("Float64", "Float64")
     assert not is_of_type("Float64", "Float32")
+    assert is_of_type("Enumeration", "Integer")
+    assert not is_of_type("Integer", "Enumeration")
     assert not is_of_type("Float64", "Integer")

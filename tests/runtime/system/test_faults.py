@@ -135,9 +135,9 @@ def test_what_a_system_can_have(network, text):
     [
         (
             "ramp.z=bias:1@1",
-            "ramp.z: no such connector of a component; the nearest of 12 known names: ramp.y",
+            "ramp.z: no such connector of a component; the nearest of 17 known names: ramp.y",
         ),
-        ("ramp.slope=bias:1@1", "ramp.slope: no such connector of a component"),  # a parameter
+        ("ramp.start=bias:1@1", "ramp.start: a parameter that is fixed after initialisation; set it before the start"),
         ("inner.u=bias:1@1", "inner.u: no such connector of a component"),  # it is a system's: nothing happens there
         ("free.u=bias:1@1", "free.u: an input that nothing is connected to; give it a value with set free.u=VALUE"),
         ("ramp.y=override:true@1", "ramp.y: true is not of type Real; give a number"),

@@ -29,6 +29,15 @@ LANGUAGE_FILES = (vector_types.__file__, matrix_types.__file__, functions.__file
 FAULT = re.compile(r'File "(?P<file>[^"]+)", line (?P<line>\d+): (?P<error>\w+):')
 
 
+def another(number: float | int | bool, low: float | None, high: float | None) -> float | int | bool:
+    """Return another value of the same type within bounds; the same one where there is none."""
+    if isinstance(number, bool):
+        return not number
+    real = [1.1 * number + 0.01, 0.9 * number - 0.01, 0.5 * number]
+    options = [number + 1, number - 1] if isinstance(number, int) else real
+    return next((each for each in options if (low is None or each >= low) and (high is None or each <= high)), number)
+
+
 def bits(values: list) -> bytes:
     """Values as bytes; all NaNs are one."""
     packed = b""

@@ -127,3 +127,24 @@ class Bounded(Block):
 
     def step(self, t: float, h: float) -> None:
         self.y = self.y + float(count_steps(h, self.internal_step))
+
+
+class Gains(Block):
+    """Adds up its input times gains, which are tunable; the offset is read at the start only."""
+
+    x = Input(1.0, description="what to add")
+    gain = Parameter(1.0, minimum=0.0, maximum=10.0, description="factor")
+    axes = Parameter([1.0, 2.0], minimum=-5.0, description="two more factors")
+    count = Parameter(1, minimum=0, maximum=5, description="times")
+    on = Parameter(True, description="whether to add")
+    offset = Parameter(3.0, description="of the total at the start")
+    total = Output(0.0, direct=True, description="the sum")
+    steps = State(0, description="taken")
+
+    def initialize(self) -> None:
+        self.total = self.offset
+
+    def step(self, t: float, h: float) -> None:
+        if self.on:
+            self.total = self.total + float(self.count) * (self.gain * self.axes.x * self.x + self.axes.y)
+        self.steps = self.steps + 1

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.export.description.variables import list_variables
+from perilune.fmus_src.export.judge.tunable import tunable_parameters
 
 DRIVER = Path(__file__).with_name("drive_fmi3.c")
 
@@ -23,7 +24,8 @@ def drive(block: type[Block], program: Sequence[str], token: str, steps: int) ->
     """The checksum of so many steps, none of whose answers is wrong."""
     variables = list_variables(block)
     types = "".join(variable.type_name[0].lower() for variable in variables)
-    causalities = "".join(variable.declared.causality[0] for variable in variables)
+    tunable = tunable_parameters(block)
+    causalities = "".join("t" if each.name in tunable else each.declared.causality[0] for each in variables)
     sizes = ",".join(str(variable.size) for variable in variables)
     words = [*program, token, types, causalities, sizes, str(block.default_step), str(steps)]
     done = subprocess.run(words, capture_output=True, text=True, check=False)

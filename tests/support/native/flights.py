@@ -38,14 +38,13 @@ def fly_fmi2(fmu: Path, parameters: Row, inputs: Sequence[Row], step: float, fol
 
     def set_elements(values: Row) -> None:
         for name, number in values.items():
-            kind = variables[name].type
-            python = {"Real": float, "Integer": int, "Boolean": bool}[kind]
+            kind, python = FMI2_FUNCTIONS[variables[name].type]
             getattr(slave, f"set{kind}")([variables[name].valueReference], [python(number)])
 
     def get_all() -> Values:
         values: Values = {}
         for variable in description.modelVariables:
-            (number,) = getattr(slave, f"get{variable.type}")([variable.valueReference])
+            (number,) = getattr(slave, f"get{FMI2_FUNCTIONS[variable.type][0]}")([variable.valueReference])
             values.setdefault(variable.name.partition("[")[0], []).append(number)
         return values
 
@@ -119,6 +118,12 @@ def fly_fmi3(fmu: Path, parameters: Row, inputs: Sequence[Row], step: float, fol
     return flown
 
 
+FMI2_FUNCTIONS = {
+    "Real": ("Real", float),
+    "Integer": ("Integer", int),
+    "Enumeration": ("Integer", int),
+    "Boolean": ("Boolean", bool),
+}
 FUNCTIONS = {
     "Float64": ("Float64", float),
     "Int32": ("Int32", int),

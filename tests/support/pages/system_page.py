@@ -9,7 +9,7 @@ from perilune.fmus_src.paths import ROOT
 
 PAGE = (ROOT / "docs" / "write_a_system.md").read_text(encoding="utf-8")
 EXAMPLES = re.findall(r"```(\w+)\n(.*?)```", PAGE, re.DOTALL)
-SSD, SSV = "SystemStructure.ssd", "nominal.ssv"
+SSD, SSV, SHORT = "SystemStructure.ssd", "nominal.ssv", "holding/system.toml"
 PLANT_ALTITUDE = '<ssd:Connector name="altitude" kind="output"><ssc:Real unit="m"/></ssd:Connector>'
 TO_PLANT = (
     '      <ssd:Connection startElement="control" startConnector="thrust" endElement="plant" endConnector="thrust"/>\n'
@@ -40,12 +40,16 @@ MISTAKES = {
 
 
 def write_system(folder: Path) -> None:
-    """The files of the page in the folder ``descent`` of a working folder."""
+    """The files of the page in the folders ``descent`` and ``holding`` of a working folder."""
     whole = [text for kind, text in EXAMPLES if kind == "xml" and text.startswith("<?xml") and text.count("\n") > 8]
     (sets,) = [text for text in whole if "ParameterSet>" in text]
     (ssd,) = [text for text in whole if "</ssd:SystemStructureDescription>" in text]
-    (blocks,), (campaign,) = ([text for kind, text in EXAMPLES if kind == each] for each in ("python", "toml"))
-    for name, text in {"blocks.py": blocks, SSD: ssd, SSV: sets, "campaigns/dispersed.toml": campaign}.items():
-        path = folder / "descent" / name
+    (blocks,) = [text for kind, text in EXAMPLES if kind == "python" and "(Block)" in text]
+    (short,), (campaign,) = (
+        [t for kind, t in EXAMPLES if kind == "toml" and each in t] for each in ("[comp", "trials")
+    )
+    files = {"blocks.py": blocks, SSD: ssd, SSV: sets, "campaigns/dispersed.toml": campaign}
+    for name, text in {**{f"descent/{each}": text for each, text in files.items()}, SHORT: short}.items():
+        path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from lxml import etree
 
 from ....common.errors import suggestion
+from ....runtime.ssp.types import WHOLE
 from ..history_readers import METRE, SECOND
 from ..signal_reader import SignalReader
 from .attributes import RADIAN, read_available, read_direction, read_signal, read_vector
@@ -128,6 +129,6 @@ def _jets(reader: SignalReader, element: etree._Element) -> Jets:
         at=tuple(read_vector(reader, item, "at") for item in nozzles),
         along=tuple(read_direction(reader, item, "along") for item in nozzles),
         pulses=pulses,
-        count=reader.scalar(element, "count", ("Integer",)) if "count" in attributes else None,
+        count=reader.scalar(element, "count", WHOLE) if "count" in attributes else None,
         couple=reader.truth(element, "couple"),
     )

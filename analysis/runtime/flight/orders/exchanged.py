@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
+from ...fmi.variable import Variable
 from ...ssp.kinds import PARAMETERS
+from ...ssp.names import split_name
 from ...system.network import Network
 from .injections import Injection
 
@@ -14,7 +16,8 @@ class Exchanged:
 
     ``wanted`` names what is recorded (None: all that is exchanged), ``more`` what else is. ``fetched`` are the outputs
     that are taken (None: all), ``named`` is what is recorded whatever its causality, ``other_sources`` what is
-    connected like an output and is none, ``passed_parameters`` are parameters of systems that signals pass through.
+    connected like an output and is none, ``passed_parameters`` are parameters of systems that signals pass through,
+    ``tuned`` the tunable parameters that are driven over time or have faults.
     """
 
     def __init__(
@@ -28,10 +31,15 @@ class Exchanged:
         read = {link.source.name for link in network.links()}
         faulty = {injection.connector for injection in injections}
         self.fetched = None if wanted is None else read | set(wanted) | set(more) | faulty
+        self.tuned = find_tuned(network, faulty)
         self.named = {*(wanted or ()), *more}
         signals = [link.source for link in network.links() if not link.is_parameter]
         self.other_sources = {node.name for node in signals if node.component is not None and node.kind != "output"}
         self.passed_parameters = {node.name for node in signals if node.component is None and node.kind in PARAMETERS}
+
+    def is_tuned(self, component: str, variable: Variable) -> bool:
+        """True for a tunable parameter that changes in flight."""
+        return f"{component}.{variable.name}" in self.tuned
 
     def is_given(self, name: str) -> bool:
         """Whether an input is connected or driven over time."""
@@ -40,3 +48,14 @@ class Exchanged:
     def is_fetched(self, name: str) -> bool:
         """Whether an output is connected or recorded."""
         return self.fetched is None or name in self.fetched
+
+
+def find_tuned(network: Network, faulty: Collection[str]) -> set[str]:
+    """Return the names of the tunable parameters that are driven over time or are among ``faulty`` names."""
+    tuned = set()
+    for name in {*network.driven, *faulty}:
+        component, short = split_name(name, network.fmus)
+        variable = network.fmus[component].variables.get(short) if component else None
+        if variable is not None and variable.is_tunable:
+            tuned.add(name)
+    return tuned

@@ -28,7 +28,9 @@ class Fmi2Orders:
     ``ranges`` [get or set function 0..5] are (first, count) of slots, ``parameter_ranges`` [type] the first parameter,
     how many there are, and how many of them, the first ones, are set again in initialisation mode and read back,
     ``text_ranges`` those of Strings, inputs and outputs. Parameters are read back ``one_by_one`` where one call does
-    not give all; ``recorded`` are the stretches (function, first slot, count) that are read for the record only.
+    not give all; ``recorded`` are the stretches (function, first slot, count) that are read for the record only,
+    ``tuned`` those of parameters that change in flight, with the first slot of their own values; where parameters are
+    ``set_once`` these are not set in initialisation mode.
     """
 
     def __init__(
@@ -41,8 +43,10 @@ class Fmi2Orders:
         parameter_ranges: Sequence[Sequence[int]],
         text_ranges: Sequence[Stretch],
         recorded: Sequence[tuple[int, int, int]],
+        tuned: Sequence[tuple[int, int, int, int]],
         *,
         one_by_one: bool,
+        set_once: bool,
     ) -> None:
         self._rows = rows
         self._component = component
@@ -52,7 +56,14 @@ class Fmi2Orders:
         self._parameter_ranges = parameter_ranges
         self._text_ranges = text_ranges
         self._recorded = recorded
+        self._tuned = tuned
         self._one_by_one = one_by_one
+        self._set_once = set_once
+
+    def take_bases(self) -> None:
+        """Fill the slots of parameters that change in flight with the values that they have without."""
+        for _, first, count, base in self._tuned:
+            self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
 
     def set(self, begun: int, *, started: bool) -> None:
         """All inputs; rows from ``begun`` on are what carries their values there."""
@@ -67,8 +78,15 @@ class Fmi2Orders:
         if self._text_ranges[0][1]:
             self._call(codes.SET_TEXT, "SetString", self._text_ranges[0])
 
+        for function, first, count, _ in self._tuned if started or not self._set_once else ():
+            self._rows.inject((first, count))
+            code = codes.SET_REAL if function == FUNCTION["SetReal"] else codes.SET_WHOLE
+            self._rows.call(code, self._component, function, (first, count))
+
     def carry(self) -> None:
         """The faults on inputs that are not given."""
+        for _, first, count, _ in self._tuned:
+            self._rows.inject((first, count))
         for name in ("SetReal", "SetInteger", "SetBoolean"):
             self._rows.inject(self._ranges[FUNCTION[name]])
 

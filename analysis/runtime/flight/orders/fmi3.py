@@ -23,6 +23,11 @@ class Fmi3Orders:
         self._transfers = transfers
         self._table = table
 
+    def take_bases(self) -> None:
+        """Fill the slots of parameters that change in flight with the values that they have without."""
+        for first, count, base in self._transfers.bases:
+            self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
+
     def set(self, begun: int, *, started: bool) -> None:
         """All inputs; discrete ones in event mode, if that is used and the flight has ``started``."""
         events = self._transfers.discrete if started and self._transfers.uses_events else []

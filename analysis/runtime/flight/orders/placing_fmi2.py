@@ -16,6 +16,7 @@ from .slots import Slots
 
 EXCHANGES = FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
 CAUSALITIES = ("input", "output")  # set and get
+SETTERS = (0, 2, 4)  # of EXCHANGES
 GETTERS = (1, 3, 5)  # of EXCHANGES
 
 
@@ -23,11 +24,13 @@ class ComponentSlots(NamedTuple):
     """Where the variables of a component lie.
 
     ``ranges`` [function of EXCHANGES] are first slot and count; ``recorded`` (function, first slot, count) of what is
-    read for the record only.
+    read for the record only; ``tuned`` (function, first slot, count, first slot of their bases) of parameters that
+    change in flight.
     """
 
     ranges: list[Stretch]
     recorded: list[tuple[int, int, int]]
+    tuned: list[tuple[int, int, int, int]]
 
 
 def place_component(network: Network, component: str, exchanged: Exchanged, slots: Slots) -> ComponentSlots:
@@ -44,7 +47,8 @@ def place_component(network: Network, component: str, exchanged: Exchanged, slot
             elif exchanged.is_fetched(name):
                 slots.add(name, variable.reference, np.nan, variable.type, variable.unit)
         ranges.append((first, len(slots.references) - first))
-    return ComponentSlots(ranges, _place_recorded(network, component, exchanged, slots))
+    tuned = _place_tuned(network, component, exchanged, slots)
+    return ComponentSlots(ranges, _place_recorded(network, component, exchanged, slots), tuned)
 
 
 def _by_function(network: Network, component: str, exchanged: Exchanged) -> list[list[Variable]]:
@@ -58,6 +62,26 @@ def _by_function(network: Network, component: str, exchanged: Exchanged) -> list
         if causality in CAUSALITIES and 2 * kind < len(EXCHANGES):
             variables[2 * kind + CAUSALITIES.index(causality)].append(variable)
     return variables
+
+
+def _place_tuned(
+    network: Network, component: str, exchanged: Exchanged, slots: Slots
+) -> list[tuple[int, int, int, int]]:
+    """Add slots of parameters that change in flight, and of the values that they have without."""
+    sets = []
+    for kind, function in enumerate(SETTERS):
+        variables = [
+            variable
+            for variable in network.fmus[component].variables.values()
+            if exchanged.is_tuned(component, variable) and TYPE_KIND.get(variable.type) == kind
+        ]
+        first = len(slots.references)
+        for variable in variables:
+            start = slots.start(component, variable)
+            slots.add(f"{component}.{variable.name}", variable.reference, start, variable.type, variable.unit)
+        if variables:
+            sets.append((function, first, len(variables), slots.add_bases(component, variables)))
+    return sets
 
 
 def _place_recorded(network: Network, component: str, exchanged: Exchanged, slots: Slots) -> list[tuple[int, int, int]]:

@@ -45,13 +45,26 @@ class TransferPlacing:
         for is_discrete, target in ((False, transfers.inputs), (True, transfers.discrete)):
             mine = (each for each in inputs if (each.variability == "discrete") == is_discrete)
             target += [self._add(component, group, is_given=True) for group in groups(mine)]
+        tuned = whole((each for each in numbers if each.is_tunable), self._tuned(component, numbers))
+        for group in groups(tuned):
+            first = len(self._slots.references)
+            (transfers.discrete if transfers.uses_events else transfers.inputs).append(
+                self._add(component, group, is_given=True)
+            )
+            transfers.bases.append((first, len(group), self._slots.add_bases(component, group)))
         transfers.discrete += self._add_texts(texts[0])  # behind the others: they are numbers in a row
         transfers.outputs += [self._add(component, group) for group in groups(outputs)]
         transfers.outputs += self._add_texts(texts[1])
         named = {short for short, name in names.items() if name in exchanged.named and name not in self._slots.numbers}
         recorded = whole((each for each in numbers if each.name in named), named)
         transfers.recorded += [self._add(component, group) for group in groups(recorded)]
-        self._slots.unfed |= {names[each.name] for each in inputs if each.name not in driven}
+        unfed = {each.name for each in inputs} - driven | {each.name for each in tuned} - self._tuned(
+            component, numbers
+        )
+        self._slots.unfed |= {names[each] for each in unfed}
+
+    def _tuned(self, component: str, variables: Sequence[Variable]) -> set[str]:
+        return {each.name for each in variables if self._exchanged.is_tuned(component, each)}
 
     def _add_texts(self, texts: Sequence[tuple[Sequence[Variable], int]]) -> list[int]:
         return [self._table.add(group, first) for group, first in texts if group]

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from ...fmi.variable import Variable
 from ...system.passing.settings import Settings
+
+BASE = " as set"  # behind the name of a parameter that changes in flight
 
 
 @dataclass
@@ -13,7 +16,8 @@ class Slots:
     """``numbers`` by name, with the type and unit of each; ``references`` and ``initial`` values by number.
 
     ``exact`` are the starts of whole numbers of 64 bits, by number. ``unfed`` are elements of arrays that nothing is
-    connected to, whose array is given as a whole.
+    connected to, whose array is given as a whole. ``bases`` are the slots of what parameters that change in flight have
+    without the change, by (component, variable).
     """
 
     settings: Settings
@@ -24,6 +28,7 @@ class Slots:
     initial: list[float] = field(default_factory=list)
     exact: dict[int, int] = field(default_factory=dict)
     unfed: set[str] = field(default_factory=set)
+    bases: dict[tuple[str, str], int] = field(default_factory=dict)
 
     def add(self, name: str, reference: int, initial: float, type_name: str, unit: str | None) -> None:
         """One more slot."""
@@ -32,6 +37,16 @@ class Slots:
         self.units[name] = unit
         self.references.append(reference)
         self.initial.append(initial)
+
+    def add_bases(self, component: str, variables: Sequence[Variable]) -> int:
+        """Add a slot for the value of each parameter without change, in a row; return the first. None is recorded."""
+        first = len(self.references)
+        for variable in variables:
+            name = f"{component}.{variable.name}{BASE}"
+            self.bases[component, variable.name] = len(self.references)
+            self.unfed.add(name)
+            self.add(name, variable.reference, self.start(component, variable), variable.type, variable.unit)
+        return first
 
     def start(self, component: str, variable: Variable) -> float:
         """What an input is given while its source is not known yet: the value set for it, else its FMU's start."""

@@ -31,6 +31,8 @@ class ComponentTransfers:
 
     ``discrete`` inputs are given in event mode, those of a component that ``uses_events``; parameters are set before
     initialisation mode, ``repeated`` in it, and read ``back`` after it, ``structural`` ones in configuration mode.
+    Those that change in flight are among the inputs, or, where events are used, among the discrete ones; ``bases`` are
+    (first slot, count, first slot of their own values).
     """
 
     uses_events: bool = False
@@ -42,6 +44,7 @@ class ComponentTransfers:
     before: list[int] = field(default_factory=list)
     repeated: list[int] = field(default_factory=list)
     back: list[int] = field(default_factory=list)
+    bases: list[tuple[int, int, int]] = field(default_factory=list)
 
 
 class TransferTable:

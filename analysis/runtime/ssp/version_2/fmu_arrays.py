@@ -7,6 +7,8 @@ from lxml import etree
 from ..dimensions import Shape
 from ..documents import tag
 
+SCALAR = "ModelVariables/ScalarVariable"
+
 
 def arrays_of_fmu(description: etree._Element) -> dict[str, Shape]:
     """The shapes of the arrays of an FMI 3.0 FMU at their start sizes; none of FMI 2.0, which has scalars only."""
@@ -26,5 +28,6 @@ def arrays_of_fmu(description: etree._Element) -> dict[str, Shape]:
 
 
 def enumerations_of_fmu(description: etree._Element) -> set[str]:
-    """The variables of an FMI 3.0 FMU that are enumerations."""
-    return {variable.get("name", "") for variable in description.iterfind("ModelVariables/Enumeration")}
+    """The variables of an FMU that are enumerations: elements of this name in FMI 3.0, in FMI 2.0 what holds one."""
+    declared = [*description.iterfind("ModelVariables/Enumeration"), *description.iterfind(f"{SCALAR}[Enumeration]")]
+    return {variable.get("name", "") for variable in declared}

@@ -54,7 +54,27 @@ static inline fmi2Status prepare_get(
     return fmi2OK;
 }
 
-/* fmi2OK where all the referenced elements may be set now: a wrong one leaves the others as they are. */
+static inline void *element_of(fmi2Component c, fmi2ValueReference reference)
+{
+    return (char *)&instance_of(c)->now.block + ELEMENTS[reference].offset;
+}
+
+/* Set elements of which some are tunable parameters, between steps. */
+static COLD fmi2Status tune(Component *component, const char *function, Trait kind,
+    const fmi2ValueReference references[], size_t count, const void *values)
+{
+    const Block before = component->now.block;
+    for (size_t i = 0; i < count; i++) {
+        void *to = element_of(component, references[i]);
+        if (kind == KIND_REAL) *(double *)to = ((const fmi2Real *)values)[i];
+        if (kind == KIND_INTEGER) *(int64_t *)to = ((const fmi2Integer *)values)[i];
+        if (kind == KIND_BOOLEAN) *(bool *)to = ((const fmi2Boolean *)values)[i] != fmi2False;
+    }
+    return accept_tuned(component, function, &before);
+}
+
+/* fmi2OK where all the referenced elements may be set now: a wrong one leaves the others as they are. Tunable parameters
+ * are set already then. */
 static inline fmi2Status prepare_set(Component *component, const char *function, Trait kind,
     const fmi2ValueReference references[], size_t count, const void *values)
 {
@@ -63,29 +83,28 @@ static inline fmi2Status prepare_set(Component *component, const char *function,
     if (count > 0 && (references == NULL || values == NULL)) return refuse_null(component, function, references);
     const bool stepping = component->now.mode == MODE_STEP;
     const uint32_t traits = kind | (stepping ? SET_BETWEEN_STEPS : SET_BEFORE_STEPS);
+    bool tunes = false;
     for (size_t i = 0; i < count; i++) {
-        if (!has_traits(references[i], traits)) return refuse(component, function, traits, references[i]);
+        if (has_traits(references[i], traits)) continue;
+        if (!has_traits(references[i], kind | TUNABLE)) return refuse(component, function, traits, references[i]);
+        tunes = true;
     }
+    if (tunes) return tune(component, function, kind, references, count, values);
     if (!stepping) component->now.unsettled = true;
     return fmi2OK;
 }
 
-static inline void *element_of(Component *component, fmi2ValueReference reference)
-{
-    return (char *)&component->now.block + ELEMENTS[reference].offset;
-}
-
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Real value[])
 {
-    const fmi2Status status = prepare_get(c, "fmi2GetReal", vr, nvr, value);
+    const fmi2Status status = prepare_get(instance_of(c), "fmi2GetReal", vr, nvr, value);
     if (status != fmi2OK) return status;
     if (lie_alike(vr, nvr, KIND_REAL)) {
-        const double *from = element_of(c, vr[0]);
+        const double *from = (const double *)element_of(c, vr[0]);
         for (size_t i = 0; i < nvr; i++) value[i] = from[i];
         return fmi2OK;
     }
     for (size_t i = 0; i < nvr; i++) {
-        if (!has_traits(vr[i], KIND_REAL)) return refuse(c, "fmi2GetReal", KIND_REAL, vr[i]);
+        if (!has_traits(vr[i], KIND_REAL)) return refuse(instance_of(c), "fmi2GetReal", KIND_REAL, vr[i]);
         value[i] = *(const double *)element_of(c, vr[i]);
     }
     return fmi2OK;
@@ -93,12 +112,12 @@ fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
 
 fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[])
 {
-    const fmi2Status status = prepare_get(c, "fmi2GetInteger", vr, nvr, value);
+    const fmi2Status status = prepare_get(instance_of(c), "fmi2GetInteger", vr, nvr, value);
     if (status != fmi2OK) return status;
     for (size_t i = 0; i < nvr; i++) {
-        if (!has_traits(vr[i], KIND_INTEGER)) return refuse(c, "fmi2GetInteger", KIND_INTEGER, vr[i]);
+        if (!has_traits(vr[i], KIND_INTEGER)) return refuse(instance_of(c), "fmi2GetInteger", KIND_INTEGER, vr[i]);
         const int64_t wide = *(const int64_t *)element_of(c, vr[i]);
-        if (wide < INT32_MIN || wide > INT32_MAX) return refuse_wide(c, vr[i], wide, "Integer");
+        if (wide < INT32_MIN || wide > INT32_MAX) return refuse_wide(instance_of(c), vr[i], wide, "Integer");
         value[i] = (fmi2Integer)wide;
     }
     return fmi2OK;
@@ -106,10 +125,10 @@ fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
 
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Boolean value[])
 {
-    const fmi2Status status = prepare_get(c, "fmi2GetBoolean", vr, nvr, value);
+    const fmi2Status status = prepare_get(instance_of(c), "fmi2GetBoolean", vr, nvr, value);
     if (status != fmi2OK) return status;
     for (size_t i = 0; i < nvr; i++) {
-        if (!has_traits(vr[i], KIND_BOOLEAN)) return refuse(c, "fmi2GetBoolean", KIND_BOOLEAN, vr[i]);
+        if (!has_traits(vr[i], KIND_BOOLEAN)) return refuse(instance_of(c), "fmi2GetBoolean", KIND_BOOLEAN, vr[i]);
         value[i] = *(const bool *)element_of(c, vr[i]) ? fmi2True : fmi2False;
     }
     return fmi2OK;
@@ -117,10 +136,10 @@ fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t
 
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Real value[])
 {
-    Component *component = c;
+    Component *component = instance_of(c);
     if (component != NULL && component->now.mode == MODE_STEP && vr != NULL && value != NULL
         && lie_alike(vr, nvr, KIND_REAL | SET_BETWEEN_STEPS)) {
-        double *to = element_of(component, vr[0]);
+        double *to = (double *)element_of(c, vr[0]);
         for (size_t i = 0; i < nvr; i++) to[i] = value[i];
         return fmi2OK;
     }
@@ -132,7 +151,7 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
 
 fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[])
 {
-    const fmi2Status status = prepare_set(c, "fmi2SetInteger", KIND_INTEGER, vr, nvr, value);
+    const fmi2Status status = prepare_set(instance_of(c), "fmi2SetInteger", KIND_INTEGER, vr, nvr, value);
     if (status != fmi2OK) return status;
     for (size_t i = 0; i < nvr; i++) *(int64_t *)element_of(c, vr[i]) = value[i];
     return fmi2OK;
@@ -140,7 +159,7 @@ fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
 
 fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Boolean value[])
 {
-    const fmi2Status status = prepare_set(c, "fmi2SetBoolean", KIND_BOOLEAN, vr, nvr, value);
+    const fmi2Status status = prepare_set(instance_of(c), "fmi2SetBoolean", KIND_BOOLEAN, vr, nvr, value);
     if (status != fmi2OK) return status;
     for (size_t i = 0; i < nvr; i++) *(bool *)element_of(c, vr[i]) = value[i] != fmi2False;
     return fmi2OK;
@@ -158,14 +177,14 @@ fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t 
 {
     (void)vr;
     (void)value;
-    return no_strings(c, "fmi2GetString", MODE_READABLE, nvr);
+    return no_strings(instance_of(c), "fmi2GetString", MODE_READABLE, nvr);
 }
 
 fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2String value[])
 {
     (void)vr;
     (void)value;
-    return no_strings(c, "fmi2SetString", MODE_SETTABLE, nvr);
+    return no_strings(instance_of(c), "fmi2SetString", MODE_SETTABLE, nvr);
 }
 
 /* ---- not of FMI ---- */
@@ -178,6 +197,9 @@ fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t 
  * bits) with these references lie side by side in the instance, all of which may be got or, with `set`, be set between
  * steps; else NULL. An importer in the same process may read and write them there between steps, which is what FMI's
  * functions do then. They stay there as long as the instance. */
+#ifdef __cplusplus
+extern "C"
+#endif
 FMI2_Export void *perilune_place(
     fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer kind, fmi2Boolean set)
 {
@@ -192,21 +214,21 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
     const fmi2ValueReference known[], size_t known_count, const fmi2Real known_change[], fmi2Real unknown_change[])
 {
     (void)unknown, (void)unknown_count, (void)known, (void)known_count, (void)known_change, (void)unknown_change;
-    return not_provided(c, "fmi2GetDirectionalDerivative");
+    return not_provided(instance_of(c), "fmi2GetDirectionalDerivative");
 }
 
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
     const fmi2Integer order[], const fmi2Real value[])
 {
     (void)vr, (void)nvr, (void)order, (void)value;
-    return not_provided(c, "fmi2SetRealInputDerivatives");
+    return not_provided(instance_of(c), "fmi2SetRealInputDerivatives");
 }
 
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
     const fmi2Integer order[], fmi2Real value[])
 {
     (void)vr, (void)nvr, (void)order, (void)value;
-    return not_provided(c, "fmi2GetRealOutputDerivatives");
+    return not_provided(instance_of(c), "fmi2GetRealOutputDerivatives");
 }
 
 #endif

@@ -48,13 +48,13 @@ static Status no_variables(
         fmi3##Type values[], size_t value_count)                                                                      \
     {                                                                                                                 \
         (void)references, (void)values, (void)value_count;                                                            \
-        return no_variables(instance, "fmi3Get" #Type, #Type, MODE_ANY, count);                                       \
+        return no_variables(instance_of(instance), "fmi3Get" #Type, #Type, MODE_ANY, count);                          \
     }                                                                                                                 \
     fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference references[], size_t count,              \
         const fmi3##Type values[], size_t value_count)                                                                \
     {                                                                                                                 \
         (void)references, (void)values, (void)value_count;                                                            \
-        return no_variables(instance, "fmi3Set" #Type, #Type, MODE_SETTABLE, count);                                  \
+        return no_variables(instance_of(instance), "fmi3Set" #Type, #Type, MODE_SETTABLE, count);                     \
     }
 
 NO_VARIABLES(Float32)
@@ -70,28 +70,28 @@ fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference referen
     fmi3Binary values[], size_t value_count)
 {
     (void)references, (void)sizes, (void)values, (void)value_count;
-    return no_variables(instance, "fmi3GetBinary", "Binary", MODE_ANY, count);
+    return no_variables(instance_of(instance), "fmi3GetBinary", "Binary", MODE_ANY, count);
 }
 
 fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
     const size_t sizes[], const fmi3Binary values[], size_t value_count)
 {
     (void)references, (void)sizes, (void)values, (void)value_count;
-    return no_variables(instance, "fmi3SetBinary", "Binary", MODE_SETTABLE, count);
+    return no_variables(instance_of(instance), "fmi3SetBinary", "Binary", MODE_SETTABLE, count);
 }
 
 fmi3Status fmi3GetClock(
     fmi3Instance instance, const fmi3ValueReference references[], size_t count, fmi3Clock values[])
 {
     (void)references, (void)values;
-    return no_variables(instance, "fmi3GetClock", "Clock", MODE_ANY, count);
+    return no_variables(instance_of(instance), "fmi3GetClock", "Clock", MODE_ANY, count);
 }
 
 fmi3Status fmi3SetClock(
     fmi3Instance instance, const fmi3ValueReference references[], size_t count, const fmi3Clock values[])
 {
     (void)references, (void)values;
-    return no_variables(instance, "fmi3SetClock", "Clock", MODE_SETTABLE, count);
+    return no_variables(instance_of(instance), "fmi3SetClock", "Clock", MODE_SETTABLE, count);
 }
 
 /* ---- dependencies of elements, derivatives: modelDescription.xml declares none of these ---- */
@@ -99,14 +99,14 @@ fmi3Status fmi3SetClock(
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance, fmi3ValueReference reference, size_t *count)
 {
     (void)reference, (void)count;
-    return not_provided(instance, "fmi3GetNumberOfVariableDependencies");
+    return not_provided(instance_of(instance), "fmi3GetNumberOfVariableDependencies");
 }
 
 fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference dependent, size_t elements[],
     fmi3ValueReference independents[], size_t independent_elements[], fmi3DependencyKind kinds[], size_t count)
 {
     (void)dependent, (void)elements, (void)independents, (void)independent_elements, (void)kinds, (void)count;
-    return not_provided(instance, "fmi3GetVariableDependencies");
+    return not_provided(instance_of(instance), "fmi3GetVariableDependencies");
 }
 
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
@@ -115,7 +115,7 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueRe
 {
     (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count;
     (void)seed, (void)seed_count, (void)sensitivity, (void)sensitivity_count;
-    return not_provided(instance, "fmi3GetDirectionalDerivative");
+    return not_provided(instance_of(instance), "fmi3GetDirectionalDerivative");
 }
 
 fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[], size_t unknown_count,
@@ -124,14 +124,14 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
 {
     (void)unknowns, (void)unknown_count, (void)knowns, (void)known_count;
     (void)seed, (void)seed_count, (void)sensitivity, (void)sensitivity_count;
-    return not_provided(instance, "fmi3GetAdjointDerivative");
+    return not_provided(instance_of(instance), "fmi3GetAdjointDerivative");
 }
 
 fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
     const fmi3Int32 orders[], fmi3Float64 values[], size_t value_count)
 {
     (void)references, (void)count, (void)orders, (void)values, (void)value_count;
-    return not_provided(instance, "fmi3GetOutputDerivatives");
+    return not_provided(instance_of(instance), "fmi3GetOutputDerivatives");
 }
 
 #endif

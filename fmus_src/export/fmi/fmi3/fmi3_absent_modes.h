@@ -8,7 +8,7 @@
 #define NOT_PROVIDED(name)                                                                                            \
     fmi3Status fmi3##name(fmi3Instance instance)                                                                      \
     {                                                                                                                 \
-        return not_provided(instance, "fmi3" #name);                                                                  \
+        return not_provided(instance_of(instance), "fmi3" #name);                                                     \
     }
 
 NOT_PROVIDED(EnterConfigurationMode)
@@ -24,7 +24,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *need_upd
 {
     (void)need_update, (void)terminate_simulation, (void)nominals_changed, (void)states_changed;
     (void)next_event_time_defined, (void)next_event_time;
-    return not_provided(instance, "fmi3UpdateDiscreteStates");
+    return not_provided(instance_of(instance), "fmi3UpdateDiscreteStates");
 }
 
 /* ---- clocks ---- */
@@ -33,62 +33,62 @@ fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReferenc
     fmi3Float64 intervals[], fmi3IntervalQualifier qualifiers[])
 {
     (void)references, (void)count, (void)intervals, (void)qualifiers;
-    return not_provided(instance, "fmi3GetIntervalDecimal");
+    return not_provided(instance_of(instance), "fmi3GetIntervalDecimal");
 }
 
 fmi3Status fmi3GetIntervalFraction(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
     fmi3UInt64 counters[], fmi3UInt64 resolutions[], fmi3IntervalQualifier qualifiers[])
 {
     (void)references, (void)count, (void)counters, (void)resolutions, (void)qualifiers;
-    return not_provided(instance, "fmi3GetIntervalFraction");
+    return not_provided(instance_of(instance), "fmi3GetIntervalFraction");
 }
 
 fmi3Status fmi3GetShiftDecimal(
     fmi3Instance instance, const fmi3ValueReference references[], size_t count, fmi3Float64 shifts[])
 {
     (void)references, (void)count, (void)shifts;
-    return not_provided(instance, "fmi3GetShiftDecimal");
+    return not_provided(instance_of(instance), "fmi3GetShiftDecimal");
 }
 
 fmi3Status fmi3GetShiftFraction(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
     fmi3UInt64 counters[], fmi3UInt64 resolutions[])
 {
     (void)references, (void)count, (void)counters, (void)resolutions;
-    return not_provided(instance, "fmi3GetShiftFraction");
+    return not_provided(instance_of(instance), "fmi3GetShiftFraction");
 }
 
 fmi3Status fmi3SetIntervalDecimal(
     fmi3Instance instance, const fmi3ValueReference references[], size_t count, const fmi3Float64 intervals[])
 {
     (void)references, (void)count, (void)intervals;
-    return not_provided(instance, "fmi3SetIntervalDecimal");
+    return not_provided(instance_of(instance), "fmi3SetIntervalDecimal");
 }
 
 fmi3Status fmi3SetIntervalFraction(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
     const fmi3UInt64 counters[], const fmi3UInt64 resolutions[])
 {
     (void)references, (void)count, (void)counters, (void)resolutions;
-    return not_provided(instance, "fmi3SetIntervalFraction");
+    return not_provided(instance_of(instance), "fmi3SetIntervalFraction");
 }
 
 fmi3Status fmi3SetShiftDecimal(
     fmi3Instance instance, const fmi3ValueReference references[], size_t count, const fmi3Float64 shifts[])
 {
     (void)references, (void)count, (void)shifts;
-    return not_provided(instance, "fmi3SetShiftDecimal");
+    return not_provided(instance_of(instance), "fmi3SetShiftDecimal");
 }
 
 fmi3Status fmi3SetShiftFraction(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
     const fmi3UInt64 counters[], const fmi3UInt64 resolutions[])
 {
     (void)references, (void)count, (void)counters, (void)resolutions;
-    return not_provided(instance, "fmi3SetShiftFraction");
+    return not_provided(instance_of(instance), "fmi3SetShiftFraction");
 }
 
 fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clock, fmi3Float64 activation_time)
 {
     (void)clock, (void)activation_time;
-    return not_provided(instance, "fmi3ActivateModelPartition");
+    return not_provided(instance_of(instance), "fmi3ActivateModelPartition");
 }
 
 /* ---- model exchange ---- */
@@ -97,19 +97,19 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean no_set
     fmi3Boolean *enter_event_mode, fmi3Boolean *terminate_simulation)
 {
     (void)no_set_fmu_state_prior_to_current_point, (void)enter_event_mode, (void)terminate_simulation;
-    return not_provided(instance, "fmi3CompletedIntegratorStep");
+    return not_provided(instance_of(instance), "fmi3CompletedIntegratorStep");
 }
 
 fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time)
 {
     (void)time;
-    return not_provided(instance, "fmi3SetTime");
+    return not_provided(instance_of(instance), "fmi3SetTime");
 }
 
 fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 states[], size_t count)
 {
     (void)states, (void)count;
-    return not_provided(instance, "fmi3SetContinuousStates");
+    return not_provided(instance_of(instance), "fmi3SetContinuousStates");
 }
 
 /* Doubles per continuous state or event indicator. */
@@ -117,7 +117,7 @@ fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 stat
     fmi3Status fmi3Get##name(fmi3Instance instance, fmi3Float64 values[], size_t count)                               \
     {                                                                                                                 \
         (void)values, (void)count;                                                                                    \
-        return not_provided(instance, "fmi3Get" #name);                                                               \
+        return not_provided(instance_of(instance), "fmi3Get" #name);                                                  \
     }
 
 NO_STATES(ContinuousStateDerivatives)
@@ -128,13 +128,13 @@ NO_STATES(NominalsOfContinuousStates)
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *count)
 {
     (void)count;
-    return not_provided(instance, "fmi3GetNumberOfEventIndicators");
+    return not_provided(instance_of(instance), "fmi3GetNumberOfEventIndicators");
 }
 
 fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *count)
 {
     (void)count;
-    return not_provided(instance, "fmi3GetNumberOfContinuousStates");
+    return not_provided(instance_of(instance), "fmi3GetNumberOfContinuousStates");
 }
 
 #endif

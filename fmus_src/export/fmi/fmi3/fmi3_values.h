@@ -60,7 +60,34 @@ static inline Status prepare_get(Component *component, const char *function, Var
     return STATUS_OK;
 }
 
-/* STATUS_OK where all the variables may be set now: a wrong one leaves the others as they are. */
+/* The first element of a variable in the instance. */
+static inline void *elements_of(fmi3Instance instance, fmi3ValueReference reference)
+{
+    return (char *)&instance_of(instance)->now.block + ELEMENTS[VARIABLES[reference].first].offset;
+}
+
+/* Set variables of which some are tunable parameters, between steps. */
+static COLD Status tune(Component *component, const char *function, VariableType type,
+    const fmi3ValueReference references[], size_t count, const void *values)
+{
+    const Block before = component->now.block;
+    size_t next = 0;
+    for (size_t i = 0; i < count; i++) {
+        void *to = elements_of(component, references[i]);
+        for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++, next++) {
+            switch (type) {
+                case TYPE_FLOAT64: ((double *)to)[k] = ((const fmi3Float64 *)values)[next]; break;
+                case TYPE_INT32: ((int64_t *)to)[k] = ((const fmi3Int32 *)values)[next]; break;
+                case TYPE_ENUMERATION: ((int64_t *)to)[k] = ((const fmi3Int64 *)values)[next]; break;
+                case TYPE_BOOLEAN: ((bool *)to)[k] = ((const fmi3Boolean *)values)[next]; break;
+            }
+        }
+    }
+    return accept_tuned(component, function, &before);
+}
+
+/* STATUS_OK where all the variables may be set now: a wrong one leaves the others as they are. Tunable parameters are set
+ * already then. */
 static inline Status prepare_set(Component *component, const char *function, VariableType type,
     const fmi3ValueReference references[], size_t count, const void *values, size_t value_count)
 {
@@ -69,6 +96,7 @@ static inline Status prepare_set(Component *component, const char *function, Var
     if (count > 0 && (references == NULL || values == NULL)) return refuse_null(component, function, references);
     const bool stepping = component->now.mode == MODE_STEP;
     const uint32_t trait = stepping ? SET_BETWEEN_STEPS : SET_BEFORE_STEPS;
+    bool tunes = false;
     size_t elements = 0;
     for (size_t i = 0; i < count; i++) {
         const fmi3ValueReference reference = references[i];
@@ -76,24 +104,22 @@ static inline Status prepare_set(Component *component, const char *function, Var
         if (reference == TIME_REFERENCE) return fail(component, "%s: time is the independent variable", function);
         if (VARIABLES[reference].type != type) return refuse_type(component, function, reference);
         const uint32_t traits = ELEMENTS[VARIABLES[reference].first].traits;
-        if ((traits & trait) == 0) return refuse_set(component, function, reference, traits);
+        if ((traits & trait) == 0) {
+            if ((traits & TUNABLE) == 0) return refuse_set(component, function, reference, traits);
+            tunes = true;
+        }
         elements += VARIABLES[reference].size;
     }
     if (elements != value_count) return refuse_sizes(component, function, elements, value_count);
+    if (tunes) return tune(component, function, type, references, count, values);
     if (!stepping) component->now.unsettled = true;
     return STATUS_OK;
-}
-
-/* The first element of a variable in the instance. */
-static inline void *elements_of(Component *component, fmi3ValueReference reference)
-{
-    return (char *)&component->now.block + ELEMENTS[VARIABLES[reference].first].offset;
 }
 
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
     fmi3Float64 values[], size_t value_count)
 {
-    Component *component = instance;
+    Component *component = instance_of(instance);
     const Status status =
         prepare_get(component, "fmi3GetFloat64", TYPE_FLOAT64, references, count, values, value_count);
     if (status != STATUS_OK) return status;
@@ -102,7 +128,7 @@ fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference refere
             *values++ = component->now.time;
             continue;
         }
-        const double *from = elements_of(component, references[i]);
+        const double *from = (const double *)elements_of(instance, references[i]);
         for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) *values++ = from[k];
     }
     return STATUS_OK;
@@ -111,11 +137,11 @@ fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference refere
 fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference references[], size_t count,
     fmi3Int32 values[], size_t value_count)
 {
-    Component *component = instance;
+    Component *component = instance_of(instance);
     const Status status = prepare_get(component, "fmi3GetInt32", TYPE_INT32, references, count, values, value_count);
     if (status != STATUS_OK) return status;
     for (size_t i = 0; i < count; i++) {
-        const int64_t *from = elements_of(component, references[i]);
+        const int64_t *from = (const int64_t *)elements_of(instance, references[i]);
         for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) {
             if (from[k] < INT32_MIN || from[k] > INT32_MAX) {
                 return refuse_wide(component, references[i], from[k], "Int32");
@@ -132,10 +158,10 @@ fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference referenc
         fmi3##Type values[], size_t value_count)                                                                      \
     {                                                                                                                 \
         const Status status =                                                                                         \
-            prepare_get(instance, "fmi3Get" #Type, TYPE, references, count, values, value_count);                     \
+            prepare_get(instance_of(instance), "fmi3Get" #Type, TYPE, references, count, values, value_count);        \
         if (status != STATUS_OK) return status;                                                                       \
         for (size_t i = 0; i < count; i++) {                                                                          \
-            const Stored *from = elements_of(instance, references[i]);                                                \
+            const Stored *from = (const Stored *)elements_of(instance, references[i]);                                \
             for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) *values++ = from[k];                         \
         }                                                                                                             \
         return STATUS_OK;                                                                                             \
@@ -149,10 +175,10 @@ GETTER(Boolean, TYPE_BOOLEAN, bool)
         const fmi3##Type values[], size_t value_count)                                                                \
     {                                                                                                                 \
         const Status status =                                                                                         \
-            prepare_set(instance, "fmi3Set" #Type, TYPE, references, count, values, value_count);                     \
+            prepare_set(instance_of(instance), "fmi3Set" #Type, TYPE, references, count, values, value_count);        \
         if (status != STATUS_OK) return status;                                                                       \
         for (size_t i = 0; i < count; i++) {                                                                          \
-            Stored *to = elements_of(instance, references[i]);                                                        \
+            Stored *to = (Stored *)elements_of(instance, references[i]);                                              \
             for (uint32_t k = 0; k < VARIABLES[references[i]].size; k++) to[k] = *values++;                           \
         }                                                                                                             \
         return STATUS_OK;                                                                                             \

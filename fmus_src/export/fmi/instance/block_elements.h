@@ -14,10 +14,12 @@ typedef enum Trait {
     KIND_ANY = KIND_REAL | KIND_INTEGER | KIND_BOOLEAN,
     SET_BEFORE_STEPS = 8,
     SET_BETWEEN_STEPS = 16,
-    COMPUTED = 32
+    COMPUTED = 32,
+    TUNABLE = 64 /* a parameter that may be set between steps within its range */
 } Trait;
 
 #define ROLE_PARAMETER SET_BEFORE_STEPS
+#define ROLE_TUNABLE (SET_BEFORE_STEPS | TUNABLE)
 #define ROLE_INPUT (SET_BEFORE_STEPS | SET_BETWEEN_STEPS)
 #define ROLE_OUTPUT COMPUTED
 #define ROLE_STATE COMPUTED
@@ -30,7 +32,7 @@ typedef struct Element {
     uint16_t alike; /* so many from this one on, itself included, have its traits and lie side by side */
 } Element;
 
-/* What parameters and inputs may be where a simulation starts. A table apart from ELEMENTS, which every step reads; a
+/* What parameters and inputs may be where a simulation starts, tunable parameters between steps, too. A table apart from ELEMENTS, which every step reads; a
  * row whose count is 0 ends it. */
 typedef struct Range {
     uint32_t first; /* element */

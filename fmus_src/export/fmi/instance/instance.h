@@ -53,6 +53,12 @@ typedef struct Component {
     char instance_name[];
 } Component;
 
+/* The instance behind FMI's pointer, which C++ does not convert by itself. */
+static inline Component *instance_of(void *pointer)
+{
+    return (Component *)pointer;
+}
+
 /* What the file around the wrapper provides: a block with `single_block.h`, a system of blocks with `system_steps.h` and
  * its own C. */
 static void get_starts(Block *block); /* declared starts of all variables */

@@ -11,7 +11,7 @@ static Component *create_instance(const char *function, const char *instance_nam
     const char *token_name, Logger logger, Environment environment, const char *refusal)
 {
     const char *name = instance_name == NULL ? "" : instance_name;
-    Component *component = calloc(1, sizeof(Component) + strlen(name) + 1);
+    Component *component = instance_of(calloc(1, sizeof(Component) + strlen(name) + 1));
     if (component == NULL) return NULL;
     component->logger = component->importers_logger = logger;
     component->environment = environment;

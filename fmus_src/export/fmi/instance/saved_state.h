@@ -46,12 +46,12 @@ static Status check_state(const Component *component, const char *function, cons
  * has other room. */
 static SavedState *state_space(const Component *component, const char *function, void **place)
 {
-    SavedState *state = *place;
+    SavedState *state = (SavedState *)*place;
     if (state != NULL && state->model != model_hash()) {
         fail(component, "%s: FMUstate is one of another FMU, which cannot be overwritten; pass a NULL state", function);
         return NULL;
     }
-    if (state == NULL) *place = state = calloc(1, sizeof(SavedState));
+    if (state == NULL) *place = state = (SavedState *)calloc(1, sizeof(SavedState));
     if (state == NULL) fail(component, "%s: out of memory", function);
     return state;
 }

@@ -11,11 +11,16 @@
 #ifndef KERNEL_MATH_H
 #define KERNEL_MATH_H
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
+
+#if FLT_EVAL_METHOD != 0
+#error "this target computes doubles in wider registers and would round results twice: compile with SSE2 (-msse2 -mfpmath=sse)"
+#endif
 
 /* What ended a call, and the Python line that raises in the Python flavour. */
 typedef struct Fault {

@@ -5,6 +5,9 @@
  * model_set_start_time. Nothing is global: instances are independent of one another and may run
  * in different threads.
  */
+#ifndef FMI3_WRAPPER_H
+#define FMI3_WRAPPER_H
+
 #include "fmi3_types.h"
 
 #include "fmi3_absent.h"
@@ -21,7 +24,7 @@ const char *fmi3GetVersion(void)
 fmi3Status fmi3SetDebugLogging(
     fmi3Instance instance, fmi3Boolean logging_on, size_t category_count, const fmi3String categories[])
 {
-    Component *component = instance;
+    Component *component = instance_of(instance);
     const Status status = check_logging(component, "fmi3SetDebugLogging", category_count, categories);
     if (status != STATUS_OK) return status;
     for (size_t i = 0; i < category_count; i++) {
@@ -61,7 +64,7 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolera
     fmi3Float64 start_time, fmi3Boolean stop_time_defined, fmi3Float64 stop_time)
 {
     (void)tolerance_defined, (void)tolerance;
-    Component *component = instance;
+    Component *component = instance_of(instance);
     Status status = check_mode(component, "fmi3EnterInitializationMode", MODE_INSTANTIATED);
     if (status == STATUS_OK) {
         status = set_start(component, "fmi3EnterInitializationMode", start_time, stop_time_defined, stop_time);
@@ -72,17 +75,17 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolera
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
 {
-    return leave_initialisation(instance, "fmi3ExitInitializationMode");
+    return leave_initialisation(instance_of(instance), "fmi3ExitInitializationMode");
 }
 
 fmi3Status fmi3Terminate(fmi3Instance instance)
 {
-    return terminate(instance, "fmi3Terminate");
+    return terminate(instance_of(instance), "fmi3Terminate");
 }
 
 fmi3Status fmi3Reset(fmi3Instance instance)
 {
-    return reset(instance, "fmi3Reset");
+    return reset(instance_of(instance), "fmi3Reset");
 }
 
 /* ---- stepping ---- */
@@ -93,7 +96,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 communication_point, fm
     fmi3Boolean *terminate_simulation, fmi3Boolean *early_return, fmi3Float64 *last_successful_time)
 {
     (void)no_set_fmu_state_prior_to_current_point;
-    Component *component = instance;
+    Component *component = instance_of(instance);
     if (component == NULL) return STATUS_ERROR;
     if (event_handling_needed == NULL || terminate_simulation == NULL || early_return == NULL
         || last_successful_time == NULL) {
@@ -106,3 +109,5 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 communication_point, fm
     *last_successful_time = component->now.time;
     return status;
 }
+
+#endif

@@ -5,6 +5,9 @@
  * model_set_start_time. Nothing is global: instances are independent of one another and may run
  * in different threads.
  */
+#ifndef FMI2_WRAPPER_H
+#define FMI2_WRAPPER_H
+
 #include "fmi2_types.h"
 
 #ifndef HAS_FINISHED
@@ -30,7 +33,7 @@ fmi2Status fmi2SetDebugLogging(
     fmi2Component c, fmi2Boolean logging_on, size_t category_count, const fmi2String categories[])
 {
     (void)logging_on;
-    return check_logging(c, "fmi2SetDebugLogging", category_count, categories);
+    return check_logging(instance_of(c), "fmi2SetDebugLogging", category_count, categories);
 }
 
 /* ---- creation and destruction ---- */
@@ -59,7 +62,7 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, f
 {
     (void)tolerance_defined;
     (void)tolerance;
-    Component *component = c;
+    Component *component = instance_of(c);
     const fmi2Status status = check_mode(component, "fmi2SetupExperiment", MODE_INSTANTIATED);
     if (status != fmi2OK) return status;
     return set_start(component, "fmi2SetupExperiment", start_time, stop_time_defined, stop_time);
@@ -67,7 +70,7 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, f
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 {
-    Component *component = c;
+    Component *component = instance_of(c);
     const fmi2Status status = check_mode(component, "fmi2EnterInitializationMode", MODE_INSTANTIATED);
     if (status == fmi2OK) component->now.mode = MODE_INITIALIZATION;
     return status;
@@ -75,17 +78,17 @@ fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c)
 {
-    return leave_initialisation(c, "fmi2ExitInitializationMode");
+    return leave_initialisation(instance_of(c), "fmi2ExitInitializationMode");
 }
 
 fmi2Status fmi2Terminate(fmi2Component c)
 {
-    return terminate(c, "fmi2Terminate");
+    return terminate(instance_of(c), "fmi2Terminate");
 }
 
 fmi2Status fmi2Reset(fmi2Component c)
 {
-    return reset(c, "fmi2Reset");
+    return reset(instance_of(c), "fmi2Reset");
 }
 
 /* ---- stepping ---- */
@@ -94,19 +97,19 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real communication_point, fmi2Real st
     fmi2Boolean no_set_fmu_state_prior_to_current_point)
 {
     (void)no_set_fmu_state_prior_to_current_point;
-    return do_step(c, "fmi2DoStep", communication_point, step_size);
+    return do_step(instance_of(c), "fmi2DoStep", communication_point, step_size);
 }
 
 fmi2Status fmi2CancelStep(fmi2Component c)
 {
-    Component *component = c;
+    Component *component = instance_of(c);
     if (component == NULL) return fmi2Error;
     return fail(component, "fmi2CancelStep: no step is under way; steps end before fmi2DoStep returns");
 }
 
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
 {
-    Component *component = c;
+    Component *component = instance_of(c);
     if (component == NULL || value == NULL) return fmi2Error;
     if (kind != fmi2DoStepStatus) return fmi2Discard;
     *value = component->last_step;
@@ -115,7 +118,7 @@ fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status 
 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
 {
-    Component *component = c;
+    Component *component = instance_of(c);
     if (component == NULL || value == NULL) return fmi2Error;
     if (kind != fmi2LastSuccessfulTime) return fmi2Discard;
     *value = component->now.time;
@@ -124,7 +127,7 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
 {
-    const Component *component = c;
+    const Component *component = instance_of(c);
     if (component == NULL || value == NULL) return fmi2Error;
     if (kind != fmi2Terminated) return fmi2Discard;
     *value = HAS_FINISHED(component);
@@ -142,3 +145,5 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2S
     (void)kind;
     return c == NULL || value == NULL ? fmi2Error : fmi2Discard; /* only for steps under way */
 }
+
+#endif

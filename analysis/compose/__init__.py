@@ -1,0 +1,1 @@
+"""Systems composed from a short file, `system.toml`, and the way back."""

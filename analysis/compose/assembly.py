@@ -1,0 +1,55 @@
+"""A system composed: the FMUs of its components loaded, connections made, the description written and prepared."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from ...fmus_src.export.available import fmu_flavours
+from ...fmus_src.export.ssp_package import DESCRIPTION, system_files
+from ...fmus_src.paths import names_fmu
+from ..common.errors import InputError, SeveralProblemsError, suggestion
+from ..runtime.ssp.archive import HOW_TO_BUILD, SystemArchive
+from ..runtime.system.fmu import Fmu, load_fmu
+from .document import fmu_source, set_source, write_document
+from .source import SystemSource
+from .wiring import wire
+
+
+def folder_archive(folder: Path, files: Mapping[str, bytes], description: str = DESCRIPTION) -> SystemArchive:
+    """Return the system of a folder with some files as they are to be, by archive name."""
+    path = folder.resolve()
+    return SystemArchive(path.name, str(folder), path, {**system_files(path), **files}, description)
+
+
+def load_fmus(source: SystemSource, archive: SystemArchive, flavour: str | None = None) -> dict[str, Fmu]:
+    """Return the FMUs by component. Raises SeveralProblemsError with a line for each that is not there."""
+    loaded: dict[str, Fmu] = {}
+    fmus: dict[str, Fmu] = {}
+    problems: list[str] = []
+    for name, component in source.components.items():
+        try:
+            read, label = archive.fmu(fmu_source(component.fmu), name, flavour)
+            if label not in loaded:
+                loaded[label] = load_fmu(read(), label)
+            fmus[name] = loaded[label]
+        except InputError as error:
+            if names_fmu(component.fmu) or error.element != name or component.fmu in fmu_flavours():
+                problems.append(error.text)
+                continue
+            remedy = f"{suggestion(component.fmu, fmu_flavours())}; {HOW_TO_BUILD}"
+            problems.append(source.problem(component.where, f"no FMU {component.fmu} is built", remedy).text)
+    for name in source.parameter_sets:
+        if not archive.has(set_source(name)):
+            known = [Path(each).name for each in archive.files if each.endswith(".ssv")]
+            problem = f"no parameter set {name} in the system's folder"
+            problems.append(source.problem("parameters", problem, suggestion(name, known)).text)
+    if problems:
+        raise SeveralProblemsError(*problems)
+    return fmus
+
+
+def compose_document(source: SystemSource, archive: SystemArchive) -> bytes:
+    """Return the SSD of a system. Raises InputError, with a line for each problem."""
+    fmus = load_fmus(source, archive)
+    return write_document(source, fmus, wire(source, fmus))

@@ -1,0 +1,92 @@
+"""Composed files on disk: an SSD that says what it was written from, and is not written over once it was edited."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+from ..common.atomic import write_atomically
+from ..common.bounds import ARCHIVE_BYTES, XML_BYTES
+from ..common.errors import InputError
+from ..common.regular import read_input
+from ..runtime.ssp.archive import SystemArchive
+from .document import fmu_source, set_source
+from .source import ANNOTATIONS_FILE, SystemSource
+from .text import write_toml
+
+OTHERWISE = "and is not written over"
+MARK = re.compile(
+    rb"<!-- Written by perilune compose from [^\n]*, SHA-256 (?P<source>[0-9a-f]{64}): change that file\."
+    rb" SHA-256 of what follows: (?P<rest>[0-9a-f]{64}) -->\n"
+)
+
+
+def add_mark(document: bytes, file: str, raw: bytes) -> bytes:
+    """Return an SSD with a comment behind its first line: its source, the digests of that and of the SSD."""
+    declaration, _, body = document.partition(b"\n")
+    name = file.replace("--", "- -").encode()
+    digests = [hashlib.sha256(each).hexdigest().encode() for each in (raw, body)]
+    mark = b"<!-- Written by perilune compose from %s, SHA-256 %s: change that file." % (name, digests[0])
+    return b"%s\n%s SHA-256 of what follows: %s -->\n%s" % (declaration, mark, digests[1], body)
+
+
+def check_unedited(path: Path, option: str = "") -> None:
+    """Refuse to write over an SSD that `add_mark` did not mark, or that was edited since. Raises InputError."""
+    if not os.path.lexists(path):
+        return
+    content = read_input(path, "move it away", XML_BYTES)
+    match = MARK.search(content)
+    if match is None:
+        remedy = f"move it away; perilune compose {path.parent} --output FILE.toml writes what it says as a system.toml"
+        raise InputError(path, option, f"was not written by perilune compose, {OTHERWISE}", remedy)
+    if hashlib.sha256(content[match.end() :]).hexdigest().encode() != match["rest"]:
+        problem = f"was edited since perilune compose wrote it, {OTHERWISE}"
+        raise InputError(path, option, problem, "bring the change into the system.toml and move the file away")
+
+
+def check_unedited_source(path: Path, ssd: Path, raw: bytes) -> None:
+    """Refuse to write ``raw`` over another `system.toml` than that of which the SSD was composed. Raises InputError."""
+    if not os.path.lexists(path):
+        return
+    content = read_input(path, "move it away", XML_BYTES)
+    match = MARK.search(read_input(ssd, "move it away", XML_BYTES)) if os.path.lexists(ssd) else None
+    digest = hashlib.sha256(content).hexdigest().encode()
+    if content != raw and (match is None or match["source"] != digest):
+        problem = f"was edited since perilune compose read it, {OTHERWISE}"
+        raise InputError(path, "", problem, "move it away, or write to another folder")
+
+
+def write_source(source: SystemSource, archive: SystemArchive, path: Path) -> list[Path]:
+    """Write the `system.toml` of a system, its annotations beside it, and in another folder the files that it names.
+
+    Returns the paths. Nothing is written over other content. Raises InputError and OSError.
+    """
+    contents = {path: write_toml(source).encode()}
+    if source.annotations:
+        contents[path.with_name(ANNOTATIONS_FILE)] = source.annotations
+    if path.parent.resolve() != archive.path:
+        contents |= {path.parent / name: content for name, content in _named_files(source, archive).items()}
+    write_new(contents, "`output`")
+    return list(contents)
+
+
+def write_new(contents: Mapping[Path, bytes], option: str = "") -> None:
+    """Write files, all or none, and none over other content. Raises InputError and OSError."""
+    for path, content in contents.items():
+        if os.path.lexists(path) and read_input(path, "move it away", ARCHIVE_BYTES) != content:
+            raise InputError(
+                option or path, str(path) if option else "", f"exists already, {OTHERWISE}", "move it away"
+            )
+    for path, content in contents.items():
+        write_atomically(path, content)
+
+
+def _named_files(source: SystemSource, archive: SystemArchive) -> dict[str, bytes]:
+    """Parameter sets and FMUs of a system's own folder or archive, by path."""
+    own = [each for each in source.components.values() if archive.is_own_file(fmu_source(each.fmu))]
+    places = {fmu_source(each.fmu): fmu_source(each.fmu) for each in own}
+    places |= {name: set_source(name) for name in source.parameter_sets}
+    return {path: archive.read(place, place) for path, place in places.items()}

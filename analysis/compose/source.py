@@ -1,0 +1,209 @@
+"""What a `system.toml` states, as plain values, and its reading."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ...fmus_src.units import BASE_UNITS
+from ..campaigns.spec.source import key_lines, parse_toml
+from ..campaigns.spec.table import Table, integer, names, number, text
+from ..common.bounds import CAMPAIGN_BYTES, XML_BYTES
+from ..common.errors import InputError
+from ..common.regular import read_input
+from ..runtime.ssp.conversions import Unit
+from ..runtime.ssp.given_values import ParameterValue
+
+SYSTEM_FILE = "system.toml"
+ANNOTATIONS_FILE = "annotations.xml"
+KINDS = ("input", "output", "parameter")  # of connectors of the system
+LISTS = ("connections", "declare", "unconnected")
+TOP = (
+    "name",
+    "description",
+    "start_time",
+    "stop_time",
+    "step",
+    "parameters",
+    "annotations",
+    *LISTS,
+    "components",
+    "system",
+    "set",
+    "units",
+)
+SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
+COMPONENT_NAME = re.compile(r"[^\s.,\[\]>]+")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A text of a list, and where it stands."""
+
+    text: str
+    where: str
+
+
+@dataclass(frozen=True)
+class ComponentSource:
+    """A component: its FMU by name or path, its own parameter sets, and its step (s) if it is not the system's."""
+
+    fmu: str
+    parameters: tuple[str, ...] = ()
+    step: float | None = None
+    where: str = ""
+
+
+@dataclass(frozen=True)
+class SystemSource:
+    """A system as its `system.toml` states it. Times in s.
+
+    ``connectors`` are those of the system itself, kind by name; ``declare`` are connectors that nothing is connected
+    to, ``unconnected`` inputs that keep the start value of their FMU; ``set`` are values of parameters in their
+    variables' units; ``annotations`` is the content of ssd:Annotations, byte for byte.
+    """
+
+    name: str
+    components: Mapping[str, ComponentSource]
+    connections: tuple[Entry, ...] = ()
+    description: str = ""
+    start_time: float = 0.0
+    stop_time: float | None = None
+    step: float | None = None
+    parameters: tuple[str, ...] = ()
+    connectors: Mapping[str, str] = field(default_factory=dict)
+    declare: tuple[Entry, ...] = ()
+    unconnected: tuple[Entry, ...] = ()
+    set: Mapping[str, SetValue] = field(default_factory=dict)
+    units: Mapping[str, Unit] = field(default_factory=dict)
+    annotations: bytes = b""
+    file: str = SYSTEM_FILE
+
+    @property
+    def parameter_sets(self) -> list[str]:
+        """The names of all parameter sets, the system's and its components'."""
+        inner = (name for component in self.components.values() for name in component.parameters)
+        return list(dict.fromkeys((*self.parameters, *inner)))
+
+    def problem(self, where: str, problem: str, remedy: str) -> InputError:
+        """Return the error of a place in the file."""
+        return InputError(self.file, where, problem, remedy)
+
+
+def read_source(path: Path) -> tuple[SystemSource, bytes]:
+    """Return what a `system.toml` states, and the bytes that it was read from, annotations behind them.
+
+    Raises InputError.
+    """
+    label = str(path)
+    raw = read_input(path, "give the path of a system.toml", CAMPAIGN_BYTES)
+    table = Table(parse_toml(raw, label), label)
+    places = _Places(raw.decode("utf-8"))
+    table.only(TOP)
+    system = table.table("system")
+    system.only((*KINDS, "connections"))
+    annotations = b""
+    if "annotations" in table.content:
+        file = path.parent / table.get("annotations", text)
+        annotations = read_input(file, "correct `annotations` of the system.toml, or add the file", XML_BYTES)
+    source = SystemSource(
+        name=table.get("name", text),
+        components=dict(_components(table.table("components"), places)),
+        connections=(*_entries(table, "connections", places), *_entries(system, "connections", places)),
+        description=table.get("description", text, ""),
+        start_time=table.get("start_time", number, 0.0),
+        stop_time=table.get("stop_time", number, None),
+        step=table.get("step", _positive, None),
+        parameters=_list(table, "parameters"),
+        connectors=_connectors(system),
+        declare=_entries(table, "declare", places),
+        unconnected=_entries(table, "unconnected", places),
+        set=dict(_values(table.table("set"))),
+        units=dict(_units(table.table("units"))),
+        annotations=annotations,
+        file=label,
+    )
+    return source, raw + annotations
+
+
+class _Places:
+    """Lines of keys and of the texts of lists."""
+
+    def __init__(self, content: str) -> None:
+        self.lines = content.splitlines()
+        self.keys = key_lines(content)
+
+    def of_key(self, key: str) -> str:
+        """Return a key with its line."""
+        return f"{key} (line {self.keys[key]})" if key in self.keys else key
+
+    def of_entries(self, key: str, texts: tuple[str, ...]) -> Iterator[Entry]:
+        """Yield the texts of a list, each with the line on which it stands: they are in order."""
+        index = self.keys.get(key, 1) - 1
+        for each in texts:
+            index = next((i for i in range(index, len(self.lines)) if each in self.lines[i]), index)
+            yield Entry(each, f"{key} (line {index + 1})")
+
+
+def _entries(table: Table, key: str, places: _Places) -> tuple[Entry, ...]:
+    return tuple(places.of_entries(table.place(key), _list(table, key)))
+
+
+def _list(table: Table, key: str) -> tuple[str, ...]:
+    return table.get(key, names) if key in table.content else ()
+
+
+def _components(table: Table, places: _Places) -> Iterator[tuple[str, ComponentSource]]:
+    if not table.content:
+        raise table.error("", "no components", 'write [components], and NAME = "FMU" below it')
+    for name, value in table.content.items():
+        where = places.of_key(table.place(name))
+        if not COMPONENT_NAME.fullmatch(name):
+            raise table.error(name, "not a name of a component", "write it without dots, commas, brackets and spaces")
+        if isinstance(value, dict):
+            entry = table.table(name)
+            entry.only(("fmu", "parameters", "step"))
+            step = entry.get("step", _positive, None)
+            yield name, ComponentSource(entry.get("fmu", text), _list(entry, "parameters"), step, where)
+        else:
+            yield name, ComponentSource(table.get(name, text), where=where)
+
+
+def _connectors(table: Table) -> dict[str, str]:
+    kinds: dict[str, str] = {}
+    for kind in KINDS:
+        for name in _list(table, kind):
+            if name in kinds:
+                raise table.error(kind, f"{name} is {kinds[name]}, too", "name it under one of both")
+            kinds[name] = kind
+    return kinds
+
+
+def _values(table: Table) -> Iterator[tuple[str, SetValue]]:
+    for name, value in table.flat():
+        for each in value if isinstance(value, list) else [value]:
+            if not isinstance(each, int | float):
+                raise table.error(
+                    name, f"{each!r} is neither a number nor true or false", "write one, or a list of them"
+                )
+        yield name, value  # type: ignore[misc]
+
+
+def _units(table: Table) -> Iterator[tuple[str, Unit]]:
+    for name in table.content:
+        entry = table.table(name)
+        entry.only((*BASE_UNITS, "factor", "offset"))
+        exponents = tuple(entry.get(base, integer, 0) for base in BASE_UNITS)
+        unit = Unit(name, exponents, entry.get("factor", number, 1.0), entry.get("offset", number, 0.0))
+        if not unit.factor:
+            raise entry.error("factor", "0 converts nothing", "give another number")
+        yield name, unit
+
+
+def _positive(table: Table, key: str, value: object) -> float:
+    read = number(table, key, value)
+    if read <= 0.0:
+        raise table.error(key, f"{value!r} is not a positive number of seconds", "give more than 0")
+    return read

@@ -1,0 +1,86 @@
+"""The values of [set]: each with the type of its parameter, written into the SSD as a parameter set of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from ...fmus_src.evidence.parameter_set import write_parameter_set
+from ..common.errors import InputError, SeveralProblemsError, suggestion
+from ..runtime.ssp.dimensions import array_shapes, element_names
+from ..runtime.ssp.given_values import ParameterValue
+from ..runtime.ssp.names import elements, split_name
+from ..runtime.ssp.parameter_sets import Assignment
+from ..runtime.system.fmu import Fmu
+from .source import SetValue, SystemSource
+from .wiring import INDEX, Wiring, collapse
+
+NAME = "set"  # of the parameter set
+TYPES: Mapping[str, type] = {"Real": float, "Integer": int, "Boolean": bool}
+
+
+def write_values(source: SystemSource, fmus: Mapping[str, Fmu], wiring: Wiring) -> list[str]:
+    """Return the lines of the parameter set, none without values.
+
+    Raises SeveralProblemsError with a line for each name without a parameter, and each value of another type or size.
+    """
+    values: dict[str, float | int | bool] = {}
+    problems: list[str] = []
+    for name, value in source.set.items():
+        try:
+            values |= _typed(source, name, value, _types(source, name, fmus, wiring))
+        except InputError as error:
+            problems.append(error.text)
+    if problems:
+        raise SeveralProblemsError(*problems)
+    return write_parameter_set(NAME, values).decode().splitlines()[1:] if values else []
+
+
+def _types(source: SystemSource, name: str, fmus: Mapping[str, Fmu], wiring: Wiring) -> dict[str, str]:
+    """The elements of a parameter, or of an input, by name, with their types."""
+    component, variable = split_name(name, fmus)
+    if component:
+        known = {
+            each.name: each.type
+            for each in fmus[component].variables.values()
+            if each.causality in ("parameter", "structuralParameter", "input")
+        }
+    else:
+        known = {own: each.type or "" for (owner, own), each in wiring.connectors.items() if not owner}
+    names = elements(variable, known)
+    if not names:
+        if not component and "." in name:
+            first = name.partition(".")[0]
+            raise source.problem(f"set.{name}", f"no component {first}", suggestion(first, fmus))
+        raise source.problem(f"set.{name}", "no parameter of this name", suggestion(variable, collapse(known)))
+    prefix = f"{component}." if component else ""
+    return {prefix + each: known[each] for each in names}
+
+
+def _typed(
+    source: SystemSource, name: str, value: SetValue, types: Mapping[str, str]
+) -> Iterator[tuple[str, float | int | bool]]:
+    values = value if isinstance(value, Sequence) and not isinstance(value, str) else (value,)
+    if len(values) != len(types):
+        problem = f"{len(values)} value{'s' if len(values) > 1 else ''} for {len(types)}"
+        raise source.problem(f"set.{name}", problem, "give one for each element")
+    for (element, type_name), each in zip(types.items(), values, strict=True):
+        kind = TYPES.get(type_name)
+        is_whole = isinstance(each, int) and not isinstance(each, bool)
+        if kind is None or not (isinstance(each, kind) if kind is bool else is_whole or type(each) is kind):
+            problem = f"{each!r} is not of type {type_name}"
+            raise source.problem(f"set.{name}", problem, "give another, or use a parameter set (.ssv)")
+        yield element, kind(each)
+
+
+def read_values(assignments: Sequence[Assignment]) -> dict[str, SetValue]:
+    """Return what [set] has for the values of a parameter set, vectors as lists."""
+    values: dict[str, ParameterValue] = {each.name: each.value for each in assignments}
+    shapes = array_shapes(values)
+    merged: dict[str, SetValue] = {}
+    for name, value in values.items():
+        array = INDEX.sub("", name)
+        if array in shapes:
+            merged[array] = [values[each] for each in element_names(array, shapes[array])]
+        else:
+            merged[name] = value
+    return merged

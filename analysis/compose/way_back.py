@@ -1,0 +1,164 @@
+"""The `system.toml` of an existing system, from its SSD: refused where one would not give back the same SSD."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+from ..common.errors import InputError
+from ..runtime.ssp.archive import OSP_SUFFIX, SystemArchive
+from ..runtime.ssp.description import Component, Description, Element
+from ..runtime.ssp.dimensions import Shape, array_shapes, element_names
+from ..runtime.ssp.parameter_sets import Assignment, read_binding
+from ..runtime.ssp.reading import read_description
+from ..runtime.system.fmu import Fmu
+from .assembly import load_fmus
+from .document import RESOURCES, fmu_source, set_source, write_document
+from .likeness import find_difference
+from .source import ComponentSource, Entry, SystemSource
+from .units import underived_units
+from .values import read_values
+from .wiring import ARROW, INDEX, Point, wire
+
+ANNOTATIONS = re.compile(rb"<ssd:Annotations>(.*)</ssd:Annotations>\s*</ssd:SystemStructureDescription>\s*$", re.DOTALL)
+KEEP = "keep the SSD, which flies as it is"
+
+
+def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSource:
+    """Return what the `system.toml` of a system states.
+
+    Raises InputError for what a `system.toml` does not have, by the element and its line.
+    """
+    name = archive.description_name(variant)
+    data = archive.read(name, "SSD")
+    description = read_description(archive, variant)
+    if name.endswith(OSP_SUFFIX):
+        raise InputError(description.file, "", "is no SSD", KEEP.replace("SSD", "file"))
+    components = dict(_components(description))
+    bindings, values = list(description.system.bindings), list[Assignment]()
+    if bindings and bindings[-1].inline is not None:
+        values, _ = read_binding(archive, description.file, bindings.pop(), description.units)
+    source = SystemSource(
+        name=description.name,
+        components=components,
+        description=description.system.about,
+        start_time=description.start_time,
+        stop_time=description.stop_time,
+        step=description.step,
+        parameters=_parameters(description, replace(description.system, bindings=bindings)),
+        set=read_values(values),
+        annotations=_annotations(data, description),
+        file=description.file,
+    )
+    fmus = load_fmus(source, archive)
+    connections = [(each.start, each.end) for each in description.system.connections]
+    pairs = [(_point(start), _point(end)) for start, end in connections]
+    declared = {
+        (component, connector): each.kind
+        for component, element in (("", description.system), *description.system.elements.items())
+        for connector, each in element.connectors.items()
+    }
+    source = replace(source, **_wiring(pairs, declared, fmus))
+    wiring = wire(source, fmus)
+    source = replace(source, units=underived_units(source, wiring, description.units))
+    difference = find_difference(data, write_document(source, fmus, wiring))
+    if difference is not None:
+        raise InputError(description.file, difference, "has no place in a system.toml", KEEP)
+    return source
+
+
+def _point(point: tuple[str | None, str]) -> Point:
+    return point[0] or "", point[1]
+
+
+def _components(description: Description) -> Iterator[tuple[str, ComponentSource]]:
+    for name, element in description.system.elements.items():
+        if not isinstance(element, Component):
+            where = f"{name} (line {element.line})"
+            raise InputError(description.file, where, "is no component, and has no place in a system.toml", KEEP)
+        stem = element.source.removeprefix(RESOURCES).removesuffix(".fmu")
+        fmu = stem if fmu_source(stem) == element.source and "/" not in stem else element.source
+        yield name, ComponentSource(fmu, _parameters(description, element), element.step)
+
+
+def _parameters(description: Description, element: Element) -> tuple[str, ...]:
+    """The parameter sets bound to an element, by the names that a system.toml has for them."""
+    names = []
+    for binding in element.bindings:
+        if binding.source is None or binding.prefix or binding.mapping_source or binding.mapping_inline is not None:
+            where = f"ParameterBinding (line {binding.line})"
+            problem = "with values inside, a prefix or a mapping has no place in a system.toml"
+            raise InputError(description.file, where, problem, KEEP)
+        name = binding.source.removeprefix(RESOURCES)
+        names.append(name if set_source(name) == binding.source else binding.source)
+    return tuple(names)
+
+
+def _annotations(data: bytes, description: Description) -> bytes:
+    """The content of the annotations of the SSD itself, byte for byte."""
+    if not description.annotations:
+        return b""
+    start = data.rfind(b"</ssd:DefaultExperiment>")
+    match = ANNOTATIONS.search(data, max(start, 0))
+    if match is None:
+        raise InputError(description.file, "Annotations", "not found under the prefix ssd", KEEP)
+    return match[1]
+
+
+def _wiring(pairs: list[tuple[Point, Point]], declared: Mapping[Point, str], fmus: Mapping[str, Fmu]) -> dict[str, Any]:
+    """Connections, connectors of the system, and those that nothing is connected to, whole vectors as one."""
+    shapes = {
+        (component, array): shape
+        for component, fmu in fmus.items()
+        for array, shape in array_shapes(fmu.variables).items()
+    }
+    own = [name for component, name in declared if not component]
+    shapes |= {("", array): shape for array, shape in array_shapes(own).items()}
+    kinds = {name: declared["", name] for name in own}
+    connected = {point for pair in pairs for point in pair}
+    idle = [point for point in declared if point[0] and point not in connected]
+    inputs = [
+        (component, name)
+        for component, fmu in fmus.items()
+        for name, each in fmu.variables.items()
+        if each.causality == "input" and (component, name) not in declared
+    ]
+    return {
+        "connections": tuple(_connections(pairs, shapes)),
+        "connectors": {_base(name, shapes): kind for name, kind in kinds.items()},
+        "declare": tuple(Entry(name, "declare") for name in _whole(idle, shapes)),
+        "unconnected": tuple(Entry(name, "unconnected") for name in _whole(inputs, shapes)),
+    }
+
+
+def _base(name: str, shapes: Mapping[Point, Shape]) -> str:
+    base = INDEX.sub("", name)
+    return base if ("", base) in shapes else name
+
+
+def _whole(points: list[Point], shapes: Mapping[Point, Shape]) -> list[str]:
+    """Names of points, the elements of an array that are all there as the array."""
+    present, names = set(points), []
+    for component, name in points:
+        array = INDEX.sub("", name)
+        shape = shapes.get((component, array))
+        complete = shape is not None and present >= {(component, each) for each in element_names(array, shape)}
+        names.append(".".join(filter(None, (component, array if complete else name))))
+    return list(dict.fromkeys(names))
+
+
+def _connections(pairs: list[tuple[Point, Point]], shapes: Mapping[Point, Shape]) -> Iterator[Entry]:
+    """Connections by their source, in the order of the SSD; arrays as one where all elements are connected alike."""
+    present = set(pairs)
+    targets: dict[str, dict[str, None]] = {}
+    for start, end in pairs:
+        arrays = [(component, INDEX.sub("", name)) for component, name in (start, end)]
+        shape = shapes.get(arrays[0])
+        ends = [[(component, each) for each in element_names(array, shape or ())] for component, array in arrays]
+        alike = shape is not None and shape == shapes.get(arrays[1]) and present >= set(zip(*ends, strict=True))
+        source, target = (".".join(filter(None, point)) for point in (arrays if alike else (start, end)))
+        targets.setdefault(source, {})[target] = None
+    for source, names in targets.items():
+        yield Entry(f"{source} {ARROW} {', '.join(names)}", "connections")

@@ -1,0 +1,266 @@
+"""Connections of a `system.toml` between the variables of its FMUs: expanded, checked, every problem collected."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+from ..common.errors import NEAR, InputError, SeveralProblemsError, suggestion
+from ..runtime.fmi.variable import Variable
+from ..runtime.ssp.conversions import Unit
+from ..runtime.ssp.dimensions import array_shapes, text_of
+from ..runtime.ssp.kinds import leads
+from ..runtime.ssp.names import elements, split_name
+from ..runtime.system.flattening import WIDENED
+from ..runtime.system.fmu import Fmu
+from .source import Entry, SystemSource
+
+ARROW = "->"
+TARGETS = re.compile(r",(?![^\[]*\])")  # between names, not between the indices of one
+INDEX = re.compile(r"\[[\d,]+\]$")
+CONNECTED = ("input", "output", "parameter", "structuralParameter", "calculatedParameter")
+
+Point = tuple[str, str]  # component, empty for the system, and connector
+
+
+@dataclass(frozen=True)
+class End:
+    """One side of a connection: the whole name, and the elements that it stands for."""
+
+    component: str
+    variable: str
+    names: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """The name as it is written."""
+        return f"{self.component}.{self.variable}" if self.component else self.variable
+
+    @property
+    def indices(self) -> tuple[str, ...]:
+        """What the elements add to the name; one empty text of a scalar."""
+        return tuple(name.removeprefix(self.variable) for name in self.names)
+
+
+@dataclass(frozen=True)
+class ConnectorSource:
+    """A connector: kind, type as SSP 1.0 has it (None of an Enumeration, which takes that of its FMU), and unit."""
+
+    kind: str
+    type: str | None
+    unit: Unit | None
+
+
+@dataclass
+class Wiring:
+    """Connectors by component (empty: the system) and name, and connections by their target."""
+
+    connectors: dict[Point, ConnectorSource] = field(default_factory=dict)
+    sources: dict[Point, Point] = field(default_factory=dict)
+
+
+def wire(source: SystemSource, fmus: Mapping[str, Fmu]) -> Wiring:
+    """Return the connectors and connections of a system. Raises SeveralProblemsError with a line for each problem."""
+    wirer = _Wirer(source, fmus)
+    for entry in source.connections:
+        wirer.connect(entry)
+    for entry in source.declare:
+        wirer.declare(entry)
+    for entry in source.unconnected:
+        wirer.leave(entry)
+    wirer.check_inputs()
+    wirer.check_connectors()
+    if wirer.problems:
+        raise SeveralProblemsError(*dict.fromkeys(problem.text for problem in wirer.problems))
+    return wirer.wiring
+
+
+class _Wirer:
+    def __init__(self, source: SystemSource, fmus: Mapping[str, Fmu]) -> None:
+        self.source = source
+        self.fmus = fmus
+        self.wiring = Wiring()
+        self.problems: list[InputError] = []
+        self.written: set[Point] = set()  # targets of connections with a problem, which are not unconnected, too
+        self.left: set[Point] = set()
+        self.signals = {
+            component: collapse(name for name, each in fmu.variables.items() if each.causality in CONNECTED)
+            for component, fmu in fmus.items()
+        }
+
+    def refuse(self, entry: Entry, problem: str, remedy: str) -> None:
+        where = f"{entry.where}: {entry.text}"
+        self.problems.append(self.source.problem(where, problem, remedy))
+
+    def end(self, name: str, entry: Entry) -> End | None:
+        """Return one side of a connection; None with a problem noted."""
+        component, variable = split_name(name, self.fmus)
+        if component:
+            known = tuple(elements(variable, self.fmus[component].variables))
+            if known:
+                return End(component, variable, known)
+            problem = f"{component} ({self.fmus[component].name}) has no {variable}"
+            self.refuse(entry, problem, suggestion(variable, self.signals[component]))
+        elif INDEX.sub("", name) in self.source.connectors or name in self.source.connectors:
+            return End("", name, (name,))
+        elif "." in name:
+            first = name.partition(".")[0]
+            self.refuse(entry, f"no component {first}", suggestion(first, self.fmus))
+        else:
+            problem = f"the system has no connector {name}, which [system] would declare"
+            self.refuse(entry, problem, suggestion(name, [*self.source.connectors, *self.fmus]))
+        return None
+
+    def connect(self, entry: Entry) -> None:
+        """Add one connection, or several from one source."""
+        start, arrow, targets = entry.text.partition(ARROW)
+        texts = [each.strip() for each in TARGETS.split(targets)]
+        if not (arrow and start.strip() and all(texts)) or ARROW in targets:
+            self.refuse(entry, "no connection", 'write "COMPONENT.OUTPUT -> COMPONENT.INPUT"')
+            return
+        source = self.end(start.strip(), entry)
+        for each in texts:
+            target = self.end(each, entry)
+            if source is None or target is None or not self.join(source, target, entry):
+                for end in (source, target):
+                    self.written |= {(end.component, name) for name in end.names} if end is not None else set()
+
+    def join(self, source: End, target: End, entry: Entry) -> bool:
+        """Connect two sides element by element; False with a problem noted."""
+        if not source.component and not target.component:
+            self.refuse(entry, "both are connectors of the system", "connect it with a component")
+            return False
+        if not source.component:
+            source = self.like(source, target)
+        if not target.component:
+            target = self.like(target, source)
+        if source.indices != target.indices and (len(source.names) > 1 or len(target.names) > 1):
+            sizes = [f"{end.name} is {text_of(_shape(end))}" for end in (source, target)]
+            self.refuse(entry, f"sizes differ: {', '.join(sizes)}", "connect elements, NAME[1] -> NAME[1]")
+            return False
+        pairs = zip(source.names, target.names, strict=True)
+        return all(self.join_one((source.component, a), (target.component, b), entry) for a, b in pairs)
+
+    def like(self, own: End, other: End) -> End:
+        """Return a connector of the system with the elements of what it is connected to."""
+        if own.variable not in self.source.connectors or other.indices == ("",):
+            return own
+        return End("", own.variable, tuple(own.variable + index for index in other.indices))
+
+    def join_one(self, source: Point, target: Point, entry: Entry) -> bool:
+        """Connect two elements; False with a problem noted."""
+        ends = [self.connector(point, other) for point, other in ((source, target), (target, source))]
+        start, end = ends
+        names = [".".join(filter(None, point)) for point in (source, target)]
+        if not leads(start.kind, not source[0], end.kind, not target[0]):
+            if leads(end.kind, not target[0], start.kind, not source[0]):
+                texts = [INDEX.sub("", name) for name in names]
+                remedy = f"the ends are swapped: write {texts[1]} {ARROW} {texts[0]}"
+            else:
+                remedy = "connect an output with an input, or a parameter of the system with a parameter"
+            self.refuse(entry, f"{names[0]} is {start.kind} and {names[1]} is {end.kind}", remedy)
+            return False
+        if start.type != end.type and (start.type, end.type) not in WIDENED:
+            problem = f"types do not fit: {start.type or 'Enumeration'} and {end.type or 'Enumeration'}"
+            self.refuse(entry, problem, "connect variables of one type")
+            return False
+        if start.unit and end.unit and not start.unit.fits(end.unit):
+            problem = f"units do not convert: {names[0]} is in {start.unit.name}, {names[1]} in {end.unit.name}"
+            self.refuse(entry, problem, "connect variables of one quantity")
+            return False
+        if target in self.wiring.sources:
+            first = ".".join(filter(None, self.wiring.sources[target]))
+            self.refuse(entry, f"{names[1]} is driven twice, first by {first}", "remove one of both")
+            return False
+        self.wiring.sources[target] = source
+        self.wiring.connectors |= {source: start, target: end}
+        return True
+
+    def connector(self, point: Point, other: Point) -> ConnectorSource:
+        """Return a connector; one of the system takes type and unit from what it is connected to first."""
+        component, name = point
+        if component:
+            return self.of_variable(component, self.fmus[component].variables[name])
+        if point in self.wiring.connectors:
+            return self.wiring.connectors[point]
+        like = self.of_variable(other[0], self.fmus[other[0]].variables[other[1]])
+        kind = self.source.connectors.get(name) or self.source.connectors[INDEX.sub("", name)]
+        return ConnectorSource(kind, like.type, like.unit)
+
+    def of_variable(self, component: str, variable: Variable) -> ConnectorSource:
+        """Return the connector of an FMU's variable."""
+        kind = None if variable.type == "Enumeration" else variable.type
+        return ConnectorSource(variable.causality, kind, self.fmus[component].unit_of(variable))
+
+    def unused(self, entry: Entry) -> list[Point]:
+        """Return the elements of a name of a component that nothing is connected to; none with a problem noted."""
+        end = self.end(entry.text, entry)
+        if end is None:
+            return []
+        if not end.component:
+            self.refuse(entry, "a connector of the system", "name one of a component, COMPONENT.NAME")
+            return []
+        points = [(end.component, name) for name in end.names]
+        remaining = [each for each in points if each not in self.wiring.connectors]
+        if not remaining:
+            self.refuse(entry, "is connected", "leave it out here")
+        return remaining
+
+    def declare(self, entry: Entry) -> None:
+        """Add connectors that nothing is connected to."""
+        for component, name in self.unused(entry):
+            variable = self.fmus[component].variables[name]
+            self.wiring.connectors[component, name] = self.of_variable(component, variable)
+
+    def leave(self, entry: Entry) -> None:
+        """Note inputs that keep their start values."""
+        for component, name in self.unused(entry):
+            causality = self.fmus[component].variables[name].causality
+            if causality != "input":
+                self.refuse(entry, f"is {causality}", "name inputs here")
+                return
+            self.left.add((component, name))
+
+    def check_inputs(self) -> None:
+        """Refuse inputs that are neither connected nor named as unconnected."""
+        outputs = [
+            f"{component}.{name}"
+            for component, fmu in self.fmus.items()
+            for name in collapse(name for name, each in fmu.variables.items() if each.causality == "output")
+        ]
+        for component, fmu in self.fmus.items():
+            unconnected = [
+                name
+                for name, each in fmu.variables.items()
+                if each.causality == "input"
+                and (component, name) not in self.wiring.connectors
+                and (component, name) not in self.left | self.written
+            ]
+            where = self.source.components[component].where
+            for name in dict.fromkeys(INDEX.sub("", name) for name in unconnected):
+                similar = get_close_matches(name, {output.partition(".")[2] for output in outputs}, 1, NEAR)
+                sources = [output for output in outputs if output.partition(".")[2] in similar]
+                nearest = f"connect it ({', '.join(sources)}?)" if sources else "connect it"
+                remedy = f"{nearest}, or name it under unconnected"
+                problem = f"input {component}.{name} is not connected"
+                self.problems.append(self.source.problem(where, problem, remedy))
+
+    def check_connectors(self) -> None:
+        """Refuse connectors of the system that nothing is connected to."""
+        present = {INDEX.sub("", name) for component, name in self.wiring.connectors if not component}
+        written = {INDEX.sub("", name) for component, name in self.written if not component}
+        for name, kind in self.source.connectors.items():
+            if INDEX.sub("", name) not in present | written:
+                problem = "nothing is connected to it, so that it has no type and no unit"
+                self.problems.append(self.source.problem(f"system.{kind}: {name}", problem, "connect it, or remove it"))
+
+
+def collapse(names: Iterable[str]) -> list[str]:
+    """Return names with those of elements of a vector or matrix brought together."""
+    return list(dict.fromkeys(INDEX.sub("", name) for name in names))
+
+
+def _shape(end: End) -> tuple[int, ...]:
+    return next(iter(array_shapes(end.names).values()), ())

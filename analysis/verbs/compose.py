@@ -1,0 +1,97 @@
+"""`perilune.compose` and `perilune compose`: a system's SSD written from its `system.toml`, and the way back."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Unpack
+
+from ...fmus_src.export.ssp_package import DESCRIPTION
+from ..common.atomic import write_atomically
+from ..common.errors import InputError
+from ..common.targets import check_file
+from ..compose.assembly import compose_document, folder_archive
+from ..compose.files import add_mark, check_unedited, write_source
+from ..compose.source import SystemSource, read_source
+from ..compose.text import write_toml
+from ..compose.way_back import source_of
+from ..reports.figures.reading import read_figures
+from ..runtime.ssp.archive import open_system
+from ..runtime.system.options import SystemOptions
+from ..runtime.system.prepared import prepare_system
+from ..runtime.system.times import MissingStopTimeError
+from ..stability.request.reading import read_declaration
+from .options.library import COMPOSE, ComposeOptions
+from .options.option import FilePath
+from .options.verb import verb
+from .result import NoProblems
+
+
+@dataclass(frozen=True)
+class Composition(NoProblems):
+    """What a `system.toml` states, and the ``paths`` that were written."""
+
+    source: SystemSource
+    paths: tuple[Path, ...]
+
+    @property
+    def toml(self) -> str:
+        """The text of the `system.toml`."""
+        return write_toml(self.source)
+
+    def lines(self) -> list[str]:
+        """What `perilune compose` prints: the paths, or the `system.toml` where none is written."""
+        return [str(path) for path in self.paths] or self.toml.splitlines()
+
+    def to_json(self) -> dict[str, object]:
+        """The same for other programs."""
+        return {"system": self.source.name, "paths": [path.as_posix() for path in self.paths], "toml": self.toml}
+
+
+@verb(COMPOSE)
+def compose(what: FilePath, **options: Unpack[ComposeOptions]) -> Composition:
+    """Write a system's SSD from its `system.toml`, or the `system.toml` of a system: `perilune compose`.
+
+    ``what`` is the path of a .toml file, beside which SystemStructure.ssd is written, or a system, whose
+    `system.toml` is the result's ``toml``, and is written to ``output``: beside it its annotations, and in another
+    folder than the system's the files that it names. Nothing is written over an SSD that was edited, and nothing at all
+    if the system would not fly. Raises InputError, with a line for each problem.
+    """
+    path, output = Path(what), options["output"]
+    if path.suffix != ".toml":
+        archive = open_system(path)
+        source = source_of(archive)
+        check_file("`output`", None if output is None else Path(output), (".toml",))
+        return Composition(source, () if output is None else tuple(write_source(source, archive, Path(output))))
+    if output is not None:
+        problem = f"an SSD is written beside its file, as {DESCRIPTION}"
+        raise InputError("`output`", os.fspath(output), problem, "leave it out")
+    target = path.parent / DESCRIPTION
+    source, document = compose_file(path)
+    check_unedited(target)
+    write_atomically(target, document)
+    return Composition(source, (target,))
+
+
+def compose_file(path: Path) -> tuple[SystemSource, bytes]:
+    """Return what a `system.toml` states and its SSD, checked as `simulate` would. Raises InputError."""
+    source, raw = read_source(path)
+    return source, compose_source(source, path.parent, raw, path.name, {})
+
+
+def compose_source(source: SystemSource, folder: Path, raw: bytes, file: str, files: Mapping[str, bytes]) -> bytes:
+    """Return the SSD of a system in a folder, with its mark; ``files`` are to be there, too, by archive name.
+
+    ``raw`` is the content of its ``file``. Raises InputError for one that would not fly.
+    """
+    document = add_mark(compose_document(source, folder_archive(folder, files)), file, raw)
+    archive = folder_archive(folder, {**files, DESCRIPTION: document})
+    try:
+        prepared = prepare_system(archive)
+    except MissingStopTimeError as error:
+        prepared = prepare_system(archive, SystemOptions(stop_time=error.earliest))
+    read_figures(prepared)
+    read_declaration(prepared.network.description)
+    return document

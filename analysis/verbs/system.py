@@ -1,0 +1,119 @@
+"""`perilune.System`: a system composed in Python, simulated, and written as a folder."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Unpack
+
+from ...fmus_src.export.ssp_package import DESCRIPTION
+from ...fmus_src.paths import names_fmu
+from ..common.atomic import write_atomically
+from ..common.bounds import ARCHIVE_BYTES
+from ..common.errors import InputError
+from ..common.regular import read_input
+from ..common.scratch import make_folder
+from ..compose.document import RESOURCES
+from ..compose.files import check_unedited, check_unedited_source, write_new
+from ..compose.source import SYSTEM_FILE, ComponentSource, Entry, SetValue, SystemSource
+from ..compose.text import write_toml
+from .compose import compose_source
+from .options.campaigns import RunOptions
+from .options.option import FilePath
+from .run import Result, simulate
+
+
+class System:
+    """A system as `perilune compose` composes it from a `system.toml`, line by line in Python.
+
+    Problems are raised together by `run` and `write`, which write nothing then. ``step`` and ``stop_time`` are in s.
+    """
+
+    def __init__(
+        self,
+        name: str = "system",
+        description: str = "",
+        *,
+        step: float | None = None,
+        stop_time: float | None = None,
+    ) -> None:
+        self._source = SystemSource(name, {}, description=description, step=step, stop_time=stop_time, file=name)
+        self._files: dict[str, Path] = {}
+
+    @property
+    def toml(self) -> str:
+        """The text of the `system.toml`."""
+        return write_toml(self._source)
+
+    def add(self, name: str, fmu: FilePath, **parameters: SetValue) -> None:
+        """Add a component: an FMU by name, or by path, which `write` copies; parameters in their variables' units.
+
+        Raises InputError for a second component of the name, or a second file of an FMU's name.
+        """
+        if name in self._source.components:
+            raise InputError(self._source.name, name, "two components have this name", "rename one")
+        source = os.fspath(fmu)
+        if names_fmu(source):
+            path, source = Path(source), f"{RESOURCES}{Path(source).name}"
+            if self._files.setdefault(source, path) != path:
+                problem = f"{path} and {self._files[source]} have one name"
+                raise InputError(self._source.name, name, problem, "rename one of the files")
+        components = {**self._source.components, name: ComponentSource(source, where=name)}
+        self._source = replace(self._source, components=components)
+        for parameter, value in parameters.items():
+            self.set(f"{name}.{parameter}", value)
+
+    def connect(self, source: str, *sinks: str) -> None:
+        """Connect ``COMPONENT.OUTPUT`` with inputs, whole vectors at once; a connector of the system has no component.
+
+        A connector of the system is declared by `connector` first.
+        """
+        entries = [Entry(f"{source} -> {', '.join(sinks)}", "connect")]
+        self._source = replace(self._source, connections=(*self._source.connections, *entries))
+
+    def connector(self, name: str, kind: str) -> None:
+        """Declare a connector of the system itself, of kind ``input``, ``output`` or ``parameter``.
+
+        Type and unit are those of what it is connected to; the output ``finished`` ends the simulation.
+        """
+        self._source = replace(self._source, connectors={**self._source.connectors, name: kind})
+
+    def set(self, name: str, value: SetValue) -> None:
+        """Set a parameter, ``COMPONENT.PARAMETER``, in its variable's unit; of a vector a list."""
+        values = value if isinstance(value, bool | int | float | str | Sequence) else list(value)
+        self._source = replace(self._source, set={**self._source.set, name: values})
+
+    def declare(self, *names: str) -> None:
+        """Declare connectors of components that nothing is connected to."""
+        entries = (Entry(name, "declare") for name in names)
+        self._source = replace(self._source, declare=(*self._source.declare, *entries))
+
+    def leave_unconnected(self, *names: str) -> None:
+        """Let inputs keep the start values of their FMUs."""
+        entries = (Entry(name, "leave_unconnected") for name in names)
+        self._source = replace(self._source, unconnected=(*self._source.unconnected, *entries))
+
+    def write(self, folder: FilePath) -> list[Path]:
+        """Write `system.toml`, SystemStructure.ssd and FMUs that were given by path; return the paths.
+
+        Raises InputError with a line for each problem, and where one of these files was edited since.
+        """
+        home = Path(folder)
+        raw = self.toml.encode()
+        contents = {name: read_input(path, "correct the path", ARCHIVE_BYTES) for name, path in self._files.items()}
+        place = home if home.is_dir() else make_folder()
+        document = compose_source(self._source, place, raw, SYSTEM_FILE, contents)
+        check_unedited(home / DESCRIPTION)
+        check_unedited_source(home / SYSTEM_FILE, home / DESCRIPTION, raw)
+        write_new({home / name: content for name, content in contents.items()})
+        for name, content in {SYSTEM_FILE: raw, DESCRIPTION: document}.items():
+            write_atomically(home / name, content)
+        return [home / name for name in (*contents, SYSTEM_FILE, DESCRIPTION)]
+
+    def run(self, **options: Unpack[RunOptions]) -> Result:
+        """Simulate it with the options of `simulate`. Raises InputError as `write` does."""
+        folder = make_folder() / self._source.name
+        self.write(folder)
+        return simulate(folder, **options)
