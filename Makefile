@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | screenshots | bench | bench-basilisk | crosscheck | basilisk | sanitize | fuzz | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | screenshots | bench | bench-basilisk | crosscheck | basilisk | sanitize | fuzz | lowest | newest | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # Basilisk: an environment of its own for cross-checks, and a folder next to ours for a plant.
@@ -13,7 +13,8 @@ QUIET := $(shell [ -t 2 ] || echo --quiet)
 unexport PYTHONDONTWRITEBYTECODE
 test quick long long-campaigns explore: export OPENBLAS_NUM_THREADS = 1
 
-demo: .venv/ready web
+demo: .venv/demo
+	$(BIN)/python build_web.py
 	$(BIN)/python -m docs.figures.demo
 
 test: WEB := --tools
@@ -141,6 +142,19 @@ fuzz: build
 	$(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --target build/fuzz/site --upgrade $(ATHERIS)
 	PYTHONPATH=build/fuzz/site $(BIN)/python -m tests.fuzz $(FUZZ)
 
+# The suite with the oldest and with the newest packages that pyproject.toml permits, each in an environment of its own.
+ENDS := build/ends
+
+lowest: CONSTRAINTS = --constraint $(ENDS)/floors.txt
+lowest newest: build
+	mkdir -p $(ENDS)
+	$(BIN)/python -m tests.support.floors > $(ENDS)/floors.txt
+	$(PYTHON) -m venv $(ENDS)/$@
+	$(ENDS)/$@/bin/pip install $(QUIET) --disable-pip-version-check 'setuptools>=77'
+	$(ENDS)/$@/bin/pip install $(QUIET) --disable-pip-version-check --upgrade --upgrade-strategy eager --no-build-isolation \
+		$(CONSTRAINTS) --editable '.[dev]'
+	$(ENDS)/$@/bin/python -m pytest -n 2 --dist loadfile
+
 # The elementary functions: errors of a million arguments each against mpmath, and the coefficients of their polynomials.
 elementary: .venv/ready
 	PERILUNE_ELEMENTARY_SAMPLES=1000000 $(BIN)/python -m pytest -n 2 -rP tests/kernel
@@ -180,18 +194,29 @@ lint: .venv/ready
 	$(BIN)/mypy --warn-unused-ignores --follow-imports=silent tests/verbs/wrong_calls.py
 
 # The first thing that any target does: with another Python than pyproject.toml's it says so and makes nothing.
-.venv/ready: pyproject.toml setup.py
+.venv/python: pyproject.toml constraints.txt setup.py
 	@$(PYTHON) -c "import re, sys; \
 		low, high = map(int, re.findall(r'3\.(\d+)', re.search('requires-python.*', open('pyproject.toml').read()).group())); \
 		sys.exit(0 if (3, low) <= sys.version_info < (3, high) else 'Perilune needs Python 3.%d to 3.%d, and $(PYTHON) is %s; ' \
 		'give another one: make PYTHON=python3.%d' % (low, high - 1, sys.version.split()[0], high - 1))"
 	$(PYTHON) -m venv .venv
-	@echo 'Installing Perilune with its packages and tools into .venv; it takes about a minute ...'
 	$(BIN)/python -m pip install $(QUIET) --disable-pip-version-check 'setuptools>=77'
-	$(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --no-build-isolation --editable '.[dev]'
+	touch $@
+
+INSTALL = $(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --no-build-isolation --constraint constraints.txt --editable
+
+.venv/ready: .venv/python
+	@echo 'Installing Perilune with its packages and tools into .venv; it takes about a minute ...'
+	$(INSTALL) '.[dev]'
+	touch $@
+
+# Without the tools of tests and documentation, unless they are there.
+.venv/demo: .venv/python
+	@echo 'Installing Perilune with its packages into .venv ...'
+	[ -e .venv/ready ] || $(INSTALL) '.[build]'
 	touch $@
 
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench guidance-cost bench-basilisk large importers crosscheck basilisk sanitize fuzz processors emulator windows browser browser-firefox lint clean
+.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench guidance-cost bench-basilisk large importers crosscheck basilisk sanitize fuzz lowest newest processors emulator windows browser browser-firefox lint clean

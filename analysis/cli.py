@@ -87,7 +87,8 @@ class _Version(argparse.Action):
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         metadata = importlib.import_module("importlib.metadata")
-        print(f"perilune {metadata.version('perilune')}")
+        commit = importlib.import_module(".common.machine.commit", __package__).known_commit()
+        print(f"perilune {metadata.version('perilune')}{f' (commit {commit})' if commit else ''}")
         parser.exit()
 
 
@@ -114,7 +115,7 @@ def parser_of(given: Sequence[str]) -> Parser:
     """All verbs by name; only the one that is given has its options read, which is what keeps completion quick."""
     parser = Parser(prog="perilune", usage=USAGE, description=overview(), add_help=False)
     parser.add_argument("--help", "-h", action="help", help="show this help")
-    parser.add_argument("--version", action=_Version, nargs=0, help="show the version")
+    parser.add_argument("--version", action=_Version, nargs=0, help="show the version, and the commit where known")
     named = [*given, *os.environ.get(COMPLETING, "").split()]
     is_complete = HELP_ALL in named or COMPLETING in os.environ
     seconds = {}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import gc
+import math
 import os
 import sys
 import zipfile
@@ -13,6 +14,7 @@ from typing import Any
 import hypothesis
 import pytest
 
+from perilune.analysis.common import progress
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.closure import closure_of
 from perilune.fmus_src.export.command import main as build_fmus
@@ -50,6 +52,7 @@ def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    progress.PERIOD = math.inf  # s; else what a busy machine takes long for had lines that a test does not expect
     config.addinivalue_line("markers", "slow: takes minutes; `make long` runs it")
     config.addinivalue_line("markers", "flies: takes the built FMUs; `make quick` leaves it out")
 

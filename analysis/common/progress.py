@@ -1,16 +1,45 @@
-"""How far long work is: a bar on a terminal or in a notebook, nothing elsewhere."""
+"""How far long work is: a bar on a terminal or in a notebook, elsewhere a line on standard error every ten seconds."""
 
 from __future__ import annotations
 
+import sys
+from io import StringIO
 from typing import Any
 
 from tqdm.auto import tqdm
 from tqdm.std import tqdm as text_bar
 
 IN_NOTEBOOK = any(base.__module__ == "tqdm.notebook" for base in tqdm.__mro__)
+PERIOD = 10.0  # s between lines
+
+
+class ProgressLines(text_bar):
+    """The bar as lines of a log, the first after `PERIOD`: quick work has none."""
+
+    monitor_interval = 0  # no thread that refreshes
+
+    def __init__(self, **options: Any) -> None:
+        lines = {"file": StringIO(), "delay": PERIOD, "mininterval": PERIOD, "miniters": 1, "disable": False}
+        super().__init__(**options | lines)
+
+    def display(self, msg: str | None = None, pos: int | None = None) -> bool:
+        """Write a line; nothing where tqdm clears its bar."""
+        if msg is None:
+            print(f"perilune: {self._line()}", file=sys.stderr, flush=True)
+        return True
+
+    def _line(self) -> str:
+        state = self.format_dict
+        done, total, seconds = state["n"], state["total"], state["elapsed"]
+        of = f" of {total}" if total else ""
+        left = f", {self.format_interval((total - done) * seconds / done)} left" if total and 0 < done <= total else ""
+        more = f", {state['postfix']}" if state["postfix"] else ""
+        return f"{done}{of} {state['unit']}s in {self.format_interval(seconds)}{left}{more}"
 
 
 def progress_bar(**options: Any) -> text_bar:
-    """tqdm's bar with its ``options``, which goes when the work is done."""
+    """tqdm's bar with its ``options``, which goes when the work is done; lines where nobody sees a bar."""
     # tqdm asks whether its file is a terminal, which that of a notebook's cell is not
-    return tqdm(**options, disable=False if IN_NOTEBOOK else None, leave=False)
+    if IN_NOTEBOOK or sys.stderr.isatty():
+        return tqdm(**options, disable=False, leave=False)
+    return ProgressLines(**options, leave=False)

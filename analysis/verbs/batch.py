@@ -5,9 +5,7 @@ from __future__ import annotations
 from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Unpack
-
-from matplotlib.figure import Figure as Plot
+from typing import TYPE_CHECKING, Any, Unpack
 
 from ..campaigns.fly import results
 from ..campaigns.fly.campaign import open_campaign
@@ -20,9 +18,6 @@ from ..campaigns.trials import whole_column
 from ..common.errors import InputError, suggestion
 from ..common.percent import short_percent
 from ..common.targets import check_folder
-from ..reports.campaign.batch_report import write_batch_report
-from ..reports.campaign.distributions import metric_plot, sort_metrics
-from ..reports.common.notebook import Grid, metric_grid, notebook_view
 from ..runtime.flight.results import require_pandas
 from ..studies.sobol import rank_correlations
 from ..traceability.campaign_task import write_task
@@ -31,6 +26,11 @@ from .common.campaigns import name_foreign, read_campaign, resume_hint
 from .options.campaigns import BATCH, BatchOptions
 from .options.option import FilePath
 from .options.verb import verb
+
+if TYPE_CHECKING:  # plots and pages are imported where they are made
+    from matplotlib.figure import Figure as Plot
+
+    from ..reports.common.notebook import Grid
 
 MOST_PLOTTED = 6  # metrics, in a notebook
 
@@ -89,6 +89,8 @@ class BatchResult(results.BatchResult):
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune batch --report`: one HTML file."""
+        from ..reports.campaign.batch_report import write_batch_report
+
         write_batch_report(self, Path(path), self.provenance["system"])
 
     def plot(self, *metrics: str) -> Plot:
@@ -98,6 +100,8 @@ class BatchResult(results.BatchResult):
 
         Raises KeyError for a metric that the campaign does not have, and ValueError where there is none to plot.
         """
+        from ..reports.campaign.distributions import metric_plot, sort_metrics
+
         known = {metric.name: metric for metric in self.plan.campaign.metrics}
         for name in metrics:
             if name not in known:
@@ -108,6 +112,9 @@ class BatchResult(results.BatchResult):
         return metric_plot(self, selected)
 
     def _repr_html_(self) -> str:
+        from ..reports.campaign.distributions import metric_plot, sort_metrics
+        from ..reports.common.notebook import Grid, metric_grid, notebook_view
+
         group, rows = self.plan.campaign.group, summary_rows(self.summary)
         head = (*who_heads(group), "trials", "success, %", f"{100 * CONFIDENCE:g} % interval", "statuses")
         rates = [
@@ -129,6 +136,8 @@ class BatchResult(results.BatchResult):
         return notebook_view(self.provenance["system"], text, grids, plot)
 
     def _requirement_grid(self) -> Grid:
+        from ..reports.common.notebook import Grid
+
         rows = [
             (f"{name}: {entry.text}", variant, entry.verdict, str(entry.flights), str(entry.failures))
             for variant, name, entry in requirement_rows(self.summary)

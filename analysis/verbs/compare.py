@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, Unpack
-
-from matplotlib.figure import Figure as Plot
+from typing import TYPE_CHECKING, Any, Unpack
 
 from ..campaigns.compare import comparison
 from ..campaigns.compare.side_by_side import compare_folders
@@ -15,9 +13,6 @@ from ..campaigns.summary import summary_rows
 from ..campaigns.tables import who_cells, who_heads
 from ..common.errors import InputError, suggestion
 from ..common.percent import short_percent
-from ..reports.common.notebook import Grid, metric_grid, notebook_view
-from ..reports.compare.metrics import metric_plot, varying_metrics
-from ..reports.compare.page import write_comparison_page
 from ..runtime.flight.results import require_pandas
 from .common.arguments import path_list
 from .options.campaigns import COMPARE, CompareOptions
@@ -25,6 +20,9 @@ from .options.command import write_command
 from .options.option import FilePath
 from .options.verb import verb
 from .result import NoProblems
+
+if TYPE_CHECKING:  # plots and pages are imported where they are made
+    from matplotlib.figure import Figure as Plot
 
 MOST_PLOTTED = 6  # metrics, in a notebook
 
@@ -51,6 +49,8 @@ class Comparison(NoProblems, comparison.Comparison):
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune compare --report`: one HTML file."""
+        from ..reports.compare.page import write_comparison_page
+
         folders = [batch.folder for batch in self.batches.values()]
         command = write_command(COMPARE, {"results": folders}, {"reference": self.reference})
         write_comparison_page(self, Path(path), command)
@@ -68,6 +68,8 @@ class Comparison(NoProblems, comparison.Comparison):
 
         Raises KeyError for a metric that no batch has, and ValueError where there is none to draw.
         """
+        from ..reports.compare.metrics import metric_plot, varying_metrics
+
         known = {metric.name: metric for metric in self.metrics}
         for name in metrics:
             if name not in known:
@@ -78,6 +80,9 @@ class Comparison(NoProblems, comparison.Comparison):
         return metric_plot(self, sampled)
 
     def _repr_html_(self) -> str:
+        from ..reports.common.notebook import Grid, metric_grid, notebook_view
+        from ..reports.compare.metrics import metric_plot, varying_metrics
+
         names = [comparison.name_of(rate) for rate in self.rates]
         rows = summary_rows(self.summary)
         rates = [

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from fmpy import read_model_description
@@ -12,6 +12,7 @@ from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
 from ...fmus_src.paths import LAWS, SEARCHES
+from ..common.errors import InputError
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.reading import read_description
 from ..stability.request.reading import read_declaration
@@ -21,12 +22,15 @@ from .options.verb import verb
 from .result import NoProblems
 
 TITLE = 18  # columns of a title
+LISTS = ("parameter_sets", "campaigns", "loops")  # of a system
+KINDS = ("systems", "campaigns", "laws", "searches", "fmus")
 
 
 @dataclass(frozen=True)
 class SystemFiles:
-    """What a system has by name: parameter sets, campaigns, loops."""
+    """What a system is, and what it has by name: parameter sets, campaigns, loops."""
 
+    description: str
     parameter_sets: tuple[str, ...]
     campaigns: tuple[str, ...]
     loops: tuple[str, ...]
@@ -43,22 +47,28 @@ class FmuEntry:
 
 @dataclass(frozen=True)
 class Inventory(NoProblems):
-    """``systems`` and ``fmus`` by name, those of the working folder too; names of ``laws`` and ``searches``."""
+    """``systems`` and ``fmus`` by name, those of the working folder too; names of ``laws`` and ``searches``.
+
+    ``campaigns_only`` is True of systems of which only campaigns are listed.
+    """
 
     systems: Mapping[str, SystemFiles]
     laws: tuple[str, ...]
     searches: tuple[str, ...]
     fmus: Mapping[str, FmuEntry]
+    campaigns_only: bool = False
 
     def lines(self) -> list[str]:
         """What `perilune list` prints."""
         lines = []
         for name, system in self.systems.items():
             lines.append(name)
-            for title, names in asdict(system).items():
+            for title in LISTS[1:2] if self.campaigns_only else LISTS:
+                names = getattr(system, title)
                 lines += wrap(f"  {title.replace('_', ' '):{TITLE - 2}}{', '.join(names) or 'none'}", TITLE)
-        lines += wrap(f"{'laws':{TITLE}}{', '.join(self.laws)}", TITLE)
-        lines += [*wrap(f"{'searches':{TITLE}}{', '.join(self.searches)}", TITLE), "FMUs"]
+        for title, names in (("laws", self.laws), ("searches", self.searches)):
+            lines += wrap(f"{title:{TITLE}}{', '.join(names)}", TITLE) if names else []
+        lines += ["FMUs"] if self.fmus else []
         width = max((len(name) for name in self.fmus), default=0)
         for name, fmu in self.fmus.items():
             built = "+".join(fmu.built) or "not built"
@@ -67,28 +77,65 @@ class Inventory(NoProblems):
 
     def to_json(self) -> dict[str, object]:
         """The same for other programs."""
-        return asdict(self)
+        return {name: entry for name, entry in asdict(self).items() if name != "campaigns_only"}
+
+    def only(self, kind: str) -> Inventory:
+        """The same with one of `KINDS` alone."""
+        if kind == "campaigns":
+            systems = {name: system for name, system in self.systems.items() if system.campaigns}
+            return Inventory(systems, (), (), {}, campaigns_only=True)
+        return replace(Inventory({}, (), (), {}), **{kind: getattr(self, kind)})
+
+    def matching(self, text: str) -> Inventory:
+        """What has a text in its name or its description, in capitals or not; a system in names of what it has, too."""
+        sought = text.casefold()
+        return Inventory(
+            {
+                name: system
+                for name, system in self.systems.items()
+                if sought in "\n".join((name, *map(str, asdict(system).values()))).casefold()
+            },
+            tuple(name for name in self.laws if sought in name.casefold()),
+            tuple(name for name in self.searches if sought in name.casefold()),
+            {name: fmu for name, fmu in self.fmus.items() if sought in f"{name}\n{fmu.description}".casefold()},
+        )
+
+    @property
+    def is_empty(self) -> bool:
+        return not (self.systems or self.laws or self.searches or self.fmus)
 
 
 @verb(LIST)
-def inventory() -> Inventory:
+def inventory(what: str | None = None) -> Inventory:
     """List what there is to simulate: `perilune list`.
 
     Systems with their parameter sets, campaigns and loops; laws; searches; FMUs, those of the working folder too.
+    ``what`` is one of these kinds, or a text in names and descriptions. Raises InputError where nothing has it.
     """
-    return Inventory(
+    everything = Inventory(
         {name: _system(open_system(name)) for name in system_names()},
         tuple(sorted(path.stem for path in LAWS.glob("*.json"))),
         tuple(sorted(path.stem for path in SEARCHES.glob("*.toml"))),
         _fmus(),
     )
+    if what is None:
+        return everything
+    if what in KINDS:
+        return everything.only(what)
+    found = everything.matching(what)
+    if found.is_empty:
+        remedy = f"give another text, or a kind: {', '.join(KINDS)}"
+        raise InputError("list", what, "in no name and no description", remedy)
+    return found
 
 
 def _system(archive: SystemArchive) -> SystemFiles:
+    description = read_description(archive)
     return SystemFiles(
+        description.system.about,
         tuple(sorted(Path(name).name for name in archive.files if name.endswith(".ssv"))),
         tuple(sorted(archive.campaign_names())),
-        tuple(loop.name for loop in read_declaration(read_description(archive)).loops),
+        tuple(loop.name for loop in read_declaration(description).loops),
     )
 
 

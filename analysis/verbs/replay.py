@@ -12,7 +12,6 @@ from ..campaigns.fly.replay import ReplayedTrial, replay_plan, replay_trial
 from ..campaigns.tables import faults_line
 from ..common.errors import InputError
 from ..reports.figures.reading import read_figures
-from ..reports.run_report import write_run_report
 from ..runtime.flight.interruptible import StuckError
 from ..runtime.system.options import trust_of
 from .common.arguments import read_requirements
@@ -79,6 +78,8 @@ class ReplayResult(Result):
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune replay --report`: one HTML file."""
+        from ..reports.run_report import write_run_report  # with plots, which take as long as the rest
+
         title = f"{self.system}, {self.configuration}, trial {self.trial}"
         write_run_report(self, Path(path), title, self.figures)
 

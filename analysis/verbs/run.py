@@ -5,22 +5,15 @@ from __future__ import annotations
 from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Unpack
-
-from matplotlib.figure import Figure as Plot
+from typing import TYPE_CHECKING, Any, Unpack
 
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.tables import faults_line
 from ..common.errors import InputError
 from ..common.visible import on_one_line
-from ..reports.common.notebook import Grid, notebook_view, value_text
-from ..reports.diagram.diagram import make_diagram
 from ..reports.figures.declared import Band, Figure, Limits
 from ..reports.figures.limits import limit_document, limit_rows
 from ..reports.figures.reading import read_figures
-from ..reports.run_report import key_values, write_run_report
-from ..reports.time_histories import signal_plot
-from ..reports.trajectory import trajectory_plot
 from ..runtime.apart.opening import open_simulation
 from ..runtime.flight import results
 from ..runtime.flight.interruptible import StuckError, fly
@@ -36,6 +29,9 @@ from .common.flight_text import flight_lines, flight_problems, note_lines
 from .options.campaigns import RUN, RunOptions
 from .options.option import FilePath
 from .options.verb import verb
+
+if TYPE_CHECKING:  # plots and pages are imported where they are made: half of what a run without them would take
+    from matplotlib.figure import Figure as Plot
 
 MOST_PLOTTED = 3  # signals of a flight without a path, in a notebook
 STUCK = "nothing is written; see its messages with `log` all, or give a longer `timeout`"
@@ -61,6 +57,9 @@ class Result(results.Result):
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune run --report`: one HTML file."""
+        from ..reports.diagram.diagram import make_diagram
+        from ..reports.run_report import write_run_report
+
         diagram = make_diagram(self.prepared, faults_of(self.faults))
         write_run_report(self, Path(path), self.system, self.figures, diagram)
 
@@ -69,6 +68,8 @@ class Result(results.Result):
 
         Raises KeyError for an unknown name, InputError without any.
         """
+        from ..reports.time_histories import signal_plot
+
         if not names:
             displayed = ", ".join(list(self.signals)[:3])
             remedy = f"give one or more of `signals`: {displayed}, ..."
@@ -77,6 +78,8 @@ class Result(results.Result):
 
     def plot_trajectory(self) -> Plot:
         """The path of whatever has a position: ground track and side view. Raises ValueError where nothing has one."""
+        from ..reports.trajectory import trajectory_plot
+
         plot = trajectory_plot(self)
         if plot is None:
             raise ValueError(f"{self.system}: no signal COMPONENT.position of three elements in m; plot others by name")
@@ -114,6 +117,9 @@ class Result(results.Result):
         return {"time": float(self.time[-1]), **{name: float(value) for name, value in self.final().items()}}
 
     def _repr_html_(self) -> str:
+        from ..reports.common.notebook import Grid, notebook_view, value_text
+        from ..reports.run_report import key_values
+
         text = f"{self.ending}, {len(self.signals)} signals"
         grids = [
             Grid((figure.title, "value", "limit", "unit", ""), limit_rows(figure, self))
@@ -126,6 +132,10 @@ class Result(results.Result):
         return notebook_view(self.system, [text, self.message], grids, self._main_plot())
 
     def _main_plot(self) -> Plot | None:
+        from ..reports.run_report import key_values
+        from ..reports.time_histories import signal_plot
+        from ..reports.trajectory import trajectory_plot
+
         if not self.time.size:
             return None
         bands = [figure.signal.label for figure in self.figures if isinstance(figure, Band)]

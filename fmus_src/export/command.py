@@ -15,7 +15,7 @@ from tqdm import tqdm
 from ..catalogue import catalogue
 from ..own_digests import list_own
 from ..paths import BUILD, FLAVOURS, SYSTEMS
-from .compilers import CompilationFailed, CompilerMissing, available_platforms, platforms_of
+from .compilers import CompilationFailed, CompilerMissing, compiled_here, platforms_of
 from .native_fmu import build_native_fmu
 from .pythonfmu_fmu import build_python_fmu
 from .ssp_package import pack_system
@@ -32,15 +32,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--platform",
         action="append",
         choices=tuple(platforms_of(2)),
-        help="platforms of native FMUs; may be repeated; default: all for which a compiler is installed",
+        help="platforms of native FMUs; may be repeated; default: that of this machine",
     )
     parser.add_argument("--portable", action="store_true", help="compile with zig, against an old C library")
     options = parser.parse_args(arguments)
     flavours: tuple[str, ...] = FLAVOURS if options.flavour == "all" else (options.flavour,)
-    platforms = options.platform or available_platforms()
+    platforms = options.platform or compiled_here()
     if not platforms and "native" in flavours:
         flavours = tuple(flavour for flavour in flavours if flavour != "native")
-        print("no C compiler here: native FMUs are not built; pip install ziglang", file=sys.stderr)
+        print("no C compiler for this machine: native FMUs are not built; pip install ziglang", file=sys.stderr)
         if not flavours:
             return 1
     try:

@@ -90,6 +90,15 @@ def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
     )
 
 
+def compiled_here() -> list[str]:
+    """Return the platform of this machine, where a compiler serves it; else nothing. FMI 2.0's name."""
+    local = local_platform()
+    try:
+        return [local] if local is not None and compilers_for(local) else []
+    except CompilerMissing:
+        return []
+
+
 def available_platforms(fmi: int = 2) -> list[str]:
     """The usual platforms that some compiler here serves.
 

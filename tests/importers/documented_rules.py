@@ -13,6 +13,7 @@ from fmpy.model_description import ModelDescription
 
 Check = Callable[[ModelDescription, frozenset[str]], bool]
 IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,62}\Z")
+WINDOWS = "library for 64-bit Windows"
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ RULES = (
         ),
     ),
     Rule(
-        "library for 64-bit Windows",
+        WINDOWS,
         lambda _, members: any(re.match(r"binaries/(win64|x86_64-windows)/.*\.dll\Z", name) for name in members),
     ),
     Rule(

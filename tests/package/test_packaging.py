@@ -14,12 +14,23 @@ import tomllib
 from importlib import import_module
 
 import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+from packaging.version import Version
 
 import perilune
 from perilune.fmus_src.face import HOME_OF
 from perilune.fmus_src.paths import ROOT
+from tests.support.floors import floors
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+LOCK = {
+    canonicalize_name(name): Version(version)
+    for name, separator, version in (
+        line.partition("==") for line in (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    )
+    if separator
+}
 FILES = """
 import json
 import os
@@ -60,7 +71,7 @@ def test_the_citation_is_of_this_version():
 
 
 def test_make_refuses_an_old_python_before_it_makes_anything(tmp_path):
-    for name in ("Makefile", "pyproject.toml", "setup.py"):
+    for name in ("Makefile", "pyproject.toml", "constraints.txt", "setup.py"):
         shutil.copy(ROOT / name, tmp_path)
     old = tmp_path / "python3.9"
     pretend = "import sys; sys.version_info = (3, 9, 1); sys.version = '3.9.1 (old)'; exec(sys.argv[1])"
@@ -79,7 +90,7 @@ def test_make_refuses_an_old_python_before_it_makes_anything(tmp_path):
 
 @pytest.mark.parametrize(("watched", "quiet"), [(True, False), (False, True)])
 def test_make_shows_what_pip_does_on_a_terminal_only(tmp_path, watched, quiet):
-    for name in ("Makefile", "pyproject.toml", "setup.py"):
+    for name in ("Makefile", "pyproject.toml", "constraints.txt", "setup.py"):
         shutil.copy(ROOT / name, tmp_path)
     terminal, end = os.openpty()
     try:
@@ -110,6 +121,27 @@ def test_every_name_for_blocks_is_public() -> None:
 
 
 def test_a_build_has_what_the_documentation_is_made_with() -> None:
-    """Which a wheel contains: all that Perilune depends on and the extra `docs`, of the same versions."""
+    """Which a wheel contains: all that Perilune depends on and the extra `docs`, in the versions of the lock."""
     requires = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["build-system"]["requires"]
-    assert {*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["docs"]} <= set(requires)
+    pinned = {(each.name, str(each.specifier).removeprefix("==")) for each in map(Requirement, requires)}
+    names = [Requirement(each).name for each in (*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["docs"])]
+    assert {(name, str(LOCK[canonicalize_name(name)])) for name in names} <= pinned
+
+
+def test_the_lock_has_all_packages_in_versions_of_their_ranges() -> None:
+    extras = [each for extra in PROJECT["optional-dependencies"].values() for each in extra]
+    for each in map(Requirement, (*PROJECT["dependencies"], *extras)):
+        assert LOCK[canonicalize_name(each.name)] in each.specifier, each
+
+
+def test_packages_have_a_floor_and_no_ceiling_but_for_breaks() -> None:
+    """fmpy's private names are used; later versions of sympy need an older mpmath than ours."""
+    requirements = [*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["symbolic"]]
+    operators = {Requirement(each).name: {one.operator for one in Requirement(each).specifier} for each in requirements}
+    assert all(">=" in each for each in operators.values())
+    assert {name for name, each in operators.items() if each != {">="}} == {"fmpy", "sympy"}
+    for each, (name, version) in zip(requirements, floors(requirements), strict=True):
+        assert Requirement(each).name == name
+        assert Version(version) in Requirement(each).specifier
+    with pytest.raises(ValueError, match="numpy: no oldest version"):
+        list(floors(["numpy"]))

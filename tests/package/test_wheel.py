@@ -63,12 +63,16 @@ def test_one_new_name_of_moderate_size(installed):
 
 
 def test_its_bill_of_materials(installed):
-    """CycloneDX, valid by its schema: what pyproject.toml pins, and what is in FMUs that is not ours."""
+    """CycloneDX, valid by its schema: what Perilune needs, as the lock has it, and what is in FMUs that is not ours."""
     with zipfile.ZipFile(installed.wheel) as wheel:
         text = wheel.read("perilune-0.1.0.dist-info/sboms/perilune.cdx.json").decode()
     assert JsonStrictValidator(SchemaVersion.V1_6).validate_str(text) is None
     bill = json.loads(text)
-    pinned = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    lock = (ROOT / "constraints.txt").read_text().splitlines()
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    names = [each.partition(">=")[0].lower() for each in declared]
+    pinned = {line.lower() for line in lock if line.partition("==")[0].lower() in names}
+    assert len(pinned) == len(names)
     needed = {f"{each['name']}=={each['version']}" for each in bill["components"] if each["scope"] == "required"}
     locked = json.loads((ROOT / "web" / "package.json").read_text())["dependencies"]
     scripts = {f"{name}=={version}" for name, version in locked.items() if name != "esbuild"}

@@ -1,4 +1,4 @@
-"""The Windows libraries of the FMUs as they are shipped give the bits of their C here.
+"""The Windows libraries of the FMUs as a wheel has them give the bits of their C here.
 
 Truth: the checksum of `test_compilers.py`, by the system's compiler without optimisation. Windows is Wine's, with
 Microsoft's C runtime (ucrtbase) as Wine writes it: what an FMU calls of it is exact. Only `make processors` takes it.
@@ -19,7 +19,7 @@ from lxml import etree
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.paths import shipped_fmu
+from perilune.fmus_src.export.native_fmu import build_native_fmu
 from tests.support.kernels.programs import ZIG, checksum, fly, link
 from tests.support.lengths import LONG
 
@@ -27,7 +27,6 @@ WINE = shutil.which("wine")
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = 2000
 
-pytestmark = pytest.mark.usefixtures("fmus")
 if WINE is None or not LONG:
     pytest.skip("only with Wine, in make processors", allow_module_level=True)
 
@@ -47,7 +46,8 @@ def test_a_shipped_windows_library_gives_the_same_bits(
     block: type[Block], windows: dict[str, str], tmp_path: Path
 ) -> None:
     library = f"{block.fmu_name}.dll"
-    with zipfile.ZipFile(shipped_fmu(block.fmu_name, "native")) as archive:
+    path = build_native_fmu(block, tmp_path / f"{block.fmu_name}.fmu", platforms=["win64"], portable=True)
+    with zipfile.ZipFile(path) as archive:
         guid = etree.fromstring(archive.read("modelDescription.xml")).get("guid")
         for name in archive.namelist():
             if name.startswith("sources/fmi2") or name == f"binaries/win64/{library}":

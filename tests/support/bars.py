@@ -1,4 +1,4 @@
-"""Progress bars that are told to a test instead of shown on a terminal."""
+"""Progress bars that a test counts."""
 
 from __future__ import annotations
 
@@ -16,14 +16,13 @@ class Bars:
 
 
 def watched(monkeypatch: Any, module: Any) -> Bars:
-    """The bars that ``module`` makes from now on, as on a terminal."""
+    """The bars that ``module`` makes from now on where standard error is no terminal."""
     bars = Bars()
 
     class Watched(tqdm):
         def __init__(self, *arguments: Any, **options: Any) -> None:
-            assert options["disable"] is None  # silent unless standard error is a terminal
             self.moved = 0
-            super().__init__(*arguments, **(options | {"disable": False, "mininterval": 0.0, "miniters": 1}))
+            super().__init__(*arguments, **(options | {"mininterval": 0.0, "miniters": 1}))
 
         def update(self, n: float | None = 1) -> Any:
             self.moved += bool(n)
@@ -35,5 +34,5 @@ def watched(monkeypatch: Any, module: Any) -> Bars:
                 bars.moves.append(self.moved)
             super().close()
 
-    monkeypatch.setattr(module, "tqdm", Watched)
+    monkeypatch.setattr(module, "ProgressLines", Watched)
     return bars

@@ -95,16 +95,6 @@ def test_declarations_import_nothing_heavy():
     assert not {name.partition(".")[0] for name in done.stdout.split()} & HEAVY
 
 
-@pytest.mark.usefixtures("fmus")
-@pytest.mark.parametrize("verb", ["describe", "validate"])
-def test_what_simulates_nothing_imports_no_compiler_and_no_plots(verb):
-    """Truth: the modules that a fresh interpreter has after the command; each of these takes as long as it."""
-    code = f"import sys; from perilune.analysis.cli import main; main({[verb, 'lunar_terminal_guidance']!r})"
-    code += "; print(*sys.modules, file=sys.stderr)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert not set(done.stderr.split()) & {"numba", "matplotlib", "scipy.stats", "control", "pandas"}
-
-
 @pytest.mark.parametrize("name", [name for name in perilune.__all__ if name[0].islower()])
 def test_what_is_public_says_what_it_is(name):
     assert inspect.getdoc(getattr(perilune, name))

@@ -7,15 +7,17 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pyarrow
-import pyarrow.parquet
 
 from ...common.bounds import INPUT_BYTES, TABLE_TRIALS, TRIALS
 from ...common.errors import InputError, suggestion
 from ...common.regular import read_input
 from .declared import Declared, input_names
+
+if TYPE_CHECKING:  # imported where a file is read
+    import pyarrow
 
 STREAMS = "streams_of"  # the column that says whose random streams a row flies with; streams_of.NAME of one component
 ALL = ""  # the component that stands for all that have no streams of their own
@@ -93,6 +95,8 @@ def read_given(path: Path, campaign: Declared) -> GivenDraws:
     Columns ``streams_of.COMPONENT`` say with which trial's random stream a component flies in a row, ``streams_of``
     those of the others; without it that is the row's number. Derived values are not read: they are derived anew.
     """
+    import pyarrow.parquet
+
     content = read_input(path, REMEDY, INPUT_BYTES)
     sampled = input_names(campaign)
     try:
@@ -118,6 +122,8 @@ def read_given(path: Path, campaign: Declared) -> GivenDraws:
 
 def _check_columns(path: Path, schema: pyarrow.Schema, campaign: Declared) -> None:
     """Refuse columns that are missing, unknown, given twice or of no numbers."""
+    import pyarrow
+
     sampled = input_names(campaign)
     numbers = (pyarrow.types.is_integer, pyarrow.types.is_floating, pyarrow.types.is_boolean)
     for name in sampled:

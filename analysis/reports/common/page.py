@@ -8,7 +8,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from ...common.atomic import write_atomically
@@ -46,6 +45,8 @@ def render_page(template: Path, **content: Any) -> str:
 
     A name that the template needs and does not get is an error.
     """
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined  # which the terminal's numbers do not need
+
     environment = Environment(
         loader=FileSystemLoader([template.parent, FOLDER]),
         autoescape=True,

@@ -14,7 +14,8 @@ from ..common.panels import HALF_WIDTH, Panel, panel
 from ..common.quantities import display_factor, display_unit
 from ..common.style import FAINT, GREEN, INK
 from .declared import Band, Signal
-from .section import HEIGHT, Section, history_panel, legend_of, range_text, seconds, sentence
+from .section import HEIGHT, Section, history_panel, legend_of
+from .words import range_text, seconds, sentence
 
 SETTLED = "settled"  # a band's name that a settling time needs not repeat
 ZOOM = 3.0  # widths of the band that the zoom shows

@@ -8,15 +8,17 @@ import numpy as np
 from markupsafe import Markup
 
 from ...runtime.flight.results import Result
+from ..common.page import Table
 from .band_figure import band_section, inside, settling_text
 from .declared import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses
 from .history_figures import curve_section, error_section
-from .limits import limit_section
+from .limits import Verdict, evaluate, limit_rows
 from .path_figure import path_section
 from .phase_figure import budget_section, phase_section
 from .pulse_figure import pulse_section
 from .scene.declared import Scene
-from .section import Section, condition_text, sentence
+from .section import Section
+from .words import condition_text, sentence
 
 
 def figure_sections(figures: Sequence[Figure], result: Result) -> list[Section]:
@@ -64,3 +66,23 @@ def joint_findings(figures: Sequence[Figure], result: Result) -> list[Markup]:
             text = settling_text(name, result.time, np.logical_and.reduce(bands))
             findings.append(sentence(Markup("{}: {}").format(count, text)))
     return findings
+
+
+def limit_section(limits: Limits, result: Result) -> Section:
+    """The table of limits, with how many are met and which are violated, or why none is evaluated."""
+    violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is Verdict.VIOLATED]
+    obstacle = limits.obstacle(result)
+    total = len(limits.limits)
+    verdicts = Markup("{} of {} limits met").format(total - len(violated), total)
+    if violated:
+        verdicts = Markup("{}; violated: {}").format(verdicts, ", ".join(violated))
+    return Section(
+        title=limits.title,
+        table=Table(
+            heads=("", "final value", "limit", "unit", ""),
+            rows=limit_rows(limits, result),
+            numbers=(1, 2),
+        ),
+        findings=[sentence(Markup("not evaluated: {}").format(obstacle) if obstacle else verdicts)],
+        notes=limits.notes,
+    )

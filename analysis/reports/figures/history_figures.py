@@ -17,17 +17,8 @@ from ..common.panels import Panel
 from ..common.quantities import display_factor, display_unit
 from ..common.style import FAINT, ORANGE
 from .declared import Curve, Error
-from .section import (
-    Section,
-    capital,
-    condition_text,
-    history_panel,
-    legend_of,
-    seconds,
-    select_rows,
-    sentence,
-    wide_history,
-)
+from .section import Section, history_panel, legend_of, select_rows, wide_history
+from .words import capital, condition_text, seconds, sentence
 
 SIGMAS = (3.0, 1.0)
 MOST_ROWS = 500  # of the shaded areas, which matplotlib does not simplify

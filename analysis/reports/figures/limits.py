@@ -9,11 +9,11 @@ from typing import Any
 
 from markupsafe import Markup
 
-from ...runtime.flight.results import Flight, Result
-from ..common.page import Table, exact
+from ...runtime.flight.results import Flight
+from ..common.page import exact
 from ..common.quantities import NONE, display_unit
 from .declared import Figure, Limit, Limits, Unavailable
-from .section import Section, range_text, sentence
+from .words import range_text
 
 
 class Verdict(StrEnum):
@@ -94,24 +94,4 @@ def _row(limit: Limit, verdict: Verdict, result: Flight) -> tuple[Markup | str, 
         range_text(limit.least, limit.most, unit),
         display_unit(unit),
         Markup('<span class="verdict {}">{}</span>').format(CLASSES[verdict], LABELS[verdict]),
-    )
-
-
-def limit_section(limits: Limits, result: Result) -> Section:
-    """The table of limits, with how many are met and which are violated, or why none is evaluated."""
-    violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is Verdict.VIOLATED]
-    obstacle = limits.obstacle(result)
-    total = len(limits.limits)
-    verdicts = Markup("{} of {} limits met").format(total - len(violated), total)
-    if violated:
-        verdicts = Markup("{}; violated: {}").format(verdicts, ", ".join(violated))
-    return Section(
-        title=limits.title,
-        table=Table(
-            heads=("", "final value", "limit", "unit", ""),
-            rows=limit_rows(limits, result),
-            numbers=(1, 2),
-        ),
-        findings=[sentence(Markup("not evaluated: {}").format(obstacle) if obstacle else verdicts)],
-        notes=limits.notes,
     )

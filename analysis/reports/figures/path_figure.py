@@ -13,7 +13,8 @@ from ..common.panels import both_widths, far, is_slim
 from ..common.quantities import display_unit, label_with_unit
 from ..common.style import BLUE, INK, look, plain_ticks
 from .declared import Arc, Path, Point, Signal
-from .section import Section, condition_text, select_rows, sentence
+from .section import Section, select_rows
+from .words import condition_text, sentence
 
 HEIGHT = 3.6  # in
 EQUAL_HEIGHT = 4.6  # in, with equal scales

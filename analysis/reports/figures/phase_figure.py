@@ -17,7 +17,8 @@ from ..common.panels import Widths, both_widths, is_slim
 from ..common.quantities import display_unit, label_with_unit, number
 from ..common.style import BLUE, FAINT, INK, VERMILION, label_lanes, plain_ticks
 from .declared import BoundValues, Budget, Item, Phase, Phases
-from .section import Section, align, seconds, sentence
+from .section import Section, align
+from .words import seconds, sentence
 
 
 @dataclass(frozen=True)

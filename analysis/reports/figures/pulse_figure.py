@@ -15,7 +15,8 @@ from ..common.panels import Widths, both_widths, is_slim
 from ..common.quantities import label_with_unit, number
 from ..common.style import BLUE, FAINT, VERMILION, plain_ticks
 from .declared import Pulses
-from .section import Section, sentence
+from .section import Section
+from .words import sentence
 
 LANE = 0.85  # in
 TOTAL = 1.1  # in

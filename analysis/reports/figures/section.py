@@ -73,21 +73,6 @@ def select_rows(rows: Rows | None, result: Result) -> tuple[np.ndarray, slice]:
     return chosen, slice(int(selected[0]), int(selected[-1]) + 1)
 
 
-def condition_text(rows: Rows) -> Markup:
-    """The condition of a selection of samples."""
-    unit = rows.signal.unit_name
-    condition = exact(rows.low, unit) if rows.low == rows.high else range_text(rows.low, rows.high, unit)
-    return Markup("{} is {}").format(rows.signal.label, condition)
-
-
-def range_text(low: float | None, high: float | None, unit: str | None) -> Markup:
-    """The range between two limits of which at most one is None, without the unit."""
-    if low is None or high is None:
-        token, limit = ("at least", low) if high is None else ("at most", high)
-        return Markup("{} {}").format(token, exact(limit, unit))
-    return Markup("{} to {}").format(exact(low, unit), exact(high, unit))
-
-
 def align(values: Sequence[float | None], unit: str | None, digits: int = 5) -> list[Markup]:
     """Numbers of a column, all with the decimals of the largest at so many significant digits."""
     sizes = [abs(in_shown_unit(value, unit)) for value in values if value is not None and math.isfinite(value)]
@@ -99,18 +84,3 @@ def align(values: Sequence[float | None], unit: str | None, digits: int = 5) -> 
         else data(repr(value), f"{in_shown_unit(value, unit) + 0.0:.{places}f}".replace("-", MINUS))
         for value in values
     ]
-
-
-def seconds(time: float) -> Markup:
-    """A time with its unit."""
-    return Markup("{} s").format(exact(float(time), digits=6))
-
-
-def sentence(words: Markup) -> Markup:
-    """A text as a sentence: with a capital first and a full stop last."""
-    return Markup("{}.").format(Markup(capital(words)))
-
-
-def capital(words: str) -> str:
-    """A text with a capital first."""
-    return words[:1].upper() + words[1:]

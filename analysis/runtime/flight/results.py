@@ -9,12 +9,9 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, NotRequired, Self, TypedDict
+from typing import TYPE_CHECKING, Any, NotRequired, Self, TypedDict
 
 import numpy as np
-import pyarrow
-import pyarrow.csv
-import pyarrow.parquet
 
 from ...common.atomic import whole_file, write_atomically
 from ...common.errors import suggestion
@@ -29,6 +26,9 @@ from ..system.network import Network
 from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
 from .parameters import Parameters
+
+if TYPE_CHECKING:  # imported where a table is made
+    import pyarrow
 
 NONFINITE = "nonfinite"
 TIMED_OUT = "timed_out"
@@ -121,6 +121,8 @@ class Provenance(TypedDict):
 
 def _column_type(type_name: str, values: np.ndarray) -> pyarrow.DataType:
     """The Arrow type of a signal: whole numbers have 32 bits, and more where these do not do (FMI 3.0)."""
+    import pyarrow
+
     if type_name == "Boolean":
         return pyarrow.bool_()
     if type_name not in WHOLE:
@@ -143,11 +145,15 @@ class Result(Flight):
 
     def table(self) -> pyarrow.Table:
         """The flight as an Arrow table: time first, units and provenance in the metadata."""
-        arrays = [pyarrow.array(self.time)]
+        import pyarrow
+
+        from ...common.machine.arrow import numbers_of
+
+        arrays = [numbers_of(self.time)]
         fields = [pyarrow.field("time", pyarrow.float64(), metadata={"unit": "s"})]
         for name, values in self.signals.items():
             kind = _column_type(self.types[name], values)
-            arrays.append(pyarrow.array(values).cast(kind))
+            arrays.append(numbers_of(values).cast(kind))
             unit = self.units[name]
             fields.append(pyarrow.field(name, kind, metadata={"unit": unit} if unit else None))
         metadata = {"perilune": json.dumps(self.summary())}
@@ -168,9 +174,13 @@ class Result(Flight):
         """Write .parquet, or .csv with units, types other than Real and provenance in a .json file of the same name."""
         path = Path(path)
         if path.suffix == ".parquet":
+            import pyarrow.parquet
+
             with whole_file(path) as partial:
                 pyarrow.parquet.write_table(self.table(), partial)
         else:
+            import pyarrow.csv
+
             plain = not any(mark in name for name in self.signals for mark in ',"')
             options = pyarrow.csv.WriteOptions(quoting_header="none" if plain else "needed")
             table = self.table().rename_columns([quote_formula(name) for name in ("time", *self.signals)])

@@ -31,8 +31,20 @@ EXPORTED = Argument(
 LIST = Verb(
     "list",
     "list systems with their parameter sets, campaigns and loops; laws, searches and FMUs",
+    (
+        Argument(
+            "what",
+            "KIND|WORD",
+            "systems, campaigns, laws, searches or fmus; else text in names and descriptions",
+            optional=True,
+        ),
+    ),
     function="inventory.inventory",
-    examples={"perilune list": "names to give to the other verbs"},
+    examples={
+        "perilune list": "names to give to the other verbs",
+        "perilune list campaigns": "those of each system",
+        "perilune list kalman": "what has this in its name or description",
+    },
 )
 
 

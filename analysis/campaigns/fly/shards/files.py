@@ -15,10 +15,10 @@ import pyarrow.parquet
 from ....common.atomic import whole_file
 from ....common.bounds import TRIALS
 from ....common.errors import InputError
+from ....common.machine.arrow import numpy_of, table_of, texts_of
 from ....common.regular import check_regular
 from ...spec.plan import BatchPlan
 from ...trials import Trials
-from .arrow import numpy_of, table_of, texts_of
 
 FOLDER = "trials"
 DRAWS = "draws.parquet"

@@ -9,10 +9,6 @@ from functools import lru_cache
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
-from elftools.common.exceptions import ELFError
-from elftools.elf.dynamic import DynamicSegment
-from elftools.elf.elffile import ELFFile
-
 from ..fmu import Fmu
 
 MODULE, LIBRARY = "module", "library"
@@ -100,6 +96,10 @@ def _names(path: Path, folder: Path, *, is_main: bool) -> Iterator[Bundled]:
 
 def _shared_object_name(path: Path) -> str:
     """Return the DT_SONAME of an ELF file; empty where it has none, or is none."""
+    from elftools.common.exceptions import ELFError  # which own FMUs do not need
+    from elftools.elf.dynamic import DynamicSegment
+    from elftools.elf.elffile import ELFFile
+
     with path.open("rb") as file:
         try:
             segments = [each for each in ELFFile(file).iter_segments("PT_DYNAMIC") if isinstance(each, DynamicSegment)]

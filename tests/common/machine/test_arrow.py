@@ -1,19 +1,15 @@
-"""perilune.analysis.campaigns.fly.shards.arrow: columns between numpy and Arrow.
+"""perilune.analysis.common.machine.arrow: columns between numpy and Arrow.
 
 Truth: pyarrow's own conversions, which load pandas.
 """
 
-import subprocess
-import sys
-
 import numpy as np
 import pyarrow
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from perilune.analysis.campaigns.fly.shards.arrow import numbers_of, numpy_of, table_of, texts_of
+from perilune.analysis.common.machine.arrow import numbers_of, numpy_of, table_of, texts_of
 
 KINDS = st.sampled_from([np.float64, np.int64, np.int32, np.uint32, np.bool_])
 columns = KINDS.flatmap(lambda kind: arrays.arrays(kind, st.integers(0, 40)))
@@ -56,17 +52,3 @@ def test_a_table_has_its_columns_in_order():
     table = table_of({"b": np.arange(3), "a": texts_of("xyz"), "c": np.array([True, False, True])})
     expected = pyarrow.table({"b": np.arange(3), "a": ["x", "y", "z"], "c": [True, False, True]})
     assert table.equals(expected)
-
-
-WITHOUT = """
-import sys
-from perilune.analysis.cli import main
-status = main(["batch", "lunar_terminal_guidance", "--campaign", "paper", "--trials", "3", "--output", sys.argv[1]])
-sys.exit(status or "pandas" in sys.modules)
-"""
-
-
-@pytest.mark.usefixtures("fmus")
-def test_a_batch_flies_without_pandas(tmp_path):
-    actual = subprocess.run([sys.executable, "-c", WITHOUT, str(tmp_path / "out")], capture_output=True, text=True)
-    assert actual.returncode == 0, actual.stderr

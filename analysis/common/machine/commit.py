@@ -1,0 +1,38 @@
+"""The commit that Perilune is of, where known: of a checkout, or of an installation by pip from a repository."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from importlib.metadata import distribution
+from pathlib import Path
+
+from ....fmus_src.paths import IS_CHECKOUT, ROOT
+
+DIGITS = 12
+ORIGIN = "direct_url.json"  # what pip installed a package from (PEP 610)
+
+
+def known_commit() -> str:
+    """Return the commit of this Perilune, with ``, modified`` where the checkout differs from it; else nothing."""
+    return commit_of_checkout(ROOT) if IS_CHECKOUT else commit_of_origin(distribution("perilune").read_text(ORIGIN))
+
+
+def commit_of_checkout(root: Path) -> str:
+    """Return the commit of a folder that is the top of a repository; nothing of others, and without git."""
+    if not (root / ".git").exists():
+        return ""
+    command = ["git", "--no-optional-locks", "-C", str(root), "describe", "--always", "--exclude=*"]
+    try:
+        done = subprocess.run(
+            [*command, f"--abbrev={DIGITS}", "--dirty=, modified"], capture_output=True, text=True, check=True
+        )
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+    return done.stdout.strip()
+
+
+def commit_of_origin(origin: str | None) -> str:
+    """Return the commit in a document of `ORIGIN`; nothing where there is none, or it names no repository."""
+    commit = json.loads(origin or "{}").get("vcs_info", {}).get("commit_id", "")
+    return str(commit)[:DIGITS]

@@ -1,0 +1,43 @@
+"""Processor time of the verbs, from the start of Python to its end.
+
+    python -m benchmarks.verbs [SYSTEM] [--rounds N]
+
+Prints seconds of user and system time, of children too: the median over rounds in which the commands take turns, after
+one that fills caches and bytecode. Other programs share the machine: compare only numbers of one run.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import statistics
+import subprocess
+import sys
+
+COMMANDS = ("list", "describe SYSTEM", "validate SYSTEM", "run SYSTEM")
+
+
+def processor_time(arguments: list[str]) -> float:
+    """Return the seconds of processor time that `perilune` with these arguments takes. Raises CalledProcessError."""
+    environment = {name: text for name, text in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    before = os.times()
+    command = [sys.executable, "-m", "perilune", *arguments]
+    subprocess.run(command, env=environment, stdout=subprocess.DEVNULL, check=True)
+    after = os.times()
+    return after.children_user + after.children_system - before.children_user - before.children_system
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("system", nargs="?", default="lunar_landing")
+    parser.add_argument("--rounds", type=int, default=5)
+    parsed = parser.parse_args()
+    commands = [command.replace("SYSTEM", parsed.system) for command in COMMANDS]
+    rounds = [[processor_time(command.split()) for command in commands] for _ in range(parsed.rounds + 1)][1:]
+    for command, times in zip(commands, zip(*rounds, strict=True), strict=True):
+        print(f"perilune {command:30}  {statistics.median(times):5.2f} s")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,49 @@
+"""Each verb imports those libraries alone that it needs: an import of one takes as long as the rest of the command.
+
+Truth: the modules that a fresh interpreter has after the command.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = {
+    "IPython", "asyncio", "casadi", "control", "elftools", "fmpy", "jinja2", "loky", "matplotlib", "mpmath", "numba",
+    "numpy", "pandas", "py_mini_racer", "pyarrow", "scipy.linalg", "scipy.optimize", "scipy.stats", "starlette", "tqdm",
+}  # fmt: skip
+READING = {"numpy", "fmpy"}
+FLYING = READING | {"numba", "scipy.linalg"}  # numba imports scipy.linalg
+CAMPAIGN = FLYING | {"asyncio", "loky", "pyarrow", "tqdm"}  # asyncio by tqdm
+SYSTEM = "lunar_terminal_guidance"
+CODE = "import sys; from perilune.analysis.cli import main; main(sys.argv[1:]); print(*sys.modules, file=sys.stderr)"
+ALLOWED = {
+    "list": READING,
+    f"describe {SYSTEM}": READING,
+    f"validate {SYSTEM}": READING,
+    f"run {SYSTEM} --stop-time 2": FLYING,
+    f"run {SYSTEM} --stop-time 2 --output F.csv": FLYING | {"pyarrow"},
+    f"batch {SYSTEM} --campaign paper --trials 2 --workers 1 --output results": CAMPAIGN,
+}
+
+
+def heavy_modules(command: str, folder) -> set[str]:
+    """Return those of `HEAVY` that a command imports."""
+    done = subprocess.run(
+        [sys.executable, "-c", CODE, *command.split()], cwd=folder, capture_output=True, text=True, check=True
+    )
+    return HEAVY & set(done.stderr.splitlines()[-1].split())
+
+
+@pytest.mark.usefixtures("fmus")
+@pytest.mark.parametrize("command", ALLOWED)
+def test_a_verb_imports_what_it_needs(command, tmp_path):
+    assert heavy_modules(command, tmp_path) == ALLOWED[command]
+
+
+@pytest.mark.usefixtures("fmus")
+def test_a_page_is_what_brings_plots(tmp_path):
+    imported = heavy_modules(f"run {SYSTEM} --stop-time 2 --report flight.html", tmp_path)
+    assert imported >= FLYING | {"matplotlib", "jinja2"}
