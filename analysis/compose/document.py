@@ -95,7 +95,7 @@ def _connectors(connectors: Mapping[str, ConnectorSource], margin: str) -> Itera
         for name, each in connectors.items():
             unit = f" unit={quoteattr(each.unit.name)}" if each.unit is not None else ""
             head = f'{margin}  <ssd:Connector name={quoteattr(name)} kind="{each.kind}"'
-            yield f"{head}/>" if each.type is None else f"{head}><ssc:{each.type}{unit}/></ssd:Connector>"
+            yield f"{head}><ssc:{each.type}{unit}/></ssd:Connector>"
         yield f"{margin}</ssd:Connectors>"
 
 

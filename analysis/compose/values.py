@@ -15,7 +15,12 @@ from .source import SetValue, SystemSource
 from .wiring import INDEX, Wiring, collapse
 
 NAME = "set"  # of the parameter set
-ACCEPTED: Mapping[str, tuple[type, ...]] = {"Real": (float, int), "Integer": (int,), "Boolean": (bool,)}
+ACCEPTED: Mapping[str, tuple[type, ...]] = {
+    "Real": (float, int),
+    "Integer": (int,),
+    "Enumeration": (int,),
+    "Boolean": (bool,),
+}
 
 
 def write_values(source: SystemSource, fmus: Mapping[str, Fmu], wiring: Wiring) -> list[str]:
@@ -45,7 +50,7 @@ def _types(source: SystemSource, name: str, fmus: Mapping[str, Fmu], wiring: Wir
             if each.causality in ("parameter", "structuralParameter", "input")
         }
     else:
-        known = {name: each.type or "" for (owner, name), each in wiring.connectors.items() if not owner}
+        known = {name: each.type for (owner, name), each in wiring.connectors.items() if not owner}
     names = elements(variable, known)
     if not names:
         if not component and "." in name:

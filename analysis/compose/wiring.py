@@ -46,10 +46,10 @@ class End:
 
 @dataclass(frozen=True)
 class ConnectorSource:
-    """A connector: kind, type as SSP 1.0 has it (None of an Enumeration, which takes that of its FMU), and unit."""
+    """A connector: kind, unit, and type as SSP 1.0 has it: Integer of an Enumeration, which a system need not define."""
 
     kind: str
-    type: str | None
+    type: str
     unit: Unit | None
 
 
@@ -163,7 +163,7 @@ class _Wirer:
             self.refuse(entry, f"{names[0]} is {start.kind} and {names[1]} is {end.kind}", remedy)
             return False
         if start.type != end.type and (start.type, end.type) not in WIDENED:
-            problem = f"types do not fit: {start.type or 'Enumeration'} and {end.type or 'Enumeration'}"
+            problem = f"types do not fit: {start.type} and {end.type}"
             self.refuse(entry, problem, "connect variables of one type")
             return False
         if start.unit and end.unit and not start.unit.fits(end.unit):
@@ -191,7 +191,7 @@ class _Wirer:
 
     def of_variable(self, component: str, variable: Variable) -> ConnectorSource:
         """Return the connector of an FMU's variable."""
-        kind = None if variable.type == "Enumeration" else variable.type
+        kind = "Integer" if variable.type == "Enumeration" else variable.type
         return ConnectorSource(variable.causality, kind, self.fmus[component].unit_of(variable))
 
     def unused(self, entry: Entry) -> list[Point]:

@@ -23,7 +23,7 @@ from .masters import MASTERS
 from .trial import Outcome, try_importers
 
 PAGE = ROOT / "docs" / "guides" / "importers.md"
-BEGIN, END = "<!-- importers -->\n", "<!-- end -->\n"
+BEGIN, END = "<!-- importers -->\n\n", "\n<!-- end -->\n"
 
 
 def fmus_by_kind(folder: Path) -> Iterator[tuple[str, list[Path]]]:
