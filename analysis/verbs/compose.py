@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Unpack
 
@@ -88,10 +88,12 @@ def compose_source(source: SystemSource, folder: Path, raw: bytes, file: str, fi
     """
     document = add_mark(compose_document(source, folder_archive(folder, files)), file, raw)
     archive = folder_archive(folder, {**files, DESCRIPTION: document})
+    # Inputs of the system may be driven over time, by the option `input` of a flight.
+    options = SystemOptions(open_inputs="start" if "input" in source.connectors.values() else None)
     try:
-        prepared = prepare_system(archive)
+        prepared = prepare_system(archive, options)
     except MissingStopTimeError as error:
-        prepared = prepare_system(archive, SystemOptions(stop_time=error.earliest))
+        prepared = prepare_system(archive, replace(options, stop_time=error.earliest))
     read_figures(prepared)
     read_declaration(prepared.network.description)
     return document

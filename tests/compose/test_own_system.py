@@ -95,3 +95,15 @@ def test_an_edited_folder_is_not_written_over(here):
         file.write("# mine\n")
     with pytest.raises(perilune.InputError, match="edited since perilune compose read it"):
         system.write(here / "other")
+
+
+def test_inputs_of_the_system_are_driven_over_time(here):
+    """A ramp that goes through an input of the system, whose elements and unit are those of the component."""
+    system = perilune.System("ramp", step=0.125, stop_time=1.0)
+    system.add("gyros", "rate_gyros")
+    system.connector("rate", "input")
+    system.connect("rate", "gyros.angular_velocity")
+    flight = system.run(input={"time": [0.0, 1.0], **{f"rate[{k}]": [0.0, 0.1 * k] for k in (1, 2, 3)}})
+    expected = flight.time[:, None] * [0.1, 0.2, 0.3]
+    assert abs(flight["gyros.angular_velocity"] - expected).max() < 1e-15
+    assert flight.prepared.network.unit_of("rate[1]").name == "rad/s"

@@ -180,8 +180,8 @@ def law_parameters(law: Law, component: str) -> dict[str, int | float]:
     for row, entries in enumerate(law.matrix, 1):
         for column, entry in enumerate(entries, 1):
             values[f"{component}.matrix[{row},{column}]"] = entry
-    for place, value in enumerate(law.q, 1):
-        values[f"{component}.q[{place}]"] = value
+    for index, value in enumerate(law.q, 1):
+        values[f"{component}.q[{index}]"] = value
     values[f"{component}.exp_saturation"] = EXP_SATURATIONS.index(law.exp_saturation)
     return values
 
