@@ -148,7 +148,7 @@ ENDS := build/ends
 lowest: CONSTRAINTS = --constraint $(ENDS)/floors.txt
 lowest newest: build
 	mkdir -p $(ENDS)
-	$(BIN)/python -m tests.support.floors > $(ENDS)/floors.txt
+	$(BIN)/python -m tests.package.floors > $(ENDS)/floors.txt
 	$(PYTHON) -m venv $(ENDS)/$@
 	$(ENDS)/$@/bin/pip install $(QUIET) --disable-pip-version-check 'setuptools>=77'
 	$(ENDS)/$@/bin/pip install $(QUIET) --disable-pip-version-check --upgrade --upgrade-strategy eager --no-build-isolation \

@@ -44,20 +44,20 @@ def metric_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str 
     ]
 
 
-def rate_lines(cells: list[list[str]], first: int) -> list[str]:
+def rate_lines(table: list[list[str]], first: int) -> list[str]:
     """Rows of rates as lines: column ``first`` has the trials, the next one success.
 
     Where lines would be longer than `WIDTH`, columns that are the same in all rows become a line; never success.
     """
-    columns, notes = list(range(len(cells[0]))), []
-    for each in (first, *reversed(range(first + 2, len(cells[0])))):
-        lines = align_columns([[row[column] for column in columns] for row in cells])
+    columns, notes = list(range(len(table[0]))), []
+    for each in (first, *reversed(range(first + 2, len(table[0])))):
+        lines = align_columns([[row[column] for column in columns] for row in table])
         if max(map(len, lines)) <= WIDTH:
             break
-        if len(cells) > 2 and len({row[each] for row in cells[1:]}) == 1:
+        if len(table) > 2 and len({row[each] for row in table[1:]}) == 1:
             columns.remove(each)
-            notes.append(f"the same in all rows: {cells[0][each]} {cells[1][each]}")
-    return [*align_columns([[row[column] for column in columns] for row in cells]), *notes]
+            notes.append(f"the same in all rows: {table[0][each]} {table[1][each]}")
+    return [*align_columns([[row[column] for column in columns] for row in table]), *notes]
 
 
 def _fitted(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None) -> tuple[list[str], list[str]]:
@@ -74,13 +74,13 @@ def _fitted(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | Non
 def _cells(
     rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None, columns: Sequence[str]
 ) -> list[list[str]]:
-    cells = [["metric, successful trials", *who_heads(group), *columns, "unit"]]
+    table = [["metric, successful trials", *who_heads(group), *columns, "unit"]]
     for metric in metrics:
         for row in rows:
             values = row.entry.metrics[metric]
             numbers = [short(values.value(key)) for key in columns]
-            cells.append([metric, *who_cells(row, group), *numbers, values.unit])
-    return cells
+            table.append([metric, *who_cells(row, group), *numbers, values.unit])
+    return table
 
 
 def _common_value(rows: Sequence[SummaryRow], metric: str) -> float | None:

@@ -21,7 +21,7 @@ from packaging.version import Version
 import perilune
 from perilune.fmus_src.face import HOME_OF
 from perilune.fmus_src.paths import ROOT
-from tests.support.floors import floors
+from tests.package.floors import floors
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 LOCK = {

@@ -1,4 +1,4 @@
-"""The oldest packages that pyproject.toml permits, as constraints of pip: `python -m tests.support.floors`."""
+"""The oldest packages that pyproject.toml permits, as constraints of pip: `python -m tests.package.floors`."""
 
 from __future__ import annotations
 
