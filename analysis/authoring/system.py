@@ -5,67 +5,23 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
-from ...fmus_src.block import Block, Input, Output
 from ...fmus_src.catalogue import blocks_in_file
-from ...fmus_src.units import UnitDefinition, unit_definition
+from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
+from ...fmus_src.export.ssp_package import DESCRIPTION
+from ..compose.assembly import compose_document, folder_archive
+from ..compose.document import fmu_source
+from ..compose.files import add_mark
+from ..compose.source import SYSTEM_FILE, read_source
 from ..verbs.options.campaigns import BATCH, RUN
 from ..verbs.options.command import write_command
 from ..verbs.options.studies import STABILITY
 from .block import Written, render, template_names
 from .names import check_free, check_name, class_name
 
-
-@dataclass(frozen=True)
-class Connector:
-    """One element of an input or output, as an SSD has it."""
-
-    name: str
-    kind: str
-    type: str
-    unit: str | None
-
-
-@dataclass(frozen=True)
-class Part:
-    """What an SSD says of a component made by a block."""
-
-    fmu: str
-    connectors: Sequence[Connector]
-
-
-@dataclass(frozen=True)
-class NamedUnit:
-    """A unit as an SSD defines it."""
-
-    name: str
-    definition: UnitDefinition
-
-
-def part_of(block: type[Block]) -> Part:
-    """All inputs and outputs of a block, element by element."""
-    connectors = [
-        Connector(name, variable.causality, variable.type_name, variable.unit)
-        for variable in block.variables.values()
-        if isinstance(variable, Input | Output)
-        for name in variable.element_names()
-    ]
-    return Part(block.fmu_name, connectors)
-
-
-def units_of(parts: Collection[Part], more: Collection[str] = ()) -> list[NamedUnit]:
-    """The units of all connectors and ``more``, by name."""
-    names = {connector.unit for part in parts for connector in part.connectors} | set(more)
-    units = [(name, unit_definition(name)) for name in sorted(name for name in names if name is not None)]
-    return [NamedUnit(name, definition) for name, definition in units if definition is not None]
-
-
 SYSTEM, BLOCKS = "system", "blocks.py"
-PARTS = ("plant", "control")  # what the SSD calls the blocks, in order of definition
-SHOWN_UNITS = ("deg", "deg/s")  # of the annotations
+PARTS = ("plant", "control")  # what the system calls the blocks, in order of definition
 
 
 def new_system(name: str) -> Written:
@@ -94,16 +50,23 @@ def new_system(name: str) -> Written:
 
 
 def _write(folder: Path, name: str) -> list[str]:
-    """All files of the system; those of the blocks first, since connectors follow from their declarations."""
+    """All files of the system; its description is composed with FMUs of its blocks, which are not kept."""
     words = {"name": name, "class_name": class_name(name)}
-    blocks = folder / BLOCKS
-    blocks.write_text(render(f"{SYSTEM}/{BLOCKS}", **words), encoding="utf-8")
-    parts = dict(zip(PARTS, map(part_of, blocks_in_file(blocks)), strict=True))
-    shutil.rmtree(folder / "__pycache__", ignore_errors=True)
-    units = units_of(list(parts.values()), SHOWN_UNITS)
-    remainder = [entry for entry in template_names(SYSTEM) if entry != BLOCKS]
-    for entry in remainder:
+    (folder / BLOCKS).write_text(render(f"{SYSTEM}/{BLOCKS}", **words), encoding="utf-8")
+    blocks = blocks_in_file(folder / BLOCKS)
+    words |= {part: block.fmu_name for part, block in zip(PARTS, blocks, strict=True)}
+    entries = template_names(SYSTEM)
+    for entry in entries:
         path = folder / entry
         path.parent.mkdir(exist_ok=True)
-        path.write_text(render(f"{SYSTEM}/{entry}", **words, **parts, units=units), encoding="utf-8")
-    return [BLOCKS, *remainder]
+        path.write_text(render(f"{SYSTEM}/{entry}", **words), encoding="utf-8")
+    fmus = {}
+    with tempfile.TemporaryDirectory() as built:
+        for block in blocks:
+            path = build_python_fmu(block, Path(built) / f"{block.fmu_name}.fmu")
+            fmus[fmu_source(block.fmu_name)] = path.read_bytes()
+    shutil.rmtree(folder / "__pycache__", ignore_errors=True)
+    source, raw = read_source(folder / SYSTEM_FILE)
+    document = add_mark(compose_document(source, folder_archive(folder, fmus)), SYSTEM_FILE, raw)
+    (folder / DESCRIPTION).write_bytes(document)
+    return sorted([*entries, DESCRIPTION], key=lambda entry: entry != BLOCKS)

@@ -72,15 +72,15 @@ def _of(component: str, wiring: Wiring, order: Iterable[str]) -> dict[str, Conne
 
 def _system_order(source: SystemSource, wiring: Wiring) -> list[str]:
     """The system's own connectors as the file declares them, the elements of each in order."""
-    own = [name for component, name in wiring.connectors if not component]
+    names = [name for component, name in wiring.connectors if not component]
     position = {name: index for index, name in enumerate(source.connectors)}
-    return sorted(own, key=lambda name: position.get(name, position.get(name.partition("[")[0], 0)))
+    return sorted(names, key=lambda name: position.get(name, position.get(name.partition("[")[0], 0)))
 
 
 def _component(source: SystemSource, component: str, fmu: Fmu, wiring: Wiring) -> Iterator[str]:
     stated = source.components[component]
-    place = quoteattr(fmu_source(stated.fmu))
-    yield f'      <ssd:Component name={quoteattr(component)} {FMU} source={place} implementation="CoSimulation">'
+    path = quoteattr(fmu_source(stated.fmu))
+    yield f'      <ssd:Component name={quoteattr(component)} {FMU} source={path} implementation="CoSimulation">'
     yield from _connectors(_of(component, wiring, fmu.variables), "        ")
     yield from _bindings(stated.parameters, "        ")
     if stated.step is not None:

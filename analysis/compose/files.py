@@ -86,7 +86,7 @@ def write_new(contents: Mapping[Path, bytes], option: str = "") -> None:
 
 def _named_files(source: SystemSource, archive: SystemArchive) -> dict[str, bytes]:
     """Parameter sets and FMUs of a system's own folder or archive, by path."""
-    own = [each for each in source.components.values() if archive.is_own_file(fmu_source(each.fmu))]
-    places = {fmu_source(each.fmu): fmu_source(each.fmu) for each in own}
-    places |= {name: set_source(name) for name in source.parameter_sets}
-    return {path: archive.read(place, place) for path, place in places.items()}
+    inside = [each for each in source.components.values() if archive.is_own_file(fmu_source(each.fmu))]
+    sources = {fmu_source(each.fmu): fmu_source(each.fmu) for each in inside}
+    sources |= {name: set_source(name) for name in source.parameter_sets}
+    return {path: archive.read(name, name) for path, name in sources.items()}

@@ -100,7 +100,7 @@ def read_source(path: Path) -> tuple[SystemSource, bytes]:
     label = str(path)
     raw = read_input(path, "give the path of a system.toml", CAMPAIGN_BYTES)
     table = Table(parse_toml(raw, label), label)
-    places = _Places(raw.decode("utf-8"))
+    lines = _Lines(raw.decode("utf-8"))
     table.only(TOP)
     system = table.table("system")
     system.only((*KINDS, "connections"))
@@ -110,17 +110,17 @@ def read_source(path: Path) -> tuple[SystemSource, bytes]:
         annotations = read_input(file, "correct `annotations` of the system.toml, or add the file", XML_BYTES)
     source = SystemSource(
         name=table.get("name", text),
-        components=dict(_components(table.table("components"), places)),
-        connections=(*_entries(table, "connections", places), *_entries(system, "connections", places)),
+        components=dict(_components(table.table("components"), lines)),
+        connections=(*_entries(table, "connections", lines), *_entries(system, "connections", lines)),
         description=table.get("description", text, ""),
         start_time=table.get("start_time", number, 0.0),
         stop_time=table.get("stop_time", number, None),
         step=table.get("step", _positive, None),
         parameters=_list(table, "parameters"),
         connectors=_connectors(system),
-        declare=_entries(table, "declare", places),
-        unconnected=_entries(table, "unconnected", places),
-        set=dict(_values(table.table("set"))),
+        declare=_entries(table, "declare", lines),
+        unconnected=_entries(table, "unconnected", lines),
+        set=dict(_set(table.table("set"))),
         units=dict(_units(table.table("units"))),
         annotations=annotations,
         file=label,
@@ -128,11 +128,11 @@ def read_source(path: Path) -> tuple[SystemSource, bytes]:
     return source, raw + annotations
 
 
-class _Places:
+class _Lines:
     """Lines of keys and of the texts of lists."""
 
     def __init__(self, content: str) -> None:
-        self.lines = content.splitlines()
+        self.texts = content.splitlines()
         self.keys = key_lines(content)
 
     def of_key(self, key: str) -> str:
@@ -143,26 +143,26 @@ class _Places:
         """Yield the texts of a list, each with the line on which it stands: they are in order."""
         index = self.keys.get(key, 1) - 1
         for each in texts:
-            index = next((i for i in range(index, len(self.lines)) if each in self.lines[i]), index)
+            index = next((i for i in range(index, len(self.texts)) if each in self.texts[i]), index)
             yield Entry(each, f"{key} (line {index + 1})")
 
 
-def _entries(table: Table, key: str, places: _Places) -> tuple[Entry, ...]:
-    return tuple(places.of_entries(table.place(key), _list(table, key)))
+def _entries(table: Table, key: str, lines: _Lines) -> tuple[Entry, ...]:
+    return tuple(lines.of_entries(f"{table.element}.{key}".lstrip("."), _list(table, key)))
 
 
 def _list(table: Table, key: str) -> tuple[str, ...]:
     return table.get(key, names) if key in table.content else ()
 
 
-def _components(table: Table, places: _Places) -> Iterator[tuple[str, ComponentSource]]:
+def _components(table: Table, lines: _Lines) -> Iterator[tuple[str, ComponentSource]]:
     if not table.content:
         raise table.error("", "no components", 'write [components], and NAME = "FMU" below it')
-    for name, value in table.content.items():
-        where = places.of_key(table.place(name))
+    for name, stated in table.content.items():
+        where = lines.of_key(f"components.{name}")
         if not COMPONENT_NAME.fullmatch(name):
             raise table.error(name, "not a name of a component", "write it without dots, commas, brackets and spaces")
-        if isinstance(value, dict):
+        if isinstance(stated, dict):
             entry = table.table(name)
             entry.only(("fmu", "parameters", "step"))
             step = entry.get("step", _positive, None)
@@ -181,14 +181,14 @@ def _connectors(table: Table) -> dict[str, str]:
     return kinds
 
 
-def _values(table: Table) -> Iterator[tuple[str, SetValue]]:
-    for name, value in table.flat():
-        for each in value if isinstance(value, list) else [value]:
+def _set(table: Table) -> Iterator[tuple[str, SetValue]]:
+    for name, setting in table.flat():
+        for each in setting if isinstance(setting, list) else [setting]:
             if not isinstance(each, int | float):
                 raise table.error(
                     name, f"{each!r} is neither a number nor true or false", "write one, or a list of them"
                 )
-        yield name, value  # type: ignore[misc]
+        yield name, setting  # type: ignore[misc]
 
 
 def _units(table: Table) -> Iterator[tuple[str, Unit]]:

@@ -39,7 +39,7 @@ def _lines(source: SystemSource) -> Iterator[str]:
             yield from _list(kind, (name for name, each in source.connectors.items() if each == kind))
     if source.set:
         yield from ("", "[set]")
-        yield from (f"{_text(name)} = {json.dumps(value)}" for name, value in source.set.items())
+        yield from (f"{_text(name)} = {json.dumps(setting)}" for name, setting in source.set.items())
     if source.units:
         yield from ("", "[units]")
         for name, unit in source.units.items():
@@ -59,7 +59,7 @@ def _component(component: ComponentSource) -> str:
 
 
 def _table(entries: Iterable[tuple[str, str]]) -> str:
-    inner = ", ".join(f"{key} = {value}" for key, value in entries)
+    inner = ", ".join(f"{key} = {text}" for key, text in entries)
     return f"{{ {inner} }}" if inner else "{}"
 
 

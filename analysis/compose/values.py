@@ -15,7 +15,7 @@ from .source import SetValue, SystemSource
 from .wiring import INDEX, Wiring, collapse
 
 NAME = "set"  # of the parameter set
-TYPES: Mapping[str, type] = {"Real": float, "Integer": int, "Boolean": bool}
+ACCEPTED: Mapping[str, tuple[type, ...]] = {"Real": (float, int), "Integer": (int,), "Boolean": (bool,)}
 
 
 def write_values(source: SystemSource, fmus: Mapping[str, Fmu], wiring: Wiring) -> list[str]:
@@ -25,9 +25,9 @@ def write_values(source: SystemSource, fmus: Mapping[str, Fmu], wiring: Wiring) 
     """
     values: dict[str, float | int | bool] = {}
     problems: list[str] = []
-    for name, value in source.set.items():
+    for name, setting in source.set.items():
         try:
-            values |= _typed(source, name, value, _types(source, name, fmus, wiring))
+            values |= _typed(source, name, setting, _types(source, name, fmus, wiring))
         except InputError as error:
             problems.append(error.text)
     if problems:
@@ -45,7 +45,7 @@ def _types(source: SystemSource, name: str, fmus: Mapping[str, Fmu], wiring: Wir
             if each.causality in ("parameter", "structuralParameter", "input")
         }
     else:
-        known = {own: each.type or "" for (owner, own), each in wiring.connectors.items() if not owner}
+        known = {name: each.type or "" for (owner, name), each in wiring.connectors.items() if not owner}
     names = elements(variable, known)
     if not names:
         if not component and "." in name:
@@ -57,19 +57,18 @@ def _types(source: SystemSource, name: str, fmus: Mapping[str, Fmu], wiring: Wir
 
 
 def _typed(
-    source: SystemSource, name: str, value: SetValue, types: Mapping[str, str]
+    source: SystemSource, name: str, setting: SetValue, types: Mapping[str, str]
 ) -> Iterator[tuple[str, float | int | bool]]:
-    values = value if isinstance(value, Sequence) and not isinstance(value, str) else (value,)
+    values = setting if isinstance(setting, Sequence) and not isinstance(setting, str) else (setting,)
     if len(values) != len(types):
         problem = f"{len(values)} value{'s' if len(values) > 1 else ''} for {len(types)}"
         raise source.problem(f"set.{name}", problem, "give one for each element")
     for (element, type_name), each in zip(types.items(), values, strict=True):
-        kind = TYPES.get(type_name)
-        is_whole = isinstance(each, int) and not isinstance(each, bool)
-        if kind is None or not (isinstance(each, kind) if kind is bool else is_whole or type(each) is kind):
+        is_truth = type_name == "Boolean"
+        if not isinstance(each, ACCEPTED.get(type_name, ())) or isinstance(each, bool) is not is_truth:
             problem = f"{each!r} is not of type {type_name}"
             raise source.problem(f"set.{name}", problem, "give another, or use a parameter set (.ssv)")
-        yield element, kind(each)
+        yield element, ACCEPTED[type_name][0](each)
 
 
 def read_values(assignments: Sequence[Assignment]) -> dict[str, SetValue]:
@@ -77,10 +76,10 @@ def read_values(assignments: Sequence[Assignment]) -> dict[str, SetValue]:
     values: dict[str, ParameterValue] = {each.name: each.value for each in assignments}
     shapes = array_shapes(values)
     merged: dict[str, SetValue] = {}
-    for name, value in values.items():
+    for name, number in values.items():
         array = INDEX.sub("", name)
         if array in shapes:
             merged[array] = [values[each] for each in element_names(array, shapes[array])]
         else:
-            merged[name] = value
+            merged[name] = number
     return merged

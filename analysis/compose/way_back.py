@@ -9,7 +9,7 @@ from typing import Any
 
 from ..common.errors import InputError
 from ..runtime.ssp.archive import OSP_SUFFIX, SystemArchive
-from ..runtime.ssp.description import Component, Description, Element
+from ..runtime.ssp.description import Binding, Component, Description, Element
 from ..runtime.ssp.dimensions import Shape, array_shapes, element_names
 from ..runtime.ssp.parameter_sets import Assignment, read_binding
 from ..runtime.ssp.reading import read_description
@@ -32,13 +32,13 @@ def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSourc
     Raises InputError for what a `system.toml` does not have, by the element and its line.
     """
     name = archive.description_name(variant)
-    data = archive.read(name, "SSD")
+    ssd = archive.read(name, "SSD")
     description = read_description(archive, variant)
     if name.endswith(OSP_SUFFIX):
         raise InputError(description.file, "", "is no SSD", KEEP.replace("SSD", "file"))
     components = dict(_components(description))
     bindings, values = list(description.system.bindings), list[Assignment]()
-    if bindings and bindings[-1].inline is not None:
+    if bindings and bindings[-1].inline is not None and not _is_adapted(bindings[-1]):
         values, _ = read_binding(archive, description.file, bindings.pop(), description.units)
     source = SystemSource(
         name=description.name,
@@ -49,7 +49,7 @@ def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSourc
         step=description.step,
         parameters=_parameters(description, replace(description.system, bindings=bindings)),
         set=read_values(values),
-        annotations=_annotations(data, description),
+        annotations=_annotations(ssd, description),
         file=description.file,
     )
     fmus = load_fmus(source, archive)
@@ -63,7 +63,7 @@ def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSourc
     source = replace(source, **_wiring(pairs, declared, fmus))
     wiring = wire(source, fmus)
     source = replace(source, units=underived_units(source, wiring, description.units))
-    difference = find_difference(data, write_document(source, fmus, wiring))
+    difference = find_difference(ssd, write_document(source, fmus, wiring))
     if difference is not None:
         raise InputError(description.file, difference, "has no place in a system.toml", KEEP)
     return source
@@ -87,7 +87,7 @@ def _parameters(description: Description, element: Element) -> tuple[str, ...]:
     """The parameter sets bound to an element, by the names that a system.toml has for them."""
     names = []
     for binding in element.bindings:
-        if binding.source is None or binding.prefix or binding.mapping_source or binding.mapping_inline is not None:
+        if binding.source is None or _is_adapted(binding):
             where = f"ParameterBinding (line {binding.line})"
             problem = "with values inside, a prefix or a mapping has no place in a system.toml"
             raise InputError(description.file, where, problem, KEEP)
@@ -96,12 +96,16 @@ def _parameters(description: Description, element: Element) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _annotations(data: bytes, description: Description) -> bytes:
+def _is_adapted(binding: Binding) -> bool:
+    return bool(binding.prefix or binding.mapping_source) or binding.mapping_inline is not None
+
+
+def _annotations(ssd: bytes, description: Description) -> bytes:
     """The content of the annotations of the SSD itself, byte for byte."""
     if not description.annotations:
         return b""
-    start = data.rfind(b"</ssd:DefaultExperiment>")
-    match = ANNOTATIONS.search(data, max(start, 0))
+    start = ssd.rfind(b"</ssd:DefaultExperiment>")
+    match = ANNOTATIONS.search(ssd, max(start, 0))
     if match is None:
         raise InputError(description.file, "Annotations", "not found under the prefix ssd", KEEP)
     return match[1]
@@ -114,9 +118,9 @@ def _wiring(pairs: list[tuple[Point, Point]], declared: Mapping[Point, str], fmu
         for component, fmu in fmus.items()
         for array, shape in array_shapes(fmu.variables).items()
     }
-    own = [name for component, name in declared if not component]
-    shapes |= {("", array): shape for array, shape in array_shapes(own).items()}
-    kinds = {name: declared["", name] for name in own}
+    system_names = [name for component, name in declared if not component]
+    shapes |= {("", array): shape for array, shape in array_shapes(system_names).items()}
+    kinds = {name: declared["", name] for name in system_names}
     connected = {point for pair in pairs for point in pair}
     idle = [point for point in declared if point[0] and point not in connected]
     inputs = [

@@ -143,11 +143,11 @@ class _Wirer:
         pairs = zip(source.names, target.names, strict=True)
         return all(self.join_one((source.component, a), (target.component, b), entry) for a, b in pairs)
 
-    def like(self, own: End, other: End) -> End:
+    def like(self, end: End, other: End) -> End:
         """Return a connector of the system with the elements of what it is connected to."""
-        if own.variable not in self.source.connectors or other.indices == ("",):
-            return own
-        return End("", own.variable, tuple(own.variable + index for index in other.indices))
+        if end.variable not in self.source.connectors or other.indices == ("",):
+            return end
+        return End("", end.variable, tuple(end.variable + index for index in other.indices))
 
     def join_one(self, source: Point, target: Point, entry: Entry) -> bool:
         """Connect two elements; False with a problem noted."""

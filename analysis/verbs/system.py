@@ -62,8 +62,8 @@ class System:
                 raise InputError(self._source.name, name, problem, "rename one of the files")
         components = {**self._source.components, name: ComponentSource(source, where=name)}
         self._source = replace(self._source, components=components)
-        for parameter, value in parameters.items():
-            self.set(f"{name}.{parameter}", value)
+        for parameter, setting in parameters.items():
+            self.set(f"{name}.{parameter}", setting)
 
     def connect(self, source: str, *sinks: str) -> None:
         """Connect ``COMPONENT.OUTPUT`` with inputs, whole vectors at once; a connector of the system has no component.
@@ -80,10 +80,10 @@ class System:
         """
         self._source = replace(self._source, connectors={**self._source.connectors, name: kind})
 
-    def set(self, name: str, value: SetValue) -> None:
+    def set(self, name: str, setting: SetValue) -> None:
         """Set a parameter, ``COMPONENT.PARAMETER``, in its variable's unit; of a vector a list."""
-        values = value if isinstance(value, bool | int | float | str | Sequence) else list(value)
-        self._source = replace(self._source, set={**self._source.set, name: values})
+        numbers = setting if isinstance(setting, int | float | str | Sequence) else list(setting)
+        self._source = replace(self._source, set={**self._source.set, name: numbers})
 
     def declare(self, *names: str) -> None:
         """Declare connectors of components that nothing is connected to."""
@@ -103,8 +103,8 @@ class System:
         home = Path(folder)
         raw = self.toml.encode()
         contents = {name: read_input(path, "correct the path", ARCHIVE_BYTES) for name, path in self._files.items()}
-        place = home if home.is_dir() else make_folder()
-        document = compose_source(self._source, place, raw, SYSTEM_FILE, contents)
+        there = home if home.is_dir() else make_folder()
+        document = compose_source(self._source, there, raw, SYSTEM_FILE, contents)
         check_unedited(home / DESCRIPTION)
         check_unedited_source(home / SYSTEM_FILE, home / DESCRIPTION, raw)
         write_new({home / name: content for name, content in contents.items()})

@@ -12,6 +12,7 @@ from typing import ClassVar, Unpack, overload
 from attrs import evolve
 from fmpy.validation import validate_model_description
 
+from ...fmus_src.export.ssp_package import DESCRIPTION
 from ...fmus_src.paths import names_fmu
 from ..campaigns.spec.checks import check_plan
 from ..campaigns.spec.file import SYNTHESIS, read_campaign
@@ -22,6 +23,8 @@ from ..common.bounds import bound_of
 from ..common.errors import ExitStatus, InputError
 from ..common.regular import read_input
 from ..common.visible import on_one_line
+from ..compose.likeness import find_difference
+from ..compose.source import SYSTEM_FILE
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
 from ..design.trajectories.stored_bound import MissingBound, find_bound
@@ -41,6 +44,7 @@ from ..stability.request.reading import read_declaration
 from ..stability.request.request import Subject
 from .common.arguments import path_list
 from .common.description_text import wrap
+from .compose import compose_file
 from .options.library import VALIDATE, ValidateOptions
 from .options.option import FilePath
 from .options.verb import verb
@@ -130,6 +134,8 @@ def _check(path: str, options: System, all_variants: bool, systems: Sequence[str
             read_parameter_file(_read(path), path, remarks=notes)
         elif path.endswith(".json"):
             read_law(Path(path))
+        elif Path(path).name == SYSTEM_FILE:
+            notes += _check_short_file(Path(path))
         elif path.endswith(".toml"):
             notes += _check_campaign(path, systems)
         else:
@@ -169,6 +175,15 @@ def _check_campaign(path: str, systems: Sequence[str]) -> list[str]:
     else:
         check_plan(read_plan(system, path if os.path.dirname(path) else os.path.join(os.curdir, path), System()))
     return []
+
+
+def _check_short_file(path: Path) -> list[str]:
+    """Compose a system without writing it; a note where the SSD beside it is another. Raises InputError."""
+    _, document = compose_file(path)
+    ssd = path.with_name(DESCRIPTION)
+    if not ssd.exists() or find_difference(document, read_input(ssd, "move it away", bound_of(ssd.name))) is None:
+        return []
+    return [f"{ssd} is not what {path} states: perilune compose {path} writes it"]
 
 
 def _check_system(path: str, options: System, all_variants: bool) -> list[str]:

@@ -120,6 +120,13 @@ def test_the_commands_that_it_names(capsys):
 
 
 @pytest.mark.usefixtures("folder")
+def test_its_short_file_is_what_flies():
+    before = Path(NAME, "SystemStructure.ssd").read_bytes()
+    assert main(["compose", f"{NAME}/system.toml"]) == 0
+    assert Path(NAME, "SystemStructure.ssd").read_bytes() == before
+
+
+@pytest.mark.usefixtures("folder")
 def test_connectors_are_all_that_the_blocks_declare():
     spaces = {"ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription"}
     root = etree.parse(f"{NAME}/SystemStructure.ssd").getroot()

@@ -29,9 +29,21 @@ def canonical(path):
     return etree.tostring(root, method="c14n")
 
 
-@pytest.mark.parametrize("name", either(system_names(), ["lunar_descent_2d", "lunar_terminal_guidance"]))
+NAMES = either(system_names(), ["lunar_descent_2d", "lunar_terminal_guidance"])
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_its_short_file_states_its_ssd(name):
+    (check,) = perilune.validate(SYSTEMS / name / "system.toml")
+    assert (check.problems, check.notes) == ((), ())
+    assert perilune.compose(name).toml == (SYSTEMS / name / "system.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_there_and_back(tmp_path, name):
-    shutil.copytree(SYSTEMS / name, tmp_path / name, ignore=shutil.ignore_patterns(SSD))
+    shutil.copytree(
+        SYSTEMS / name, tmp_path / name, ignore=shutil.ignore_patterns(SSD, "system.toml", "annotations.xml")
+    )
     toml = tmp_path / name / "system.toml"
     back = perilune.compose(name, output=toml)
     assert back.paths[0] == toml

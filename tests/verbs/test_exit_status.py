@@ -99,6 +99,8 @@ ROWS = [
     ("docs --json {folder}", 2),
     ("export forming_filter --flavour python", 0),
     ("export nothing", 2),
+    ("compose lunar_terminal_guidance", 0),
+    ("compose nothing", 2),
     ("benchmark --json {folder}", 2),
 ]
 ELSEWHERE = {

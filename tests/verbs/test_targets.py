@@ -78,6 +78,7 @@ ARGUMENTS = {
     "docs": [],
     "new block": ["mine"],
     "new system": ["mine"],
+    "compose": ["lunar_landing"],
     "export": ["lunar_landing"],
 }
 WRITING_NOTHING = {"show"}

@@ -256,6 +256,9 @@ def open_system(system: str | Path) -> SystemArchive:
     if path.suffix == ".py":
         remedy = f"perilune export {text} builds them; fly the folder of a system that names them"
         raise InputError(text, "", "a file of blocks is no system", remedy)
+    if path.name == "system.toml":
+        remedy = f"perilune compose {text} writes its SSD; give the folder"
+        raise InputError(text, "", "a file of which a system is composed is no system", remedy)
     if path.suffix == ".toml":
         remedy = f"perilune batch SYSTEM --campaign {text} simulates it with its system"
         raise InputError(text, "", "a campaign is no system", remedy)

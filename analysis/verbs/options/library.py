@@ -205,7 +205,11 @@ class ComposeOptions(TypedDict, total=False):
 
     output: Annotated[
         FilePath | None,
-        Option("of a system: write its file to F.toml, what it names beside it; default: print it", metavar="F.toml"),
+        Option(
+            "of a system: write its file to F.toml, what it names beside it; default: print it",
+            metavar="F.toml",
+            suffixes=(".toml",),
+        ),
     ]
 
 

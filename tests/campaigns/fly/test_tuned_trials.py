@@ -54,7 +54,7 @@ def ssp(tiny: Path, tmp_path: Path) -> Path:
     return pack(tmp_path / "s.ssp", tiny, text)
 
 
-def test_every_trial_changes_its_own_value(ssp: Path, tmp_path: Path) -> None:
+def test_every_trial_changes_a_parameter(ssp: Path, tmp_path: Path) -> None:
     (tmp_path / "c.toml").write_text(CAMPAIGN)
     batch = perilune.batch(ssp, str(tmp_path / "c.toml"), workers=1, output=tmp_path / "out")
     table = batch.table()

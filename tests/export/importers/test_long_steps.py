@@ -179,7 +179,7 @@ class Divides(Block):
         _ = 1.0 / self.left
 
 
-def test_a_sample_that_fails_is_named_with_its_own_step(tmp_path: Path) -> None:
+def test_a_sample_that_fails_is_named_with_its_step(tmp_path: Path) -> None:
     native = NativeInstance(Divides)
     native.enter()
     assert native.start() == OK

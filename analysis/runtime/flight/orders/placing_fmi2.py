@@ -47,7 +47,7 @@ def place_component(network: Network, component: str, exchanged: Exchanged, slot
             elif exchanged.is_fetched(name):
                 slots.add(name, variable.reference, np.nan, variable.type, variable.unit)
         ranges.append((first, len(slots.references) - first))
-    tuned = _place_tuned(network, component, exchanged, slots)
+    tuned = _locate_tuned(network, component, exchanged, slots)
     return ComponentSlots(ranges, _place_recorded(network, component, exchanged, slots), tuned)
 
 
@@ -64,7 +64,7 @@ def _by_function(network: Network, component: str, exchanged: Exchanged) -> list
     return variables
 
 
-def _place_tuned(
+def _locate_tuned(
     network: Network, component: str, exchanged: Exchanged, slots: Slots
 ) -> list[tuple[int, int, int, int]]:
     """Add slots of parameters that change in flight, and of the values that they have without."""

@@ -137,11 +137,11 @@ def test_killed_workers_fly_again(cluster, line, place):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("lost", ["scheduler", "workers"])
-def test_a_cluster_that_is_gone(line, place, tmp_path, capsys, monkeypatch, lost):
+def test_a_cluster_that_is_gone(line, tmp_path, capsys, monkeypatch, lost):
     """After the first of sixteen shards."""
     monkeypatch.setattr(flights, "WITHOUT_WORKERS", 2.0)
     line = [*line[:-1], "400"]
-    out = place / f"without_{lost}"
+    out = tmp_path / f"without_{lost}"
     with dask_cluster(tmp_path) as alone:
         watch = threading.Thread(target=lambda: (until(lambda: shards_in(out) >= 1), alone.end(lost)))
         watch.start()
@@ -152,8 +152,8 @@ def test_a_cluster_that_is_gone(line, place, tmp_path, capsys, monkeypatch, lost
     assert {"scheduler": "is gone", "workers": "had no worker for 2 s"}[lost] in said
     assert f"; completed trials are stored in {out}: resume with the same command and --resume, or with shard" in said
     assert main([*line, "--output", str(out), "--resume"]) == 0
-    assert main([*line, "--output", str(place / f"complete_{lost}"), "--workers", "1"]) == 0
-    assert bytes_of(out) == bytes_of(place / f"complete_{lost}")
+    assert main([*line, "--output", str(tmp_path / f"complete_{lost}"), "--workers", "1"]) == 0
+    assert bytes_of(out) == bytes_of(tmp_path / f"complete_{lost}")
 
 
 def test_ctrl_c_leaves_what_can_be_gone_on_with(cluster, line, whole, place, capsys):
