@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from ..common.percent import percent
 from .requirement_verdicts import RequirementVerdict
-from .statistics import STATISTICS
-from .summary import CONFIDENCE, Summary, SummaryRow, summary_rows
+from .summary import Summary, SummaryRow
 from .verdicts.acceptance import Verdict
 
 
@@ -37,19 +36,8 @@ def who_cells(row: SummaryRow, group: str | None) -> list[str]:
     return [row.variant] if group is None else [row.variant, row.group or "all"]
 
 
-def metric_lines(rows: Sequence[SummaryRow], metrics: Iterable[str], group: str | None) -> list[str]:
-    """A line per metric and row: statistics over successful trials."""
-    cells = [["metric, successful trials", *who_heads(group), *STATISTICS, "unit"]]
-    for metric in metrics:
-        for row in rows:
-            values = row.entry.metrics[metric]
-            cells.append(
-                [metric, *who_cells(row, group), *(_cell(values.value(key)) for key in STATISTICS), values.unit]
-            )
-    return align_columns(cells) if len(cells) > 1 else []
-
-
-def _cell(value: float | None) -> str:
+def short(value: float | None) -> str:
+    """Return a number in four digits, a dash for none."""
     return "-" if value is None else f"{value:.4g}"
 
 
@@ -66,7 +54,7 @@ def requirement_lines(summary: Summary) -> list[str]:
             continue
         if result.bound is not None:
             unit = summary[variant].metrics[result.bound.metric].unit
-            value = f"{_cell(result.bound.value)} {'' if unit == '1' else unit}".strip()
+            value = f"{short(result.bound.value)} {'' if unit == '1' else unit}".strip()
             bounds.append(f"{variant}: {bound_text(result, value)}")
     return [*align_columns(cells), *bounds] if len(cells) > 1 else []
 
@@ -129,18 +117,3 @@ def unevaluated_text(judged: RequirementVerdict) -> str:
 def faults_line(faults: Iterable[object]) -> str:
     """What results say of the faults that flew."""
     return f"with faults: {'; '.join(map(str, faults))}"
-
-
-def summary_text(summary: Summary, group: str | None = None) -> str:
-    """A summary for the terminal: success rates, requirements, then metrics of successful trials, of groups too."""
-    rows = summary_rows(summary)
-    rates = [[*who_heads(group), "trials", "success %", f"{100 * CONFIDENCE:g} % interval", "statuses"]]
-    for row in rows:
-        low, high = row.entry.success_interval
-        statuses = ", ".join(f"{count} {status}" for status, count in row.entry.statuses.items())
-        rate = percent(row.entry.success_rate)
-        interval = f"{percent(low)} to {percent(high)}"
-        rates.append([*who_cells(row, group), str(row.entry.trials), rate, interval, statuses])
-    metrics = dict.fromkeys(metric for variant in summary.values() for metric in variant.metrics)
-    tables = [align_columns(rates), requirement_lines(summary), metric_lines(rows, metrics, group)]
-    return "\n\n".join("\n".join(lines) for lines in tables if lines)

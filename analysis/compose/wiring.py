@@ -46,7 +46,7 @@ class End:
 
 @dataclass(frozen=True)
 class ConnectorSource:
-    """A connector: kind, unit, and type as SSP 1.0 has it: Integer of an Enumeration, which a system need not define."""
+    """A connector: kind, unit, and type as SSP 1.0 has it: Integer of an Enumeration, which systems do not define."""
 
     kind: str
     type: str

@@ -13,6 +13,7 @@ from ..campaigns.fly.cluster.connection import cluster
 from ..campaigns.fly.runner import fly_campaign
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.summary import CONFIDENCE, summary_rows
+from ..campaigns.summary_text import select_metrics
 from ..campaigns.tables import requirement_rows, who_cells, who_heads
 from ..campaigns.trials import whole_column
 from ..common.errors import InputError, suggestion
@@ -39,10 +40,11 @@ MOST_PLOTTED = 6  # metrics, in a notebook
 class BatchResult(results.BatchResult):
     """All trials of all variants; ``summary`` has rates and statistics by variant, ``trials`` the numbers behind.
 
-    ``requirements`` are those of the option ``require``.
+    ``requirements`` are those of the option ``require``, ``displayed`` the metrics of the option ``metrics``.
     """
 
     requirements: tuple[Expression, ...] = ()
+    displayed: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         rates = ", ".join(f"{name} {short_percent(entry.success_rate)} %" for name, entry in self.summary.items())
@@ -54,7 +56,7 @@ class BatchResult(results.BatchResult):
 
     def lines(self) -> list[str]:
         """What `perilune batch` prints."""
-        return [self.text(), *status_meanings(self.plan, self)]
+        return [self.text(self.displayed), *status_meanings(self.plan, self)]
 
     def problems(self) -> list[str]:
         """Failed simulations, requirements of the campaign and of ``require`` that are not met."""
@@ -157,7 +159,8 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
     instead; ``faults`` are injected in every trial, after the campaign's own, and every trial has the same ``input``;
     one that takes longer than ``timeout`` (s, wall clock) ends ``timed_out``, is no success, and the next one starts;
     ``draws`` is a Parquet file of given draws, one row a trial. In ``set`` a text "low:high:step" is a sweep.
-    ``require`` are expressions over the summary's numbers, see `BatchResult.problems`. The rest is as in `simulate`.
+    ``require`` are expressions over the summary's numbers, see `BatchResult.problems`; ``metrics`` are those that the
+    command line prints. The rest is as in `simulate`.
     Raises InputError.
     """
     folder = None if options["output"] is None else Path(options["output"])
@@ -171,6 +174,7 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
     check_folder("`output`", folder, overwrite=is_kept, otherwise="`resume` or `overwrite`")
     plan = read_campaign(system, campaign, options)
     requirements = campaign_requirements(plan, options["require"])
+    select_metrics(options["metrics"], [metric.name for metric in plan.campaign.metrics], ())  # refused before flights
     workers, engine = options["workers"], options["engine"]
     with (
         chdir(Path.cwd()),  # an FMU may change the folder
@@ -184,4 +188,5 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
         if options["retry_crashed"]:
             opened.discard_lost(range(opened.numbering.count))
         rows = fly_campaign(opened, opened.missing(), workers=workers, engine=engine, elsewhere=elsewhere)
-        return BatchResult.finish(opened, rows, requirements=tuple(requirements))
+        displayed = tuple(options["metrics"])
+        return BatchResult.finish(opened, rows, requirements=tuple(requirements), displayed=displayed)

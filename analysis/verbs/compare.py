@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
@@ -31,6 +31,8 @@ MOST_PLOTTED = 6  # metrics, in a notebook
 class Comparison(NoProblems, comparison.Comparison):
     """Variants on the same trials: ``summary`` by label, ``pairs`` of labels, `compare_rates`, `compare_values`."""
 
+    displayed: tuple[str, ...] = ()  # metrics of the option `metrics`
+
     def __repr__(self) -> str:
         trials = len(next(iter(self.contenders.values())).trials.trial)
         return f"{type(self).__name__}({', '.join(self.contenders)}; {trials} trials)"
@@ -57,7 +59,7 @@ class Comparison(NoProblems, comparison.Comparison):
 
     def lines(self) -> list[str]:
         """What `perilune compare` prints."""
-        return self.text().splitlines()
+        return self.text(self.displayed).splitlines()
 
     def to_json(self) -> dict[str, object]:
         """Provenance of every batch, numbers of every variant and of every pair, for other programs."""
@@ -108,9 +110,12 @@ def compare(*results: FilePath | Sequence[FilePath], **options: Unpack[CompareOp
     """Put the variants of stored campaigns side by side: `perilune compare`.
 
     ``results`` are folders that `batch` wrote to its ``output``, or a list of them, all simulated on the same draws;
-    ``reference`` names the variant that others are compared with, by default the first. Raises InputError.
+    ``reference`` names the variant that others are compared with, by default the first; ``metrics`` are those that
+    the command line prints. Raises InputError.
     """
     folders = [Path(folder) for folder in path_list(results)]
     if not folders:
         raise InputError("compare", "", "no folder of results", "name what batch(..., output=...) wrote")
-    return compare_folders(Comparison, folders, options["reference"])
+    compared = compare_folders(Comparison, folders, options["reference"])
+    compared.text(options["metrics"])  # which refuses names that it does not have
+    return replace(compared, displayed=tuple(options["metrics"]))

@@ -122,11 +122,11 @@ def inventory(what: str | None = None) -> Inventory:
         return everything
     if what in KINDS:
         return everything.only(what)
-    matching = everything.matching(what)
-    if matching.is_empty:
+    matches = everything.matching(what)
+    if matches.is_empty:
         remedy = f"give another text, or a kind: {', '.join(KINDS)}"
         raise InputError("list", what, "in no name and no description", remedy)
-    return matching
+    return matches
 
 
 def _system(archive: SystemArchive) -> SystemFiles:

@@ -12,15 +12,15 @@ from ..campaigns.fly.campaign import open_campaign, open_folder
 from ..campaigns.fly.cluster.connection import cluster
 from ..campaigns.fly.runner import fly_campaign, merge_rows
 from ..campaigns.fly.shards.numbering import numbers_of
+from ..campaigns.summary_text import select_metrics
 from ..common.errors import InputError
 from ..common.targets import check_folder
 from ..runtime.system.options import trust_of
 from .batch import BatchResult
 from .common.campaign_text import campaign_requirements, failure_lines, find_failed
 from .common.campaigns import name_foreign, read_campaign, resume_hint
-from .options.campaigns import MERGE, PREPARE, SHARD, PrepareOptions, ShardOptions
+from .options.campaigns import MERGE, PREPARE, SHARD, MergeOptions, PrepareOptions, ShardOptions
 from .options.option import FilePath
-from .options.system import RequireOptions
 from .options.verb import verb
 from .result import NoProblems
 
@@ -130,9 +130,12 @@ def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpac
 
 
 @verb(MERGE)
-def merge(folder: FilePath, **options: Unpack[RequireOptions]) -> BatchResult:
+def merge(folder: FilePath, **options: Unpack[MergeOptions]) -> BatchResult:
     """Merge the shards of a campaign's folder: `perilune merge`. Raises InputError where some are missing."""
     with chdir(Path.cwd()), resume_hint(Path(folder)):
         campaign = open_folder(Path(folder))
         requirements = campaign_requirements(campaign.plan, options["require"])
-        return BatchResult.finish(campaign, merge_rows(campaign), requirements=tuple(requirements))
+        displayed = tuple(options["metrics"])
+        select_metrics(displayed, [metric.name for metric in campaign.plan.campaign.metrics], ())
+        rows = merge_rows(campaign)
+        return BatchResult.finish(campaign, rows, requirements=tuple(requirements), displayed=displayed)

@@ -8,9 +8,12 @@ import pytest
 
 from perilune.analysis.campaigns.spec.campaign import Group, Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
+from perilune.analysis.campaigns.spec.requirements import Requirement
+from perilune.analysis.campaigns.statistics import STATISTICS
 from perilune.analysis.campaigns.summary import summarise
-from perilune.analysis.campaigns.tables import summary_text
+from perilune.analysis.campaigns.summary_text import WIDTH, rate_lines, select_metrics, summary_text
 from perilune.analysis.campaigns.trials import TrialColumns
+from perilune.analysis.common.errors import InputError
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
 GOOD = TrialColumns(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})
@@ -58,3 +61,57 @@ def test_a_line_per_group_beside_the_whole():
         ["miss", "good", "1", "1"],
         ["miss", "good", "2.5", "4"],
     ]
+
+
+def columns(**metrics: list[float]) -> TrialColumns:
+    count = len(next(iter(metrics.values())))
+    arrays = {name: np.array(values) for name, values in metrics.items()}
+    return TrialColumns(["finished"] * count, np.ones(count, dtype=bool), arrays)
+
+
+def test_lines_fit_and_say_which_columns_are_left_out():
+    long = "a_variant_with_quite_a_long_name"
+    summary = summarise({long: columns(miss=[1.0001e-5, 2.0002e5, -3.0003e-7])}, METRICS)
+    lines = summary_text(summary).splitlines()
+    assert max(map(len, lines)) <= WIDTH
+    head, row, note = lines[3:]
+    left_out = note.removeprefix("columns left out: ").removesuffix("; `json` has all").split(", ")
+    assert left_out
+    assert [name for name in STATISTICS if name in head.split() or name in left_out] == list(STATISTICS)
+    values = dict(zip(head.split()[4:-1], row.split()[2:-1], strict=True))
+    assert not values.keys() & set(left_out)
+    assert float(values["max"]) == 2.0e5
+
+
+def test_a_metric_that_is_the_same_everywhere_is_a_line():
+    metrics = [*METRICS, Metric("flag", Expression("p.x"), "final")]
+    variants = {"a": columns(miss=[1.0, 2.0], flag=[1.0, 1.0]), "b": columns(miss=[3.0, 4.0], flag=[1.0, 1.0])}
+    lines = summary_text(summarise(variants, metrics)).splitlines()
+    assert lines[-1] == "the same in all successful trials: flag 1"
+    assert not any(line.startswith("flag") for line in lines)
+    variants["b"] = columns(miss=[3.0, 4.0], flag=[1.0, math.inf])
+    assert sum(line.startswith("flag") for line in summary_text(summarise(variants, metrics)).splitlines()) == 2
+
+
+def test_metrics_that_are_printed():
+    known = ["a", "b", "c"]
+    assert select_metrics((), known, {"c", "success"}) == ["c"]
+    assert select_metrics((), known, {"success"}) == known
+    assert select_metrics(["b", "a", "b"], known, {"c"}) == ["b", "a"]
+    assert select_metrics(["all"], known, {"c"}) == known
+    with pytest.raises(InputError, match=r"metrics: d: no such metric; .* or give all"):
+        select_metrics(["d"], known, ())
+
+
+def test_rates_that_are_the_same_in_all_rows_become_a_line_where_it_is_long():
+    head = ["variant", "trials", "success", "x" * 60, "y" * 40]
+    rows = [["one", "40", "100", "1", "2"], ["two", "40", "100", "1", "3"]]
+    notes = [f"the same in all rows: {each}" for each in ("trials 40", f"{'x' * 60} 1")]
+    assert sorted(rate_lines([head, *rows], 1)[3:]) == notes
+    assert rate_lines([head[:3], *(row[:3] for row in rows)], 1)[1].split() == ["one", "40", "100"]
+
+
+def test_a_stored_requirement_begins_with_its_expression():
+    """By which a comparison knows the metrics that are judged."""
+    requirement = Requirement("r", Expression("min(miss, 2) < 3 and success"), 0.95, 0.9)
+    assert str(requirement).rpartition(", ")[0] == requirement.expression.text

@@ -23,7 +23,8 @@ from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.metrics import successes
 from perilune.analysis.campaigns.spec.requirements import Requirement
 from perilune.analysis.campaigns.summary import requirement_values, summarise
-from perilune.analysis.campaigns.tables import ordinal, summary_text, unmet_lines
+from perilune.analysis.campaigns.summary_text import summary_text
+from perilune.analysis.campaigns.tables import ordinal, unmet_lines
 from perilune.analysis.campaigns.trials import TrialColumns
 from perilune.analysis.campaigns.verdicts.stopping import stopping_rule
 from perilune.analysis.common.to_json import to_json

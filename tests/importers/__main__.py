@@ -6,10 +6,13 @@ values, and scalar outputs are compared with FMPy's.
 
 from __future__ import annotations
 
+import os
 import sys
 import tempfile
 from collections import Counter, defaultdict
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from itertools import repeat
 from pathlib import Path
 
 import perilune
@@ -54,7 +57,9 @@ def main() -> None:
     outcomes: dict[str, list[Outcome]] = {}
     with tempfile.TemporaryDirectory() as folder:
         for kind, fmus in fmus_by_kind(Path(folder)):
-            outcomes[kind] = [outcome for fmu in fmus for outcome in try_importers(fmu, MASTERS)]
+            with ThreadPoolExecutor(os.cpu_count()) as pool:
+                trials = pool.map(try_importers, fmus, repeat(tuple(MASTERS)))
+                outcomes[kind] = [outcome for several in trials for outcome in several]
             print(kind, Counter(not outcome.problem for outcome in outcomes[kind]), file=sys.stderr, flush=True)
     table, refused = write_table(outcomes)
     text = PAGE.read_text(encoding="utf-8")

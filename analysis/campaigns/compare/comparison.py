@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -14,7 +14,8 @@ from ...common.to_json import to_json
 from ..folder.stored import StoredBatch
 from ..spec.campaign import Group, Metric
 from ..summary import CONFIDENCE, Rate, Summary, VariantSummary, success_rate, summarise, summary_rows
-from ..tables import align_columns, faults_line, metric_lines, who_cells, who_heads
+from ..summary_text import metric_lines, rate_lines, select_metrics
+from ..tables import faults_line, who_cells, who_heads
 from ..trials import TrialColumns, Trials
 from .paired import PairedRates, PairedValues, compare_rates, compare_values
 
@@ -198,8 +199,25 @@ class Comparison:
             ],
         }
 
-    def text(self) -> str:
-        """The comparison for a terminal: rates with intervals, then metrics of the successful trials."""
+    @cached_property
+    def judged_names(self) -> set[str]:
+        """The names in success and requirements of all batches."""
+        names: set[str] = set()
+        for batch in self.batches.values():
+            names |= batch.judged_names()
+        return names
+
+    def text(self, metrics: Sequence[str] = ()) -> str:
+        """The comparison for a terminal: rates with intervals, then metrics of the successful trials.
+
+        ``metrics`` are those to print, or ``all``; else those of success and requirements. Raises InputError for one
+        that no batch has.
+        """
+        if metrics:
+            named = select_metrics(metrics, [metric.name for metric in self._all_metrics], ())
+            selected = [name for name in named if name not in self._truths]
+        else:
+            selected = select_metrics((), [metric.name for metric in self.metrics], self.judged_names)
         names = [name_of(rate) for rate in self.rates]
         rows = summary_rows(self.summary)
         level = f"({100 * CONFIDENCE:g} %)"  # metrics are over all trials, unlike those of a batch's own summary
@@ -208,8 +226,8 @@ class Comparison:
         for row in rows:
             rates = [rate_text(row.entry.rates[name]) for name in names]
             cells.append([*who_cells(row, self.group), str(row.entry.trials), *rates])
-        metrics = metric_lines(rows, [metric.name for metric in self.metrics], self.group)
-        table = [*align_columns(cells), *(["", *metrics] if metrics else [])]
+        lines = metric_lines(rows, selected, self.group)
+        table = [*rate_lines(cells, len(who_heads(self.group))), *(["", *lines] if lines else [])]
         return "\n".join([*table, *self._fault_lines(), *self.notes])
 
     def _fault_lines(self) -> list[str]:

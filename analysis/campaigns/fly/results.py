@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +16,8 @@ from ...common.to_json import to_json
 from ..plotted_sample import PlottedSample, select_trials
 from ..spec.plan import BatchPlan
 from ..summary import Summary, summarise
-from ..tables import assumption_lines, faults_line, summary_text
+from ..summary_text import select_metrics, summary_text
+from ..tables import assumption_lines, faults_line
 from ..trials import Trials
 from .campaign import Campaign
 from .folder import tidy
@@ -87,10 +88,14 @@ class BatchResult:
         """The machine-readable result: provenance and the summary of each variant."""
         return {**self.provenance, "variants": to_json(self.summary)}
 
-    def text(self) -> str:
-        """The summary for a terminal."""
-        faults = self.plan.fault_texts()
-        lines = [summary_text(self.summary, self.plan.campaign.group), *([faults_line(faults)] if faults else [])]
+    def text(self, metrics: Sequence[str] = ()) -> str:
+        """The summary for a terminal, with these metrics or ``all``; else those of success and requirements.
+
+        Raises InputError for a metric that the campaign does not have.
+        """
+        faults, campaign = self.plan.fault_texts(), self.plan.campaign
+        selected = select_metrics(metrics, [metric.name for metric in campaign.metrics], campaign.judged_names())
+        lines = [summary_text(self.summary, campaign.group, selected), *([faults_line(faults)] if faults else [])]
         return "\n".join([*lines, *assumption_lines(self.provenance.get("assumptions", ()))])
 
     def write(self, folder: Path) -> None:

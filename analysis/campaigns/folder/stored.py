@@ -8,6 +8,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow
@@ -84,6 +85,17 @@ class StoredBatch:
     def faults(self) -> list[str]:
         """The faults that flew, the campaign's and the user's."""
         return self.document.get("faults", [])
+
+    def judged_names(self) -> set[str]:
+        """Return the names in success and requirements."""
+        summaries: Any = self.document["variants"]  # as JSON
+        required = {
+            verdict["text"].rpartition(", ")[0]
+            for entry in summaries.values()
+            for verdict in entry.get("requirements", {}).values()
+        }
+        texts = [self.document["success"], *required]
+        return set().union(*(Expression(text).names for text in texts))
 
     @cached_property
     def groups(self) -> list[Group]:

@@ -127,6 +127,11 @@ class Campaign:
     sweeps: Mapping[str, str] = field(default_factory=dict)
     lookups: tuple[Lookup, ...] = ()
 
+    def judged_names(self) -> set[str]:
+        """Return the names in success and requirements."""
+        bounds = {requirement.metric for requirement in self.requirements if requirement.metric is not None}
+        return bounds.union(self.success.names, *(requirement.expression.names for requirement in self.requirements))
+
     def __post_init__(self) -> None:
         if self.trials < 1:
             raise InputError(self.file, "trials", f"{self.trials} trial(s)", "give 1 or more")

@@ -121,7 +121,24 @@ class ShardOptions(ExecutionOptions, TrustOptions, total=False):
     """Options of shard"""
 
 
-class BatchOptions(CampaignOptions, TrialsOptions, ExecutionOptions, RequireOptions, total=False):
+class MetricsOptions(TypedDict, total=False):
+    """Which metrics are printed"""
+
+    metrics: Annotated[
+        Sequence[str],
+        Option(
+            "print this metric, or `all`; may be repeated; default: those of success and requirements, else all",
+            (),
+            metavar="NAME|all",
+        ),
+    ]
+
+
+class MergeOptions(RequireOptions, MetricsOptions, total=False):
+    """Options of merge"""
+
+
+class BatchOptions(CampaignOptions, TrialsOptions, ExecutionOptions, RequireOptions, MetricsOptions, total=False):
     """Options of batch"""
 
     output: Annotated[FilePath | None, Option("write trials, samples and summary to a folder", metavar="DIR")]
@@ -145,7 +162,7 @@ class BatchFiles(ReportFiles, total=False):
     ]
 
 
-class CompareOptions(TypedDict, total=False):
+class CompareOptions(MetricsOptions, total=False):
     """Options of compare"""
 
     reference: Annotated[
@@ -218,7 +235,7 @@ MERGE = Verb(
     "merge",
     "merge the shards of a campaign: summary, page, requirements",
     (FOLDER,),
-    options=RequireOptions,
+    options=MergeOptions,
     files=ReportFiles,
     function="shard.merge",
     examples={

@@ -22,11 +22,9 @@ def everything(fmus):
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "campaigns"])
 def test_a_kind_alone(everything, kind):
-    matching = perilune.inventory(kind)
+    listed = perilune.inventory(kind)
     for each in ("systems", "laws", "searches", "fmus"):
-        assert getattr(matching, each) == (
-            getattr(everything, each) if each == kind else type(getattr(matching, each))()
-        )
+        assert getattr(listed, each) == (getattr(everything, each) if each == kind else type(getattr(listed, each))())
 
 
 def test_campaigns_of_each_system(capsys):
@@ -38,10 +36,10 @@ def test_campaigns_of_each_system(capsys):
 
 
 def test_a_text_in_names_and_descriptions_in_capitals_or_not(everything):
-    matching = perilune.inventory("KALMAN")
-    assert {name for name in everything.fmus if "kalman" in name} <= set(matching.fmus)
+    listed = perilune.inventory("KALMAN")
+    assert {name for name in everything.fmus if "kalman" in name} <= set(listed.fmus)
     for name, fmu in everything.fmus.items():
-        assert (name in matching.fmus) == ("kalman" in f"{name} {fmu.description}".lower())
+        assert (name in listed.fmus) == ("kalman" in f"{name} {fmu.description}".lower())
     assert set(perilune.inventory("rendezvous").systems) == {"robot_rendezvous"}
     assert "satellite_pointing" in perilune.inventory("agile").systems  # a campaign of it
 

@@ -1,0 +1,114 @@
+"""Summaries for a terminal: rates, requirements, and the metrics that matter, in lines of at most `WIDTH` columns."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from ..common.errors import InputError, suggestion
+from ..common.percent import percent
+from .statistics import STATISTICS
+from .summary import CONFIDENCE, Summary, SummaryRow, summary_rows
+from .tables import align_columns, requirement_lines, short, who_cells, who_heads
+
+ALL = "all"
+WIDTH = 100  # columns
+LEFT_OUT = ("rms", "p99", "p5", "min", "std", "p50", "p95")  # in this order where lines would be longer
+
+
+def select_metrics(named: Sequence[str], known: Sequence[str], needed: Collection[str]) -> list[str]:
+    """Return the metrics to print: those that are named, or all; else those that are needed, and all where none is.
+
+    Raises InputError for a name that is not known.
+    """
+    if ALL in named:
+        return list(known)
+    for name in named:
+        if name not in known:
+            raise InputError("`metrics`", name, "no such metric", f"{suggestion(name, known)}; or give {ALL}")
+    return list(dict.fromkeys(named)) or [name for name in known if name in needed] or list(known)
+
+
+def metric_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None) -> list[str]:
+    """A line per metric and row: statistics over successful trials.
+
+    Metrics that are the same in all of them are in one line, and statistics that would make lines too long left out.
+    """
+    same = {metric: number for metric in metrics if (number := _common_value(rows, metric)) is not None}
+    varying = [metric for metric in metrics if metric not in same]
+    notes = [f"the same in all successful trials: {', '.join(f'{each} {number:.4g}' for each, number in same.items())}"]
+    lines, left_out = _fitted(rows, varying, group) if varying else ([], [])
+    return [
+        *lines,
+        *([f"columns left out: {', '.join(left_out)}; `json` has all"] if left_out else []),
+        *(notes if same else []),
+    ]
+
+
+def rate_lines(table: list[list[str]], first: int) -> list[str]:
+    """Rows of rates as lines: column ``first`` has the trials, the next one success.
+
+    Where lines would be longer than `WIDTH`, columns that are the same in all rows become a line; never success.
+    """
+    columns, notes = list(range(len(table[0]))), []
+    for each in (first, *reversed(range(first + 2, len(table[0])))):
+        lines = align_columns([[row[column] for column in columns] for row in table])
+        if max(map(len, lines)) <= WIDTH:
+            break
+        if len(table) > 2 and len({row[each] for row in table[1:]}) == 1:
+            columns.remove(each)
+            notes.append(f"the same in all rows: {table[0][each]} {table[1][each]}")
+    return [*align_columns([[row[column] for column in columns] for row in table]), *notes]
+
+
+def _fitted(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None) -> tuple[list[str], list[str]]:
+    """Return lines, and the statistics that are left out of them."""
+    for count in range(len(LEFT_OUT) + 1):
+        left_out = LEFT_OUT[:count]
+        columns = [key for key in STATISTICS if key not in left_out]
+        lines = align_columns(_cells(rows, metrics, group, columns))
+        if max(map(len, lines)) <= WIDTH:
+            break
+    return lines, [key for key in STATISTICS if key in left_out]
+
+
+def _cells(
+    rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None, columns: Sequence[str]
+) -> list[list[str]]:
+    table = [["metric, successful trials", *who_heads(group), *columns, "unit"]]
+    for metric in metrics:
+        for row in rows:
+            values = row.entry.metrics[metric]
+            numbers = [short(values.value(key)) for key in columns]
+            table.append([metric, *who_cells(row, group), *numbers, values.unit])
+    return table
+
+
+def _common_value(rows: Sequence[SummaryRow], metric: str) -> float | None:
+    """Return the value that a metric has in all successful trials, where there are several; else None."""
+    ends, several = set(), False
+    for row in rows:
+        values, successes = row.entry.metrics[metric], round(row.entry.success_rate * row.entry.trials)
+        if values.count < successes:  # the others are not finite
+            return None
+        several |= successes > 1
+        ends |= {values.min, values.max} if successes else set()
+    return ends.pop() if several and len(ends) == 1 else None
+
+
+def summary_text(summary: Summary, group: str | None = None, metrics: Sequence[str] | None = None) -> str:
+    """A summary for the terminal: success rates, requirements, then metrics of successful trials, of groups too.
+
+    ``metrics`` are those to print; None for all.
+    """
+    rows = summary_rows(summary)
+    rates = [[*who_heads(group), "trials", "success %", f"{100 * CONFIDENCE:g} % interval", "statuses"]]
+    for row in rows:
+        low, high = row.entry.success_interval
+        statuses = ", ".join(f"{count} {status}" for status, count in row.entry.statuses.items())
+        rate = percent(row.entry.success_rate)
+        interval = f"{percent(low)} to {percent(high)}"
+        rates.append([*who_cells(row, group), str(row.entry.trials), rate, interval, statuses])
+    if metrics is None:
+        metrics = list(dict.fromkeys(metric for variant in summary.values() for metric in variant.metrics))
+    tables = [rate_lines(rates, len(who_heads(group))), requirement_lines(summary), metric_lines(rows, metrics, group)]
+    return "\n\n".join("\n".join(lines) for lines in tables if lines)
