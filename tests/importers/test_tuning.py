@@ -1,0 +1,60 @@
+"""Tunable parameters that importers change in flight, by their own means.
+
+Truth: free fall in closed form with another gravity from the middle on; FMPy, whose bits the other importers have.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.compilers import local_platform
+from perilune.fmus_src.paths import shipped_fmu
+from tests.support.native.building import fmi3_fmu
+
+from .trial import STEP, STEPS
+from .tuning import TUNERS
+from .worker import MARK
+
+HERE = [name for name in TUNERS if name != "Ecos" or importlib.util.find_spec("ecospy")]
+FALL, ORBIT = "flat_moon_lander", "spherical_moon_lander"
+
+
+def tuned(master: str, fmu: Path, parameter: str, number: float, outputs: Sequence[str]) -> list[float]:
+    """Return the outputs at the end of a flight in which a parameter changes after half of the steps."""
+    numbers = [repr(number), repr(STEP), str(STEPS)]
+    command = [sys.executable, "-m", "tests.importers.tuning", master, str(fmu), parameter, *numbers, *outputs]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    line = next(line for line in said.splitlines() if line.startswith(MARK))
+    return [float.fromhex(text) for text in json.loads(line.removeprefix(MARK)).values()]
+
+
+@pytest.mark.usefixtures("fmus")
+@pytest.mark.parametrize("flavour", ["native", "python"])
+@pytest.mark.parametrize("master", HERE)
+def test_free_fall_with_another_gravity_from_the_middle_on(master: str, flavour: str) -> None:
+    before, after, half = 1.62, 3.7, STEP * STEPS / 2.0
+    height, speed = tuned(master, shipped_fmu(FALL, flavour), "gravity", after, ["position[3]", "velocity[3]"])
+    assert speed == pytest.approx(-half * (before + after), rel=1e-13)
+    assert height - 10500.0 == pytest.approx(-half * half * (1.5 * before + 0.5 * after), rel=1e-11)
+
+
+@pytest.mark.usefixtures("fmus")
+@pytest.mark.skipif(local_platform(3) is None, reason="FMI 3.0 libraries are not compiled for this system")
+def test_importers_agree_in_both_versions_of_fmi() -> None:
+    """libcosim has no FMI 3.0."""
+    two, three = shipped_fmu(ORBIT, "native"), fmi3_fmu(catalogue()[ORBIT])
+    flown = [
+        tuned(master, fmu, "gravitational_parameter", 7e12, ["speed", "altitude"])
+        for master in HERE
+        for fmu in (two, three)
+        if (master, fmu) != ("libcosim", three)
+    ]
+    assert all(each == flown[0] for each in flown[1:])
