@@ -78,7 +78,8 @@ def record_guidance(law: str, seconds: float = SECONDS) -> Recording:
     parameters: dict[str, dict[str, float]] = {"Real": {}, "Integer": {}, "Boolean": {}}
     for (component, name), setting in flight.prepared.settings.variables.items():
         if component == "guidance":
-            parameters[fmu.variables[name].type][name] = float(setting)
+            kind = fmu.variables[name].type
+            parameters["Integer" if kind == "Enumeration" else kind][name] = float(setting)
     inputs = {
         name: [float(sample) for sample in flight.signals[f"guidance.{name}"]]
         for name, variable in fmu.variables.items()

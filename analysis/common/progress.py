@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from io import StringIO
 from typing import Any
 
@@ -20,11 +21,14 @@ class ProgressLines(text_bar):
 
     def __init__(self, **options: Any) -> None:
         lines = {"file": StringIO(), "delay": PERIOD, "mininterval": PERIOD, "miniters": 1, "disable": False}
+        self._written = time.time()
         super().__init__(**options | lines)
 
     def display(self, msg: str | None = None, pos: int | None = None) -> bool:
-        """Write a line; nothing where tqdm clears its bar."""
-        if msg is None:
+        """Write a line, `PERIOD` after the last or the start; nothing where tqdm clears its bar."""
+        now = self._time()
+        if msg is None and now - self._written >= PERIOD:
+            self._written = now
             print(f"perilune: {self._line()}", file=sys.stderr, flush=True)
         return True
 

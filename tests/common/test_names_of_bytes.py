@@ -14,6 +14,7 @@ import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.common.process import Stream
+from perilune.fmus_src.paths import shipped_fmu
 
 NAME = os.fsdecode(b"n\xff")
 SYSTEM = "lunar_terminal_guidance"
@@ -69,8 +70,9 @@ def test_what_a_terminal_cannot_show_is_escaped():
 @pytest.mark.skipif(sys.platform == "win32", reason="a limit of POSIX")
 def test_a_limit_of_file_sizes_is_named(tmp_path):
     """SIGXFSZ ends nothing: the file that is too large is named, and what to do."""
+    limit = shipped_fmu("noisy_navigation", "native").stat().st_size - 1  # enough for the library inside
     script = (
-        "import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))\n"
+        f"import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))\n"
         "from perilune.analysis.cli import run; run()"
     )
     command = ["batch", SYSTEM, "--campaign", "paper", "--trials", "2", "--output", "out"]

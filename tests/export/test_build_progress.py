@@ -12,7 +12,7 @@ from tests.support.bars import watched
 
 @pytest.mark.parametrize("flavour", ["python", "native"])
 def test_a_build_tells_how_far_it_is(tmp_path, monkeypatch, capsys, flavour):
-    bars = watched(monkeypatch, command)
+    bars = watched(monkeypatch, command, "tqdm")
     two = dict([(name, block) for name, block in catalogue().items() if not block.python_only][:2])
     monkeypatch.setattr(command, "catalogue", lambda: two)
     monkeypatch.setattr(command, "SYSTEMS", tmp_path)  # which has none: FMUs alone

@@ -57,7 +57,7 @@ def tune_libcosim(
     assert execution.add_observer(observer)
     assert execution.add_manipulator(manipulator)
     index = execution.slave_index_from_instance_name("block")
-    references = {item.name.decode(): item.reference for item in execution.slave_variables(index)}
+    references = {each.name.decode(): each.reference for each in execution.slave_variables(index)}
     assert execution.step(steps // 2)
     assert manipulator.slave_real_values(index, [references[parameter]], [number])
     assert execution.step(steps - steps // 2)

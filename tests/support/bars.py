@@ -15,14 +15,14 @@ class Bars:
         self.moves: list[int] = []
 
 
-def watched(monkeypatch: Any, module: Any) -> Bars:
-    """The bars that ``module`` makes from now on where standard error is no terminal."""
+def watched(monkeypatch: Any, module: Any, name: str = "ProgressLines") -> Bars:
+    """The bars that ``module`` makes of a class, by its name there, from now on where standard error is no terminal."""
     bars = Bars()
 
     class Watched(tqdm):
         def __init__(self, *arguments: Any, **options: Any) -> None:
             self.moved = 0
-            super().__init__(*arguments, **(options | {"mininterval": 0.0, "miniters": 1}))
+            super().__init__(*arguments, **(options | {"mininterval": 0.0, "miniters": 1, "disable": False}))
 
         def update(self, n: float | None = 1) -> Any:
             self.moved += bool(n)
@@ -34,5 +34,5 @@ def watched(monkeypatch: Any, module: Any) -> Bars:
                 bars.moves.append(self.moved)
             super().close()
 
-    monkeypatch.setattr(module, "ProgressLines", Watched)
+    monkeypatch.setattr(module, name, Watched)
     return bars

@@ -47,7 +47,8 @@ def singles(declared, kind):
         return st.sampled_from(declared.choices)
     if kind in (Kind.NUMBER, Kind.INTEGER):
         return numbers(declared, kind)
-    return st.one_of(PLAIN, BLANKS.filter(lambda text: "," not in text))
+    # argparse drops a value "--", with which an option begins or ends (python/cpython issue 59317)
+    return st.one_of(PLAIN, BLANKS.filter(lambda text: "," not in text)).filter(lambda text: text != "--")
 
 
 def values(declared):

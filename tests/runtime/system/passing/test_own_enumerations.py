@@ -13,7 +13,7 @@ import pytest
 import perilune
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
-from perilune.fmus_src.export.own_blocks import build_users_blocks
+from perilune.fmus_src.export.own_blocks import build_own_blocks
 from tests.support.builders import component, connection, document, fly, pack, system
 
 SYSTEM = "lunar_terminal_guidance"
@@ -80,7 +80,7 @@ def test_an_enumeration_is_connected_with_every_kind_of_number(declared: str, tm
     (tmp_path / "blocks.py").write_text(BLOCKS)
     platform = local_platform()
     assert platform is not None
-    build_users_blocks(tmp_path / "blocks.py", tmp_path, ["native"], [platform])
+    build_own_blocks(tmp_path / "blocks.py", tmp_path, ["native"], [platform])
     inputs = f"input whole Integer; input real Real; input level {declared}"
     text = document(
         system(
