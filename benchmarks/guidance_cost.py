@@ -14,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -22,22 +23,9 @@ from statistics import median
 
 import perilune
 from perilune.analysis.common.errors import InputError
-from perilune.fmus_src.paths import BUILD
+from perilune.fmus_src.paths import BUILD, SYSTEMS
 
-LAWS = (
-    "analytic_guidance",
-    "analytic_exact_guidance",
-    "astar_guidance",
-    "astar_robust_guidance",
-    "astar_modified_guidance",
-    "network_operator_guidance",
-    "zem_zev_guidance",
-    "fractional_guidance",
-    "apollo_guidance",
-    "powered_guidance",
-    "gravity_turn_guidance",
-    "convex_guidance",
-)
+CAMPAIGN = SYSTEMS / "lunar_landing" / "campaigns" / "laws_terminal.toml"  # which compares them all
 SECONDS = 10.0
 RUNS = 5
 DRIVER = Path(__file__).with_name("recorded_steps.c")
@@ -124,7 +112,7 @@ def main() -> None:
             raise InputError("benchmarks.guidance_cost", tool, "not on the path", f"install the package {tool}")
     print("| law | instructions: plan, cycle | C, us: plan, cycle | Python / C: plan, cycle |")
     print("| --- | --- | --- | --- |")
-    for law in LAWS:
+    for law in tomllib.loads(CAMPAIGN.read_text(encoding="utf-8"))["compare"]["guidance"]:
         with tempfile.TemporaryDirectory() as folder:
             recording = record_guidance(law)
             program = compile_steps(law, recording, Path(folder))

@@ -79,7 +79,7 @@ def find_failure(fmu: Path, step: float) -> str | None:
 
 
 def failures(form: str, blocks: Sequence[type[Block]]) -> dict[tuple[str, float], str]:
-    """What ends flights, by FMU and step (s)."""
+    """Return the messages that end flights, by FMU and step (s)."""
     endings = {(block.fmu_name, step): find_failure(fmu_of(block, form), step) for block in blocks for step in STEPS}
     return {key: message for key, message in endings.items() if message is not None}
 
@@ -90,7 +90,7 @@ def row(label: str, numbers: Sequence[object]) -> str:
 
 
 def samples_row() -> str:
-    """How many blocks hold several sample instants in a step, at their declared periods."""
+    """Return the number of blocks with several sample instants in a step, at their declared periods."""
     periods = [
         float(b.variables["sample_period"].elements[0]) for b in blocks_of("python") if "sample_period" in b.variables
     ]
@@ -99,7 +99,7 @@ def samples_row() -> str:
 
 
 def passed_row(form: str, failed: dict[tuple[str, float], str]) -> str:
-    """How many FMUs of a form pass."""
+    """Return the number of FMUs of a form that pass."""
     total = len(blocks_of(form))
     counts = [total - sum(key[1] == step for key in failed) for step in STEPS]
     return row(f"{FORMS[form]}: of {total}", counts)

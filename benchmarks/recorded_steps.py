@@ -1,4 +1,4 @@
-"""One FMU of FMI 2 stepped with recorded inputs: `python -m benchmarks.recorded_steps FMU RECORDING`.
+"""Steps of an FMU of FMI 2 with recorded inputs: `python -m benchmarks.recorded_steps FMU RECORDING`.
 
 It prints the time of the initialisation and of every step, us."""
 

@@ -50,7 +50,7 @@ def new_system(name: str) -> Written:
 
 
 def _write(folder: Path, name: str) -> list[str]:
-    """All files of the system; its description is composed with FMUs of its blocks, which are not kept."""
+    """Return all files of the system; its description is composed with FMUs of its blocks, which are not kept."""
     words = {"name": name, "class_name": class_name(name)}
     (folder / BLOCKS).write_text(render(f"{SYSTEM}/{BLOCKS}", **words), encoding="utf-8")
     blocks = blocks_in_file(folder / BLOCKS)

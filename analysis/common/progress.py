@@ -1,4 +1,4 @@
-"""How far long work is: a bar on a terminal or in a notebook, elsewhere a line on standard error every ten seconds."""
+"""Progress of long work: a bar on a terminal or in a notebook, elsewhere a line on standard error every ten seconds."""
 
 from __future__ import annotations
 

@@ -60,7 +60,7 @@ def check_unedited_source(path: Path, ssd: Path, raw: bytes) -> None:
 
 
 def write_source(source: SystemSource, archive: SystemArchive, path: Path) -> list[Path]:
-    """Write the `system.toml` of a system, its annotations beside it, and in another folder the files that it names.
+    """Write the `system.toml` of a system, its annotations next to it, and in another folder the files that it names.
 
     Returns the paths. Nothing is written over other content. Raises InputError and OSError.
     """

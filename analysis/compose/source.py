@@ -1,4 +1,4 @@
-"""What a `system.toml` states, as plain values, and its reading."""
+"""Contents of a `system.toml` as plain values, and its reading."""
 
 from __future__ import annotations
 

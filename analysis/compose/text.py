@@ -14,7 +14,7 @@ LONGEST = 100  # characters of a list on one line
 
 
 def write_toml(source: SystemSource) -> str:
-    """Return the text of a `system.toml`, whose annotations lie beside it in ANNOTATIONS_FILE."""
+    """Return the text of a `system.toml`, whose annotations lie next to it in ANNOTATIONS_FILE."""
     return "\n".join(_lines(source)) + "\n"
 
 

@@ -1,4 +1,4 @@
-"""The values of [set]: each with the type of its parameter, written into the SSD as a parameter set of its own."""
+"""The values of [set]: each with the type of its parameter, written into the SSD as an inline parameter set."""
 
 from __future__ import annotations
 

@@ -107,7 +107,7 @@ def _annotations(ssd: bytes, description: Description) -> bytes:
     start = ssd.rfind(b"</ssd:DefaultExperiment>")
     match = ANNOTATIONS.search(ssd, max(start, 0))
     if match is None:
-        raise InputError(description.file, "Annotations", "not found under the prefix ssd", KEEP)
+        raise InputError(description.file, "Annotations", "absent under the prefix ssd", KEEP)
     return match[1]
 
 

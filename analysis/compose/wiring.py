@@ -27,7 +27,7 @@ Point = tuple[str, str]  # component, empty for the system, and connector
 
 @dataclass(frozen=True)
 class End:
-    """One side of a connection: the whole name, and the elements that it stands for."""
+    """Side of a connection: the whole name, and the elements that it stands for."""
 
     component: str
     variable: str
@@ -40,7 +40,7 @@ class End:
 
     @property
     def indices(self) -> tuple[str, ...]:
-        """What the elements add to the name; one empty text of a scalar."""
+        """Suffixes of the elements after the name; one empty text of a scalar."""
         return tuple(name.removeprefix(self.variable) for name in self.names)
 
 

@@ -34,8 +34,8 @@ DECIMALS = {"propellant": 6, "duration": 2}  # of the columns of its table, kg a
 
 @dataclass(frozen=True, eq=False)
 class TrialBounds:
-    """Least ``propellant`` (kg) and its ``duration`` (s) of every trial of a ``campaign``, arrays (trials,), on so many
-    ``intervals``; nan where there is no such descent. ``file`` is where the table is stored, if it was requested.
+    """Least ``propellant`` (kg) and its ``duration`` (s) of every trial of a ``campaign``, arrays (trials,), on
+    ``intervals`` intervals; nan where there is no such descent. ``file`` is that of the stored table, if requested.
     """
 
     campaign: str

@@ -31,7 +31,7 @@ from .result import NoProblems
 
 @dataclass(frozen=True)
 class Composition(NoProblems):
-    """What a `system.toml` states, and the ``paths`` that were written."""
+    """Contents of a `system.toml`, and the ``paths`` that were written."""
 
     source: SystemSource
     paths: tuple[Path, ...]
@@ -42,7 +42,7 @@ class Composition(NoProblems):
         return write_toml(self.source)
 
     def lines(self) -> list[str]:
-        """What `perilune compose` prints: the paths, or the `system.toml` where none is written."""
+        """Return the lines that `perilune compose` prints: the paths, or the `system.toml` where none is written."""
         return [str(path) for path in self.paths] or self.toml.splitlines()
 
     def to_json(self) -> dict[str, object]:
@@ -54,8 +54,8 @@ class Composition(NoProblems):
 def compose(what: FilePath, **options: Unpack[ComposeOptions]) -> Composition:
     """Write a system's SSD from its `system.toml`, or the `system.toml` of a system: `perilune compose`.
 
-    ``what`` is the path of a .toml file, beside which SystemStructure.ssd is written, or a system, whose
-    `system.toml` is the result's ``toml``, and is written to ``output``: beside it its annotations, and in another
+    ``what`` is the path of a .toml file, next to which SystemStructure.ssd is written, or a system, whose
+    `system.toml` is the result's ``toml``, and is written to ``output``: next to it its annotations, and in another
     folder than the system's the files that it names. Nothing is written over an SSD that was edited, and nothing at all
     if the system would not fly. Raises InputError, with a line for each problem.
     """
@@ -66,7 +66,7 @@ def compose(what: FilePath, **options: Unpack[ComposeOptions]) -> Composition:
         check_file("`output`", None if output is None else Path(output), (".toml",))
         return Composition(source, () if output is None else tuple(write_source(source, archive, Path(output))))
     if output is not None:
-        problem = f"an SSD is written beside its file, as {DESCRIPTION}"
+        problem = f"an SSD is written next to its file, as {DESCRIPTION}"
         raise InputError("`output`", os.fspath(output), problem, "leave it out")
     target = path.parent / DESCRIPTION
     source, document = compose_file(path)

@@ -28,7 +28,7 @@ KINDS = ("systems", "campaigns", "laws", "searches", "fmus")
 
 @dataclass(frozen=True)
 class SystemFiles:
-    """What a system is, and what it has by name: parameter sets, campaigns, loops."""
+    """Description of a system, and its parameter sets, campaigns and loops by name."""
 
     description: str
     parameter_sets: tuple[str, ...]

@@ -178,7 +178,7 @@ def _check_campaign(path: str, systems: Sequence[str]) -> list[str]:
 
 
 def _check_short_file(path: Path) -> list[str]:
-    """Compose a system without writing it; a note where the SSD beside it is another. Raises InputError."""
+    """Compose a system without writing it; a note where the SSD next to it differs. Raises InputError."""
     _, document = compose_file(path)
     ssd = path.with_name(DESCRIPTION)
     if not ssd.exists() or find_difference(document, read_input(ssd, "move it away", bound_of(ssd.name))) is None:

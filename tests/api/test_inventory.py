@@ -56,7 +56,7 @@ def test_a_text_that_nothing_has(capsys):
 
 
 def test_the_whole_list_has_no_description_of_systems(everything, capsys):
-    """Which is in JSON: the list is of names."""
+    """Give the list of names as JSON has it."""
     assert main(["list"]) == 0
     assert everything.systems["lunar_landing"].description
     assert everything.systems["lunar_landing"].description not in " ".join(capsys.readouterr().out.split())

@@ -1,4 +1,4 @@
-"""What is wrong in a system.toml: a line each, all at once, exit status 2, nothing written.
+"""Mistakes in a system.toml: a line each, all at once, exit status 2, nothing written.
 
 Truth: the lines that a reader needs, written here.
 """

@@ -1,4 +1,4 @@
-"""What a system.toml cannot say is refused with the element and its line, and what it can comes back whole.
+"""The way back: what a system.toml cannot say is refused with the element and its line, the rest returns whole.
 
 Truth: what is written here into a composed SSD.
 """

@@ -55,7 +55,7 @@ RULES = (
         ),
     ),
     Rule("source code", lambda _, members: any(re.match(r"sources/.*\.c\Z", name) for name in members)),
-    Rule("every C file listed, none beside", lists_its_sources),
+    Rule("exactly its C files listed", lists_its_sources),
     Rule(
         "no String and Binary variables",
         lambda description, _: all(

@@ -6,10 +6,6 @@ Truth: free fall in closed form with another gravity from the middle on; FMPy, w
 from __future__ import annotations
 
 import importlib.util
-import json
-import subprocess
-import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -19,21 +15,17 @@ from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.paths import shipped_fmu
 from tests.support.native.building import fmi3_fmu
 
-from .trial import STEP, STEPS
-from .tuning import TUNERS
-from .worker import MARK
+from .masters import Flight
+from .trial import STEP, STEPS, fly
 
+TUNERS = ("FMPy", "libcosim", "Ecos")
 HERE = [name for name in TUNERS if name != "Ecos" or importlib.util.find_spec("ecospy")]
 FALL, ORBIT = "flat_moon_lander", "spherical_moon_lander"
 
 
-def tuned(master: str, fmu: Path, parameter: str, number: float, outputs: Sequence[str]) -> list[float]:
+def tuned(master: str, fmu: Path, parameter: str, number: float, *outputs: str) -> list[float]:
     """Return the outputs at the end of a flight in which a parameter changes after half of the steps."""
-    numbers = [repr(number), repr(STEP), str(STEPS)]
-    command = [sys.executable, "-m", "tests.importers.tuning", master, str(fmu), parameter, *numbers, *outputs]
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    line = next(line for line in said.splitlines() if line.startswith(MARK))
-    return [float.fromhex(text) for text in json.loads(line.removeprefix(MARK)).values()]
+    return list(fly(master, fmu, Flight(STEP, STEPS, outputs, (parameter, number))).values())
 
 
 @pytest.mark.usefixtures("fmus")
@@ -41,7 +33,7 @@ def tuned(master: str, fmu: Path, parameter: str, number: float, outputs: Sequen
 @pytest.mark.parametrize("master", HERE)
 def test_free_fall_with_another_gravity_from_the_middle_on(master: str, flavour: str) -> None:
     before, after, half = 1.62, 3.7, STEP * STEPS / 2.0
-    height, speed = tuned(master, shipped_fmu(FALL, flavour), "gravity", after, ["position[3]", "velocity[3]"])
+    height, speed = tuned(master, shipped_fmu(FALL, flavour), "gravity", after, "position[3]", "velocity[3]")
     assert speed == pytest.approx(-half * (before + after), rel=1e-13)
     assert height - 10500.0 == pytest.approx(-half * half * (1.5 * before + 0.5 * after), rel=1e-11)
 
@@ -52,7 +44,7 @@ def test_importers_agree_in_both_versions_of_fmi() -> None:
     """libcosim has no FMI 3.0."""
     two, three = shipped_fmu(ORBIT, "native"), fmi3_fmu(catalogue()[ORBIT])
     flown = [
-        tuned(master, fmu, "gravitational_parameter", 7e12, ["speed", "altitude"])
+        tuned(master, fmu, "gravitational_parameter", 7e12, "speed", "altitude")
         for master in HERE
         for fmu in (two, three)
         if (master, fmu) != ("libcosim", three)

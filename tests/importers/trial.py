@@ -1,4 +1,4 @@
-"""One FMU in several importers, compared with FMPy."""
+"""Trials of an FMU in several importers, compared with FMPy."""
 
 from __future__ import annotations
 
@@ -7,18 +7,19 @@ import math
 import subprocess
 import sys
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import fmpy
 
 from perilune.fmus_src.catalogue import catalogue
 
+from .masters import Flight
 from .worker import MARK
 
 STEPS = 32
 STEP = 1.0 / 16.0  # s: importers add steps up or multiply them, to the same bits where these are exact
-CLOSE = 1e-9  # relative, where the FMU has a step of its own, which may be none of these
+CLOSE = 1e-9  # relative, where the FMU has an internal step, which may differ from STEP
 TIMEOUT = 120.0
 
 
@@ -48,10 +49,9 @@ def system_step(fmu: Path) -> float | None:
     return float(experiment.stepSize) if is_system and experiment is not None and experiment.stepSize else None
 
 
-def fly(master: str, fmu: Path, outputs: Iterable[str]) -> dict[str, float]:
-    """Return the outputs after STEPS steps. Raises RuntimeError with the importer's last line."""
-    step = system_step(fmu) or STEP
-    command = [sys.executable, "-m", "tests.importers.worker", master, str(fmu), repr(step), str(STEPS), *outputs]
+def fly(master: str, fmu: Path, flight: Flight) -> dict[str, float]:
+    """Return the outputs at the end of a flight. Raises RuntimeError with the importer's last line."""
+    command = [sys.executable, "-m", "tests.importers.worker", master, str(fmu), json.dumps(asdict(flight))]
     done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT)
     lines = [line.removeprefix(MARK) for line in done.stdout.splitlines() if line.startswith(MARK)]
     if done.returncode or not lines:
@@ -69,14 +69,14 @@ def agree(number: float, truth: float, tolerance: float) -> bool:
 
 def try_importers(fmu: Path, masters: Iterable[str]) -> list[Outcome]:
     """Return how each importer does with an FMU."""
-    outputs = scalar_outputs(fmu)
-    truth = fly("FMPy", fmu, outputs)
-    tolerance = 0.0 if system_step(fmu) is None else CLOSE
+    step = system_step(fmu)
+    flight = Flight(STEP if step is None else step, STEPS, tuple(scalar_outputs(fmu)))
+    truth, tolerance = fly("FMPy", fmu, flight), 0.0 if step is None else CLOSE
     outcomes = []
     for master in masters:
         problem = ""
         try:
-            values = truth if master == "FMPy" else fly(master, fmu, outputs)
+            values = truth if master == "FMPy" else fly(master, fmu, flight)
             other = next((name for name in truth if not agree(values[name], truth[name], tolerance)), None)
             problem = "" if other is None else f"{other} is {values[other]!r}, with FMPy {truth[other]!r}"
         except (RuntimeError, subprocess.TimeoutExpired) as error:

@@ -121,7 +121,7 @@ def test_every_name_for_blocks_is_public() -> None:
 
 
 def test_a_build_has_what_the_documentation_is_made_with() -> None:
-    """Which a wheel contains: all that Perilune depends on and the extra `docs`, in the versions of the lock."""
+    """Return the packages of the lock that a wheel's bill of materials has: dependencies and the extra `docs`."""
     requires = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["build-system"]["requires"]
     pinned = {(each.name, str(each.specifier).removeprefix("==")) for each in map(Requirement, requires)}
     names = [Requirement(each).name for each in (*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["docs"])]

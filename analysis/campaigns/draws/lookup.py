@@ -23,7 +23,7 @@ from .declared import Formula
 TRIAL, INPUTS = "trial", "inputs"  # the first two columns
 DIGITS = 16  # of SHA-256, hexadecimal
 MADE_BY, INPUT = "# made by: ", "# input: "
-WRITE = "write it anew; perilune design bounds writes that of [lookup.bound]"
+WRITE = "write it again; perilune design bounds writes that of [lookup.bound]"
 
 InputColumns = Mapping[str, Sequence[np.ndarray]]  # by name one or more numbers, each an array (trials,)
 
@@ -53,11 +53,11 @@ class TrialTable:
 
     @property
     def remedy(self) -> str:
-        """What to do where it is not the table of a campaign's trials."""
+        """Remedy where it is not the table of a campaign's trials."""
         return f"make it again: {self.command}" if self.command else WRITE
 
     def write(self, decimals: Mapping[str, int]) -> bytes:
-        """Return the table as CSV, with so many decimals in each of its columns."""
+        """Return the table as CSV; ``decimals`` are those of each column."""
         lines = [f"{MADE_BY}{self.command}"] if self.command else []
         lines += [f"{INPUT}{name} = {text}" for name, text in self.inputs.items()]
         lines.append(",".join((TRIAL, INPUTS, *self.columns)))
@@ -116,7 +116,7 @@ class Lookup:
 
     @property
     def formulas(self) -> list[Formula]:
-        """All formulas of its inputs."""
+        """Formulas of all inputs."""
         return [formula for formulas in self.inputs.values() for formula in formulas]
 
     @cached_property
@@ -131,7 +131,7 @@ class Lookup:
         return table
 
     def numbers_of(self, trials: range) -> np.ndarray:
-        """Return the numbers of trials in a row. Raises InputError where the table has not so many."""
+        """Return the numbers of consecutive trials. Raises InputError where the table has fewer."""
         rows = len(self.table.hashes)
         if trials.stop > rows:
             problem = f"{rows} trials, and the campaign has {trials.stop} or more"
@@ -139,7 +139,7 @@ class Lookup:
         return self.table.columns[self.column][trials.start : trials.stop]
 
     def input_columns(self, known: Mapping[str, np.ndarray | float], trials: int) -> InputColumns:
-        """Return the inputs of so many trials; ``known`` are draws, derived values and parameters by name."""
+        """Return the inputs of a number of ``trials``; ``known`` are draws, derived values and parameters by name."""
         return {
             name: [np.array(np.broadcast_to(formula.evaluate(known), (trials,)), dtype=float) for formula in formulas]
             for name, formulas in self.inputs.items()

@@ -98,7 +98,7 @@ def table_of(campaign: Declared, drawn: Mapping[str, np.ndarray], trials: range 
     """The table with these draws, an array (trials,) by name, what the campaign derives of them, and its lookups.
 
     ``trials`` are the numbers of their trials, by default all of the campaign. Raises InputError where a derived
-    value is not finite, or a lookup has not so many trials.
+    value is not finite, or a lookup has fewer trials.
     """
     numbers = range(campaign.trials) if trials is None else trials
     names = input_names(campaign)

@@ -40,7 +40,7 @@ class CampaignSource:
 
     @property
     def sha256(self) -> str:
-        """Of the file, of the tables that it looks up, and of all that it extends."""
+        """Digest of the file, of the tables that it looks up, and of all that it extends."""
         digest = hashlib.sha256(self.raw)
         for _, content in self.attached.values():
             digest.update(hashlib.sha256(content or b"").digest())

@@ -21,7 +21,7 @@ REMEDY = "correct the inputs of the bound"
 
 
 def check_roles(sizes: Mapping[str, int], where: tuple[str, str]) -> None:
-    """Refuse numbers by role, of which there are so many each, that are not those of a descent. Raises InputError."""
+    """Refuse ``sizes``, the count of numbers by role, that are not those of a descent. Raises InputError."""
     file, element = where
     for name, size in sizes.items():
         if name not in SIZES:

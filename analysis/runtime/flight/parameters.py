@@ -118,7 +118,7 @@ class Parameters:
         """0: set in initialisation mode too, and read back; 1: not read back; 2: set before initialisation mode only.
 
         FMI 2.0 lets inputs and what has initial="exact" be set in that mode; other values the FMU calculates itself
-        from then on, and an input that is connected is given anew.
+        from then on, and an input that is connected is given again.
         """
         settable = variable.causality in ("input", "parameter") or variable.initial == "exact"
         if not settable or (driven and variable.causality == "input"):

@@ -187,8 +187,10 @@ class Simulation(BaseSimulation):
 
     @property
     def group_size(self) -> int:
-        """Of FMUs of our own, which can be trusted to reset, and write no log. Systems with FMI 3.0 have no groups,
-        nor have those with parameters that change in flight, whose own values the loop has from here.
+        """Number of flights that are flown together: of FMUs of ours, which are trusted to reset, and without a log.
+
+        0 for systems with FMI 3.0, and for those with parameters that change in flight, whose own values the loop has
+        from here.
         """
         flies_groups = self.fmi3 is None and self._log is None and self.life_cycle.are_self_contained
         flies_groups = flies_groups and not self.layout.bases

@@ -206,7 +206,7 @@ class ComposeOptions(TypedDict, total=False):
     output: Annotated[
         FilePath | None,
         Option(
-            "of a system: write its file to F.toml, what it names beside it; default: print it",
+            "of a system: write its file to F.toml, what it names next to it; default: print it",
             metavar="F.toml",
             suffixes=(".toml",),
         ),

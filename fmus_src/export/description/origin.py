@@ -1,4 +1,4 @@
-"""Where an FMU is from and what may be done with it: attributes of modelDescription.xml, licences, an icon."""
+"""Origin and licences of an FMU: attributes of modelDescription.xml, files, an icon."""
 
 from __future__ import annotations
 

@@ -158,7 +158,7 @@ def test_wrong_tables_are_one_line(folder, before, after, words):
 
 @pytest.mark.parametrize("folder", [""], indirect=True)
 def test_a_path_is_meant_from_the_file_that_says_it(folder):
-    """The campaign that extends another takes its table, or one of its own with the same inputs."""
+    """The campaign that extends another takes its table, or another one with the same inputs."""
     (folder / "deep").mkdir()
     path = folder / "deep" / "mine.toml"
     path.write_text('extends = "../c.toml"\ntrials = 2\n')

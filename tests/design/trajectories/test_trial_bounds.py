@@ -80,7 +80,7 @@ def test_means_are_those_of_the_prototype(campaign):
 
 @pytest.fixture
 def mine(tmp_path):
-    """A short campaign with a table of its own, which is not there yet."""
+    """A short campaign whose table is not there yet."""
     path = tmp_path / "mine.toml"
     path.write_text('extends = "laws_approach"\ntrials = 3\nseed = 5\n[lookup.bound]\nfile = "tables/mine.csv"\n')
     return path
@@ -88,7 +88,7 @@ def mine(tmp_path):
 
 def test_stored_and_looked_up(mine, capsys):
     call = ["design", "bounds", "lunar_landing", "--campaign", str(mine), "--intervals", "20", "--workers", "1"]
-    with pytest.raises(InputError, match=r"no file tables/mine.csv; write it anew; perilune design bounds writes"):
+    with pytest.raises(InputError, match=r"no file tables/mine.csv; write it again; perilune design bounds writes"):
         perilune.batch("lunar_landing", mine, workers=1)
     assert main([*call, "--json", "-"]) == 0
     document = json.loads(capsys.readouterr().out)

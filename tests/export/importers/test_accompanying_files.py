@@ -1,4 +1,4 @@
-"""What travels in an FMU besides its description of variables and its code: origin, licences, an icon.
+"""Files and attributes that travel in an FMU with its variables and code: origin, licences, an icon.
 
 Truth: LICENSE, pyproject.toml, the headers' own text, the signature of PNG files (ISO/IEC 15948), FMPy's validation.
 """

@@ -50,7 +50,7 @@ def fly(block: type[Block], form: str, arguments: tuple[Any, ...], folder: Path)
 
 
 def counts_and_values(state: bytes, form: str) -> tuple[int, Any]:
-    """How many samples a state has taken, and the bits of all of its variables."""
+    """Return the number of samples that a state has taken, and the bits of all of its variables."""
     if form == "python":
         known = json.loads(state)
         return known["life_cycle"][-1], repr(known["values"])
@@ -114,7 +114,7 @@ def counted(tmp_path: Path) -> tuple[Component, NativeInstance]:
 
 
 def read(native: NativeInstance) -> list:
-    """All values of the block in C."""
+    """Return all values of the block in C."""
     values = native.get(list(range(6)))
     assert values is not None
     return values

@@ -1,4 +1,4 @@
-"""Which parameters may change between steps, and why the others may not.
+"""Tunable parameters, and why the others are fixed.
 
 Truth: small blocks whose answer can be read; for the blocks of the catalogue the blocks themselves: no variable that
 steps leave alone depends on a tunable parameter where the block is initialised with another value of it.
@@ -40,7 +40,7 @@ def larger(a: float, b: float) -> float:
 
 
 class Paths(Block):
-    """Each parameter reaches a state of initialisation on a way of its own."""
+    """Each parameter reaches a state of initialisation by a different path."""
 
     gain = Parameter(1.0, description="read by steps alone")
     sample_period = Parameter(0.0, unit="s", description="sampling")

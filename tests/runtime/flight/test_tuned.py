@@ -71,7 +71,7 @@ def test_our_fmus_fly_as_fmpy_flies_them(gains: dict[int, Path], version: int) -
     if version not in gains:
         pytest.skip("not compiled for this system")
     series = SERIES[["time", "gain"]].copy()
-    series["time"] = [0.0, 0.5, 1.25, 1.75]  # between communication points FMPy makes points of its own
+    series["time"] = [0.0, 0.5, 1.25, 1.75]  # between communication points FMPy adds points
     if version == 2:
         options: dict[str, Any] = {"stop_time": STOP, "output_interval": STEP, "step_size": STEP, "output": ["total"]}
         expected = fmpy.simulate_fmu(str(gains[2]), input=series, **options)["total"].tolist()
