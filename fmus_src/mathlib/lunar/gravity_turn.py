@@ -19,8 +19,12 @@ class GravityTurn(Record):
 
 
 def gravity_turn(speed: float, descent_cosine: float, height: float, g: float) -> GravityTurn:
-    """Return the turn from a ``speed`` (m/s) at this cosine to the downward vertical, ``height`` (m) above."""
-    if not (height > 0.0 and descent_cosine > 0.0 and speed > 0.0 and g > 0.0):
+    """Return the turn from a ``speed`` (m/s) at this cosine to the downward vertical, ``height`` (m) above.
+
+    There is none from a speed so small that thrust and gravity balance to rounding.
+    """
+    speed_square = speed * speed
+    if not (height > 0.0 and descent_cosine > 0.0 and speed_square > 0.0 and g > 0.0):
         return GravityTurn(ratio=0.0, duration=0.0, distance=0.0)
     cosine = descent_cosine
     if cosine > 1.0:
@@ -29,9 +33,11 @@ def gravity_turn(speed: float, descent_cosine: float, height: float, g: float) -
     tau = math.sqrt(square)
     q = 1.0 + square
     fourth = square * square
-    k = 2.0 * height * g * q * q / (speed * speed)
+    k = 2.0 * height * g * q * q / speed_square
     difference = 1.0 - fourth
     n = (difference + math.sqrt(difference * difference + 4.0 * k * (k + 1.0 + fourth))) / (2.0 * k)
+    if not n > 1.0:
+        return GravityTurn(ratio=0.0, duration=0.0, distance=0.0)
     duration = speed / (g * q) * (1.0 / (n - 1.0) + square / (n + 1.0))
     distance = 2.0 * speed * speed * tau / (g * q * q) * (1.0 / (2.0 * n - 1.0) + square / (2.0 * n + 1.0))
     return GravityTurn(ratio=n, duration=duration, distance=distance)

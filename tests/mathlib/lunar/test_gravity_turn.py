@@ -76,8 +76,10 @@ def test_straight_down(speed, height, beyond):
         (0.0, 1.0, 9.0, GRAVITY),
         (50.0, -0.1, 9.0, GRAVITY),
         (50.0, 0.5, 9.0, 0.0),
+        (1e-20, 0.5, 9.0, GRAVITY),
+        (1e-200, 0.5, 9.0, GRAVITY),
     ],
 )
 def test_no_turn(speed, cosine, height, gravity):
-    """At or below the target, level or ascending, at rest, or without gravity."""
+    """At or below the target, level or ascending, at rest but for rounding, or without gravity."""
     assert gravity_turn(speed, cosine, height, gravity).ratio == 0.0
