@@ -47,17 +47,22 @@ def metric_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str 
 def rate_lines(table: list[list[str]], first: int) -> list[str]:
     """Rows of rates as lines: column ``first`` has the trials, the next one success.
 
-    Where lines would be longer than `WIDTH`, columns that are the same in all rows become a line; never success.
+    Where lines would be longer than `WIDTH`, columns that are the same in all rows become a line, and after them the
+    last column a line for each row; never success.
     """
     columns, notes = list(range(len(table[0]))), []
+
+    def lines() -> list[str]:
+        return align_columns([[row[column] for column in columns] for row in table])
+
     for each in (first, *reversed(range(first + 2, len(table[0])))):
-        lines = align_columns([[row[column] for column in columns] for row in table])
-        if max(map(len, lines)) <= WIDTH:
-            break
-        if len(table) > 2 and len({row[each] for row in table[1:]}) == 1:
+        if max(map(len, lines())) > WIDTH and len(table) > 2 and len({row[each] for row in table[1:]}) == 1:
             columns.remove(each)
             notes.append(f"the same in all rows: {table[0][each]} {table[1][each]}")
-    return [*align_columns([[row[column] for column in columns] for row in table]), *notes]
+    if max(map(len, lines())) > WIDTH and columns[-1] > first + 1:
+        last = columns.pop()
+        notes += [f"{table[0][last]} of {', '.join(row[:first])}: {row[last]}" for row in table[1:]]
+    return [*lines(), *notes]
 
 
 def _fitted(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None) -> tuple[list[str], list[str]]:

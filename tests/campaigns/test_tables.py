@@ -115,3 +115,11 @@ def test_a_stored_requirement_begins_with_its_expression():
     """By which a comparison knows the metrics that are judged."""
     requirement = Requirement("r", Expression("min(miss, 2) < 3 and success"), 0.95, 0.9)
     assert str(requirement).rpartition(", ")[0] == requirement.expression.text
+
+
+def test_a_long_last_column_becomes_a_line_for_each_row():
+    """The columns that are compared stay a table; the last one follows by row."""
+    statuses = "3 finished (allocation.status 1), " * 3 + "1 crashed"
+    lines = rate_lines([["variant", "trials", "success %", "statuses"], ["one", "10", "90", statuses]], 1)
+    assert [line.split() for line in lines[:2]] == [["variant", "trials", "success", "%"], ["one", "10", "90"]]
+    assert lines[2:] == [f"statuses of one: {statuses}"]
