@@ -1,0 +1,39 @@
+"""Light of the Sun behind a planet: shadow and half-shadow of a sphere. Kernel functions."""
+
+import math
+
+from ...kernel.functions import asin, atan2
+from ..vectors import Vector3, cross, dot, norm
+from .ephemerides import SUN_RADIUS
+
+
+def illumination(position: Vector3, sun: Vector3, radius: float) -> float:
+    """Return the visible share of the Sun's disk, 0 to 1, at a position (m) in the shadow of a sphere (radius in m).
+
+    Both positions are from the sphere's centre, in one frame. Neither refraction nor a limb's darkening; full light at
+    the sphere's surface or below it only where the Sun is above. Source: Montenbruck and Gill 2000, section 3.4.2.
+    """
+    away = sun - position
+    a = disk_angle(SUN_RADIUS, norm(away))
+    b = disk_angle(radius, norm(position))
+    c = atan2(norm(cross(position, away)), -dot(position, away))  # between the centres of both disks
+    if c >= a + b:
+        return 1.0
+    if c <= b - a:
+        return 0.0
+    if c <= a - b:
+        return 1.0 - b * b / (a * a)
+    x = ((c - b) * (c + b) + a * a) / (2.0 * c)
+    square = (a - x) * (a + x)
+    y = 0.0
+    if square > 0.0:
+        y = math.sqrt(square)
+    covered = a * a * atan2(y, x) + b * b * atan2(y, c - x) - c * y
+    return 1.0 - covered / (math.pi * a * a)
+
+
+def disk_angle(radius: float, distance: float) -> float:
+    """Return the angle (rad) under which a sphere's radius is visible from a distance (m); 90 degrees inside it."""
+    if radius >= distance:
+        return 0.5 * math.pi
+    return asin(radius / distance)
