@@ -16,7 +16,9 @@ from .user_modules import import_file
 from .variables import DeclarationError
 
 HERE = Path(__file__).parent
-KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")
+KINDS = (
+    "plants", "environment", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing",
+)  # fmt: skip
 CLASS = re.compile(r"^class (\w+)", re.MULTILINE)
 
 

@@ -2,14 +2,16 @@
 
 import math
 
+from .functions import exp, log
 from .matrix_types import Matrix, add_product, block, identity, matrix, zeros
 from .vector_types import Vector
 
 __all__ = [
     "Matrix", "add_product", "block", "diagonal", "exponential", "identity", "inverse", "inverse_quadratic_form",
-    "matrix", "mirror", "outer", "zeros",
+    "is_positive_definite", "largest_eigenvalue", "matrix", "mirror", "outer", "zeros",
 ]  # fmt: skip
 
+SQUARINGS = 30  # of a matrix, for its largest eigenvalue to 1e-9
 TERMS = 16  # of the exponential's series: at a norm of 1/2 what is left out is below 1e-19
 
 
@@ -35,6 +37,39 @@ def mirror(a: Matrix, size: int) -> None:
     for i in range(size):
         for j in range(i + 1, size):
             a[j, i] = a[i, j]
+
+
+def is_positive_definite(a: Matrix) -> bool:
+    """True if a symmetric matrix is positive definite: all pivots of its elimination are positive."""
+    rest = a.copy()
+    for k in range(len(a)):
+        if not rest[k, k] > 0.0:
+            return False
+        for i in range(k + 1, len(a)):
+            factor = rest[i, k] / rest[k, k]
+            for j in range(k + 1, len(a)):
+                rest[i, j] = rest[i, j] - factor * rest[k, j]
+    return True
+
+
+def largest_eigenvalue(a: Matrix) -> float:
+    """Return the largest eigenvalue of a symmetric matrix without negative ones.
+
+    It is the limit of trace(a^n)^(1/n), whose relative error at n = 2^SQUARINGS is below log(len(a))/n. 0 where a is 0.
+    """
+    power = a.copy()
+    exponent = 1.0
+    logarithm = 0.0
+    for _ in range(SQUARINGS):
+        trace = 0.0
+        for i in range(len(a)):
+            trace = trace + power[i, i]
+        if not trace > 0.0:
+            return 0.0
+        logarithm = logarithm + exponent * log(trace)
+        power = (power / trace) @ (power / trace)
+        exponent = 0.5 * exponent
+    return exp(logarithm)
 
 
 def inverse_quadratic_form(p: Matrix, e: Matrix) -> float:

@@ -15,6 +15,7 @@ __all__ = [
     "clip",
     "cross",
     "dot",
+    "finite_or_zero",
     "is_finite",
     "limit_length",
     "norm",
@@ -54,6 +55,13 @@ def limit_length(a: Vector3, longest: float) -> Vector3:
 def is_finite(a: Vector3) -> bool:
     """Whether all components are."""
     return math.isfinite(a.x) and math.isfinite(a.y) and math.isfinite(a.z)
+
+
+def finite_or_zero(a: Vector3) -> Vector3:
+    """Return the vector, or 0 where one component is not finite."""
+    if is_finite(a):
+        return a
+    return vector(0.0, 0.0, 0.0)
 
 
 def all_below(v: Vector, limit: float) -> bool:

@@ -25,36 +25,35 @@ class PlanetAxes(Record):
     rate = Field(unit="rad/s", description="of the angle")
 
 
+class FixedAxes(Record):
+    """Planet-fixed axes at one instant: the prime meridian in the equator, 90 degrees east, north."""
+
+    meridian = Field(Vector3, unit="1", frame="inertial", description="x")
+    east = Field(Vector3, unit="1", frame="inertial", description="y")
+    pole = Field(Vector3, unit="1", frame="inertial", description="z")
+
+
 def angle_at(axes: PlanetAxes, t: float) -> float:
     """Return the angle (rad) of the prime meridian at a time (s) near that of the axes."""
     return axes.angle + axes.rate * (t - axes.time)
 
 
-def to_pole(axes: PlanetAxes, v: Vector3) -> Vector3:
-    """Return a vector in inertial axes by its components along the axes of the pole."""
-    return vector(dot(axes.first, v), dot(axes.second, v), dot(axes.pole, v))
-
-
-def from_pole(axes: PlanetAxes, v: Vector3) -> Vector3:
-    """Return a vector along the axes of the pole in inertial axes."""
-    return v.x * axes.first + v.y * axes.second + v.z * axes.pole
-
-
-def about_pole(angle: float, v: Vector3) -> Vector3:
-    """Return the components of v along axes that are turned by an angle (rad) about z."""
+def fixed_axes(axes: PlanetAxes, t: float) -> FixedAxes:
+    """Return the planet-fixed axes at a time (s) near that of the axes."""
+    angle = angle_at(axes, t)
     c = cos(angle)
     s = sin(angle)
-    return vector(c * v.x + s * v.y, c * v.y - s * v.x, v.z)
+    return FixedAxes(meridian=c * axes.first + s * axes.second, east=c * axes.second - s * axes.first, pole=axes.pole)
 
 
-def to_fixed(axes: PlanetAxes, t: float, v: Vector3) -> Vector3:
-    """Return a vector in inertial axes in planet-fixed ones, at t (s)."""
-    return about_pole(angle_at(axes, t), to_pole(axes, v))
+def to_fixed(axes: FixedAxes, v: Vector3) -> Vector3:
+    """Return a vector in inertial axes in planet-fixed ones."""
+    return vector(dot(axes.meridian, v), dot(axes.east, v), dot(axes.pole, v))
 
 
-def from_fixed(axes: PlanetAxes, t: float, v: Vector3) -> Vector3:
-    """Return a vector in planet-fixed axes in inertial ones, at t (s)."""
-    return from_pole(axes, about_pole(-angle_at(axes, t), v))
+def from_fixed(axes: FixedAxes, v: Vector3) -> Vector3:
+    """Return a vector in planet-fixed axes in inertial ones."""
+    return v.x * axes.meridian + v.y * axes.east + v.z * axes.pole
 
 
 def earth_axes(t: float, tt_minus_ut1: float) -> PlanetAxes:

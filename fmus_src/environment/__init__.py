@@ -1,0 +1,1 @@
+"""Environment of a flight, by itself: what surrounds a spacecraft."""

@@ -1,0 +1,78 @@
+"""Surfaces of a spacecraft in air and sunlight."""
+
+from ..block import Parameter, State
+from ..kernel.matrices import zeros
+from ..mathlib.attitude.quaternion import to_body
+from ..mathlib.space.surfaces import (
+    AREA,
+    COLUMNS,
+    PLATES,
+    SurfaceLoad,
+    plate_drag,
+    plate_pressure,
+    pressure_at,
+    sphere_drag,
+    sphere_pressure,
+)
+from ..mathlib.vectors import Vector3, Vector4, norm, vector
+from .space_model import SpaceModel
+
+
+class ExposedSurfaces(SpaceModel, interface=True):
+    """Up to twelve flat plates, and a sphere, on which drag and solar pressure act.
+
+    The air turns with the planet. No plate shades another. Equations: `mathlib.space.surfaces`.
+    """
+
+    plates = Parameter(
+        [0.0] * (PLATES * COLUMNS),
+        frame="body",
+        columns=COLUMNS,
+        description="flat surfaces by row, SI: area (0: none), normal, centre, drag coefficient, specular, diffuse",
+    )
+    sphere_area = Parameter(0.0, unit="m2", minimum=0.0, description="cross-section of a sphere; 0: none")
+    sphere_drag = Parameter(2.2, unit="1", minimum=0.0, description="drag coefficient of the sphere")
+    sphere_reflectivity = Parameter(1.3, unit="1", minimum=0.0, description="1 absorbs, 2 reflects all")
+    surfaces = State(zeros(PLATES, COLUMNS), frozen=True, description="plates with unit normals, area 0 without one")
+    has_surfaces = State(False, description="true: a plate or the sphere has an area")
+    lacks_normal = State(False, description="true: a plate has an area and no normal, and is left out")
+
+    def start_surfaces(self) -> None:
+        """Set surfaces, with unit normals."""
+        self.surfaces = self.plates
+        self.has_surfaces = self.sphere_area > 0.0
+        self.lacks_normal = False
+        for k in range(PLATES):
+            length = norm(self.plates[k, 1:4])
+            if length > 0.0:
+                self.surfaces[k, 1:4] = self.plates[k, 1:4] / length
+            elif self.plates[k, AREA] > 0.0:
+                self.surfaces[k, AREA] = 0.0
+                self.lacks_normal = True
+            if self.surfaces[k, AREA] > 0.0:
+                self.has_surfaces = True
+
+    def surface_load(self, t: float, r: Vector3, v: Vector3, q: Vector4) -> SurfaceLoad:
+        """Return force and torque (body) of air and light.
+
+        t: simulation time (s); r, v: position (m) and velocity (m/s), inertial; q: attitude, from body to inertial.
+        """
+        force = vector(0.0, 0.0, 0.0)
+        torque = vector(0.0, 0.0, 0.0)
+        if not self.has_surfaces:
+            return SurfaceLoad(force=force, torque=torque)
+        density = self.air_density(t, r)
+        if density > 0.0:
+            wind = to_body(q, v - self.air_velocity(r))
+            drag = plate_drag(self.surfaces, density, wind)
+            force = drag.force + sphere_drag(self.sphere_area, self.sphere_drag, density, wind)
+            torque = drag.torque
+        light = self.light(r)
+        if light > 0.0:
+            away = self.sun - r
+            pressure = pressure_at(norm(away), light)
+            sun = to_body(q, away / norm(away))
+            push = plate_pressure(self.surfaces, pressure, sun)
+            force = force + push.force + sphere_pressure(self.sphere_area, self.sphere_reflectivity, pressure, sun)
+            torque = torque + push.torque
+        return SurfaceLoad(force=force, torque=torque)

@@ -1,0 +1,58 @@
+"""Gravity that acts on a spacecraft about Earth or Moon."""
+
+from ..block import Parameter, State
+from ..interfaces.ports.space import CelestialBody
+from ..kernel.matrices import zeros
+from ..mathlib.space import earth_gravity, moon_gravity
+from ..mathlib.space.ephemerides import EARTH_PARAMETER, MOON_PARAMETER, SUN_PARAMETER, third_body_acceleration
+from ..mathlib.space.harmonics import SIZE, gradient
+from ..mathlib.space.orientation import fixed_axes, from_fixed, to_fixed
+from ..mathlib.vectors import Vector3, vector
+from .space_model import SpaceModel
+
+
+class GravityField(SpaceModel, interface=True):
+    """Spherical harmonics of the body, and the tides of two others.
+
+    Sources: GGM03S (Earth) and LP165P (Moon) in `mathlib.space`.
+    """
+
+    gravity_degree = Parameter(
+        8, minimum=0, maximum=13, description="highest degree of gravity; 8 at most for the Moon"
+    )
+    third_bodies = Parameter(True, description="gravity of Sun and Moon, or of Sun and Earth")
+    gravity_coefficients = State(zeros(SIZE, SIZE), frozen=True, description="of the gravity field, unnormalised")
+
+    def fill_gravity(self) -> None:
+        """Set the coefficients of the body."""
+        if self.central_body == CelestialBody.EARTH:
+            self.gravity_coefficients = earth_gravity.earth_gravity()
+        else:
+            self.gravity_coefficients = moon_gravity.moon_gravity()
+
+    def gravity_parameter(self) -> float:
+        """Return the gravitational parameter (m3/s2) of the body."""
+        if self.central_body == CelestialBody.EARTH:
+            return earth_gravity.GRAVITATIONAL_PARAMETER
+        return moon_gravity.GRAVITATIONAL_PARAMETER
+
+    def gravity(self, t: float, r: Vector3) -> Vector3:
+        """Return the gravity of the body (m/s2, inertial) at a position r (m, inertial), t in simulation time (s)."""
+        radius = earth_gravity.RADIUS
+        if self.central_body == CelestialBody.MOON:
+            radius = moon_gravity.RADIUS
+        fixed = fixed_axes(self.pole_axes, self.epoch + t)
+        mu = self.gravity_parameter()
+        return from_fixed(
+            fixed, gradient(to_fixed(fixed, r), mu, radius, self.gravity_coefficients, self.gravity_degree)
+        )
+
+    def third_body_gravity(self, r: Vector3) -> Vector3:
+        """Return by how much more the third bodies pull the spacecraft than the body it circles (m/s2, inertial)."""
+        if not self.third_bodies:
+            return vector(0.0, 0.0, 0.0)
+        other = MOON_PARAMETER
+        if self.central_body == CelestialBody.MOON:
+            other = EARTH_PARAMETER
+        sun = third_body_acceleration(r, self.sun, SUN_PARAMETER)
+        return sun + third_body_acceleration(r, self.third_body, other)

@@ -1,0 +1,123 @@
+"""Models of the surroundings that a spacecraft and its sensors have in common."""
+
+import math
+
+from ..block import Block, Parameter, State
+from ..interfaces.ports import space
+from ..interfaces.ports.space import Atmosphere, CelestialBody
+from ..kernel.matrices import zeros
+from ..mathlib.space import magnetic_field
+from ..mathlib.space.eclipse import illumination
+from ..mathlib.space.ephemerides import MOON_SHADOW_RADIUS, moon_position, sun_position
+from ..mathlib.space.exponential_atmosphere import exponential_density
+from ..mathlib.space.geodetic import EQUATORIAL_RADIUS, geodetic_height
+from ..mathlib.space.harmonics import SIZE
+from ..mathlib.space.harris_priester import bulge_share, harris_priester_density
+from ..mathlib.space.magnetic_field import igrf14
+from ..mathlib.space.orientation import (
+    PlanetAxes,
+    angle_at,
+    earth_axes,
+    fixed_axes,
+    from_fixed,
+    moon_axes,
+    to_fixed,
+)
+from ..mathlib.vectors import Vector3, cross, dot, norm, vector
+
+
+class SpaceModel(Block, interface=True):
+    """Axes of the planet, Sun and Moon, magnetic field, air and shadow about Earth or Moon.
+
+    Axes of the pole, Sun and Moon are those of one instant, which `locate` sets; the planet turns on from there. A
+    subclass may override `flux_density`, `air_density` and `air_velocity`. Positions are from the body's centre, in
+    inertial axes (GCRS); t is simulation time. The Moon has neither field nor air here.
+    Sources: `mathlib.space`. Equations: docs/systems/earth_pointing.md.
+    """
+
+    central_body = Parameter(CelestialBody)
+    epoch = space.EPOCH.parameter()
+    tt_minus_ut1 = space.TT_MINUS_UT1.parameter()
+    atmosphere = Parameter(Atmosphere, start=Atmosphere.HARRIS_PRIESTER, description="density of the air")
+    density_factor = Parameter(
+        1.0, unit="1", minimum=0.0, description="density over the model's; 0.1 to 4 over a cycle of the Sun"
+    )
+    bulge_exponent = Parameter(
+        4.0, unit="1", minimum=2.0, maximum=6.0, description="of the bulge: 2 low inclination, 6 polar"
+    )
+    magnetic_degree = Parameter(8, minimum=1, maximum=13, description="highest degree of the magnetic field; 1: dipole")
+    pole_axes = State(PlanetAxes, frozen=True)
+    sun = State([1.5e11, 0.0, 0.0], unit="m", frame="inertial", frozen=True, description="Sun, from the body's centre")
+    third_body = State(
+        [4e8, 0.0, 0.0], unit="m", frame="inertial", frozen=True, description="Moon, or Earth, from the body's centre"
+    )
+    field_coefficients = State(zeros(SIZE, SIZE), frozen=True, description="of the magnetic field, nT, at the epoch")
+
+    def fill(self) -> None:
+        """Set the coefficients of the magnetic field."""
+        self.field_coefficients = igrf14(self.epoch)
+
+    def locate(self, t: float) -> None:
+        """Set the axes of the body's pole, the Sun and the third body as they are at t (s)."""
+        time = self.epoch + t
+        moon = moon_position(time)
+        if self.central_body == CelestialBody.EARTH:
+            self.pole_axes = earth_axes(time, self.tt_minus_ut1)
+            self.sun = sun_position(time)
+            self.third_body = moon
+        else:
+            self.pole_axes = moon_axes(time)
+            self.sun = sun_position(time) - moon
+            self.third_body = -moon
+
+    def moon(self) -> Vector3:
+        """Return the position of the Moon (m) from the body's centre."""
+        if self.central_body == CelestialBody.EARTH:
+            return self.third_body
+        return vector(0.0, 0.0, 0.0)
+
+    def planet_angle_at(self, t: float) -> float:
+        """Return the angle (rad, 0 to 2 pi) of the prime meridian at t (s)."""
+        turns = angle_at(self.pole_axes, self.epoch + t) / (2.0 * math.pi)
+        return 2.0 * math.pi * (turns - float(math.floor(turns)))
+
+    def radius(self) -> float:
+        """Return the radius (m) of the body's surface and shadow."""
+        if self.central_body == CelestialBody.EARTH:
+            return EQUATORIAL_RADIUS
+        return MOON_SHADOW_RADIUS
+
+    def height(self, r: Vector3) -> float:
+        """Return the height (m) above the Earth's ellipsoid or the Moon's sphere."""
+        if self.central_body == CelestialBody.EARTH:
+            north = dot(self.pole_axes.pole, r)
+            x = dot(self.pole_axes.first, r)
+            y = dot(self.pole_axes.second, r)
+            return geodetic_height(math.sqrt(x * x + y * y), north)
+        return norm(r) - MOON_SHADOW_RADIUS
+
+    def flux_density(self, t: float, r: Vector3) -> Vector3:
+        """Return the magnetic flux density (T, inertial)."""
+        if self.central_body == CelestialBody.EARTH:
+            fixed = fixed_axes(self.pole_axes, self.epoch + t)
+            b = magnetic_field.magnetic_field(to_fixed(fixed, r), self.field_coefficients, self.magnetic_degree)
+            return from_fixed(fixed, b)
+        return vector(0.0, 0.0, 0.0)
+
+    def air_density(self, t: float, r: Vector3) -> float:
+        """Return the density of the air (kg/m3)."""
+        if self.central_body == CelestialBody.EARTH:
+            if self.atmosphere == Atmosphere.EXPONENTIAL:
+                return self.density_factor * exponential_density(self.height(r))
+            if self.atmosphere == Atmosphere.HARRIS_PRIESTER:
+                share = bulge_share(r, self.sun / norm(self.sun), self.bulge_exponent)
+                return self.density_factor * harris_priester_density(self.height(r), share)
+        return 0.0
+
+    def air_velocity(self, r: Vector3) -> Vector3:
+        """Return the velocity of the air (m/s, inertial), which turns with the planet."""
+        return self.pole_axes.rate * cross(self.pole_axes.pole, r)
+
+    def light(self, r: Vector3) -> float:
+        """Return the visible share of the Sun's disk."""
+        return illumination(r, self.sun, self.radius())

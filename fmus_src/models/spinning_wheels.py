@@ -1,0 +1,80 @@
+"""Four reaction wheels, as the plants that carry them have them in common."""
+
+from ..block import Block, Parameter, State
+from ..interfaces.ports import satellite
+from ..kernel.matrices import zeros
+from ..mathlib.actuators.wheels import WHEELS, drag_torque, unit_axes
+from ..mathlib.vectors import Vector3, Vector4, clip, vector
+
+ROUNDING = 1e-9  # by which a command may exceed its limit unreported
+
+
+class SpinningWheels(Block, interface=True):
+    """Four balanced wheels that are alike, with motors and friction.
+
+    Friction is -viscous_friction W, and coulomb_friction against the speed W, in proportion to W within coulomb_band. A
+    motor gives its command times torque_factor, within motor_torque_limit; a wheel at or beyond speed_limit gets no
+    motor torque that would make it faster (judged at the start of each integration step; friction and the body's own
+    acceleration still act). Source: Schaub and Junkins 2018, section 4.5; Alcorn, Allard and Schaub 2018.
+    """
+
+    wheel_axes = satellite.WHEEL_AXES.parameter()
+    wheel_inertia = satellite.WHEEL_INERTIA.parameter()
+    motor_torque_limit = satellite.MOTOR_TORQUE_LIMIT.parameter()
+    torque_factor = Parameter(
+        [1.0] * 4, unit="1", minimum=0.0, description="torque of each motor over the commanded one; 0: failed"
+    )
+    speed_limit = Parameter(
+        418.87902047863906, unit="rad/s", minimum=0.0, description="largest speed of a wheel, 4000 rpm; 0: no limit"
+    )
+    viscous_friction = Parameter(1e-5, unit="N.m.s", minimum=0.0, description="of a wheel, torque over speed")
+    coulomb_friction = Parameter(5e-4, unit="N.m", minimum=0.0, description="of a wheel, beyond coulomb_band")
+    coulomb_band = Parameter(0.1, unit="rad/s", minimum=1e-6, description="speed below which it falls to 0")
+    initial_wheel_speeds = satellite.WHEEL_SPEEDS.parameter(description="at the start, relative to the body")
+    motor_torques = satellite.MOTOR_TORQUES.input("commanded torque of each motor on its wheel")
+    wheel_speeds = satellite.WHEEL_SPEEDS.output()
+    wheel_momentum = satellite.WHEEL_MOMENTUM.output("sum Js W g of the wheels, relative to the body")
+    applied_torques = satellite.MOTOR_TORQUES.output("torque that each motor gave over the last integration step")
+    spin = State([0.0] * 4, unit="N.m.s", description="h = Js (W + g.w) of each wheel about its axis, absolute")
+    axes = State(zeros(3, WHEELS), unit="1", frame="body", description="unit spin axes, by column")
+
+    def start_wheels(self, w: Vector3) -> None:
+        """Set the wheels as they are at the start on a body with the angular velocity w (rad/s)."""
+        self.axes = unit_axes(self.wheel_axes)
+        self.wheel_speeds = self.initial_wheel_speeds
+        self.spin = self.wheel_inertia * (self.wheel_speeds + self.axes.T @ w)
+        self.wheel_momentum = self.wheel_inertia * (self.axes @ self.wheel_speeds)
+
+    def speeds(self, spin: Vector4, w: Vector3) -> Vector4:
+        """Return the speeds of the wheels (rad/s) relative to a body with the angular velocity w (rad/s)."""
+        return spin / self.wheel_inertia - self.axes.T @ w
+
+    def drag(self, speed: float) -> float:
+        """Return the friction (N m) on a wheel with a speed (rad/s)."""
+        return drag_torque(speed, self.viscous_friction, self.coulomb_friction, self.coulomb_band)
+
+    def drags(self, speeds: Vector4) -> Vector4:
+        """Return the friction (N m) on the wheels with their speeds (rad/s)."""
+        return vector(self.drag(speeds.w), self.drag(speeds.x), self.drag(speeds.y), self.drag(speeds.z))
+
+    def drive(self, commands: Vector4) -> tuple[bool, bool]:
+        """Set applied_torques from commands (N m); whether a torque was limited, and a wheel is at its speed limit."""
+        applied = [0.0] * WHEELS
+        torque_limited = False
+        speed_limited = False
+        for j in range(WHEELS):
+            speed = self.wheel_speeds[j]
+            torque = clip(commands[j], -self.motor_torque_limit, self.motor_torque_limit)
+            if abs(commands[j]) > self.motor_torque_limit * (1.0 + ROUNDING):
+                torque_limited = True
+            if self.speed_limit > 0.0 and abs(speed) >= self.speed_limit and torque * speed > 0.0:
+                speed_limited = True
+                torque = 0.0
+            applied[j] = self.torque_factor[j] * torque
+        self.applied_torques = vector(*applied)
+        return torque_limited, speed_limited
+
+    def publish_wheels(self, w: Vector3) -> None:
+        """Set the outputs of the wheels on a body with the angular velocity w (rad/s)."""
+        self.wheel_speeds = self.speeds(self.spin, w)
+        self.wheel_momentum = self.wheel_inertia * (self.axes @ self.wheel_speeds)

@@ -1,0 +1,275 @@
+"""A spacecraft about Earth or Moon: orbit, attitude, wheels and modes under all that acts on it."""
+
+from ..block import Output, Outputs, Parameter, State
+from ..interfaces.ports import body, inertial, sampling, satellite, space
+from ..kernel.enumerations import Enumeration, member
+from ..kernel.integrators import count_steps, runge_kutta_4
+from ..kernel.matrices import inverse, is_positive_definite, zeros
+from ..kernel.records import Field, Record, replace
+from ..mathlib.attitude.quaternion import multiply, normalise, quaternion, to_body, to_reference
+from ..mathlib.space.gravity_gradient import gravity_gradient_torque
+from ..mathlib.vectors import Vector3, Vector4, clip, cross, finite_or_zero, is_finite, norm, vector
+from ..models.elastic_modes import ElasticModes
+from ..models.exposed_surfaces import ExposedSurfaces
+from ..models.gravity_field import GravityField
+from ..models.spinning_wheels import SpinningWheels
+
+FASTEST_MODE = 0.7  # rad of a mode within an internal step: Runge-Kutta then adds (W h)^5/144 = 1e-3 of damping
+
+
+class SpacecraftStatus(Enumeration):
+    """What limits the spacecraft, the last one where several do."""
+
+    GOOD = member("good")
+    TORQUE_LIMITED = member("a motor torque limited")
+    SPEED_LIMITED = member("a wheel at its speed limit")
+    DIPOLE_LIMITED = member("a dipole limited")
+    NO_NORMAL = member("a plate without normal left out")
+    MODE_TOO_FAST = member("a mode too fast for the internal step")
+    NOT_FINITE = member("an input not finite, taken as 0")
+    BELOW_SURFACE = member("below the surface, nothing moves")
+    NO_INERTIA = member("inertia or mass not positive without wheels and modes, nothing moves")
+
+
+class SpacecraftMotion(Record):
+    """Motion of the spacecraft, its wheels and its modes; its rates are one more of the same kind."""
+
+    position = Field(Vector3, unit="m", frame="inertial", description="of the centre of mass")
+    velocity = Field(Vector3, unit="m/s", frame="inertial", description="of the centre of mass")
+    quaternion = Field(Vector4, unit="1", description="attitude, from body to inertial, scalar first")
+    angular_momentum = Field(Vector3, unit="N.m.s", frame="inertial", description="G of the whole")
+    spin = Field(Vector4, unit="N.m.s", description="h = Js (W + g.w) of each wheel about its axis, absolute")
+    displacements = Field(Vector4, description="of the modes, m times the root of kg")
+    momenta = Field(Vector4, description="of the modes, m/s times the root of kg")
+
+
+class HeldInputs(Record):
+    """Inputs over a step, all finite."""
+
+    motors = Field(Vector4, unit="N.m", description="torques of the motors")
+    dipole = Field(Vector3, unit="A.m2", frame="body", description="commanded dipole, within its limit")
+    force = Field(Vector3, unit="N", frame="body", description="force at force_point")
+    torque = Field(Vector3, unit="N.m", frame="body", description="torque")
+    acceleration = Field(Vector3, unit="m/s2", frame="inertial", description="acceleration that acts like gravity")
+
+
+class Loads(Record):
+    """Forces and torques that act at one instant, but for gravity."""
+
+    force = Field(Vector3, unit="N", frame="body", description="force")
+    torque = Field(Vector3, unit="N.m", frame="body", description="torque about the undeformed centre of mass")
+    disturbance = Field(Vector3, unit="N.m", frame="body", description="torque that no input commands")
+
+
+class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
+    """Orbit, attitude, four wheels and up to four modes under gravity, air, light and the magnetic field.
+
+    With G the angular momentum of the whole, A the wheel axes, L and D the modes' participations, M the mass and
+    Me = 1 - L'L/M: r' = v, v' = g + third bodies + R F/M + external, q' = q w/2, G' = R (T - c x F), c = L eta/M,
+    w = (I - Js A A' - D Me^-1 D')^-1 (R'G - A h - D Me^-1 p), h' = motors with friction, eta' = Me^-1 (p - D'w),
+    p' = -L'F/M - 2 zeta W eta' - W^2 eta. Without torque G does not change by a bit, whatever wheels and modes do.
+    F: drag, solar pressure, body_force. T: theirs, body_torque, gravity gradient, magnetic torque.
+    All forces are evaluated in the stages of the integration, since gravity that is held over a step costs kilometres a
+    day; the axes of the pole, Sun and Moon are those of the middle of the step.
+
+    To exchange a model, derive a class and override one method: `gravity`, `air_density`, `air_velocity`,
+    `surface_load`, `flux_density` or `further_torque`.
+    Frames: inertial (GCRS axes, origin at the body's centre), body (origin at the undeformed centre of mass).
+    Equations, checks and accuracy: docs/systems/earth_pointing.md. Source: Montenbruck and Gill 2000; Likins 1970;
+    Schaub and Junkins 2018.
+
+    Runge-Kutta of fourth order in steps of internal_step, or equal parts of the communication step no longer than that.
+    Assumes a constant mass: thrust changes nothing but the force. Inertia is that of the whole at rest, wheels included
+    as if they did not spin and modes as if they were rigid.
+    """
+
+    default_step = 0.25
+
+    mass = Parameter(50.0, unit="kg", minimum=1e-3, description="of the whole")
+    inertia = satellite.INERTIA.parameter([4.2, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 3.0])
+    wheel_inertia = satellite.WHEEL_INERTIA.parameter(3e-4)
+    motor_torque_limit = satellite.MOTOR_TORQUE_LIMIT.parameter(5e-3)
+    speed_limit = Parameter(
+        1000.0 / 3.0, unit="rad/s", minimum=0.0, description="largest speed of a wheel, 0.1 N m s; 0: no limit"
+    )
+    viscous_friction = Parameter(1e-7, unit="N.m.s", minimum=0.0, description="of a wheel, torque over speed")
+    coulomb_friction = Parameter(1e-5, unit="N.m", minimum=0.0, description="of a wheel, beyond coulomb_band")
+    residual_dipole = space.DIPOLE.parameter([0.05, 0.05, 0.05], description="dipole that nobody commands")
+    dipole_limit = Parameter(5.0, unit="A.m2", minimum=0.0, description="largest dipole about an axis, both ways")
+    force_point = Parameter([0.0, 0.0, 0.0], unit="m", frame="body", description="where body_force acts")
+    initial_position = inertial.POSITION.parameter([6878137.0, 0.0, 0.0], description="position at the start")
+    initial_velocity = inertial.VELOCITY.parameter(
+        [0.0, -980.4704108126322, 7549.203993067037], description="velocity at the start"
+    )
+    initial_quaternion = Parameter(
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude at the start, from body to inertial, scalar first"
+    )
+    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="angular velocity at the start")
+    internal_step = sampling.INTERNAL_STEP.parameter(0.25, minimum=1e-3)
+    dipole = space.DIPOLE.input("commanded dipole")
+    body_force = body.FORCE.input("force at force_point, such as thrust")
+    body_torque = body.TORQUE.input("torque")
+    external_acceleration = inertial.ACCELERATION.input("acceleration that acts like gravity and excites no mode")
+    orbit = Outputs(space.Orbit)
+    attitude = Outputs(space.Attitude)
+    angular_momentum = Output(
+        [0.0, 0.0, 0.0], unit="N.m.s", frame="inertial", description="G of the whole about the centre of mass"
+    )
+    specific_force = Output([0.0, 0.0, 0.0], unit="m/s2", frame="body", description="force but for gravity over mass")
+    applied_dipole = space.DIPOLE.output("commanded dipole within its limit")
+    disturbance_torque = body.TORQUE.output("torque that no input commands")
+    status = Output(SpacecraftStatus)
+    inverse_inertia = State(zeros(3, 3), frozen=True, description="(I - Js A A' - D Me^-1 D')^-1, 1/(kg m2)")
+    fastest = State(0.0, unit="rad/s", frozen=True, description="largest frequency of the modes of the free whole")
+    start_time = sampling.START_TIME.state()
+
+    def initialize(self) -> None:
+        self.fill()
+        self.fill_gravity()
+        self.start_surfaces()
+        self.position = self.initial_position
+        self.velocity = self.initial_velocity
+        self.quaternion = normalise(self.initial_quaternion)
+        self.angular_velocity = self.initial_angular_velocity
+        self.start_wheels(self.angular_velocity)
+        sound = self.start_modes(self.mass)
+        locked = self.inertia - self.wheel_inertia * self.axes @ self.axes.T - self.modal_inertia()
+        self.inverse_inertia, invertible = inverse(locked)
+        if not (sound and invertible and is_positive_definite(locked)):
+            self.status = SpacecraftStatus.NO_INERTIA
+            return
+        inverse_whole, _ = inverse(self.inertia)
+        self.fastest = self.largest_frequency(self.mass, inverse_whole)
+        self.modal_momenta = self.rotation.T @ self.angular_velocity
+        momentum = self.inertia @ self.angular_velocity + self.wheel_momentum
+        self.angular_momentum = to_reference(self.quaternion, momentum)
+        self.locate(self.start_time)
+        if not norm(self.position) > 0.0 or self.height(self.position) < 0.0:
+            self.status = SpacecraftStatus.BELOW_SURFACE
+            return
+        held = self.hold_inputs()
+        self.publish(self.start_time, held)
+
+    def further_torque(self, t: float, s: SpacecraftMotion) -> Vector3:
+        """Return a torque (N m, body) of a subclass at a simulation time t (s); here none."""
+        return vector(0.0, 0.0, 0.0)
+
+    def loads(self, t: float, s: SpacecraftMotion, held: HeldInputs) -> Loads:
+        """Return what acts but for gravity."""
+        surface = self.surface_load(t, s.position, s.velocity, s.quaternion)
+        down = to_body(s.quaternion, s.position)
+        disturbance = surface.torque + gravity_gradient_torque(down, self.inertia, self.gravity_parameter())
+        disturbance = disturbance + self.further_torque(t, s)
+        commanded = held.torque + cross(self.force_point, held.force)
+        if norm(held.dipole) > 0.0 or norm(self.residual_dipole) > 0.0:
+            field = to_body(s.quaternion, self.flux_density(t, s.position))
+            disturbance = disturbance + cross(self.residual_dipole, field)
+            commanded = commanded + cross(held.dipole, field)
+        return Loads(force=surface.force + held.force, torque=disturbance + commanded, disturbance=disturbance)
+
+    def rate(self, s: SpacecraftMotion) -> Vector3:
+        """Return the angular velocity (rad/s, body)."""
+        carried = self.axes @ s.spin + self.modal_coupling @ s.momenta
+        return self.inverse_inertia @ (to_body(s.quaternion, s.angular_momentum) - carried)
+
+    def derivatives(self, t: float, s: SpacecraftMotion, held: HeldInputs) -> SpacecraftMotion:
+        """Return the rates of the motion."""
+        w = self.rate(s)
+        loads = self.loads(t, s, held)
+        acceleration = loads.force / self.mass
+        velocities = self.modal_velocities(s.momenta, w)
+        centre = self.displaced_centre(s.displacements, self.mass)
+        fall = self.gravity(t, s.position) + self.third_body_gravity(s.position) + held.acceleration
+        return SpacecraftMotion(
+            position=s.velocity,
+            velocity=fall + to_reference(s.quaternion, acceleration),
+            quaternion=multiply(s.quaternion, quaternion(0.0, 0.5 * w)),
+            angular_momentum=to_reference(s.quaternion, loads.torque - cross(centre, loads.force)),
+            spin=held.motors + self.drags(self.speeds(s.spin, w)),
+            displacements=velocities,
+            momenta=self.modal_forces(s.displacements, velocities, acceleration),
+        )
+
+    def hold_inputs(self) -> HeldInputs:
+        """Return the inputs with 0 for what is not finite, the dipole within its limit; set status and applied_dipole.
+
+        The torques of the motors are the commanded ones still.
+        """
+        commands = self.motor_torques
+        finite = is_finite(self.dipole) and is_finite(self.body_force) and is_finite(self.body_torque)
+        finite = finite and is_finite(self.external_acceleration)
+        if not (is_finite(commands[1:4]) and is_finite(vector(commands.w, 0.0, 0.0))):
+            finite = False
+            commands = vector(0.0, 0.0, 0.0, 0.0)
+        wanted = finite_or_zero(self.dipole)
+        self.applied_dipole = vector(
+            clip(wanted.x, -self.dipole_limit, self.dipole_limit),
+            clip(wanted.y, -self.dipole_limit, self.dipole_limit),
+            clip(wanted.z, -self.dipole_limit, self.dipole_limit),
+        )
+        self.status = SpacecraftStatus.GOOD
+        if norm(self.applied_dipole - wanted) > 0.0:
+            self.status = SpacecraftStatus.DIPOLE_LIMITED
+        if self.lacks_normal:
+            self.status = SpacecraftStatus.NO_NORMAL
+        if self.fastest * self.internal_step > FASTEST_MODE:
+            self.status = SpacecraftStatus.MODE_TOO_FAST
+        if not finite:
+            self.status = SpacecraftStatus.NOT_FINITE
+        return HeldInputs(
+            motors=commands,
+            dipole=self.applied_dipole,
+            force=finite_or_zero(self.body_force),
+            torque=finite_or_zero(self.body_torque),
+            acceleration=finite_or_zero(self.external_acceleration),
+        )
+
+    def motion(self) -> SpacecraftMotion:
+        """Return the motion as it is."""
+        return SpacecraftMotion(
+            position=self.position,
+            velocity=self.velocity,
+            quaternion=self.quaternion,
+            angular_momentum=self.angular_momentum,
+            spin=self.spin,
+            displacements=self.mode_displacements,
+            momenta=self.modal_momenta,
+        )
+
+    def publish(self, t: float, held: HeldInputs) -> None:
+        """Set the outputs that follow from the motion at t (s)."""
+        s = self.motion()
+        self.angular_velocity = self.rate(s)
+        self.publish_wheels(self.angular_velocity)
+        loads = self.loads(t, s, held)
+        self.specific_force = loads.force / self.mass
+        self.disturbance_torque = loads.disturbance
+
+    def move(self, t: float, h: float, held: HeldInputs) -> None:
+        """Move by h (s) under inputs with commands of the motors."""
+        torque_limited, speed_limited = self.drive(held.motors)
+        if torque_limited and self.status == SpacecraftStatus.GOOD:
+            self.status = SpacecraftStatus.TORQUE_LIMITED
+        if speed_limited and self.status <= SpacecraftStatus.TORQUE_LIMITED:
+            self.status = SpacecraftStatus.SPEED_LIMITED
+        self.locate(t + 0.5 * h)
+        end = runge_kutta_4(self.derivatives, t, self.motion(), h, replace(held, motors=self.applied_torques))
+        self.position = end.position
+        self.velocity = end.velocity
+        self.quaternion = normalise(end.quaternion)
+        self.angular_momentum = end.angular_momentum
+        self.spin = end.spin
+        self.mode_displacements = end.displacements
+        self.modal_momenta = end.momenta
+        self.publish(t + h, held)
+
+    def step(self, t: float, h: float) -> None:
+        if self.status >= SpacecraftStatus.BELOW_SURFACE:
+            return
+        held = self.hold_inputs()
+        steps = count_steps(h, self.internal_step)
+        for k in range(steps):
+            self.move(t + float(k) * h / float(steps), h / float(steps), held)
+            if self.height(self.position) < 0.0:
+                self.status = SpacecraftStatus.BELOW_SURFACE
+                return
