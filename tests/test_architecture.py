@@ -19,7 +19,17 @@ from perilune.fmus_src.paths import ROOT
 
 OURS = {"perilune", "analysis", "fmus_src"}
 EVERYWHERE = {"analysis/common", "fmus_src/paths"}
-KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")
+KINDS = (
+    "plants",
+    "environment",
+    "sensors",
+    "navigation",
+    "guidance",
+    "control",
+    "actuators",
+    "disturbances",
+    "sequencing",
+)
 MOST = 15
 LISTS = {
     "analysis/verbs",

@@ -16,7 +16,7 @@ class EnvironmentStatus(Enumeration):
 
     GOOD = member("good")
     OUTSIDE_YEARS = member("outside 2025 to 2030, magnetic field extrapolated")
-    HELD = member("position or attitude not finite, or inside the body; outputs held")
+    UNCHANGED = member("position or attitude not finite, or inside the body; outputs stay")
 
 
 class SpaceEnvironment(SpaceModel):
@@ -48,7 +48,7 @@ class SpaceEnvironment(SpaceModel):
         """Set all outputs for t (s)."""
         r = self.position
         q = self.quaternion
-        self.status = EnvironmentStatus.HELD
+        self.status = EnvironmentStatus.UNCHANGED
         if not (is_finite(r) and math.isfinite(q.w) and is_finite(q[1:4]) and is_attitude(q)):
             return
         self.locate(t)

@@ -41,14 +41,14 @@ def mirror(a: Matrix, size: int) -> None:
 
 def is_positive_definite(a: Matrix) -> bool:
     """True if a symmetric matrix is positive definite: all pivots of its elimination are positive."""
-    rest = a.copy()
+    reduced = a.copy()
     for k in range(len(a)):
-        if not rest[k, k] > 0.0:
+        if not reduced[k, k] > 0.0:
             return False
         for i in range(k + 1, len(a)):
-            factor = rest[i, k] / rest[k, k]
+            factor = reduced[i, k] / reduced[k, k]
             for j in range(k + 1, len(a)):
-                rest[i, j] = rest[i, j] - factor * rest[k, j]
+                reduced[i, j] = reduced[i, j] - factor * reduced[k, j]
     return True
 
 

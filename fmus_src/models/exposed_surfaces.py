@@ -72,7 +72,7 @@ class ExposedSurfaces(SpaceModel, interface=True):
             away = self.sun - r
             pressure = pressure_at(norm(away), light)
             sun = to_body(q, away / norm(away))
-            push = plate_pressure(self.surfaces, pressure, sun)
-            force = force + push.force + sphere_pressure(self.sphere_area, self.sphere_reflectivity, pressure, sun)
-            torque = torque + push.torque
+            solar = plate_pressure(self.surfaces, pressure, sun)
+            force = force + solar.force + sphere_pressure(self.sphere_area, self.sphere_reflectivity, pressure, sun)
+            torque = torque + solar.torque
         return SurfaceLoad(force=force, torque=torque)

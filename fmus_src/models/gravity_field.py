@@ -48,7 +48,7 @@ class GravityField(SpaceModel, interface=True):
         )
 
     def third_body_gravity(self, r: Vector3) -> Vector3:
-        """Return by how much more the third bodies pull the spacecraft than the body it circles (m/s2, inertial)."""
+        """Return the acceleration by the third bodies, less that of the circled body (m/s2, inertial)."""
         if not self.third_bodies:
             return vector(0.0, 0.0, 0.0)
         other = MOON_PARAMETER

@@ -12,7 +12,7 @@ from ..mathlib.space.ephemerides import MOON_SHADOW_RADIUS, moon_position, sun_p
 from ..mathlib.space.exponential_atmosphere import exponential_density
 from ..mathlib.space.geodetic import EQUATORIAL_RADIUS, geodetic_height
 from ..mathlib.space.harmonics import SIZE
-from ..mathlib.space.harris_priester import bulge_share, harris_priester_density
+from ..mathlib.space.harris_priester import bulge_fraction, harris_priester_density
 from ..mathlib.space.magnetic_field import igrf14
 from ..mathlib.space.orientation import (
     PlanetAxes,
@@ -110,8 +110,8 @@ class SpaceModel(Block, interface=True):
             if self.atmosphere == Atmosphere.EXPONENTIAL:
                 return self.density_factor * exponential_density(self.height(r))
             if self.atmosphere == Atmosphere.HARRIS_PRIESTER:
-                share = bulge_share(r, self.sun / norm(self.sun), self.bulge_exponent)
-                return self.density_factor * harris_priester_density(self.height(r), share)
+                bulge = bulge_fraction(r, self.sun / norm(self.sun), self.bulge_exponent)
+                return self.density_factor * harris_priester_density(self.height(r), bulge)
         return 0.0
 
     def air_velocity(self, r: Vector3) -> Vector3:

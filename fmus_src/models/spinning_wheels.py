@@ -74,7 +74,7 @@ class SpinningWheels(Block, interface=True):
         self.applied_torques = vector(*applied)
         return torque_limited, speed_limited
 
-    def publish_wheels(self, w: Vector3) -> None:
+    def set_wheel_outputs(self, w: Vector3) -> None:
         """Set the outputs of the wheels on a body with the angular velocity w (rad/s)."""
         self.wheel_speeds = self.speeds(self.spin, w)
         self.wheel_momentum = self.wheel_inertia * (self.axes @ self.wheel_speeds)

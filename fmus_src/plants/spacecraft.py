@@ -43,7 +43,7 @@ class SpacecraftMotion(Record):
     momenta = Field(Vector4, description="of the modes, m/s times the root of kg")
 
 
-class HeldInputs(Record):
+class StepInputs(Record):
     """Inputs over a step, all finite."""
 
     motors = Field(Vector4, unit="N.m", description="torques of the motors")
@@ -69,8 +69,8 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
     w = (I - Js A A' - D Me^-1 D')^-1 (R'G - A h - D Me^-1 p), h' = motors with friction, eta' = Me^-1 (p - D'w),
     p' = -L'F/M - 2 zeta W eta' - W^2 eta. Without torque G does not change by a bit, whatever wheels and modes do.
     F: drag, solar pressure, body_force. T: theirs, body_torque, gravity gradient, magnetic torque.
-    All forces are evaluated in the stages of the integration, since gravity that is held over a step costs kilometres a
-    day; the axes of the pole, Sun and Moon are those of the middle of the step.
+    All forces are evaluated in the stages of the integration, since gravity of the start of a step would
+    cost kilometres a day; the axes of the pole, Sun and Moon are those of the middle of the step.
 
     To exchange a model, derive a class and override one method: `gravity`, `air_density`, `air_velocity`,
     `surface_load`, `flux_density` or `further_torque`.
@@ -147,50 +147,50 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         if not norm(self.position) > 0.0 or self.height(self.position) < 0.0:
             self.status = SpacecraftStatus.BELOW_SURFACE
             return
-        held = self.hold_inputs()
-        self.publish(self.start_time, held)
+        inputs = self.limit_inputs()
+        self.set_outputs(self.start_time, inputs)
 
     def further_torque(self, t: float, s: SpacecraftMotion) -> Vector3:
         """Return a torque (N m, body) of a subclass at a simulation time t (s); here none."""
         return vector(0.0, 0.0, 0.0)
 
-    def loads(self, t: float, s: SpacecraftMotion, held: HeldInputs) -> Loads:
+    def loads(self, t: float, s: SpacecraftMotion, inputs: StepInputs) -> Loads:
         """Return what acts but for gravity."""
         surface = self.surface_load(t, s.position, s.velocity, s.quaternion)
         down = to_body(s.quaternion, s.position)
         disturbance = surface.torque + gravity_gradient_torque(down, self.inertia, self.gravity_parameter())
         disturbance = disturbance + self.further_torque(t, s)
-        commanded = held.torque + cross(self.force_point, held.force)
-        if norm(held.dipole) > 0.0 or norm(self.residual_dipole) > 0.0:
+        commanded = inputs.torque + cross(self.force_point, inputs.force)
+        if norm(inputs.dipole) > 0.0 or norm(self.residual_dipole) > 0.0:
             field = to_body(s.quaternion, self.flux_density(t, s.position))
             disturbance = disturbance + cross(self.residual_dipole, field)
-            commanded = commanded + cross(held.dipole, field)
-        return Loads(force=surface.force + held.force, torque=disturbance + commanded, disturbance=disturbance)
+            commanded = commanded + cross(inputs.dipole, field)
+        return Loads(force=surface.force + inputs.force, torque=disturbance + commanded, disturbance=disturbance)
 
     def rate(self, s: SpacecraftMotion) -> Vector3:
         """Return the angular velocity (rad/s, body)."""
         carried = self.axes @ s.spin + self.modal_coupling @ s.momenta
         return self.inverse_inertia @ (to_body(s.quaternion, s.angular_momentum) - carried)
 
-    def derivatives(self, t: float, s: SpacecraftMotion, held: HeldInputs) -> SpacecraftMotion:
+    def derivatives(self, t: float, s: SpacecraftMotion, inputs: StepInputs) -> SpacecraftMotion:
         """Return the rates of the motion."""
         w = self.rate(s)
-        loads = self.loads(t, s, held)
+        loads = self.loads(t, s, inputs)
         acceleration = loads.force / self.mass
         velocities = self.modal_velocities(s.momenta, w)
         centre = self.displaced_centre(s.displacements, self.mass)
-        fall = self.gravity(t, s.position) + self.third_body_gravity(s.position) + held.acceleration
+        fall = self.gravity(t, s.position) + self.third_body_gravity(s.position) + inputs.acceleration
         return SpacecraftMotion(
             position=s.velocity,
             velocity=fall + to_reference(s.quaternion, acceleration),
             quaternion=multiply(s.quaternion, quaternion(0.0, 0.5 * w)),
             angular_momentum=to_reference(s.quaternion, loads.torque - cross(centre, loads.force)),
-            spin=held.motors + self.drags(self.speeds(s.spin, w)),
+            spin=inputs.motors + self.drags(self.speeds(s.spin, w)),
             displacements=velocities,
             momenta=self.modal_forces(s.displacements, velocities, acceleration),
         )
 
-    def hold_inputs(self) -> HeldInputs:
+    def limit_inputs(self) -> StepInputs:
         """Return the inputs with 0 for what is not finite, the dipole within its limit; set status and applied_dipole.
 
         The torques of the motors are the commanded ones still.
@@ -216,7 +216,7 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
             self.status = SpacecraftStatus.MODE_TOO_FAST
         if not finite:
             self.status = SpacecraftStatus.NOT_FINITE
-        return HeldInputs(
+        return StepInputs(
             motors=commands,
             dipole=self.applied_dipole,
             force=finite_or_zero(self.body_force),
@@ -236,24 +236,24 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
             momenta=self.modal_momenta,
         )
 
-    def publish(self, t: float, held: HeldInputs) -> None:
+    def set_outputs(self, t: float, inputs: StepInputs) -> None:
         """Set the outputs that follow from the motion at t (s)."""
         s = self.motion()
         self.angular_velocity = self.rate(s)
-        self.publish_wheels(self.angular_velocity)
-        loads = self.loads(t, s, held)
+        self.set_wheel_outputs(self.angular_velocity)
+        loads = self.loads(t, s, inputs)
         self.specific_force = loads.force / self.mass
         self.disturbance_torque = loads.disturbance
 
-    def move(self, t: float, h: float, held: HeldInputs) -> None:
+    def move(self, t: float, h: float, inputs: StepInputs) -> None:
         """Move by h (s) under inputs with commands of the motors."""
-        torque_limited, speed_limited = self.drive(held.motors)
+        torque_limited, speed_limited = self.drive(inputs.motors)
         if torque_limited and self.status == SpacecraftStatus.GOOD:
             self.status = SpacecraftStatus.TORQUE_LIMITED
         if speed_limited and self.status <= SpacecraftStatus.TORQUE_LIMITED:
             self.status = SpacecraftStatus.SPEED_LIMITED
         self.locate(t + 0.5 * h)
-        end = runge_kutta_4(self.derivatives, t, self.motion(), h, replace(held, motors=self.applied_torques))
+        end = runge_kutta_4(self.derivatives, t, self.motion(), h, replace(inputs, motors=self.applied_torques))
         self.position = end.position
         self.velocity = end.velocity
         self.quaternion = normalise(end.quaternion)
@@ -261,15 +261,15 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         self.spin = end.spin
         self.mode_displacements = end.displacements
         self.modal_momenta = end.momenta
-        self.publish(t + h, held)
+        self.set_outputs(t + h, inputs)
 
     def step(self, t: float, h: float) -> None:
         if self.status >= SpacecraftStatus.BELOW_SURFACE:
             return
-        held = self.hold_inputs()
+        inputs = self.limit_inputs()
         steps = count_steps(h, self.internal_step)
         for k in range(steps):
-            self.move(t + float(k) * h / float(steps), h / float(steps), held)
+            self.move(t + float(k) * h / float(steps), h / float(steps), inputs)
             if self.height(self.position) < 0.0:
                 self.status = SpacecraftStatus.BELOW_SURFACE
                 return

@@ -102,7 +102,7 @@ class WheelSatellite(SpinningWheels):
         self.spin = end.spin
         s = SatelliteMotion(quaternion=self.quaternion, angular_momentum=self.angular_momentum, spin=self.spin)
         self.angular_velocity = self.rate(s)
-        self.publish_wheels(self.angular_velocity)
+        self.set_wheel_outputs(self.angular_velocity)
 
     def step(self, t: float, h: float) -> None:
         if self.status == WheelSatelliteStatus.NO_INERTIA:

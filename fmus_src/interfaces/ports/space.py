@@ -21,7 +21,7 @@ class CelestialBody(Enumeration):
 class Atmosphere(Enumeration):
     """Model of the density of the air, about the Earth alone."""
 
-    NONE = member("none")
+    VACUUM = member("no air")
     EXPONENTIAL = member("exponential by height")
     HARRIS_PRIESTER = member("Harris-Priester with the bulge behind the Sun")
 

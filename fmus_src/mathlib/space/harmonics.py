@@ -66,9 +66,9 @@ def gradient(position: Vector3, mu: float, radius: float, cs: Matrix, degree: in
         lower_w = 0.0
         for n in range(m, degree + 2):
             if n > m:
-                share = 1.0 / float(n - m)
-                first = share * float(2 * n - 1) * scaled.z
-                second = share * float(n + m - 1) * rho
+                inverse = 1.0 / float(n - m)
+                first = inverse * float(2 * n - 1) * scaled.z
+                second = inverse * float(n + m - 1) * rho
                 higher_v = first * v - second * lower_v
                 higher_w = first * w - second * lower_w
                 lower_v = v

@@ -34,7 +34,7 @@ HIGHEST = (  # 1e-12 kg/m3, of the bulge
 )  # fmt: skip
 
 
-def bulge_share(position: Vector3, sun: Vector3, exponent: float) -> float:
+def bulge_fraction(position: Vector3, sun: Vector3, exponent: float) -> float:
     """Return how much of the bulge is at a position, 0 opposite to its apex to 1 at it: cos^n of half the angle.
 
     ``sun`` is the unit vector to the Sun; both are inertial, from the Earth's centre. The exponent n is 2 for orbits of
@@ -47,8 +47,8 @@ def bulge_share(position: Vector3, sun: Vector3, exponent: float) -> float:
     return pow(square, 0.5 * exponent)
 
 
-def harris_priester_density(h: float, share: float) -> float:
-    """Return the density (kg/m3) at a height h (m) with a share of the bulge; held below 100 km, 0 from 1000 km on."""
+def harris_priester_density(h: float, bulge: float) -> float:
+    """Return the density (kg/m3) at a height h (m) with a fraction of the bulge; 0 from 1000 km on."""
     kilometres = 1e-3 * h
     if kilometres < HEIGHT[0]:
         kilometres = HEIGHT[0]
@@ -60,4 +60,4 @@ def harris_priester_density(h: float, share: float) -> float:
     fraction = (kilometres - HEIGHT[k]) / (HEIGHT[k + 1] - HEIGHT[k])
     lowest = LOWEST[k] * exp(fraction * log(LOWEST[k + 1] / LOWEST[k]))
     highest = HIGHEST[k] * exp(fraction * log(HIGHEST[k + 1] / HIGHEST[k]))
-    return 1e-12 * (lowest + (highest - lowest) * share)
+    return 1e-12 * (lowest + (highest - lowest) * bulge)

@@ -37,9 +37,9 @@ def plate_drag(plates: Matrix, density: float, velocity: Vector3) -> SurfaceLoad
     for k in range(len(plates)):
         facing = plates[k, AREA] * dot(plates[k, 1:4], velocity)
         if facing > 0.0:
-            push = -(0.5 * density * plates[k, DRAG] * facing) * velocity
-            force = force + push
-            torque = torque + cross(plates[k, 4:7], push)
+            plate_force = -(0.5 * density * plates[k, DRAG] * facing) * velocity
+            force = force + plate_force
+            torque = torque + cross(plates[k, 4:7], plate_force)
     return SurfaceLoad(force=force, torque=torque)
 
 
@@ -53,9 +53,9 @@ def plate_pressure(plates: Matrix, pressure: float, sun: Vector3) -> SurfaceLoad
         if plates[k, AREA] > 0.0 and cosine > 0.0:
             specular = plates[k, SPECULAR]
             along = 2.0 * (plates[k, DIFFUSE] / 3.0 + specular * cosine)
-            push = -(pressure * plates[k, AREA] * cosine) * ((1.0 - specular) * sun + along * normal)
-            force = force + push
-            torque = torque + cross(plates[k, 4:7], push)
+            plate_force = -(pressure * plates[k, AREA] * cosine) * ((1.0 - specular) * sun + along * normal)
+            force = force + plate_force
+            torque = torque + cross(plates[k, 4:7], plate_force)
     return SurfaceLoad(force=force, torque=torque)
 
 

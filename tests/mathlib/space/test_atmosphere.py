@@ -45,8 +45,8 @@ def test_exponential(kilometres):
 @pytest.mark.parametrize(("position", "exponent", "density"), BULGE)
 def test_harris_priester(position, exponent, density):
     sun = np.array(sun_position(827301600.0).elements())
-    share = harris_priester.bulge_share(vector(*position), vector(*(sun / np.linalg.norm(sun))), exponent)
-    assert harris_priester.harris_priester_density(height(position), share) == pytest.approx(density, rel=1e-11)
+    fraction = harris_priester.bulge_fraction(vector(*position), vector(*(sun / np.linalg.norm(sun))), exponent)
+    assert harris_priester.harris_priester_density(height(position), fraction) == pytest.approx(density, rel=1e-11)
 
 
 @pytest.mark.parametrize("k", range(harris_priester.ROWS - 1))

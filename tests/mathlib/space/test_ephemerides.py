@@ -67,6 +67,6 @@ def test_a_third_body_far_away_pulls_by_its_tide():
     distance = np.linalg.norm(body)
     u = body / distance
     tide = mu / distance**3 * (3.0 * (u @ r) * u - r)
-    pull = third_body_acceleration(vector(*r), vector(*body), mu).elements()
-    assert np.linalg.norm(pull - tide) < 3.0 * np.linalg.norm(r) / distance * np.linalg.norm(tide)
+    tide_difference = third_body_acceleration(vector(*r), vector(*body), mu).elements()
+    assert np.linalg.norm(tide_difference - tide) < 3.0 * np.linalg.norm(r) / distance * np.linalg.norm(tide)
     assert third_body_acceleration(vector(0.0, 0.0, 0.0), vector(*body), mu).elements() == (0.0, 0.0, 0.0)

@@ -15,7 +15,7 @@ from perilune.fmus_src.mathlib.vectors import vector
 
 RADIUS = 6378137.0  # m
 SUN = (1.496e11, 0.0, 0.0)  # m
-# Height (km) of the ray above the axis of the shadow: visible share of the disk, areas by quadrature.
+# Height (km) of the ray above the axis of the shadow: visible fraction of the disk, areas by quadrature.
 SHADOW = {6368: 0.0, 6370: 0.05047885696709, 6372.5: 0.17779207855760, 6375: 0.33511305660085,
           6377.5: 0.50461069130581, 6380: 0.67305858384099, 6382.5: 0.82749573055528, 6385: 0.95104816218728,
           6387: 1.0, 6389: 1.0}  # fmt: skip
@@ -33,8 +33,8 @@ TO_SUN = vector(0.6, 0.48, 0.64)
 
 @pytest.mark.parametrize("kilometres", SHADOW)
 def test_half_shadow(kilometres):
-    share = illumination(vector(-2e6, 1000.0 * kilometres, 1e5), vector(*SUN), RADIUS)
-    assert share == pytest.approx(SHADOW[kilometres], abs=1e-9)
+    light = illumination(vector(-2e6, 1000.0 * kilometres, 1e5), vector(*SUN), RADIUS)
+    assert light == pytest.approx(SHADOW[kilometres], abs=1e-9)
 
 
 @given(st.floats(0.0, 1.0))
@@ -52,8 +52,8 @@ def test_half_shadow_by_quadrature(fraction):
 
     corners = np.clip([c - b, (c * c + a * a - b * b) / (2.0 * c)], -a, a)
     area = quad(visible, -a, a, points=corners, epsabs=1e-16, limit=400)[0]
-    share = illumination(vector(*position), vector(*SUN), RADIUS)
-    assert share == pytest.approx(area / (np.pi * a * a), abs=1e-6)
+    light = illumination(vector(*position), vector(*SUN), RADIUS)
+    assert light == pytest.approx(area / (np.pi * a * a), abs=1e-6)
 
 
 def test_shadow_far_away():
