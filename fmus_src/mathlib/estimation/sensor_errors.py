@@ -1,0 +1,43 @@
+"""Errors that sensors have in common. Kernel functions."""
+
+import math
+
+from ...kernel.functions import exp
+from ...kernel.matrices import Matrix
+from ..vectors import Vector3, clip, vector
+
+LATEST = 4  # samples by which one may be late
+
+
+def next_markov(error: Vector3, elapsed: float, time: float, sigma: float, numbers: Vector3) -> Vector3:
+    """Return a first-order Gauss-Markov error after ``elapsed`` (s), exactly discretised.
+
+    ``time`` (s) is that of its correlation, e^(-t/time), ``sigma`` its standard deviation per axis, in the unit of the
+    error, and ``numbers`` are normal. Source: Gelb 1974, section 3.8.
+    """
+    decay = exp(-elapsed / time)
+    return decay * error + sigma * math.sqrt(1.0 - decay * decay) * numbers
+
+
+def quantise(y: Vector3, quantum: float) -> Vector3:
+    """Return the vector with its components at the nearest multiples of a quantum; as it is where that is 0."""
+    if quantum > 0.0:
+        return quantum * vector(
+            float(math.floor(y.x / quantum + 0.5)),
+            float(math.floor(y.y / quantum + 0.5)),
+            float(math.floor(y.z / quantum + 0.5)),
+        )
+    return y
+
+
+def saturate(y: Vector3, largest: float) -> Vector3:
+    """Return the vector with its components within +-largest."""
+    return vector(clip(y.x, -largest, largest), clip(y.y, -largest, largest), clip(y.z, -largest, largest))
+
+
+def push_sample(late: Matrix, sample: Vector3) -> None:
+    """Put a sample in the first row of those that are late, the others one row down."""
+    for i in range(LATEST):
+        k = LATEST - i
+        late[k, 0:3] = late[k - 1, 0:3]
+    late[0, 0:3] = sample

@@ -1,0 +1,99 @@
+"""Position and velocity from satellite navigation."""
+
+from ..block import Input, Output, Parameter, State
+from ..interfaces.ports import inertial, sampling
+from ..kernel.enumerations import Enumeration, member
+from ..kernel.matrices import zeros
+from ..mathlib.estimation.sensor_errors import LATEST, next_markov, push_sample
+from ..mathlib.rng import normals
+from ..mathlib.vectors import finite_or_zero, is_finite
+from .random_sensor import RandomSensor
+
+
+class ReceiverStatus(Enumeration):
+    """What became of the last sample."""
+
+    GOOD = member("good")
+    OUTAGE = member("outage, last sample stays")
+    NOT_FINITE = member("an input not finite, last sample stays")
+
+
+class GpsReceiver(RandomSensor):
+    """Position and velocity in inertial axes, with white noise, a slowly changing error of position, and latency.
+
+    position + markov + position_sigma n, velocity + velocity_sigma n; the Gauss-Markov error has markov_sigma per axis
+    and a correlation e^(-t/markov_time), which begins in its steady state. A sample arrives ``latency`` samples after
+    it was taken, with the time at which it was taken, wrong by clock_error. In an outage no sample is taken, those
+    under way arrive. Which numbers a flight uses depends on seed, stream and the sample's number only.
+    Frame: inertial. Equations: docs/systems/earth_pointing.md. There is no model of signals.
+    """
+
+    default_step = 1.0
+
+    position_sigma = Parameter(3.0, unit="m", minimum=0.0, description="white error, 1 sigma per axis")
+    velocity_sigma = Parameter(0.03, unit="m/s", minimum=0.0, description="white error, 1 sigma per axis")
+    markov_sigma = Parameter(5.0, unit="m", minimum=0.0, description="correlated error of position, 1 sigma per axis")
+    markov_time = Parameter(300.0, unit="s", minimum=1e-3, description="time of its correlation")
+    clock_error = Parameter(0.0, unit="s", description="error of sample_time")
+    latency = Parameter(1, minimum=0, maximum=LATEST, description="samples until one arrives")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(1.0)
+    seed, stream = sampling.random_stream()
+    position = inertial.POSITION.input("true position")
+    velocity = inertial.VELOCITY.input("true velocity")
+    outage = Input(False, description="true: no sample is taken")
+    measured_position = inertial.POSITION.output("measured position", direct=True)
+    measured_velocity = inertial.VELOCITY.output("measured velocity", direct=True)
+    sample_time = Output(0.0, unit="s", direct=True, description="time at which the sample was taken, by the receiver")
+    sample_count = sampling.SAMPLE_COUNT.output("samples that arrived; tells a new one from one that stays")
+    status = Output(ReceiverStatus, direct=True)
+    markov = inertial.POSITION.state("correlated error of position")
+    positions = State(zeros(LATEST + 1, 3), unit="m", frame="inertial", description="last samples, the newest first")
+    velocities = State(zeros(LATEST + 1, 3), unit="m/s", frame="inertial", description="last samples, the newest first")
+    times = State([0.0] * (LATEST + 1), unit="s", description="times of the last samples")
+    taken = State([False] * (LATEST + 1), description="true: a sample was taken, the newest first")
+    start_time = sampling.START_TIME.state()
+    last_time = State(0.0, unit="s", description="time of the last sample")
+
+    generator = sampling.GENERATOR.state()
+
+    def draw_constants(self) -> None:
+        numbers = normals(self.generator)
+        self.markov = self.markov_sigma * numbers
+        self.last_time = self.start_time
+
+    def measure(self) -> None:
+        """Take a sample at the start."""
+        self.take(self.start_time)
+
+    def take(self, t: float) -> None:
+        """Take a sample at t (s), and put the one that arrives on the outputs."""
+        slow = normals(self.generator)
+        position_noise = normals(self.generator)
+        velocity_noise = normals(self.generator)
+        if t > self.last_time:
+            elapsed = t - self.last_time
+            self.markov = next_markov(self.markov, elapsed, self.markov_time, self.markov_sigma, slow)
+        self.last_time = t
+        self.status = ReceiverStatus.GOOD
+        if self.outage:
+            self.status = ReceiverStatus.OUTAGE
+        elif not (is_finite(self.position) and is_finite(self.velocity)):
+            self.status = ReceiverStatus.NOT_FINITE
+        position = finite_or_zero(self.position)
+        velocity = finite_or_zero(self.velocity)
+        push_sample(self.positions, position + self.markov + self.position_sigma * position_noise)
+        push_sample(self.velocities, velocity + self.velocity_sigma * velocity_noise)
+        for i in range(LATEST):
+            k = LATEST - i
+            self.times[k] = self.times[k - 1]
+            self.taken[k] = self.taken[k - 1]
+        self.times[0] = t
+        self.taken[0] = self.status == ReceiverStatus.GOOD
+        if self.taken[self.latency]:
+            self.measured_position = self.positions[self.latency, 0:3]
+            self.measured_velocity = self.velocities[self.latency, 0:3]
+            self.sample_time = self.times[self.latency] + self.clock_error
+            self.sample_count = self.sample_count + 1
+
+    def step(self, t: float, h: float) -> None:
+        self.take(t + h)

@@ -1,0 +1,128 @@
+"""Direction to the Sun from coarse heads on all sides, or from a fine head."""
+
+import math
+
+from ..block import Output, Parameter, State
+from ..interfaces.ports import inertial, robot, sampling
+from ..interfaces.ports.space import SpaceEnvironment
+from ..kernel.enumerations import Enumeration, member
+from ..kernel.functions import cos
+from ..mathlib.attitude.quaternion import from_rotation_vector, is_attitude, normalise, to_body, to_reference
+from ..mathlib.rng import normals
+from ..mathlib.vectors import Vector3, dot, is_finite, norm, vector
+from ..units import deg
+from .random_sensor import RandomSensor
+
+HEADS = 6
+BRIGHTNESS = 0.5  # of the Sun's disk, for the fine head
+
+
+class SunSensorStatus(Enumeration):
+    """What became of the last sample."""
+
+    GOOD = member("good")
+    NO_SUN = member("no Sun, last direction stays")
+    NOT_FINITE = member("an input not finite or no attitude, last direction stays")
+
+
+class SunSensors(RandomSensor):
+    """Six coarse heads with currents as the cosine of the Sun, and a fine head with a small field.
+
+    A head with the normal n has max(0, n.s) (1 + scale) times the visible share of the Sun within field_of_view of n,
+    albedo_factor max(0, n.down) everywhere, and noise. The sum of currents times normals is along the Sun, for pairs of
+    opposite heads on perpendicular axes; it counts while it is longer than threshold. Where fine_sigma is not
+    0, the Sun within fine_field of the boresight gives the true direction, turned by a small normal rotation. Scales
+    are drawn at the start and stay. Which numbers a flight uses depends on seed, stream and the sample's number only.
+    Frames: body; Sun and position in inertial axes. Equations: docs/systems/earth_pointing.md.
+    """
+
+    default_step = 0.5
+
+    normals_of_heads = Parameter(
+        [1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0],
+        unit="1",
+        frame="body",
+        columns=3,
+        description="unit normals of the heads, by row",
+    )
+    sigma = Parameter(0.01, unit="1", minimum=0.0, description="noise of a current, 1 sigma, of full scale")
+    scale_sigma = Parameter(0.0, unit="1", minimum=0.0, description="drawn relative error of a head, 1 sigma")
+    albedo_factor = Parameter(0.0, unit="1", minimum=0.0, description="current of a head that looks straight down")
+    field_of_view = Parameter(deg(85.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle of a head")
+    threshold = Parameter(0.5, unit="1", minimum=0.0, description="shortest sum of currents that counts as the Sun")
+    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="of the fine head, any length")
+    fine_sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error of the fine head, 1 sigma; 0: no fine head")
+    fine_field = Parameter(
+        deg(30.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle of the fine head"
+    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.5)
+    seed, stream = sampling.random_stream()
+    quaternion = robot.QUATERNION.input("true attitude, from body to inertial, scalar first")
+    position = inertial.POSITION.input("true position")
+    sun_direction = SpaceEnvironment.sun_direction.input()
+    illumination = SpaceEnvironment.illumination.input()
+    currents = Output([0.0] * HEADS, unit="1", direct=True, description="of the heads, of full scale")
+    measured_direction = Output(
+        [1.0, 0.0, 0.0], unit="1", frame="body", direct=True, description="measured direction to the Sun"
+    )
+    valid = Output(False, direct=True, description="true: the last sample has the Sun")
+    sample_count = sampling.SAMPLE_COUNT.output("samples with the Sun; tells a new one from one that stays")
+    status = Output(SunSensorStatus, direct=True)
+    scales = State([0.0] * HEADS, unit="1", frozen=True, description="relative errors of the heads")
+    generator = sampling.GENERATOR.state()
+
+    def draw_constants(self) -> None:
+        first = normals(self.generator)
+        second = normals(self.generator)
+        for i in range(3):
+            self.scales[i] = self.scale_sigma * first[i]
+            self.scales[i + 3] = self.scale_sigma * second[i]
+
+    def current(self, normal: Vector3, scale: float, sun: Vector3, down: Vector3) -> float:
+        """Return the current of a head without noise."""
+        current = 0.0
+        cosine = dot(normal, sun)
+        if cosine > 0.0 and cosine >= cos(self.field_of_view):
+            current = cosine * self.illumination * (1.0 + scale)
+        below = dot(normal, down)
+        if below > 0.0:
+            current = current + self.albedo_factor * below
+        return current
+
+    def measure(self) -> None:
+        """Take a sample."""
+        first = normals(self.generator)
+        second = normals(self.generator)
+        turn = normals(self.generator)
+        q = self.quaternion
+        finite = is_finite(self.sun_direction) and math.isfinite(self.illumination) and is_finite(self.position)
+        self.valid = False
+        self.status = SunSensorStatus.NOT_FINITE
+        if not (finite and math.isfinite(q.w) and is_finite(q[1:4]) and is_attitude(q)):
+            return
+        q = normalise(q)
+        sun = to_body(q, self.sun_direction)
+        down = vector(0.0, 0.0, 0.0)
+        if norm(self.position) > 0.0:
+            down = to_body(q, -self.position / norm(self.position))
+        total = vector(0.0, 0.0, 0.0)
+        for k in range(HEADS):
+            noise = first[k % 3]
+            if k > 2:
+                noise = second[k % 3]
+            normal = self.normals_of_heads[k, 0:3]
+            self.currents[k] = self.current(normal, self.scales[k], sun, down) + self.sigma * noise
+            total = total + self.currents[k] * normal
+        length = norm(total)
+        direction = total
+        aim = norm(self.boresight)
+        in_field = aim > 0.0 and dot(sun, self.boresight) >= aim * cos(self.fine_field)
+        if self.fine_sigma > 0.0 and in_field and self.illumination > BRIGHTNESS:
+            direction = to_reference(from_rotation_vector(self.fine_sigma * turn), sun)
+            length = 1.0
+        self.status = SunSensorStatus.NO_SUN
+        if length > self.threshold:
+            self.status = SunSensorStatus.GOOD
+            self.valid = True
+            self.measured_direction = direction / norm(direction)
+            self.sample_count = self.sample_count + 1
