@@ -2,7 +2,7 @@
 
 import math
 
-from ..block import Block, Inputs, Output, Parameter, State
+from ..block import Block, Input, Inputs, Output, Parameter, State
 from ..interfaces.ports import body, robot, sampling, satellite
 from ..interfaces.ports.satellite import AttitudeReference
 from ..kernel.enumerations import Enumeration, member
@@ -16,6 +16,7 @@ class QuaternionFeedbackStatus(Enumeration):
     GOOD = member("good")
     NOT_FINITE = member("last inputs not finite, torque held")
     NO_ATTITUDE = member("no attitude: a quaternion shorter than 0.5, no torque")
+    OFF = member("off, no torque")
 
 
 class QuaternionFeedback(Block):
@@ -28,6 +29,7 @@ class QuaternionFeedback(Block):
     wheel_momentum. With the natural frequency w0 and the damping z, k = w0^2 and c = 2 z w0. An integral_time T > 0
     adds the pole -1/T: k = w0^2 + 2 z w0/T, c = 2 z w0 + 1/T and i' = w0^2/T 2 q, where 2 |q| is below
     integral_band. error_limit bounds 2 |q| in k 2 q, and so the rate of a turn without reference to k error_limit/c.
+    feedforward_torque is added. While it is not active the torque and the integral are 0.
     The torque stays until the next sample. Inputs that are not finite leave it as it is; without an attitude, estimated
     or to follow, it is 0.
     Frame: body. Equations and margins: docs/systems/satellite_pointing.md. Assumes a rigid body with inertia as known.
@@ -47,6 +49,8 @@ class QuaternionFeedback(Block):
     estimated_angular_velocity = body.ANGULAR_VELOCITY.input("angular velocity, estimated")
     reference = Inputs(AttitudeReference)
     wheel_momentum = satellite.WHEEL_MOMENTUM.input("of the wheels relative to the body")
+    feedforward_torque = body.TORQUE.input("torque on the body to add, such as against the torquers'")
+    active = Input(True, description="false: no torque, and nothing is integrated")
     torque_command = body.TORQUE.output("torque on the body wanted from the wheels", direct=True)
     attitude_error = body.ROTATION.output("2 q, from the reference to the estimated attitude", direct=True)
     status = Output(QuaternionFeedbackStatus, direct=True)
@@ -64,7 +68,7 @@ class QuaternionFeedback(Block):
         attitudes = math.isfinite(q.w) and is_finite(q[1:4]) and math.isfinite(r.w) and is_finite(r[1:4])
         rates = is_finite(self.estimated_angular_velocity) and is_finite(self.reference.reference_angular_velocity)
         known = is_finite(self.reference.reference_angular_acceleration) and is_finite(self.wheel_momentum)
-        return attitudes and rates and known
+        return attitudes and rates and known and is_finite(self.feedforward_torque)
 
     def correction(self, error: Vector3, rate_error: Vector3) -> Vector3:
         """What to take off the angular acceleration (rad/s2); integrates to the next tick."""
@@ -80,6 +84,11 @@ class QuaternionFeedback(Block):
 
     def command(self) -> None:
         """Command a new torque."""
+        if not self.active:
+            self.status = QuaternionFeedbackStatus.OFF
+            self.torque_command = vector(0.0, 0.0, 0.0)
+            self.integral = vector(0.0, 0.0, 0.0)
+            return
         if not self.finite():
             self.status = QuaternionFeedbackStatus.NOT_FINITE
             return
@@ -96,6 +105,8 @@ class QuaternionFeedback(Block):
         correction = self.correction(self.attitude_error, w - wanted_rate)
         wanted = wanted - correction
         self.torque_command = cross(w, self.inertia @ w + self.wheel_momentum) + self.inertia @ wanted
+        if norm(self.feedforward_torque) > 0.0:
+            self.torque_command = self.torque_command + self.feedforward_torque
 
     def step(self, t: float, h: float) -> None:
         self.period = self.sample_period

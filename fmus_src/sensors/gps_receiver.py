@@ -4,10 +4,13 @@ from ..block import Input, Output, Parameter, State
 from ..interfaces.ports import inertial, sampling
 from ..kernel.enumerations import Enumeration, member
 from ..kernel.matrices import zeros
-from ..mathlib.estimation.sensor_errors import LATEST, next_markov, push_sample
+from ..mathlib.estimation.sensor_errors import LATEST, make_room, next_markov
 from ..mathlib.rng import normals
-from ..mathlib.vectors import finite_or_zero, is_finite
+from ..mathlib.vectors import is_finite
 from .random_sensor import RandomSensor
+
+TIME = 6  # columns of samples; 0 to 2 position, 3 to 5 velocity
+GOOD = 7
 
 
 class ReceiverStatus(Enumeration):
@@ -47,10 +50,7 @@ class GpsReceiver(RandomSensor):
     sample_count = sampling.SAMPLE_COUNT.output("samples that arrived; tells a new one from one that stays")
     status = Output(ReceiverStatus, direct=True)
     markov = inertial.POSITION.state("correlated error of position")
-    positions = State(zeros(LATEST + 1, 3), unit="m", frame="inertial", description="last samples, the newest first")
-    velocities = State(zeros(LATEST + 1, 3), unit="m/s", frame="inertial", description="last samples, the newest first")
-    times = State([0.0] * (LATEST + 1), unit="s", description="times of the last samples")
-    taken = State([False] * (LATEST + 1), description="true: a sample was taken, the newest first")
+    samples = State(zeros(LATEST + 1, 8), description="last samples, the newest first: SI, time, 1 for good")
     start_time = sampling.START_TIME.state()
     last_time = State(0.0, unit="s", description="time of the last sample")
 
@@ -79,20 +79,17 @@ class GpsReceiver(RandomSensor):
             self.status = ReceiverStatus.OUTAGE
         elif not (is_finite(self.position) and is_finite(self.velocity)):
             self.status = ReceiverStatus.NOT_FINITE
-        position = finite_or_zero(self.position)
-        velocity = finite_or_zero(self.velocity)
-        push_sample(self.positions, position + self.markov + self.position_sigma * position_noise)
-        push_sample(self.velocities, velocity + self.velocity_sigma * velocity_noise)
-        for i in range(LATEST):
-            k = LATEST - i
-            self.times[k] = self.times[k - 1]
-            self.taken[k] = self.taken[k - 1]
-        self.times[0] = t
-        self.taken[0] = self.status == ReceiverStatus.GOOD
-        if self.taken[self.latency]:
-            self.measured_position = self.positions[self.latency, 0:3]
-            self.measured_velocity = self.velocities[self.latency, 0:3]
-            self.sample_time = self.times[self.latency] + self.clock_error
+        make_room(self.samples, 8)
+        self.samples[0, GOOD] = 0.0
+        if self.status == ReceiverStatus.GOOD:
+            self.samples[0, 0:3] = self.position + self.markov + self.position_sigma * position_noise
+            self.samples[0, 3:6] = self.velocity + self.velocity_sigma * velocity_noise
+            self.samples[0, TIME] = t
+            self.samples[0, GOOD] = 1.0
+        if self.samples[self.latency, GOOD] > 0.0:
+            self.measured_position = self.samples[self.latency, 0:3]
+            self.measured_velocity = self.samples[self.latency, 3:6]
+            self.sample_time = self.samples[self.latency, TIME] + self.clock_error
             self.sample_count = self.sample_count + 1
 
     def step(self, t: float, h: float) -> None:

@@ -2,22 +2,35 @@
 
 import math
 
-from ..block import Parameter
+from ..block import Output, Parameter, State
 from ..interfaces.ports import body, sampling
+from ..kernel.enumerations import Enumeration, member
+from ..kernel.matrices import zeros
+from ..mathlib.estimation.sensor_errors import LATEST, make_room, next_markov, quantise, saturate
 from ..mathlib.rng import normals, uniform
-from ..mathlib.vectors import vector
+from ..mathlib.vectors import is_finite, norm, vector
 from .random_sensor import RandomSensor
 
 
-class RateGyros(RandomSensor):
-    """Angular velocity about three axes, each with a bias and white normal errors.
+class RateGyrosStatus(Enumeration):
+    """What became of the last sample."""
 
-    measured = true + bias + drawn bias + sigma n; the drawn bias is uniform within +- bias_limit per axis and constant
-    over a flight, but for a random walk of bias_walk sqrt(h) n per sample, h (s) after the last one; measured is the
-    bias in the middle between both. An angle random walk of s rad/sqrt(s) is sigma = s/sqrt(sample_period). The first
-    sample is at the start. Which numbers a flight uses depends on seed, stream and the sample's number only, and on
-    whether there is a walk. Frame: body. Source of the walks: Farrenkopf 1978; Crassidis and Junkins 2012, section 7.1.
-    Assumes gyros without scale factors or misalignment. Errors are ours: docs/systems/orbital_attitude.md.
+    GOOD = member("good")
+    SATURATED = member("saturated")
+    NOT_FINITE = member("not finite")
+
+
+class RateGyros(RandomSensor):
+    """Angular velocity about three axes, with bias, scale factors, misalignment, noise, instability, range and steps.
+
+    measured = (1 + S) true + bias + drawn bias + instability + sigma n, within +- range, at the nearest multiple of
+    quantum. The drawn bias is uniform within +- bias_limit per axis and constant over a flight, but for a random walk
+    of bias_walk sqrt(h) n per sample, h (s) after the last one; measured is the bias in the middle between both. An
+    angle random walk of s rad/sqrt(s) is sigma = s/sqrt(sample_period). Bias instability is a Gauss-Markov process that
+    begins in its steady state. A sample arrives ``latency`` samples after it was taken. The first sample is at the
+    start. Which numbers a flight uses depends on seed, stream and the sample's number only, and on whether there are a
+    walk and an instability. Frame: body.
+    Source: Farrenkopf 1978; Crassidis and Junkins 2012, section 7.1; IEEE Std 952. Sizes: docs/systems.
     """
 
     default_step = 0.2
@@ -26,12 +39,23 @@ class RateGyros(RandomSensor):
     bias = body.ANGULAR_VELOCITY.parameter(description="constant error beside the drawn one")
     bias_limit = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest drawn bias per axis")
     bias_walk = Parameter(0.0, minimum=0.0, description="random walk of the bias, rad/s per square root of s")
+    scale = Parameter([0.0] * 9, unit="1", frame="body", columns=3, description="S, scale factors and misalignment")
+    instability_sigma = Parameter(0.0, unit="rad/s", minimum=0.0, description="correlated bias, 1 sigma per axis")
+    instability_time = Parameter(300.0, unit="s", minimum=1e-3, description="time of its correlation")
+    range = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest measured component; 0: no limit")
+    quantum = Parameter(0.0, unit="rad/s", minimum=0.0, description="step of the output; 0: none")
+    latency = Parameter(0, minimum=0, maximum=LATEST, description="samples until one arrives")
     sample_period = sampling.SAMPLE_PERIOD.parameter()
     seed, stream = sampling.random_stream()
     angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity, absolute")
     measured_angular_velocity = body.ANGULAR_VELOCITY.output("measured angular velocity, absolute", direct=True)
     true_bias = body.ANGULAR_VELOCITY.output("whole bias")
     sample_count = sampling.SAMPLE_COUNT.output()
+    status = Output(RateGyrosStatus, direct=True)
+    instability = body.ANGULAR_VELOCITY.state("correlated bias")
+    samples = State(zeros(LATEST + 1, 3), unit="rad/s", frame="body", description="last samples, the newest first")
+    measurements = State(0, description="samples so far, arrived or not")
+    has_scale = State(False, description="true: S is not 0")
     generator = sampling.GENERATOR.state()
 
     def draw_constants(self) -> None:
@@ -39,9 +63,16 @@ class RateGyros(RandomSensor):
         y = uniform(self.generator)
         z = uniform(self.generator)
         self.true_bias = self.bias + self.bias_limit * (2.0 * vector(x, y, z) - vector(1.0, 1.0, 1.0))
+        if self.instability_sigma > 0.0:
+            numbers = normals(self.generator)
+            self.instability = self.instability_sigma * numbers
+        for i in range(3):
+            for j in range(3):
+                if self.scale[i, j] != 0.0:
+                    self.has_scale = True
 
     def walk(self, h: float) -> None:
-        """Let the bias walk for h (s), and measure."""
+        """Let the biases change for h (s), and measure."""
         if self.bias_walk > 0.0:
             numbers = normals(self.generator)
             change = self.bias_walk * math.sqrt(h) * numbers
@@ -54,11 +85,36 @@ class RateGyros(RandomSensor):
     def measure(self) -> None:
         """Take a sample."""
         numbers = normals(self.generator)
-        self.measured_angular_velocity = self.angular_velocity + self.true_bias + self.sigma * numbers
-        self.sample_count = self.sample_count + 1
+        w = self.angular_velocity
+        if self.has_scale:
+            w = w + self.scale @ w
+        if self.instability_sigma > 0.0:
+            w = w + self.instability
+        y = w + self.true_bias + self.sigma * numbers
+        self.status = RateGyrosStatus.GOOD
+        if not is_finite(y):
+            self.status = RateGyrosStatus.NOT_FINITE
+        elif self.range > 0.0:
+            within = saturate(y, self.range)
+            if norm(within - y) > 0.0:
+                self.status = RateGyrosStatus.SATURATED
+            y = within
+        if self.status != RateGyrosStatus.NOT_FINITE:
+            y = quantise(y, self.quantum)
+        make_room(self.samples, 3)
+        self.samples[0, 0:3] = y
+        self.measurements = self.measurements + 1
+        if self.measurements > self.latency:
+            self.measured_angular_velocity = self.samples[self.latency, 0:3]
+            self.sample_count = self.sample_count + 1
 
     def step(self, t: float, h: float) -> None:
         period = self.sample_period
         if period <= 0.0:
             period = h
+        if self.instability_sigma > 0.0:
+            numbers = normals(self.generator)
+            self.instability = next_markov(
+                self.instability, period, self.instability_time, self.instability_sigma, numbers
+            )
         self.walk(period)

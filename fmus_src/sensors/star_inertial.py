@@ -1,19 +1,39 @@
-"""Attitude from star trackers and gyroscopes together."""
+"""Attitude from star trackers and gyroscopes together, or from one star tracker."""
 
-from ..block import Parameter
-from ..interfaces.ports import robot, sampling
-from ..mathlib.attitude.quaternion import from_rotation_vector, multiply, normalise
+from ..block import Output, Parameter, State
+from ..interfaces.ports import body, inertial, robot, sampling
+from ..interfaces.ports.space import SpaceEnvironment
+from ..kernel.enumerations import Enumeration, member
+from ..kernel.functions import asin, cos
+from ..kernel.matrices import zeros
+from ..mathlib.attitude.quaternion import from_rotation_vector, multiply, normalise, to_reference
+from ..mathlib.estimation.sensor_errors import LATEST, make_room
 from ..mathlib.rng import normals
+from ..mathlib.vectors import Vector3, across, dot, norm
 from .random_sensor import RandomSensor
+
+TIME = 4  # columns of samples; 0 to 3 the attitude
+GOOD = 5
+
+
+class StarTrackerStatus(Enumeration):
+    """What became of the last sample."""
+
+    GOOD = member("good")
+    DAZZLED = member("Sun, Moon or the body's limb too near to the boresight, no sample")
+    TOO_FAST = member("turning too fast, no sample")
 
 
 class StarInertial(RandomSensor):
     """Star-inertial attitude: the true quaternion turned by a small rotation, new in every sample.
 
-    The rotation vector has normal, independent components of attitude_sigma in body axes. The first
-    sample is at the start. Which normal numbers a flight uses depends on seed, stream and the
-    sample's number only. Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md.
-    Assumes errors that are small and alike about all axes, without bias.
+    The rotation vector has normal, independent components of attitude_sigma in body axes, about the boresight
+    roll_sigma where that is not 0. No sample is taken while the Sun is within sun_exclusion of the boresight, the limb
+    of the body within limb_exclusion, the Moon within moon_exclusion, or the angular velocity above rate_limit; each
+    where it is not 0. A sample arrives ``latency`` samples after it was taken, with its time. The first sample is at
+    the start. Which normal numbers a flight uses depends on seed, stream and the sample's number only.
+    Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md; exclusions are ours.
+    Assumes small errors without bias.
     """
 
     default_step = 0.125
@@ -21,16 +41,83 @@ class StarInertial(RandomSensor):
     attitude_sigma = Parameter(
         4.84813681109536e-6, unit="rad", minimum=0.0, description="error, 1 sigma per axis; 1 arcsec"
     )
+    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="of the tracker, any length; 0: none")
+    roll_sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error about the boresight; 0: as the others")
+    sun_exclusion = Parameter(0.0, unit="rad", minimum=0.0, description="angle of the Sun from the boresight; 0: any")
+    limb_exclusion = Parameter(0.0, unit="rad", minimum=0.0, description="angle of the body's limb from it; 0: any")
+    moon_exclusion = Parameter(0.0, unit="rad", minimum=0.0, description="angle of the Moon from it; 0: any")
+    rate_limit = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest angular velocity; 0: any")
+    body_radius = Parameter(6378137.0, unit="m", minimum=0.0, description="of the body that has the limb")
+    latency = Parameter(0, minimum=0, maximum=LATEST, description="samples until one arrives")
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.125)
     seed, stream = sampling.random_stream()
     quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
+    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity")
+    position = inertial.POSITION.input("true position, from the centre of the body")
+    sun_direction = SpaceEnvironment.sun_direction.input()
+    moon_position = SpaceEnvironment.moon_position.input()
     measured_quaternion = robot.MEASURED_QUATERNION.output("measured, from body to inertial, scalar first", direct=True)
+    sample_time = Output(0.0, unit="s", direct=True, description="time at which the sample was taken")
     sample_count = sampling.SAMPLE_COUNT.output()
+    status = Output(StarTrackerStatus, direct=True)
+    samples = State(zeros(LATEST + 1, 6), description="last samples, the newest first: attitude, time in s, 1 for good")
+    axis = State([0.0] * 3, unit="1", frame="body", frozen=True, description="boresight, of length one or 0")
     generator = sampling.GENERATOR.state()
+    start_time = sampling.START_TIME.state()
+
+    def draw_constants(self) -> None:
+        if norm(self.boresight) > 0.0:
+            self.axis = self.boresight / norm(self.boresight)
 
     def measure(self) -> None:
-        """Take a sample."""
+        """Take a sample at the start."""
+        self.take(self.start_time)
+
+    def step(self, t: float, h: float) -> None:
+        self.take(t + h)
+
+    def error(self, numbers: Vector3) -> Vector3:
+        """Return the rotation vector (rad, body) of the error."""
+        rotation = self.attitude_sigma * numbers
+        if self.roll_sigma > 0.0:
+            rotation = across(rotation, self.axis) + self.roll_sigma * dot(numbers, self.axis) * self.axis
+        return rotation
+
+    def is_within(self, aim: Vector3, direction: Vector3, angle: float) -> bool:
+        """True if a direction is within an angle (rad) of the unit vector aim."""
+        if angle > 0.0:
+            return dot(aim, direction) > cos(angle) * norm(direction)
+        return False
+
+    def judge(self) -> None:
+        """Set the status of a sample that is taken now."""
+        aim = to_reference(normalise(self.quaternion), self.axis)
+        dazzled = self.is_within(aim, self.sun_direction, self.sun_exclusion)
+        if self.is_within(aim, self.moon_position - self.position, self.moon_exclusion):
+            dazzled = True
+        distance = norm(self.position)
+        if self.limb_exclusion > 0.0 and distance > self.body_radius:
+            disk = asin(self.body_radius / distance)
+            if self.is_within(aim, -self.position, disk + self.limb_exclusion):
+                dazzled = True
+        self.status = StarTrackerStatus.GOOD
+        if dazzled:
+            self.status = StarTrackerStatus.DAZZLED
+        elif self.rate_limit > 0.0 and norm(self.angular_velocity) > self.rate_limit:
+            self.status = StarTrackerStatus.TOO_FAST
+
+    def take(self, t: float) -> None:
+        """Take a sample at t (s), and put the one that arrives on the outputs."""
         numbers = normals(self.generator)
-        error = from_rotation_vector(self.attitude_sigma * numbers)
-        self.measured_quaternion = normalise(multiply(self.quaternion, error))
-        self.sample_count = self.sample_count + 1
+        rotation = self.error(numbers)
+        self.judge()
+        make_room(self.samples, 6)
+        self.samples[0, GOOD] = 0.0
+        if self.status == StarTrackerStatus.GOOD:
+            self.samples[0, 0:4] = normalise(multiply(self.quaternion, from_rotation_vector(rotation)))
+            self.samples[0, TIME] = t
+            self.samples[0, GOOD] = 1.0
+        if self.samples[self.latency, GOOD] > 0.0:
+            self.measured_quaternion = self.samples[self.latency, 0:4]
+            self.sample_time = self.samples[self.latency, TIME]
+            self.sample_count = self.sample_count + 1

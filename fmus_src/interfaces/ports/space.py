@@ -53,3 +53,19 @@ class SpaceEnvironment(Bundle):
     magnetic_field_body = MAGNETIC_FIELD
     density = Port(0.0, unit="kg/m3", description="density of the air")
     planet_angle = Port(0.0, unit="rad", description="turn of the body's prime meridian from the axes of its pole")
+
+
+class MagneticMode(Enumeration):
+    """What the torquers do."""
+
+    OFF = member("off")
+    DETUMBLE = member("brake the rotation")
+    UNLOAD = member("unload the wheels")
+
+
+class PointingMode(Enumeration):
+    """Attitude to follow."""
+
+    NADIR = member("local vertical, local horizontal")
+    SUN = member("panel towards the Sun")
+    INERTIAL = member("fixed attitude")

@@ -35,9 +35,9 @@ def saturate(y: Vector3, largest: float) -> Vector3:
     return vector(clip(y.x, -largest, largest), clip(y.y, -largest, largest), clip(y.z, -largest, largest))
 
 
-def push_sample(late: Matrix, sample: Vector3) -> None:
-    """Put a sample in the first row of those that are late, the others one row down."""
+def make_room(samples: Matrix, columns: int) -> None:
+    """Move all samples, by row, the newest first, one row down."""
     for i in range(LATEST):
-        k = LATEST - i
-        late[k, 0:3] = late[k - 1, 0:3]
-    late[0, 0:3] = sample
+        row = LATEST - i
+        for k in range(columns):
+            samples[row, k] = samples[row - 1, k]

@@ -1,0 +1,107 @@
+"""Dipole of magnetorquers that brakes a rotation, or unloads wheels."""
+
+from ..block import Block, Input, Output, Parameter, State
+from ..interfaces.ports import body, sampling, satellite, space
+from ..interfaces.ports.space import MagneticMode
+from ..kernel.enumerations import Enumeration, member
+from ..mathlib.vectors import Vector3, cross, dot, is_finite, vector
+
+WEAKEST_FIELD = 1e-6  # T
+ROUNDING = 1e-9  # s, of times of communication points
+
+
+class MagneticControlStatus(Enumeration):
+    """What limits the dipole of the last sample."""
+
+    GOOD = member("good")
+    LIMITED = member("dipole limited")
+    WEAK_FIELD = member("field below 1e-6 T, no dipole")
+    NOT_FINITE = member("an input not finite, no dipole")
+
+
+class MagneticControl(Block):
+    """B-dot law for detumbling, and the cross-product law for unloading wheels.
+
+    Detumble: m = -(k/B^2) (B - previous B)/T. Unload: m = (ku/B^2) (h - target) x B, so that the torque m x B takes
+    what of h is across the field. A dipole beyond dipole_limit is scaled as a whole. It begins with a sample of the
+    magnetometer and acts for active_fraction of the time T between samples, so that it is 0 when the next one is
+    taken. feedforward_torque is -(m x B) while wheels are unloaded, for their controller.
+    A gain of 2 n (1 + sin i) Jmin, with the orbital rate n and the inclination i to the magnetic equator, brakes best.
+    Frame: body. Equations: docs/systems/earth_pointing.md. Source: Stickler and Alfriend 1976; Avanzini and Giulietti
+    2012; Markley and Crassidis 2014, section 7.5.
+    """
+
+    default_step = 0.25
+
+    detumble_gain = Parameter(0.0132, unit="N.m.s", minimum=0.0, description="k")
+    unload_gain = Parameter(0.002, unit="1/s", minimum=0.0, description="ku")
+    target_momentum = body.ANGULAR_MOMENTUM.parameter(description="wanted of the wheels")
+    dipole_limit = Parameter(5.0, unit="A.m2", minimum=0.0, description="largest component of the dipole")
+    field_period = Parameter(1.0, unit="s", minimum=1e-3, description="T, between samples of the magnetometer")
+    active_fraction = Parameter(0.75, unit="1", minimum=0.0, maximum=1.0, description="of T, in which the dipole acts")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "between calls; 0: every communication point")
+    mode = Input(MagneticMode)
+    measured_field = space.MAGNETIC_FIELD.input("measured field")
+    field_count = Input(0, description="samples of the field so far; a change signals a new one")
+    wheel_momentum = satellite.WHEEL_MOMENTUM.input("of the wheels relative to the body")
+    dipole = space.DIPOLE.output("commanded dipole", direct=True)
+    feedforward_torque = body.TORQUE.output("opposite to the magnetic torque", direct=True)
+    status = Output(MagneticControlStatus, direct=True)
+    counted = State(0, description="field_count of the last sample")
+    previous_field = space.MAGNETIC_FIELD.state("field of the last sample")
+    has_field = State(False, description="true: a sample was taken")
+    planned_dipole = space.DIPOLE.state("dipole since the last sample")
+    active_until = State(0.0, unit="s", description="end of the dipole")
+    start_time = sampling.START_TIME.state()
+
+    def initialize(self) -> None:
+        self.counted = self.field_count - 1
+        self.command(self.start_time)
+
+    def plan(self, field: Vector3) -> Vector3:
+        """Return the dipole (A m2) of a new sample of the field (T), without a limit."""
+        square = dot(field, field)
+        if self.mode == MagneticMode.DETUMBLE and self.has_field:
+            return -(self.detumble_gain / (square * self.field_period)) * (field - self.previous_field)
+        if self.mode == MagneticMode.UNLOAD:
+            return self.unload_gain / square * cross(self.wheel_momentum - self.target_momentum, field)
+        return vector(0.0, 0.0, 0.0)
+
+    def take_sample(self, t: float) -> None:
+        """Plan the dipole of a new sample."""
+        field = self.measured_field
+        self.planned_dipole = vector(0.0, 0.0, 0.0)
+        self.active_until = t + self.active_fraction * self.field_period
+        if not (is_finite(field) and is_finite(self.wheel_momentum)):
+            self.status = MagneticControlStatus.NOT_FINITE
+            self.has_field = False
+            return
+        self.status = MagneticControlStatus.WEAK_FIELD
+        if dot(field, field) >= WEAKEST_FIELD * WEAKEST_FIELD:
+            self.status = MagneticControlStatus.GOOD
+            dipole = self.plan(field)
+            largest = 0.0
+            for i in range(3):
+                if abs(dipole[i]) > largest:
+                    largest = abs(dipole[i])
+            if largest > self.dipole_limit:
+                self.status = MagneticControlStatus.LIMITED
+                dipole = self.dipole_limit / largest * dipole
+            self.planned_dipole = dipole
+        self.previous_field = field
+        self.has_field = True
+
+    def command(self, t: float) -> None:
+        """Set the outputs at t (s)."""
+        if self.field_count != self.counted:
+            self.counted = self.field_count
+            self.take_sample(t)
+        self.dipole = vector(0.0, 0.0, 0.0)
+        self.feedforward_torque = vector(0.0, 0.0, 0.0)
+        if self.mode != MagneticMode.OFF and t < self.active_until - ROUNDING:
+            self.dipole = self.planned_dipole
+            if self.mode == MagneticMode.UNLOAD:
+                self.feedforward_torque = -cross(self.dipole, self.previous_field)
+
+    def step(self, t: float, h: float) -> None:
+        self.command(t + h)

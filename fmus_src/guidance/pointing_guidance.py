@@ -1,0 +1,152 @@
+"""Attitude to follow on an orbit: nadir, Sun, or a fixed one."""
+
+import math
+
+from ..block import Block, Input, Output, Outputs, Parameter, State
+from ..interfaces.ports import inertial, sampling
+from ..interfaces.ports.satellite import AttitudeReference
+from ..interfaces.ports.space import PointingMode, SpaceEnvironment
+from ..kernel.enumerations import Enumeration, member
+from ..mathlib.attitude.quaternion import multiply, normalise, to_body
+from ..mathlib.attitude.triad import from_axes, triad
+from ..mathlib.vectors import Vector3, Vector4, cross, dot, is_finite, norm, vector
+
+OLD = 5.0  # s, of a sample of the orbit
+PARALLEL = 1e-3  # sine of the angle below which two directions are parallel
+
+
+class PointingStatus(Enumeration):
+    """How good the reference is."""
+
+    GOOD = member("good")
+    OLD_ORBIT = member("last sample of the orbit older than 5 s, carried on")
+    DEGENERATE = member("directions parallel, last reference stays")
+    NOT_FINITE = member("an input not finite, last reference stays")
+
+
+class PointingGuidance(Block):
+    """Reference attitude from the estimated orbit and the direction to the Sun.
+
+    NADIR: axes of the local vertical and horizontal, z down, y against the orbit normal, then ``offset``; angular
+    velocity (r x v)/r^2 + r (a.(r x v))/|r x v|^2 with a the acceleration by the oblateness, angular acceleration
+    -2 (r.v)/r^2 of it. SUN: panel_normal towards the Sun, secondary as near to the orbit normal as it can be, at rest.
+    INERTIAL: inertial_quaternion, at rest.
+    A sample of the orbit is carried from its sample_time to now, and on from there, by r + v h + g h^2/2, v + g h.
+    Frames: inertial; reference (axes of the reference). Equations: docs/systems/earth_pointing.md. Source: Wertz 1978,
+    section 16; Markley and Crassidis 2014, section 5.1.
+    """
+
+    default_step = 0.25
+
+    gravitational_parameter = Parameter(3.986004415e14, unit="m3/s2", minimum=1.0, description="of the body")
+    oblateness = Parameter(1.0826356e-3, unit="1", description="J2 of the body")
+    radius = Parameter(6378136.3, unit="m", minimum=1.0, description="of the body, for J2")
+    offset = Parameter([1.0, 0.0, 0.0, 0.0], unit="1", description="body against the local axes in NADIR, scalar first")
+    panel_normal = Parameter([0.0, -1.0, 0.0], unit="1", frame="body", description="towards the Sun in SUN")
+    secondary = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="towards the orbit normal in SUN")
+    inertial_quaternion = Parameter(
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude in INERTIAL, from body to inertial, scalar first"
+    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "guidance cycle; 0: every communication point")
+    mode = Input(PointingMode)
+    estimated_position = inertial.POSITION.input("position of the last sample", start=[6878137.0, 0.0, 0.0])
+    estimated_velocity = inertial.VELOCITY.input("velocity of the last sample", start=[0.0, -980.47, 7549.2])
+    sample_time = Input(0.0, unit="s", description="time of the last sample of the orbit")
+    orbit_count = Input(0, description="samples of the orbit so far; a change signals a new one")
+    sun_direction = SpaceEnvironment.sun_direction.input()
+    reference = Outputs(AttitudeReference, direct=True)
+    status = Output(PointingStatus, direct=True)
+    counted = State(0, description="orbit_count of the last sample")
+    position = inertial.POSITION.state("carried to now")
+    velocity = inertial.VELOCITY.state("carried to now")
+    sampled_at = State(0.0, unit="s", description="time of the last sample of the orbit")
+    last_time = State(0.0, unit="s", description="time of the last cycle")
+    start_time = sampling.START_TIME.state()
+
+    def initialize(self) -> None:
+        self.counted = self.orbit_count - 1
+        self.last_time = self.start_time
+        self.point(self.start_time)
+
+    def carry(self, h: float) -> None:
+        """Carry the orbit by h (s) under the gravity of a point."""
+        r = self.position
+        g = -(self.gravitational_parameter / (dot(r, r) * norm(r))) * r
+        self.position = r + h * self.velocity + 0.5 * h * h * g
+        self.velocity = self.velocity + h * g
+
+    def oblate_acceleration(self, r: Vector3) -> Vector3:
+        """Return the acceleration (m/s2, inertial) by J2, with the inertial z as the body's axis.
+
+        Source: Montenbruck and Gill 2000, section 3.2.
+        """
+        distance = norm(r)
+        factor = -1.5 * self.oblateness * self.gravitational_parameter / (distance * distance * distance)
+        factor = factor * self.radius * self.radius / (distance * distance)
+        sine = r.z / distance
+        return factor * (r - 5.0 * sine * sine * r + vector(0.0, 0.0, 2.0 * r.z))
+
+    def rest_at(self, q: Vector4) -> None:
+        """Set the reference to an attitude at rest."""
+        self.reference.reference_quaternion = q
+        self.reference.reference_angular_velocity = vector(0.0, 0.0, 0.0)
+        self.reference.reference_angular_acceleration = vector(0.0, 0.0, 0.0)
+
+    def point_down(self) -> None:
+        """Set the reference of NADIR."""
+        r = self.position
+        v = self.velocity
+        h = cross(r, v)
+        momentum = norm(h)
+        if not momentum > PARALLEL * norm(r) * norm(v):
+            self.status = PointingStatus.DEGENERATE
+            return
+        z = -r / norm(r)
+        y = -h / momentum
+        q = normalise(multiply(from_axes(cross(y, z), y, z), normalise(self.offset)))
+        if q.w < 0.0:
+            q = -q
+        square = dot(r, r)
+        w = h / square + dot(self.oblate_acceleration(r), h) / (momentum * momentum) * r
+        w = to_body(q, w)
+        self.reference.reference_quaternion = q
+        self.reference.reference_angular_velocity = w
+        self.reference.reference_angular_acceleration = -2.0 * dot(r, v) / square * w
+
+    def point_to_sun(self) -> None:
+        """Set the reference of SUN."""
+        normal = cross(self.position, self.velocity)
+        attitude = triad(self.panel_normal, self.secondary, self.sun_direction, normal, PARALLEL)
+        if attitude.exists:
+            self.rest_at(attitude.quaternion)
+        else:
+            self.status = PointingStatus.DEGENERATE
+
+    def point(self, t: float) -> None:
+        """Set the reference at t (s)."""
+        finite = is_finite(self.estimated_position) and is_finite(self.estimated_velocity)
+        finite = finite and is_finite(self.sun_direction) and math.isfinite(self.sample_time)
+        self.status = PointingStatus.NOT_FINITE
+        if finite and self.orbit_count != self.counted and norm(self.estimated_position) > 0.0:
+            self.counted = self.orbit_count
+            self.position = self.estimated_position
+            self.velocity = self.estimated_velocity
+            self.sampled_at = self.sample_time
+            self.carry(t - self.sampled_at)
+        elif norm(self.position) > 0.0:
+            self.carry(t - self.last_time)
+        self.last_time = t
+        if not (finite and norm(self.position) > 0.0):
+            return
+        self.status = PointingStatus.GOOD
+        if t - self.sampled_at > OLD:
+            self.status = PointingStatus.OLD_ORBIT
+        if self.mode == PointingMode.NADIR:
+            self.point_down()
+        elif self.mode == PointingMode.SUN:
+            self.point_to_sun()
+        else:
+            self.rest_at(normalise(self.inertial_quaternion))
+
+    def step(self, t: float, h: float) -> None:
+        self.point(t + h)

@@ -1,0 +1,113 @@
+"""Modes of an attitude and orbit control system: detumbling, Sun, nadir."""
+
+from ..block import Block, Input, Output, Parameter, State
+from ..interfaces.ports import body, sampling
+from ..interfaces.ports.space import MagneticMode, PointingMode
+from ..kernel.enumerations import Enumeration, member
+from ..mathlib.vectors import is_finite, norm
+from ..units import deg
+
+
+class AocsMode(Enumeration):
+    """What the satellite does."""
+
+    DETUMBLE = member("brake the rotation by torquers")
+    SUN = member("panel towards the Sun")
+    NADIR = member("nadir")
+
+
+class AocsModesStatus(Enumeration):
+    """Whether the mode answers new inputs."""
+
+    GOOD = member("good")
+    NOT_FINITE = member("an input not finite, the mode stays")
+
+
+class AocsModes(Block):
+    """Sequence of modes from separation to nadir pointing, and back where it is lost.
+
+    DETUMBLE to SUN after the rate was below calm_rate for settle_time. SUN to NADIR after an attitude was known and the
+    error of attitude below sun_error for settle_time. To DETUMBLE after the rate was above lost_rate for lost_time; to
+    SUN from NADIR after no attitude for blind_time. Each is judged at this block's samples. Wheels are off and torquers
+    brake in DETUMBLE; wheels are on and torquers unload them in the other modes.
+    Frame: body. Equations: docs/systems/earth_pointing.md. Source: ours.
+    """
+
+    default_step = 0.25
+
+    calm_rate = Parameter(deg(0.3), unit="rad/s", minimum=0.0, description="rate below which DETUMBLE may end")
+    lost_rate = Parameter(deg(2.0), unit="rad/s", minimum=0.0, description="rate above which DETUMBLE begins again")
+    sun_error = Parameter(deg(10.0), unit="rad", minimum=0.0, description="error below which SUN may end")
+    settle_time = Parameter(60.0, unit="s", minimum=0.0, description="for which both hold")
+    lost_time = Parameter(5.0, unit="s", minimum=0.0, description="for which lost_rate is exceeded")
+    blind_time = Parameter(300.0, unit="s", minimum=0.0, description="without attitude until SUN")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "between judgements; 0: every communication point")
+    estimated_angular_velocity = body.ANGULAR_VELOCITY.input("angular velocity, estimated or measured")
+    attitude_error = body.ROTATION.input("from the reference to the estimated attitude")
+    attitude_known = Input(False, description="true: the estimated attitude is usable")
+    mode = Output(AocsMode, direct=True)
+    pointing_mode = Output(PointingMode, start=PointingMode.SUN, direct=True)
+    magnetic_mode = Output(MagneticMode, start=MagneticMode.DETUMBLE, direct=True)
+    wheels_on = Output(False, direct=True, description="true: wheels follow the attitude reference")
+    time_in_mode = Output(0.0, unit="s", direct=True, description="since the mode began")
+    status = Output(AocsModesStatus, direct=True)
+    begun = State(0.0, unit="s", description="when the mode began")
+    settled_since = State(0.0, unit="s", description="since when the condition to go on holds")
+    fast_since = State(0.0, unit="s", description="since when lost_rate is exceeded")
+    blind_since = State(0.0, unit="s", description="since when no attitude is known")
+    start_time = sampling.START_TIME.state()
+
+    def initialize(self) -> None:
+        self.begun = self.start_time
+        self.settled_since = self.start_time
+        self.fast_since = self.start_time
+        self.blind_since = self.start_time
+        self.judge(self.start_time)
+
+    def enter(self, mode: int, t: float) -> None:
+        """Begin a mode at t (s)."""
+        self.mode = mode
+        self.begun = t
+        self.settled_since = t
+        self.blind_since = t
+        self.wheels_on = mode != AocsMode.DETUMBLE
+        self.magnetic_mode = MagneticMode.UNLOAD
+        self.pointing_mode = PointingMode.SUN
+        if mode == AocsMode.DETUMBLE:
+            self.magnetic_mode = MagneticMode.DETUMBLE
+        if mode == AocsMode.NADIR:
+            self.pointing_mode = PointingMode.NADIR
+
+    def ready(self) -> bool:
+        """True if the condition to go on to the next mode holds."""
+        if self.mode == AocsMode.DETUMBLE:
+            return norm(self.estimated_angular_velocity) < self.calm_rate
+        return self.attitude_known and norm(self.attitude_error) < self.sun_error
+
+    def judge(self, t: float) -> None:
+        """Set the mode at t (s)."""
+        self.status = AocsModesStatus.NOT_FINITE
+        if is_finite(self.estimated_angular_velocity) and is_finite(self.attitude_error):
+            self.status = AocsModesStatus.GOOD
+            if not self.ready():
+                self.settled_since = t
+            if not norm(self.estimated_angular_velocity) > self.lost_rate:
+                self.fast_since = t
+            if self.attitude_known:
+                self.blind_since = t
+            settled = t - self.settled_since >= self.settle_time
+            blind = t - self.blind_since >= self.blind_time
+            if self.mode == AocsMode.DETUMBLE:
+                if settled:
+                    self.enter(AocsMode.SUN, t)
+            elif t - self.fast_since >= self.lost_time:
+                self.enter(AocsMode.DETUMBLE, t)
+            elif self.mode == AocsMode.SUN:
+                if settled:
+                    self.enter(AocsMode.NADIR, t)
+            elif blind:
+                self.enter(AocsMode.SUN, t)
+        self.time_in_mode = t - self.begun
+
+    def step(self, t: float, h: float) -> None:
+        self.judge(t + h)
