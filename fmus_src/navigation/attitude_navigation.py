@@ -12,6 +12,9 @@ class AttitudeNavigationStatus(Enumeration):
     NO_GYROS = member("last gyro sample not finite, last rate used")
     NO_STARS = member("last star sample not finite and left out")
     NO_ATTITUDE = member("no attitude: last star sample shorter than 0.5 and left out")
+    REJECTED = member("last sample beyond the gate and left out")
+    NO_RECENT_STAR = member("no star sample for 30 s")
+    UNKNOWN = member("no attitude measured yet")
 
 
 class AttitudeNavigation(Block, interface=True):

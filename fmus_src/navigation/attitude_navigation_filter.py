@@ -1,10 +1,11 @@
-"""Attitude from star tracker and gyros: a multiplicative extended Kalman filter."""
+"""Attitude from star tracker, gyros, Sun sensors and magnetometer: a multiplicative extended Kalman filter."""
 
 import math
 
-from ..block import State
-from ..interfaces.ports import body, sampling
-from ..kernel.matrices import identity, zeros
+from ..block import Input, Output, Parameter, State
+from ..interfaces.ports import space
+from ..interfaces.ports.space import SpaceEnvironment
+from ..kernel.matrices import Matrix, identity, zeros
 from ..mathlib.attitude.quaternion import (
     difference,
     from_rotation_vector,
@@ -13,99 +14,195 @@ from ..mathlib.attitude.quaternion import (
     normalise,
     to_rotation_vector,
 )
-from ..mathlib.estimation.attitude_errors import BIAS, ROTATION, predict_attitude, standard_deviations
-from ..mathlib.estimation.kalman import update
-from ..mathlib.vectors import Vector3, is_finite, vector
-from .attitude_navigation import AttitudeNavigation, AttitudeNavigationStatus
+from ..mathlib.attitude.triad import triad
+from ..mathlib.estimation.attitude_errors import BIAS, ROTATION
+from ..mathlib.estimation.directions import innovation, sensitivity, squared_distance, update_three
+from ..mathlib.vectors import Vector3, Vector4, across, cross, dot, is_finite, norm, smallest_component, vector
+from .attitude_navigation import AttitudeNavigationStatus
+from .multiplicative_filter import MultiplicativeFilter
+
+TURNS = 8  # cycles by which a star sample may be late
+COARSE = 30.0  # s without a star sample
+TRIAD_SINE = 0.17  # of the smallest angle between two directions that make an attitude
+ROUNDING = 1e-9  # s, of times of samples
 
 
-class AttitudeNavigationFilter(AttitudeNavigation):
+class AttitudeNavigationFilter(MultiplicativeFilter):
     """Multiplicative extended Kalman filter of attitude and gyro bias.
 
-    The attitude turns with the mean of the last two gyro samples less the bias, or with the last one until the next.
-    A star sample corrects it by a small rotation in body axes, and the bias; the first one is the first attitude. The
-    covariance is 6 x 6; three components are taken in one after another, as exact as at once. A sample that is not
-    finite, or no attitude, is left out and reported. Assumes errors as declared, alike about all axes.
-    Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2.
+    A star sample corrects the attitude by a small rotation in body axes, and the bias; the first one is the first
+    attitude. Its error is star_sigma per axis, about the boresight roll_sigma where that is not 0. One with a
+    sample_time before now, up to eight cycles, is first turned on by the gyros. Directions to the Sun and of the
+    magnetic field correct the attitude across themselves, by their references in inertial axes; without a star, both at
+    once make the first attitude (TRIAD). Three components are taken in one after another, as exact as at once. The
+    covariance is 6 x 6.
+    A sample that is not finite, or no attitude, is left out and reported. So is one whose normalised innovation squared
+    is beyond ``gate``; after rejects_to_restart of them in a row the covariance of the attitude is as at the start.
+    Assumes independent errors as declared.
+    Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2; Black 1964 (TRIAD); Markley and
+    Crassidis 2014, sections 5.1 and 6.2.
     """
 
-    rate = body.ANGULAR_VELOCITY.state("last finite gyro sample")
-    covariance = State(zeros(6, 6), frozen=True, description="of the errors of attitude and bias, SI")
-    start_time = sampling.START_TIME.state()
-    last_time = State(0.0, unit="s", description="time of the last cycle")
+    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="of the star tracker, any length")
+    roll_sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error about the boresight; 0: as the others")
+    sun_sigma = Parameter(0.02, unit="rad", minimum=1e-12, description="error of the direction to the Sun, per axis")
+    field_sigma = Parameter(0.02, unit="rad", minimum=1e-12, description="error of the field's direction, per axis")
+    gate = Parameter(0.0, unit="1", minimum=0.0, description="largest innovation squared, three components; 0: any")
+    rejects_to_restart = Parameter(20, minimum=1, description="samples left out in a row until the attitude is open")
+    star_time = Input(-1.0, unit="s", description="when the star sample was taken; below 0: now")
+    measured_sun = Input([0.0, 0.0, 0.0], unit="1", frame="body", description="measured direction to the Sun")
+    sun_count = Input(0, description="samples of the Sun so far; a change signals a new one")
+    sun_direction = SpaceEnvironment.sun_direction.input("to the Sun, as known on board")
+    measured_field = space.MAGNETIC_FIELD.input("measured field")
+    field_count = Input(0, description="samples of the field so far; a change signals a new one")
+    magnetic_field = SpaceEnvironment.magnetic_field.input("magnetic field, as known on board")
+    attitude_known = Output(False, direct=True, description="true: an attitude was measured")
+    rejected = Output(0, direct=True, description="samples beyond the gate so far")
     star_counted = State(0, description="star_count of the last sample")
-    gyro_counted = State(0, description="gyro_count of the last sample")
-    begun = State(False, description="an attitude was measured")
+    sun_counted = State(0, description="sun_count of the last sample")
+    field_counted = State(0, description="field_count of the last sample")
+    rejected_in_row = State(0, description="samples beyond the gate since the last good one")
+    last_star = State(0.0, unit="s", description="time of the last good star sample")
+    turns = State(zeros(TURNS, 4), unit="1", description="turns of the last cycles by the gyros, the newest first")
+    turn_ends = State([0.0] * TURNS, unit="s", description="ends of these cycles")
 
     def initialize(self) -> None:
-        self.last_time = self.start_time
         self.star_counted = self.star_count - 1
-        self.gyro_counted = self.gyro_count - 1
-        sigma = self.first_bias_sigma
-        self.covariance[ROTATION, ROTATION] = identity(3)
-        self.covariance[BIAS, BIAS] = sigma * sigma * identity(3)
-        self.rate = self.gyro_rate()
-        self.take_star_sample()
-        self.report()
+        self.sun_counted = self.sun_count
+        self.field_counted = self.field_count
+        self.last_star = self.start_time
+        for k in range(TURNS):
+            self.turns[k, 0] = 1.0
+            self.turn_ends[k] = self.start_time
+        self.begin()
+        self.take_samples(self.start_time)
 
-    def gyro_rate(self) -> Vector3:
-        """The gyros' new sample if there is one that is finite, or else the last one that was."""
-        self.status = AttitudeNavigationStatus.GOOD
-        if self.gyro_count == self.gyro_counted:
-            return self.rate
-        self.gyro_counted = self.gyro_count
-        if is_finite(self.measured_angular_velocity):
-            return self.measured_angular_velocity
-        self.status = AttitudeNavigationStatus.NO_GYROS
-        return self.rate
+    def remember_turn(self, t: float) -> None:
+        """Put the turn of the cycle that ends at t (s) first."""
+        for i in range(TURNS - 1):
+            k = TURNS - 1 - i
+            self.turns[k, 0:4] = self.turns[k - 1, 0:4]
+            self.turn_ends[k] = self.turn_ends[k - 1]
+        self.turns[0, 0:4] = from_rotation_vector(self.turn)
+        self.turn_ends[0] = t
 
-    def predict(self, h: float) -> None:
-        """Propagate by the gyros over h (s)."""
-        rate = self.gyro_rate()
-        turn = h * (0.5 * (self.rate + rate) - self.estimated_bias)
-        self.rate = rate
-        self.estimated_quaternion = normalise(multiply(self.estimated_quaternion, from_rotation_vector(turn)))
-        self.covariance = predict_attitude(self.covariance, turn, self.gyro_random_walk, self.bias_random_walk, h)
+    def turned_on(self, q: Vector4) -> Vector4:
+        """Return the attitude of star_time as it is now, by the gyros."""
+        if self.star_time < 0.0:
+            return q
+        for i in range(TURNS):
+            k = TURNS - 1 - i
+            if self.turn_ends[k] > self.star_time + ROUNDING:
+                q = multiply(q, self.turns[k, 0:4])
+        return normalise(q)
 
-    def take_star_sample(self) -> None:
+    def accept(self, h: Matrix, variances: Vector3, z: Vector3) -> bool:
+        """Take three components in, unless they are beyond the gate; whether they are within."""
+        if self.gate > 0.0:
+            square = squared_distance(self.covariance, h, variances, z)
+            if square > self.gate:
+                self.status = AttitudeNavigationStatus.REJECTED
+                self.rejected = self.rejected + 1
+                self.rejected_in_row = self.rejected_in_row + 1
+                if self.rejected_in_row >= self.rejects_to_restart:
+                    self.rejected_in_row = 0
+                    self.covariance[ROTATION, ROTATION] = identity(3)
+                    self.covariance[ROTATION, BIAS] = zeros(3, 3)
+                    self.covariance[BIAS, ROTATION] = zeros(3, 3)
+                return False
+        self.rejected_in_row = 0
+        x, self.covariance, self.innovation_square = update_three(zeros(6, 1), self.covariance, h, variances, z)
+        self.correct(x)
+        return True
+
+    def take_star_sample(self, t: float) -> None:
         """Take a new star sample in, if there is one."""
         if self.star_count == self.star_counted:
             return
         self.star_counted = self.star_count
         if not (math.isfinite(self.measured_quaternion.w) and is_finite(self.measured_quaternion[1:4])):
             self.status = AttitudeNavigationStatus.NO_STARS
-        elif not is_attitude(self.measured_quaternion):
+            return
+        if not is_attitude(self.measured_quaternion):
             self.status = AttitudeNavigationStatus.NO_ATTITUDE
-        elif self.begun:
-            self.correct()
-        else:
+            return
+        measured = self.turned_on(normalise(self.measured_quaternion))
+        if not self.begun:
             self.begun = True
-            self.estimated_quaternion = normalise(self.measured_quaternion)
-            self.covariance[ROTATION, ROTATION] = self.star_sigma * self.star_sigma * identity(3)
+            self.last_star = t
+            self.estimated_quaternion = measured
+            sigma = self.star_sigma
+            if self.roll_sigma > sigma:
+                sigma = self.roll_sigma
+            self.covariance[ROTATION, ROTATION] = sigma * sigma * identity(3)
+            return
+        rotation = to_rotation_vector(difference(self.estimated_quaternion, measured))
+        h = zeros(3, 6)
+        h[0:3, ROTATION] = identity(3)
+        variance = self.star_sigma * self.star_sigma
+        variances = vector(variance, variance, variance)
+        if self.roll_sigma > 0.0 and norm(self.boresight) > 0.0:
+            axis = self.boresight / norm(self.boresight)
+            k, _ = smallest_component(axis)
+            side = identity(3)[0:3, k]
+            side = across(side, axis) / norm(across(side, axis))
+            other = cross(axis, side)
+            h[0, 0:3] = side
+            h[1, 0:3] = other
+            h[2, 0:3] = axis
+            variances = vector(variance, variance, self.roll_sigma * self.roll_sigma)
+            rotation = vector(dot(side, rotation), dot(other, rotation), dot(axis, rotation))
+        good = self.accept(h, variances, rotation)
+        if good:
+            self.last_star = t
 
-    def correct(self) -> None:
-        """Correct attitude and bias by the measured quaternion."""
-        measured = normalise(self.measured_quaternion)
-        innovation = to_rotation_vector(difference(self.estimated_quaternion, measured))
-        x = zeros(6, 1)
-        self.innovation_square = 0.0
-        for k in range(3):
-            h = zeros(1, 6)
-            h[0, k] = 1.0
-            x, self.covariance, square = update(x, self.covariance, h, self.star_sigma * self.star_sigma, innovation[k])
-            self.innovation_square = self.innovation_square + square
-        turn = from_rotation_vector(vector(x[0, 0], x[1, 0], x[2, 0]))
-        self.estimated_quaternion = normalise(multiply(self.estimated_quaternion, turn))
-        self.estimated_bias = self.estimated_bias + vector(x[3, 0], x[4, 0], x[5, 0])
+    def take_direction(self, measured: Vector3, reference: Vector3, sigma: float) -> None:
+        """Take a measured direction (body) in, by its reference (inertial); both finite and not 0."""
+        z = innovation(self.estimated_quaternion, reference, measured)
+        h = sensitivity(measured / norm(measured) - z)
+        variances = sigma * sigma * vector(1.0, 1.0, 1.0)
+        self.accept(h, variances, z)
 
-    def report(self) -> None:
-        """Put angular velocity and standard deviations on the outputs."""
-        self.estimated_angular_velocity = self.rate - self.estimated_bias
-        self.attitude_sigma = standard_deviations(self.covariance, 0)
-        self.bias_sigma = standard_deviations(self.covariance, 3)
+    def is_direction(self, measured: Vector3, reference: Vector3) -> bool:
+        """True if both vectors are finite and not 0."""
+        if is_finite(measured) and is_finite(reference):
+            return norm(measured) > 0.0 and norm(reference) > 0.0
+        return False
+
+    def take_directions(self) -> None:
+        """Take new directions in, or begin with them."""
+        sun = self.sun_count != self.sun_counted and self.is_direction(self.measured_sun, self.sun_direction)
+        field = self.field_count != self.field_counted
+        field = field and self.is_direction(self.measured_field, self.magnetic_field)
+        self.sun_counted = self.sun_count
+        self.field_counted = self.field_count
+        if self.begun:
+            if sun:
+                self.take_direction(self.measured_sun, self.sun_direction, self.sun_sigma)
+            if field:
+                self.take_direction(self.measured_field, self.magnetic_field, self.field_sigma)
+        elif sun and field:
+            first = triad(self.measured_sun, self.measured_field, self.sun_direction, self.magnetic_field, TRIAD_SINE)
+            if first.exists:
+                self.begun = True
+                self.estimated_quaternion = first.quaternion
+                variance = self.sun_sigma * self.sun_sigma + self.field_sigma * self.field_sigma
+                self.covariance[ROTATION, ROTATION] = variance / (TRIAD_SINE * TRIAD_SINE) * identity(3)
+
+    def take_samples(self, t: float) -> None:
+        """Take all new samples in, and report."""
+        self.take_star_sample(t)
+        self.take_directions()
+        self.attitude_known = self.begun
+        if self.status == AttitudeNavigationStatus.GOOD:
+            if not self.begun:
+                self.status = AttitudeNavigationStatus.UNKNOWN
+            elif t - self.last_star > COARSE:
+                self.status = AttitudeNavigationStatus.NO_RECENT_STAR
+        self.report()
 
     def step(self, t: float, h: float) -> None:
         self.predict(t + h - self.last_time)
         self.last_time = t + h
-        self.take_star_sample()
-        self.report()
+        self.remember_turn(t + h)
+        self.take_samples(t + h)

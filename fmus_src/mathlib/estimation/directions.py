@@ -1,0 +1,47 @@
+"""Measured directions in a filter of attitude errors. Kernel functions.
+
+States as in `attitude_errors`: the small rotation is in body axes, on the right of the estimated attitude.
+Source: Markley and Crassidis 2014, sections 5.1 and 6.2.
+"""
+
+from ...kernel.matrices import Matrix, inverse_quadratic_form, zeros
+from ..attitude.quaternion import to_body
+from ..vectors import Vector3, Vector4, norm
+from .attitude_errors import ROTATION, cross_matrix
+from .kalman import update
+
+
+def sensitivity(predicted: Vector3) -> Matrix:
+    """Return H (3 x 6) of a direction (body) that the estimated attitude predicts: [b x] of the rotation."""
+    h = zeros(3, 6)
+    h[0:3, ROTATION] = cross_matrix(predicted)
+    return h
+
+
+def innovation(q: Vector4, reference: Vector3, measured: Vector3) -> Vector3:
+    """Return a measured direction less the predicted one, both of length one; neither may be 0."""
+    return measured / norm(measured) - to_body(q, reference / norm(reference))
+
+
+def squared_distance(p: Matrix, h: Matrix, variances: Vector3, z: Vector3) -> float:
+    """Return z' (H P H' + R)^-1 z, the normalised innovation squared of three components with independent errors."""
+    s = h @ p @ h.T
+    e = zeros(3, 1)
+    for i in range(3):
+        s[i, i] = s[i, i] + variances[i]
+        e[i, 0] = z[i]
+    return inverse_quadratic_form(s, e)
+
+
+def update_three(x: Matrix, p: Matrix, h: Matrix, variances: Vector3, z: Vector3) -> tuple[Matrix, Matrix, float]:
+    """Return x and P with three scalars taken in one after another, and the sum of their normalised squares."""
+    y = x.copy()
+    corrected = p.copy()
+    row = zeros(1, 6)
+    total = 0.0
+    for k in range(3):
+        for j in range(6):
+            row[0, j] = h[k, j]
+        y, corrected, square = update(y, corrected, row, variances[k], z[k])
+        total = total + square
+    return y, corrected, total
