@@ -2,15 +2,18 @@
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, landing, robot, sampling
-from ..mathlib.attitude.quaternion import difference, to_rotation_vector
-from ..mathlib.vectors import norm
+from ..kernel.functions import atan2
+from ..mathlib.attitude.quaternion import difference, to_reference, to_rotation_vector
+from ..mathlib.vectors import cross, dot, norm
 
 
 class PointingMonitor(Block):
     """Errors of attitude against reference and target; the flight ends when the satellite has pointed long enough.
 
-    Pointing: pointing_error is within angle_limit and the angular velocity within rate_limit. settling_time is when
-    the present spell of it began, or the time of now outside one; finished once it has lasted for hold_time.
+    half_cone is the angle of the boresight from where the reference has it, knowledge_error the rotation from the true
+    to the estimated attitude. Pointing: pointing_error is within angle_limit and the angular velocity within
+    rate_limit. settling_time is when the present spell of it began, or the time of now outside one; finished once it
+    has lasted for hold_time.
     Frame: body. Equations: docs/systems/satellite_pointing.md. Assumes that it is given the true motion.
     """
 
@@ -22,13 +25,17 @@ class PointingMonitor(Block):
     angle_limit = Parameter(4.84813681109536e-5, unit="rad", minimum=0.0, description="of pointing; 10 arcsec")
     rate_limit = Parameter(1e-5, unit="rad/s", minimum=0.0, description="of pointing")
     hold_time = Parameter(60.0, unit="s", minimum=0.0, description="how long to point before the end")
+    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="of half_cone, any length")
     quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
     angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity")
     reference_quaternion = robot.PLANNED_QUATERNION.input("attitude to follow, body to inertial, scalar first")
+    estimated_quaternion = robot.QUATERNION.input()
     attitude_error = body.ROTATION.output("rotation vector from the reference to the true attitude", direct=True)
     pointing_error = Output(
         0.0, unit="rad", direct=True, description="angle between the target attitude and the true one"
     )
+    half_cone = Output(0.0, unit="rad", direct=True, description="angle of the boresight from that of the reference")
+    knowledge_error = body.ROTATION.output("rotation vector from the true to the estimated attitude", direct=True)
     rate = Output(0.0, unit="rad/s", direct=True, description="magnitude of the angular velocity")
     settling_time = Output(0.0, unit="s", direct=True, description="since when it points, after the flight's start")
     finished = landing.FINISHED.output(direct=True)
@@ -42,6 +49,10 @@ class PointingMonitor(Block):
         """Compare the true motion at a time (s) with reference and target."""
         self.attitude_error = to_rotation_vector(difference(self.reference_quaternion, self.quaternion))
         self.pointing_error = norm(to_rotation_vector(difference(self.target_quaternion, self.quaternion)))
+        self.knowledge_error = to_rotation_vector(difference(self.quaternion, self.estimated_quaternion))
+        aim = to_reference(self.quaternion, self.boresight)
+        wanted = to_reference(self.reference_quaternion, self.boresight)
+        self.half_cone = atan2(norm(cross(aim, wanted)), dot(aim, wanted))
         self.rate = norm(self.angular_velocity)
         within = self.pointing_error <= self.angle_limit and self.rate <= self.rate_limit
         if not (within and self.pointing):

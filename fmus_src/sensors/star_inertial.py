@@ -89,7 +89,7 @@ class StarInertial(RandomSensor):
             return dot(aim, direction) > cos(angle) * norm(direction)
         return False
 
-    def judge(self) -> None:
+    def assess(self) -> None:
         """Set the status of a sample that is taken now."""
         aim = to_reference(normalise(self.quaternion), self.axis)
         dazzled = self.is_within(aim, self.sun_direction, self.sun_exclusion)
@@ -110,7 +110,7 @@ class StarInertial(RandomSensor):
         """Take a sample at t (s), and put the one that arrives on the outputs."""
         numbers = normals(self.generator)
         rotation = self.error(numbers)
-        self.judge()
+        self.assess()
         make_room(self.samples, 6)
         self.samples[0, GOOD] = 0.0
         if self.status == StarTrackerStatus.GOOD:

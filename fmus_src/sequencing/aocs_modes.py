@@ -1,10 +1,14 @@
 """Modes of an attitude and orbit control system: detumbling, Sun, nadir."""
 
+import math
+
 from ..block import Block, Input, Output, Parameter, State
-from ..interfaces.ports import body, sampling
-from ..interfaces.ports.space import MagneticMode, PointingMode
+from ..interfaces.ports import body, robot, sampling
+from ..interfaces.ports.space import MagneticMode, PointingMode, SpaceEnvironment
 from ..kernel.enumerations import Enumeration, member
-from ..mathlib.vectors import is_finite, norm
+from ..kernel.functions import atan2
+from ..mathlib.attitude.quaternion import normalise, to_body
+from ..mathlib.vectors import cross, dot, is_finite, norm
 from ..units import deg
 
 
@@ -26,10 +30,10 @@ class AocsModesStatus(Enumeration):
 class AocsModes(Block):
     """Sequence of modes from separation to nadir pointing, and back where it is lost.
 
-    DETUMBLE to SUN after the rate was below calm_rate for settle_time. SUN to NADIR after an attitude was known and the
-    error of attitude below sun_error for settle_time. To DETUMBLE after the rate was above lost_rate for lost_time; to
-    SUN from NADIR after no attitude for blind_time. Each is judged at this block's samples. Wheels are off and torquers
-    brake in DETUMBLE; wheels are on and torquers unload them in the other modes.
+    DETUMBLE to SUN after the rate was below calm_rate for settle_time. SUN to NADIR after an attitude was known and
+    panel_normal within sun_error of the Sun for settle_time. To DETUMBLE after the rate was above lost_rate for
+    lost_time; to SUN from NADIR after no attitude for blind_time. Each is decided at this block's samples. Wheels are
+    off and torquers brake in DETUMBLE; wheels are on and torquers unload them in the other modes.
     Frame: body. Equations: docs/systems/earth_pointing.md. Source: ours.
     """
 
@@ -37,13 +41,15 @@ class AocsModes(Block):
 
     calm_rate = Parameter(deg(0.3), unit="rad/s", minimum=0.0, description="rate below which DETUMBLE may end")
     lost_rate = Parameter(deg(2.0), unit="rad/s", minimum=0.0, description="rate above which DETUMBLE begins again")
-    sun_error = Parameter(deg(10.0), unit="rad", minimum=0.0, description="error below which SUN may end")
+    sun_error = Parameter(deg(10.0), unit="rad", minimum=0.0, description="of panel_normal, below which SUN may end")
+    panel_normal = Parameter([0.0, -1.0, 0.0], unit="1", frame="body", description="which SUN turns to the Sun")
     settle_time = Parameter(60.0, unit="s", minimum=0.0, description="for which both hold")
     lost_time = Parameter(5.0, unit="s", minimum=0.0, description="for which lost_rate is exceeded")
     blind_time = Parameter(300.0, unit="s", minimum=0.0, description="without attitude until SUN")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "between judgements; 0: every communication point")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "between decisions; 0: every communication point")
     estimated_angular_velocity = body.ANGULAR_VELOCITY.input("angular velocity, estimated or measured")
-    attitude_error = body.ROTATION.input("from the reference to the estimated attitude")
+    estimated_quaternion = robot.QUATERNION.input()
+    sun_direction = SpaceEnvironment.sun_direction.input("to the Sun, as known on board")
     attitude_known = Input(False, description="true: the estimated attitude is usable")
     mode = Output(AocsMode, direct=True)
     pointing_mode = Output(PointingMode, start=PointingMode.SUN, direct=True)
@@ -62,7 +68,7 @@ class AocsModes(Block):
         self.settled_since = self.start_time
         self.fast_since = self.start_time
         self.blind_since = self.start_time
-        self.judge(self.start_time)
+        self.set_mode(self.start_time)
 
     def enter(self, mode: int, t: float) -> None:
         """Begin a mode at t (s)."""
@@ -82,12 +88,16 @@ class AocsModes(Block):
         """True if the condition to go on to the next mode holds."""
         if self.mode == AocsMode.DETUMBLE:
             return norm(self.estimated_angular_velocity) < self.calm_rate
-        return self.attitude_known and norm(self.attitude_error) < self.sun_error
+        sun = to_body(normalise(self.estimated_quaternion), self.sun_direction)
+        angle = atan2(norm(cross(self.panel_normal, sun)), dot(self.panel_normal, sun))
+        return self.attitude_known and angle < self.sun_error
 
-    def judge(self, t: float) -> None:
+    def set_mode(self, t: float) -> None:
         """Set the mode at t (s)."""
         self.status = AocsModesStatus.NOT_FINITE
-        if is_finite(self.estimated_angular_velocity) and is_finite(self.attitude_error):
+        q = self.estimated_quaternion
+        finite = is_finite(self.estimated_angular_velocity) and is_finite(self.sun_direction)
+        if finite and math.isfinite(q.w) and is_finite(q[1:4]):
             self.status = AocsModesStatus.GOOD
             if not self.ready():
                 self.settled_since = t
@@ -110,4 +120,4 @@ class AocsModes(Block):
         self.time_in_mode = t - self.begun
 
     def step(self, t: float, h: float) -> None:
-        self.judge(t + h)
+        self.set_mode(t + h)
