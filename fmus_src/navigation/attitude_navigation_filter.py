@@ -21,6 +21,7 @@ from ..mathlib.vectors import Vector3, Vector4, across, cross, dot, is_finite, n
 from .attitude_navigation import AttitudeNavigationStatus
 from .multiplicative_filter import MultiplicativeFilter
 
+STAR, SUN, FIELD = 0, 1, 2  # sensors that the gate counts apart
 TURNS = 8  # cycles by which a star sample may be late
 COARSE = 30.0  # s without a star sample
 TRIAD_SINE = 0.17  # of the smallest angle between two directions that make an attitude
@@ -37,7 +38,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
     once make the first attitude (TRIAD). Three components are taken in one after another, as exact as at once. The
     covariance is 6 x 6.
     A sample that is not finite, or no attitude, is left out and reported. So is one whose normalised innovation squared
-    is beyond ``gate``; after rejects_to_restart of them in a row the covariance of the attitude is as at the start.
+    is beyond ``gate``; after rejects_to_restart in a row of one sensor the covariance of the attitude is as at first.
     Assumes independent errors as declared.
     Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2; Black 1964 (TRIAD); Markley and
     Crassidis 2014, sections 5.1 and 6.2.
@@ -61,13 +62,13 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
     star_counted = State(0, description="star_count of the last sample")
     sun_counted = State(0, description="sun_count of the last sample")
     field_counted = State(0, description="field_count of the last sample")
-    rejected_in_row = State(0, description="samples beyond the gate since the last good one")
+    rejected_in_row = State([0] * 3, description="samples beyond the gate since the last good one: star, Sun, field")
     last_star = State(0.0, unit="s", description="time of the last good star sample")
     turns = State(zeros(TURNS, 4), unit="1", description="turns of the last cycles by the gyros, the newest first")
     turn_ends = State([0.0] * TURNS, unit="s", description="ends of these cycles")
 
     def initialize(self) -> None:
-        self.star_counted = self.star_count - 1
+        self.star_counted = 0  # a count of 0 is no sample, any other one is new
         self.sun_counted = self.sun_count
         self.field_counted = self.field_count
         self.last_star = self.start_time
@@ -96,21 +97,21 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
                 q = multiply(q, self.turns[k, 0:4])
         return normalise(q)
 
-    def accept(self, h: Matrix, variances: Vector3, z: Vector3) -> bool:
+    def accept(self, sensor: int, h: Matrix, variances: Vector3, z: Vector3) -> bool:
         """Take three components in, unless they are beyond the gate; whether they are within."""
         if self.gate > 0.0:
             square = squared_distance(self.covariance, h, variances, z)
             if square > self.gate:
                 self.status = AttitudeNavigationStatus.REJECTED
                 self.rejected = self.rejected + 1
-                self.rejected_in_row = self.rejected_in_row + 1
-                if self.rejected_in_row >= self.rejects_to_restart:
-                    self.rejected_in_row = 0
+                self.rejected_in_row[sensor] = self.rejected_in_row[sensor] + 1
+                if self.rejected_in_row[sensor] >= self.rejects_to_restart:
+                    self.rejected_in_row[sensor] = 0
                     self.covariance[ROTATION, ROTATION] = identity(3)
                     self.covariance[ROTATION, BIAS] = zeros(3, 3)
                     self.covariance[BIAS, ROTATION] = zeros(3, 3)
                 return False
-        self.rejected_in_row = 0
+        self.rejected_in_row[sensor] = 0
         x, self.covariance, self.innovation_square = update_three(zeros(6, 1), self.covariance, h, variances, z)
         self.correct(x)
         return True
@@ -152,16 +153,16 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
             h[2, 0:3] = axis
             variances = vector(variance, variance, self.roll_sigma * self.roll_sigma)
             rotation = vector(dot(side, rotation), dot(other, rotation), dot(axis, rotation))
-        good = self.accept(h, variances, rotation)
+        good = self.accept(STAR, h, variances, rotation)
         if good:
             self.last_star = t
 
-    def take_direction(self, measured: Vector3, reference: Vector3, sigma: float) -> None:
+    def take_direction(self, sensor: int, measured: Vector3, reference: Vector3, sigma: float) -> None:
         """Take a measured direction (body) in, by its reference (inertial); both finite and not 0."""
         z = innovation(self.estimated_quaternion, reference, measured)
         h = sensitivity(measured / norm(measured) - z)
         variances = sigma * sigma * vector(1.0, 1.0, 1.0)
-        self.accept(h, variances, z)
+        self.accept(sensor, h, variances, z)
 
     def is_direction(self, measured: Vector3, reference: Vector3) -> bool:
         """True if both vectors are finite and not 0."""
@@ -178,9 +179,9 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.field_counted = self.field_count
         if self.begun:
             if sun:
-                self.take_direction(self.measured_sun, self.sun_direction, self.sun_sigma)
+                self.take_direction(SUN, self.measured_sun, self.sun_direction, self.sun_sigma)
             if field:
-                self.take_direction(self.measured_field, self.magnetic_field, self.field_sigma)
+                self.take_direction(FIELD, self.measured_field, self.magnetic_field, self.field_sigma)
         elif sun and field:
             first = triad(self.measured_sun, self.measured_field, self.sun_direction, self.magnetic_field, TRIAD_SINE)
             if first.exists:
