@@ -156,7 +156,10 @@ class SystemModel:
     def _check_alike(self, name: str) -> None:
         """Refuse a signal that is another quantity with another candidate: one variable stands for all."""
         layouts = [program.layout for program in self.programs if name in program.layout.slots]
-        kinds = {f"{layout.types[name]} in {layout.units[name] or '1'}": None for layout in layouts}
+        kinds = {
+            f"{layout.types[name].replace('Enumeration', 'Integer')} in {layout.units[name] or '1'}": None
+            for layout in layouts
+        }
         if len(kinds) > 1:
             problem = f"{', '.join(kinds)}, as the candidates have it: one variable cannot stand for both"
             raise InputError(

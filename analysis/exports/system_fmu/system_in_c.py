@@ -11,7 +11,7 @@ from ....fmus_src.runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, STEP_LIMIT, 
 from ...runtime.flight.instructions import write_renewal
 from ...runtime.ssp.kinds import PARAMETERS
 from .choices import parameter_chain
-from .kind_in_c import file_name
+from .component_source import file_name
 from .model import ChoiceProgram, SystemModel
 from .statements import Statements, quoted
 from .tables_in_c import write_tables
@@ -190,7 +190,6 @@ def _end_step(statements: Statements, model: SystemModel, variables: Variables) 
 
 def _entry_points(model: SystemModel, variables: Variables) -> str:
     """What the wrapper calls, for the choice that the slots' parameters make."""
-    slots = [each for each in variables.declared if each.items and each.causality == "parameter"]
     lines = Lines()
     lines.open("static void model_set_start_time(Block *self, double start_time)\n{")
     lines.add("self->start_time = start_time;")
@@ -198,7 +197,7 @@ def _entry_points(model: SystemModel, variables: Variables) -> str:
     lines.text.append("")
     for function in ("initialize", "step"):
         lines.open(f"static void model_{function}(Block *self, Fault *fault)\n{{")
-        _dispatch(lines, function, model.programs, slots)
+        _dispatch(lines, function, model.programs, list(variables.slots.values()))
         lines.close("}")
         lines.text.append("")
     return "\n".join(lines.text)
@@ -206,7 +205,7 @@ def _entry_points(model: SystemModel, variables: Variables) -> str:
 
 def _dispatch(lines: Lines, function: str, programs: Sequence[ChoiceProgram], slots: Sequence[FmuVariable]) -> None:
     """Call the function of the choice: the last slot's candidates change fastest among the programs."""
-    numbers_of = itertools.product(*(range(1, len(slot.items) + 1) for slot in slots))
+    numbers_of = itertools.product(*(slot.enumeration.numbers.values() for slot in slots if slot.enumeration))
     for program, chosen in zip(programs, numbers_of, strict=True):
         tests = " && ".join(f"self->{slot.path} == {number}" for slot, number in zip(slots, chosen, strict=True))
         call = f"{function}{program.choice.name}(self, fault);"

@@ -83,15 +83,14 @@ def write_parameters(model: SystemModel, variables: Variables) -> str:
 
 def write_use(model: SystemModel, variables: Variables) -> str:
     """Return the function that says of which candidates in slots the variables are simulated."""
-    slots = {each.name: each for each in variables.declared if each.items and each.causality == "parameter"}
     lines = Lines()
     lines.comment("True where the variable there is of what is simulated, and not of a candidate that is not chosen.")
     lines.open("static bool is_used(const Block *self, uint32_t offset)\n{")
     for candidate in model.candidates:
-        slot = slots.get(f"{candidate.component}.use")
-        if slot is None:
+        slot = variables.slots.get(candidate.component)
+        if slot is None or slot.enumeration is None:
             continue
-        number = slot.items.index(candidate.label.removeprefix(f"{candidate.component}.")) + slot.first_item
+        number = slot.enumeration.numbers[candidate.label.removeprefix(f"{candidate.component}.")]
         begin = f"offsetof(Block, {candidate.identifier})"
         inside = f"offset >= {begin} && offset < {begin} + sizeof self->{candidate.identifier}"
         lines.add(f"if ({inside}) return self->{slot.path} == {number};")
