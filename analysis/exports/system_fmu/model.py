@@ -102,8 +102,8 @@ class ChoiceProgram:
 
 
 class SystemModel:
-    """``exposed`` are the signals that the FMU gives as local variables, ``faulty`` the connectors whose faults are its
-    inputs. Raises InputError for unknown names, and for C of another build."""
+    """``exposed`` are the signals that the FMU gives as local variables, ``faulty`` the connectors and tunable
+    parameters whose faults are its inputs. Raises InputError for unknown names, and for C of another build."""
 
     def __init__(self, choices: Sequence[Choice], exposed: Sequence[str], faulty: Sequence[str]) -> None:
         self.choices = choices
@@ -243,10 +243,10 @@ def _is_known(network: Network, name: str) -> bool:
 
 
 def _find_faulty(choices: Sequence[Choice], names: Sequence[str]) -> list[str]:
-    """The connectors whose faults are inputs: of all candidates. Raises InputError."""
+    """The connectors and tunable parameters whose faults are inputs: of all candidates. Raises InputError."""
     for name in names:
         for choice in choices:
-            changeable(choice.prepared.network, name, ("`faults`", name))
+            changeable(choice.prepared.network, name, ("`faults`", name), tunable=True)
     if len(set(names)) < len(names):
         raise InputError("`faults`", ", ".join(names), "names a connector twice", "give it once")
     return list(names)

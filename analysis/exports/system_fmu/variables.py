@@ -69,6 +69,25 @@ class Passed:
     tunable: bool
 
 
+@dataclass(frozen=True)
+class Tuned:
+    """A tunable parameter of a component that has faults: ``path`` is where its value without them lies."""
+
+    candidate: Candidate
+    variable: Variable
+    path: str
+
+    @property
+    def name(self) -> str:
+        """Its name among the signals."""
+        return f"{self.candidate.component}.{self.variable.name}"
+
+    @property
+    def kind(self) -> str:
+        """KIND_REAL, KIND_INTEGER or KIND_BOOLEAN."""
+        return self.candidate.member(self.variable.name).kind
+
+
 class Variables:
     """``declared`` are the variables of the FMU, ``passed`` the parameters inside that follow from those of systems,
     ``parameter_paths`` where these lie, by connector; ``starts`` the values that differ from the blocks' own.
@@ -77,6 +96,7 @@ class Variables:
     def __init__(self, model: SystemModel, defaults: Mapping[str, int], slots: Mapping[str, Sequence[str]]) -> None:
         self.model = model
         self.passed: list[Passed] = []
+        self.tuned: list[Tuned] = []
         self.parameter_paths: dict[str, str] = {}
         self.starts: dict[str, ParameterValue] = {}
         self.effective: dict[str, ParameterValue] = {}
@@ -160,6 +180,9 @@ class Variables:
         network, settings = program.prepared.network, program.prepared.settings
         for variable in candidate.fmu.variables.values():
             full, path = f"{candidate.component}.{variable.name}", candidate.path_of(variable.name)
+            if variable.causality == "parameter" and full in self.model.faulty:
+                path = self.model.members.new(f"set_{candidate.label}.{variable.name}")
+                self.tuned.append(Tuned(candidate, variable, path))
             given = settings.variables.get((candidate.component, variable.name))
             if given is not None:
                 self.starts[path] = given

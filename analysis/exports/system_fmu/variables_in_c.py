@@ -35,6 +35,10 @@ def write_struct(model: SystemModel, variables: Variables) -> str:
             unit = f", {each.unit}" if each.unit and each.unit != "1" else ""
             about = comment(f"{each.causality}{unit}: {each.name}, {each.description}")
             lines.member(f"{C_TYPES[each.kind]} {each.path};", about)
+    declared = {each.path for each in variables.declared}
+    for tuned in variables.tuned:
+        if tuned.path not in declared:
+            lines.member(f"{C_TYPES[tuned.kind]} {tuned.path};", comment(f"{tuned.name} without its fault"))
     for candidate in model.candidates:
         lines.member(f"{candidate.source.type_name} {candidate.identifier};", comment(f"component {candidate.label}"))
     if model.signals:
@@ -93,7 +97,9 @@ def write_use(model: SystemModel, variables: Variables) -> str:
         number = slot.enumeration.numbers[candidate.label.removeprefix(f"{candidate.component}.")]
         begin = f"offsetof(Block, {candidate.identifier})"
         inside = f"offset >= {begin} && offset < {begin} + sizeof self->{candidate.identifier}"
-        lines.add(f"if ({inside}) return self->{slot.path} == {number};")
+        offsets = [f"offset == offsetof(Block, {each.path})" for each in variables.tuned if each.candidate is candidate]
+        where = " || ".join([f"({inside})", *offsets]) if offsets else inside
+        lines.add(f"if ({where}) return self->{slot.path} == {number};")
     lines.add("(void)self, (void)offset;")
     lines.add("return true;")
     lines.close("}")
