@@ -80,7 +80,7 @@ def test_the_page_has_every_variable(name):
 
 
 def source_text(block: type[Block]) -> str:
-    """The text of a block's class and of all that it is derived from."""
+    """Return the text of a block's class and of all that it is derived from."""
     return "\n".join(inspect.getsource(base) for base in block.__mro__ if issubclass(base, Block) and base is not Block)
 
 

@@ -92,7 +92,7 @@ NAMES = {"Early": (0, "FAST", 1, 0.5), "Late": (1, "STOPPED", 2, 0.25), "Alike":
 
 @pytest.fixture(scope="module")
 def fmus_of_modes(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of three blocks with an enumeration of one name: two have the same members, one has others."""
+    """Return the folder of three blocks with an enumeration of one name: two have the same members, one has others."""
     folder = tmp_path_factory.mktemp("modes")
     for name, (first, second, start, shift) in NAMES.items():
         text = BLOCK.format(name=name, first=first, second=second, start=start, shift=shift)

@@ -35,7 +35,7 @@ FAULTS = (
 
 @pytest.fixture
 def path(tiny_folder: Path, tmp_path: Path) -> Path:
-    """A ramp, and a gain that follows it."""
+    """Return the system of a ramp, and a gain that follows it."""
     text = document(system(RAMP, GAIN, connections=connection("ramp.y", "gain.u")), stop=STOP, step=STEP)
     return pack(tmp_path / "s.ssp", tiny_folder / "native", text)
 
