@@ -61,9 +61,9 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
 
     ``as_fmu`` makes one FMU of a system, for all platforms for which a compiler is installed. ``slots`` maps a
     component to FMUs (names or paths, with commas between), of which the FMU's parameter SLOT.use chooses one;
-    ``expose`` are signals that become local variables, ``faults`` connectors for whose faults it has inputs. ``use``,
-    ``parameters``, ``set``, ``step``, ``stop_time``, ``algorithm`` and ``variant`` are those of `simulate`. Raises
-    InputError, with a line for each thing that is wrong with a block.
+    ``expose`` are signals that become local variables, ``faults`` connectors and tunable parameters for whose faults
+    it has inputs. ``use``, ``parameters``, ``set``, ``step``, ``stop_time``, ``algorithm`` and ``variant`` are those of
+    `simulate`. Raises InputError, with a line for each thing that is wrong with a block.
     """
     text, flavour = os.fspath(name), options["flavour"]
     target = None if options["output"] is None else Path(options["output"])

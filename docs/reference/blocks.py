@@ -9,6 +9,7 @@ from perilune.fmus_src.block import Block, Output, Parameter
 from perilune.fmus_src.catalogue import catalogue
 
 from .markdown import prose, table
+from .unread import explain_unread
 from .usage import Usage, usages
 from .variables import declared, inputs, outputs, parameters, states
 
@@ -21,7 +22,7 @@ def block_page(block: type[Block]) -> str:
         table(["", ""], _facts(block)),
         _section("Inputs", inputs(block)),
         _section("Outputs", outputs(block)),
-        _section("Parameters", parameters(block)),
+        _section("Parameters", "\n\n".join(filter(None, (parameters(block), explain_unread(block))))),
         _section("States", states(block)),
         _section("In its place", _place(block)),
         _section("What it shares", _shared(block)),

@@ -21,8 +21,8 @@ from ....fmus_src.units import BASE_UNITS, UnitDefinition
 from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive
 from .choices import Preparation, candidate_name, check_slots, find_default
+from .component_source import file_name, write_kind
 from .dependence import find_dependencies
-from .kind_in_c import file_name, write_kind
 from .model import SystemModel
 from .page import PAGE, README, system_page, system_readme
 from .parameter_sets import OtherSets, other_parameter_sets
@@ -124,7 +124,6 @@ def _system_units(model: SystemModel) -> dict[str, UnitDefinition]:
 def _declared(variable: FmuVariable) -> SystemVariable:
     start = variable.start
     assert start is None or isinstance(start, float | int)
-    items = {item: number for number, item in enumerate(variable.items, variable.first_item)}
     return SystemVariable(
         variable.name,
         variable.causality,
@@ -134,8 +133,7 @@ def _declared(variable: FmuVariable) -> SystemVariable:
         variable.unit,
         variable.minimum,
         variable.maximum,
-        items,
-        variable.items_name,
+        variable.enumeration,
         variable.tunable,
     )
 

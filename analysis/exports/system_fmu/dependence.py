@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ...runtime.ssp.names import split_name
 from ...runtime.system.prepared import PreparedSystem
 from .choices import system_connectors
 
@@ -31,6 +32,17 @@ def fault_inputs(connector: str) -> list[str]:
     return [f"fault.{connector}.kind", f"fault.{connector}.value"]
 
 
+def _followed(prepared: PreparedSystem, start: str) -> list[str]:
+    """Return what carries a value at ``start`` on: of a parameter the outputs of a component that steps behind it."""
+    component, variable = split_name(start, prepared.network.fmus)
+    known = prepared.network.fmus[component].variables if component else {}
+    if variable not in known or known[variable].causality != "parameter":
+        return [start]
+    if prepared.algorithm == "jacobi" or component not in prepared.schedule.followers:
+        return []
+    return [f"{component}.{name}" for name, each in known.items() if each.causality == "output"]
+
+
 def _reached(prepared: PreparedSystem, start: str) -> list[str]:
     """The system's outputs that a value at ``start`` reaches in the same communication point."""
     network = prepared.network
@@ -39,7 +51,8 @@ def _reached(prepared: PreparedSystem, start: str) -> list[str]:
     for link in network.links():
         if not link.is_parameter:
             readers.setdefault(link.source.name, []).append(link.target.name)
-    seen, queue = {start}, [start]
+    queue = _followed(prepared, start)
+    seen = set(queue)
     while queue:
         name = queue.pop()
         node = network.nodes.get(name)

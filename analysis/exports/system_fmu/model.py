@@ -102,8 +102,8 @@ class ChoiceProgram:
 
 
 class SystemModel:
-    """``exposed`` are the signals that the FMU gives as local variables, ``faulty`` the connectors whose faults are its
-    inputs. Raises InputError for unknown names, and for C of another build."""
+    """``exposed`` are the signals that the FMU gives as local variables, ``faulty`` the connectors and tunable
+    parameters whose faults are its inputs. Raises InputError for unknown names, and for C of another build."""
 
     def __init__(self, choices: Sequence[Choice], exposed: Sequence[str], faulty: Sequence[str]) -> None:
         self.choices = choices
@@ -156,7 +156,10 @@ class SystemModel:
     def _check_alike(self, name: str) -> None:
         """Refuse a signal that is another quantity with another candidate: one variable stands for all."""
         layouts = [program.layout for program in self.programs if name in program.layout.slots]
-        kinds = {f"{layout.types[name]} in {layout.units[name] or '1'}": None for layout in layouts}
+        kinds = {
+            f"{layout.types[name].replace('Enumeration', 'Integer')} in {layout.units[name] or '1'}": None
+            for layout in layouts
+        }
         if len(kinds) > 1:
             problem = f"{', '.join(kinds)}, as the candidates have it: one variable cannot stand for both"
             raise InputError(
@@ -240,10 +243,10 @@ def _is_known(network: Network, name: str) -> bool:
 
 
 def _find_faulty(choices: Sequence[Choice], names: Sequence[str]) -> list[str]:
-    """The connectors whose faults are inputs: of all candidates. Raises InputError."""
+    """The connectors and tunable parameters whose faults are inputs: of all candidates. Raises InputError."""
     for name in names:
         for choice in choices:
-            changeable(choice.prepared.network, name, ("`faults`", name))
+            changeable(choice.prepared.network, name, ("`faults`", name), tunable=True)
     if len(set(names)) < len(names):
         raise InputError("`faults`", ", ".join(names), "names a connector twice", "give it once")
     return list(names)

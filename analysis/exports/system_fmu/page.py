@@ -83,8 +83,8 @@ def _conditions(model: SystemModel, dependencies: Mapping[str, Sequence[str]]) -
 
 def _row(variable: FmuVariable) -> list[str]:
     start = "" if variable.start is None else str(variable.start)
-    if variable.items and variable.start is not None:
-        start = variable.items[int(variable.start) - variable.first_item]
+    if variable.enumeration is not None and variable.start is not None:
+        start = next((member.name for member in variable.enumeration.members if member.number == variable.start), start)
     return [variable.name, variable.type, start, variable.unit or "", variable.description]
 
 

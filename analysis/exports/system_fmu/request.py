@@ -12,7 +12,8 @@ from ...runtime.system.options import SystemOptions
 @dataclass(frozen=True)
 class OneFmu:
     """How a system becomes one FMU: ``slots`` have candidates by component, ``exposed`` are signals that it shows,
-    ``faulty`` connectors with inputs for faults; ``options`` are those of the system. Raises InputError."""
+    ``faulty`` connectors and tunable parameters with inputs for faults; ``options`` are those of the system. Raises
+    InputError."""
 
     slots: Mapping[str, Sequence[str]]
     exposed: Sequence[str]

@@ -16,6 +16,7 @@ from ....fmus_src.export.write.layout import NO_BREAK
 from ....fmus_src.export.write.names import literal
 from ...runtime.flight.compiled import codes
 from ...runtime.flight.orders.fmi2 import FUNCTION
+from ...runtime.fmi.variable import Variable
 from ...runtime.fused.statements import Instruction, table_entries
 from .model import Candidate, ChoiceProgram
 
@@ -78,11 +79,13 @@ class Statements:
         """A signal to the variable of a component at its slot."""
         member = candidate.source.members[int(self.choice.program.reference[slot])]
         path, signal = f"self->{candidate.identifier}.block.{member.path}", self.signal(slot)
+        variable = candidate.fmu.variables[self.choice.names[slot].removeprefix(f"{candidate.component}.")]
+        limits = _check_bounds(variable, signal, self.choice.names[slot]) if variable.is_tunable else []
         if member.kind == "KIND_REAL":
-            return [f"{path} = {signal};"]
+            return [*limits, f"{path} = {signal};"]
         whole = f"(int32_t){signal}"
         assign = f"{path} = {whole} != 0;" if member.kind == "KIND_BOOLEAN" else f"{path} = {whole};"
-        return [f"CHECK_WHOLE({signal}, {quoted(self.choice.names[slot])})", assign]
+        return [f"CHECK_WHOLE({signal}, {quoted(self.choice.names[slot])})", *limits, assign]
 
     def _of(self, numbers: Iterable[int]) -> list[str]:
         rows = self.choice.program.instructions
@@ -115,6 +118,19 @@ class Statements:
         candidate = self.choice.candidates[component]
         call = f"{candidate.source.prefix}initialize(&self->{candidate.identifier}, fault, self->start_time);"
         return [call, check(candidate.component)]
+
+
+def _check_bounds(variable: Variable, signal: str, name: str) -> list[str]:
+    """Refuse the value of a tunable parameter with its fault where the FMU would refuse it."""
+    lines = [f"CHECK_FINITE({signal}, {quoted(name)})"] if variable.type == "Real" else []
+    for sign, bound, side in (
+        ("<", variable.minimum, "below its minimum"),
+        (">", variable.maximum, "above its maximum"),
+    ):
+        if bound is not None:
+            problem = quoted(f"TuningError: its value is {side} {bound}")
+            lines.append(f"if ({signal} {sign} {literal(float(bound))}) FAIL({quoted(name)}, {problem})")
+    return lines
 
 
 def check(subject: str) -> str:

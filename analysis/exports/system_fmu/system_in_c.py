@@ -9,9 +9,10 @@ from ....fmus_src.export.write.layout import Lines
 from ....fmus_src.export.write.names import comment, literal
 from ....fmus_src.runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, STEP_LIMIT, TIME_TOLERANCE
 from ...runtime.flight.instructions import write_renewal
+from ...runtime.flight.orders.slots import BASE
 from ...runtime.ssp.kinds import PARAMETERS
 from .choices import parameter_chain
-from .kind_in_c import file_name
+from .component_source import file_name
 from .model import ChoiceProgram, SystemModel
 from .statements import Statements, quoted
 from .tables_in_c import write_tables
@@ -104,7 +105,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
         initialise.close("}")
     for line in [
         *_check_faults(model),
-        *_take_inputs(model, variables),
+        *_take_inputs(program, model, variables),
         *statements.initialisation(),
         *_end_step(statements, model, variables),
     ]:
@@ -115,7 +116,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     step.open(f"static void step{program.choice.name}(Block *self, Fault *fault)\n{{")
     step.add(SIGNALS if model.signals else "(void)self;")
     step.add("const double time = self->start_time + (double)self->point * SYSTEM_STEP;")
-    for line in [*_check_faults(model), *_take_inputs(model, variables)]:
+    for line in [*_check_faults(model), *_take_inputs(program, model, variables)]:
         step.add(line)
     phases = len(program.program.phases) - 1
     if phases > 1:
@@ -138,15 +139,18 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     return ["\n".join([*initialise.text, ""]), "\n".join([*step.text, ""])]
 
 
-def _take_inputs(model: SystemModel, variables: Variables) -> list[str]:
+def _take_inputs(program: ChoiceProgram, model: SystemModel, variables: Variables) -> list[str]:
+    """Take what importers set: inputs of the system, parameters that have faults."""
     paths = {each.name: each.path for each in variables.declared}
-    return [
-        f"s[{model.signals[name]}] = (double)self->{paths[name]};" for name in model.inputs if name in model.signals
-    ]
+    sources = {model.signals[name]: paths[name] for name in model.inputs if name in model.signals}
+    for tuned in variables.tuned:
+        if tuned.candidate in program.candidates:
+            sources[model.signals[f"{tuned.name}{BASE}"]] = tuned.path
+    return [f"s[{signal}] = (double)self->{path};" for signal, path in sources.items()]
 
 
 def _renewal(statements: Statements, phase: int) -> list[str]:
-    """The system's inputs to the components that step with the inputs of the step's start."""
+    """The system's inputs, and parameters with faults, to the components that step with the inputs of the start."""
     program = statements.choice
     prepared = program.prepared
     names = list(prepared.network.fmus)
@@ -190,7 +194,6 @@ def _end_step(statements: Statements, model: SystemModel, variables: Variables) 
 
 def _entry_points(model: SystemModel, variables: Variables) -> str:
     """What the wrapper calls, for the choice that the slots' parameters make."""
-    slots = [each for each in variables.declared if each.items and each.causality == "parameter"]
     lines = Lines()
     lines.open("static void model_set_start_time(Block *self, double start_time)\n{")
     lines.add("self->start_time = start_time;")
@@ -198,7 +201,7 @@ def _entry_points(model: SystemModel, variables: Variables) -> str:
     lines.text.append("")
     for function in ("initialize", "step"):
         lines.open(f"static void model_{function}(Block *self, Fault *fault)\n{{")
-        _dispatch(lines, function, model.programs, slots)
+        _dispatch(lines, function, model.programs, list(variables.slots.values()))
         lines.close("}")
         lines.text.append("")
     return "\n".join(lines.text)
@@ -206,7 +209,7 @@ def _entry_points(model: SystemModel, variables: Variables) -> str:
 
 def _dispatch(lines: Lines, function: str, programs: Sequence[ChoiceProgram], slots: Sequence[FmuVariable]) -> None:
     """Call the function of the choice: the last slot's candidates change fastest among the programs."""
-    numbers_of = itertools.product(*(range(1, len(slot.items) + 1) for slot in slots))
+    numbers_of = itertools.product(*(slot.enumeration.numbers.values() for slot in slots if slot.enumeration))
     for program, chosen in zip(programs, numbers_of, strict=True):
         tests = " && ".join(f"self->{slot.path} == {number}" for slot, number in zip(slots, chosen, strict=True))
         call = f"{function}{program.choice.name}(self, fault);"

@@ -43,13 +43,18 @@ def _range(kind: str, minimum: str | None, maximum: str | None) -> tuple[float, 
 def _hidden(model: SystemModel, variables: Variables) -> list[Row]:
     """Return the rows of what the state has and modelDescription.xml does not declare."""
     declared = {each.path for each in variables.declared}
-    hidden = []
+    faulty = {each.candidate.path_of(each.variable.name) for each in variables.tuned}  # steps compare these
+    hidden = [
+        Row(each.name, each.path, each.kind, range=_range(each.kind, each.variable.minimum, each.variable.maximum))
+        for each in variables.tuned
+        if each.path not in declared
+    ]
     for candidate in model.candidates:
         for variable in candidate.fmu.variables.values():
             if candidate.path_of(variable.name) not in declared:
                 name, path = f"{candidate.label}.{variable.name}", candidate.path_of(variable.name)
                 kind = candidate.member(variable.name).kind
-                is_parameter = variable.causality == "parameter"
+                is_parameter = variable.causality == "parameter" and path not in faulty
                 within = _range(kind, variable.minimum, variable.maximum) if is_parameter else None
                 hidden.append(Row(name, path, kind, range=within))
         hidden.append(Row(f"{candidate.label}, its samples", f"{candidate.identifier}.tick", "KIND_INTEGER"))

@@ -5,25 +5,27 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from ....fmus_src.export.description.system import EnumerationType, numbered_type
 from ...runtime.fmi.variable import Variable
 from ...runtime.ssp.given_values import ParameterValue, parse_value
 from ...runtime.ssp.kinds import PARAMETERS
 from ...runtime.system.network import Network, Node
 from .choices import check_type, parameter_chain
 from .dependence import fault_inputs
+from .enumerations import Enumerations
 from .model import Candidate, ChoiceProgram, SystemModel
 
 KINDS = {"Real": "KIND_REAL", "Integer": "KIND_INTEGER", "Enumeration": "KIND_INTEGER", "Boolean": "KIND_BOOLEAN"}
 C_TYPES = {"KIND_REAL": "double", "KIND_INTEGER": "int64_t", "KIND_BOOLEAN": "bool"}
-FAULT_KINDS = ("none", "override", "bias", "freeze")
+FAULT_KINDS = numbered_type("FaultKind", ("none", "override", "bias", "freeze"), 0)
 
 
 @dataclass(frozen=True)
 class FmuVariable:
     """A variable as modelDescription.xml declares it; it lies at ``path`` in the system's struct.
 
-    ``causality`` is input, output, parameter or local, ``items`` are those of the Enumeration
-    ``items_name``, counted from ``first_item``. An input of a component that nothing is connected to is a parameter.
+    ``causality`` is input, output, parameter or local, ``enumeration`` the type of an Enumeration. An input of a
+    component that nothing is connected to is a parameter.
     """
 
     name: str
@@ -35,9 +37,7 @@ class FmuVariable:
     unit: str | None = None
     minimum: str | None = None
     maximum: str | None = None
-    items: Sequence[str] = ()
-    first_item: int = 1
-    items_name: str = ""
+    enumeration: EnumerationType | None = None
     tunable: bool = False
 
     @property
@@ -69,6 +69,25 @@ class Passed:
     tunable: bool
 
 
+@dataclass(frozen=True)
+class Tuned:
+    """A tunable parameter of a component that has faults: ``path`` is where its value without them lies."""
+
+    candidate: Candidate
+    variable: Variable
+    path: str
+
+    @property
+    def name(self) -> str:
+        """Its name among the signals."""
+        return f"{self.candidate.component}.{self.variable.name}"
+
+    @property
+    def kind(self) -> str:
+        """KIND_REAL, KIND_INTEGER or KIND_BOOLEAN."""
+        return self.candidate.member(self.variable.name).kind
+
+
 class Variables:
     """``declared`` are the variables of the FMU, ``passed`` the parameters inside that follow from those of systems,
     ``parameter_paths`` where these lie, by connector; ``starts`` the values that differ from the blocks' own.
@@ -77,17 +96,19 @@ class Variables:
     def __init__(self, model: SystemModel, defaults: Mapping[str, int], slots: Mapping[str, Sequence[str]]) -> None:
         self.model = model
         self.passed: list[Passed] = []
+        self.tuned: list[Tuned] = []
         self.parameter_paths: dict[str, str] = {}
         self.starts: dict[str, ParameterValue] = {}
         self.effective: dict[str, ParameterValue] = {}
+        self._enumerations = Enumerations([choice.prepared.network for choice in model.choices])
         self._nodes = {name: node for choice in model.choices for name, node in choice.prepared.network.nodes.items()}
         self._values = {name: value for each in model.choices for name, value in each.prepared.settings.nodes.items()}
         system = [*self._inputs(), *self._outputs(), *self._system_parameters()]
-        chosen = [self._slot(name, slots[name], default) for name, default in defaults.items()]
+        self.slots = {name: self._slot(name, slots[name], default) for name, default in defaults.items()}
         inside = [each for program in _by_candidate(model) for each in self._component_parameters(*program)]
         exposed = [self._exposed(name) for name in model.exposed]
         system = [replace(each, tunable=self._are_readers_tunable(each)) for each in system]
-        self.declared = _with_unique_types([*system, *chosen, *inside, *exposed, *self._faults()])
+        self.declared = [*system, *self.slots.values(), *inside, *exposed, *self._faults()]
         self.effective |= {each.name: each.start for each in [*system, *inside] if each.start is not None}
 
     def _inputs(self) -> Iterator[FmuVariable]:
@@ -134,10 +155,11 @@ class Variables:
     def _of_node(
         self, node: Node, causality: str, prefix: str, description: str, start: ParameterValue | None = None
     ) -> FmuVariable:
-        type_name = _type_of(node)
-        unit = node.unit.name if node.unit and type_name == "Real" else None
+        unit = node.unit.name if node.unit and _type_of(node) == "Real" else None
         path = self.model.members.new(f"{prefix}_{node.name}")
-        return FmuVariable(node.name, causality, type_name, path, description, start, unit)
+        enumeration = self._enumerations.of(node.name)
+        type_name = _declared_type(_type_of(node), enumeration)
+        return FmuVariable(node.name, causality, type_name, path, description, start, unit, enumeration=enumeration)
 
     def _slot(self, name: str, candidates: Sequence[str], default: int) -> FmuVariable:
         path = self.model.members.new(f"use_{name}")
@@ -151,14 +173,16 @@ class Variables:
             default,
             minimum="1",
             maximum=str(len(candidates)),
-            items=tuple(candidates),
-            items_name=f"{name}.use.Candidate",
+            enumeration=numbered_type(f"{name}.use.Candidate", candidates, 1),
         )
 
     def _component_parameters(self, program: ChoiceProgram, candidate: Candidate) -> Iterator[FmuVariable]:
         network, settings = program.prepared.network, program.prepared.settings
         for variable in candidate.fmu.variables.values():
             full, path = f"{candidate.component}.{variable.name}", candidate.path_of(variable.name)
+            if variable.causality == "parameter" and full in self.model.faulty:
+                path = self.model.members.new(f"set_{candidate.label}.{variable.name}")
+                self.tuned.append(Tuned(candidate, variable, path))
             given = settings.variables.get((candidate.component, variable.name))
             if given is not None:
                 self.starts[path] = given
@@ -173,24 +197,27 @@ class Variables:
                     continue
             elif variable.causality != "input" or full in network.driver:
                 continue
+            enumeration = self._enumerations.in_fmu(candidate.fmu).get(variable.name)
             yield FmuVariable(
                 f"{candidate.label}.{variable.name}",
                 "parameter",
-                _in_a_system(variable.type),
+                _declared_type(variable.type, enumeration),
                 path,
                 variable.description or "",
                 given if given is not None else _start(variable, candidate),
                 variable.unit if variable.type == "Real" else None,
                 variable.minimum,
                 variable.maximum,
+                enumeration,
                 tunable=_is_tunable(variable),
             )
 
     def _exposed(self, name: str) -> FmuVariable:
-        type_name = _in_a_system(self.model.types[name])
+        enumeration = self._enumerations.of(name)
+        type_name = _declared_type(self.model.types[name], enumeration)
         unit = self.model.units[name] if type_name == "Real" else None
         path = self.model.members.new(f"local_{name}")
-        return FmuVariable(name, "local", type_name, path, self._describe(name), unit=unit)
+        return FmuVariable(name, "local", type_name, path, self._describe(name), unit=unit, enumeration=enumeration)
 
     def _describe(self, name: str) -> str:
         for candidate in self.model.candidates:
@@ -213,24 +240,11 @@ class Variables:
                 f"{path}.kind",
                 about,
                 0,
-                items=FAULT_KINDS,
-                first_item=0,
-                items_name="FaultKind",
+                enumeration=FAULT_KINDS,
             )
             is_real = self.model.types[name] == "Real"
             about = f"of an override or a bias of {name}"
             yield FmuVariable(strength, "input", "Real", f"{path}.value", about, 0.0, unit if is_real else None)
-
-
-def _with_unique_types(declared: Sequence[FmuVariable]) -> list[FmuVariable]:
-    """The variables, with names of enumerations that none of them has: FMI 2.0.4, 2.2.3."""
-    names = {each.name for each in declared}
-    unique = {}
-    for name in {each.items_name for each in declared if each.items}:
-        unique[name] = name
-        while unique[name] in names:
-            unique[name] += "_"
-    return [replace(each, items_name=unique[each.items_name]) if each.items else each for each in declared]
 
 
 def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, Candidate]]:
@@ -253,7 +267,7 @@ def _type_of(node: Node) -> str:
 
 
 def _in_a_system(type_name: str) -> str:
-    """The type of what a system's FMU hands on: components may have two enumerations of one name, so Integers."""
+    """The type of the numbers that a system's FMU hands on."""
     return "Integer" if type_name == "Enumeration" else type_name
 
 
@@ -263,3 +277,8 @@ def _typed(node: Node, value: float | str) -> ParameterValue:
 
 def _start(variable: Variable, candidate: Candidate) -> ParameterValue:
     return parse_value(variable.start_text, _in_a_system(variable.type), candidate.fmu.label, variable.name)
+
+
+def _declared_type(type_name: str, enumeration: EnumerationType | None) -> str:
+    """Return the type that modelDescription.xml states: an Integer where candidates differ in their members."""
+    return "Enumeration" if enumeration is not None else _in_a_system(type_name)

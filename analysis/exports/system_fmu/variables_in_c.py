@@ -35,6 +35,10 @@ def write_struct(model: SystemModel, variables: Variables) -> str:
             unit = f", {each.unit}" if each.unit and each.unit != "1" else ""
             about = comment(f"{each.causality}{unit}: {each.name}, {each.description}")
             lines.member(f"{C_TYPES[each.kind]} {each.path};", about)
+    declared = {each.path for each in variables.declared}
+    for tuned in variables.tuned:
+        if tuned.path not in declared:
+            lines.member(f"{C_TYPES[tuned.kind]} {tuned.path};", comment(f"{tuned.name} without its fault"))
     for candidate in model.candidates:
         lines.member(f"{candidate.source.type_name} {candidate.identifier};", comment(f"component {candidate.label}"))
     if model.signals:
@@ -83,18 +87,19 @@ def write_parameters(model: SystemModel, variables: Variables) -> str:
 
 def write_use(model: SystemModel, variables: Variables) -> str:
     """Return the function that says of which candidates in slots the variables are simulated."""
-    slots = {each.name: each for each in variables.declared if each.items and each.causality == "parameter"}
     lines = Lines()
     lines.comment("True where the variable there is of what is simulated, and not of a candidate that is not chosen.")
     lines.open("static bool is_used(const Block *self, uint32_t offset)\n{")
     for candidate in model.candidates:
-        slot = slots.get(f"{candidate.component}.use")
-        if slot is None:
+        slot = variables.slots.get(candidate.component)
+        if slot is None or slot.enumeration is None:
             continue
-        number = slot.items.index(candidate.label.removeprefix(f"{candidate.component}.")) + slot.first_item
+        number = slot.enumeration.numbers[candidate.label.removeprefix(f"{candidate.component}.")]
         begin = f"offsetof(Block, {candidate.identifier})"
         inside = f"offset >= {begin} && offset < {begin} + sizeof self->{candidate.identifier}"
-        lines.add(f"if ({inside}) return self->{slot.path} == {number};")
+        offsets = [f"offset == offsetof(Block, {each.path})" for each in variables.tuned if each.candidate is candidate]
+        where = " || ".join([f"({inside})", *offsets]) if offsets else inside
+        lines.add(f"if ({where}) return self->{slot.path} == {number};")
     lines.add("(void)self, (void)offset;")
     lines.add("return true;")
     lines.close("}")

@@ -192,15 +192,16 @@ def write_renewal(
     periods: Mapping[str, int],
     part: int,
 ) -> dict[int, np.ndarray]:
-    """What hands a system's inputs that have changed between two steps over again, by component.
+    """What hands a system's inputs, and parameters with faults, that have changed between two steps over again.
 
-    These are the components that step in the ``part`` that follows with the inputs of its start. Arguments as of
+    It is by component, of those that step in the ``part`` that follows with the inputs of its start. Arguments as of
     `write_instructions`.
     """
     renewed = {}
     for component in _ahead(names, schedule, algorithm):
         instructions.begin()
         if part % periods.get(names[component], 1) == 0:
+            instructions.orders[component].take_bases()
             instructions.connect(component, {-1})
         if instructions.rows:
             renewed[component] = instructions.array()

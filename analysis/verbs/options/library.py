@@ -268,9 +268,9 @@ class ExportOptions(AssemblyOptions, total=False):
     faults: Annotated[
         Sequence[str],
         Option(
-            "with --as-fmu: inputs for an override, a bias or a freeze of a connector",
+            "with --as-fmu: inputs for an override, a bias or a freeze of a connector or a tunable parameter",
             (),
-            metavar="COMPONENT.CONNECTOR",
+            metavar="COMPONENT.NAME",
         ),
     ]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from lxml import etree
 
@@ -16,9 +16,36 @@ STRUCTURED = re.compile(rf"{NAME}(?:\.{NAME})*", re.ASCII)  # FMI 2.0.4, 2.2.9, 
 
 
 @dataclass(frozen=True)
+class EnumerationMember:
+    """A member of an enumeration; ``meaning`` is empty where its component does not describe it."""
+
+    name: str
+    number: int
+    meaning: str = ""
+
+
+@dataclass(frozen=True)
+class EnumerationType:
+    """The type of an Enumeration: two are one where name, description and all members are equal."""
+
+    name: str
+    members: tuple[EnumerationMember, ...]
+    description: str = ""
+
+    @property
+    def numbers(self) -> dict[str, int]:
+        """The numbers of the members by name."""
+        return {member.name: member.number for member in self.members}
+
+
+def numbered_type(name: str, labels: Sequence[str], first: int) -> EnumerationType:
+    """Return a type of members without a meaning, numbered in order from ``first``."""
+    return EnumerationType(name, tuple(EnumerationMember(each, number) for number, each in enumerate(labels, first)))
+
+
+@dataclass(frozen=True)
 class SystemVariable:
-    """A variable of FMI 2.0: ``start`` is None of what is calculated; ``items`` are those of the
-    Enumeration ``items_name``."""
+    """A variable of FMI 2.0: ``start`` is None of what is calculated, ``enumeration`` of all but Enumerations."""
 
     name: str
     causality: str
@@ -28,8 +55,7 @@ class SystemVariable:
     unit: str | None = None
     minimum: str | None = None
     maximum: str | None = None
-    items: Mapping[str, int] = field(default_factory=dict)
-    items_name: str = ""
+    enumeration: EnumerationType | None = None
     tunable: bool = False  # of a parameter
 
 
@@ -66,26 +92,43 @@ def system_description(
     for source in sources:
         etree.SubElement(files, "File", name=source)
     define_units(root, (each.unit for each in variables if each.unit), units)
-    _add_types(root, variables)
+    types = _name_types(variables)
+    _add_types(root, types)
     add_log_categories(root)
     etree.SubElement(root, "DefaultExperiment", {key: repr(number) for key, number in experiment.items()})
     listed = etree.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(variables):
-        _add_variable(listed, variable, reference)
+        _add_variable(listed, variable, reference, types)
     _add_structure(root, variables, dependencies)
     return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)
 
 
-def _add_types(root: etree._Element, variables: Sequence[SystemVariable]) -> None:
-    enumerations = {each.items_name: each.items for each in variables if each.items}
-    definitions = etree.SubElement(root, "TypeDefinitions") if enumerations else None
-    for name, items in enumerations.items():
-        kind = etree.SubElement(etree.SubElement(definitions, "SimpleType", name=name), "Enumeration")
-        for item, number in items.items():
-            etree.SubElement(kind, "Item", name=item, value=str(number))
+def _name_types(variables: Sequence[SystemVariable]) -> dict[EnumerationType, str]:
+    """Return the types of the variables, each with a name that no other type and no variable has: FMI 2.0.4, 2.2.3."""
+    used = {each.name for each in variables}
+    names: dict[EnumerationType, str] = {}
+    for enumeration in dict.fromkeys(each.enumeration for each in variables if each.enumeration is not None):
+        name, number = enumeration.name, 2
+        while name in used:
+            name, number = f"{enumeration.name}_{number}", number + 1
+        used.add(name)
+        names[enumeration] = name
+    return names
 
 
-def _add_variable(parent: etree._Element, variable: SystemVariable, reference: int) -> None:
+def _add_types(root: etree._Element, types: Mapping[EnumerationType, str]) -> None:
+    definitions = etree.SubElement(root, "TypeDefinitions") if types else None
+    for enumeration, name in types.items():
+        about = {"description": enumeration.description} if enumeration.description else {}
+        kind = etree.SubElement(etree.SubElement(definitions, "SimpleType", {"name": name} | about), "Enumeration")
+        for member in enumeration.members:
+            meaning = {"description": member.meaning} if member.meaning else {}
+            etree.SubElement(kind, "Item", {"name": member.name, "value": str(member.number)} | meaning)
+
+
+def _add_variable(
+    parent: etree._Element, variable: SystemVariable, reference: int, types: Mapping[EnumerationType, str]
+) -> None:
     attributes = {"name": variable.name, "valueReference": str(reference)}
     attributes |= {"description": one_line(variable.description), "causality": variable.causality}
     attributes["variability"] = "continuous" if variable.type == "Real" else "discrete"
@@ -95,7 +138,7 @@ def _add_variable(parent: etree._Element, variable: SystemVariable, reference: i
     elif variable.causality != "input":
         attributes["initial"] = "calculated"
     element = etree.SubElement(parent, "ScalarVariable", attributes)
-    details = {"declaredType": variable.items_name} if variable.items else {}
+    details = {} if variable.enumeration is None else {"declaredType": types[variable.enumeration]}
     details |= {} if variable.start is None else {"start": literal(variable.start)}
     details |= {"unit": variable.unit} if variable.unit else {}
     details |= {} if variable.minimum is None else {"min": variable.minimum}

@@ -12,10 +12,12 @@ import pytest
 from fmpy import read_model_description
 
 from docs.reference.blocks import block_page, fitting, slots_of
+from docs.reference.unread import find_unread
 from docs.reference.usage import usages
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.paths import ROOT, shipped_fmu
+from perilune.fmus_src.runtime import Component
 
 # Blocks that count, compare or pass on, without a model of anything that could be left out.
 WITHOUT_MODEL = {
@@ -75,6 +77,43 @@ def test_the_page_has_every_variable(name):
             assert ("| tunable |" in rows[whole]) == (variable.variability == "tunable")
             assert ("| fixed: " in rows[whole]) == (variable.variability == "fixed")
     assert {name.partition(".")[0] for name in seen} == set(catalogue()[name].variables)
+
+
+def source_text(block: type[Block]) -> str:
+    """Return the text of a block's class and of all that it is derived from."""
+    return "\n".join(inspect.getsource(base) for base in block.__mro__ if issubclass(base, Block) and base is not Block)
+
+
+@pytest.mark.parametrize("name", catalogue())
+def test_what_a_block_never_reads_another_one_does(name, monkeypatch):
+    """The page says which; the block runs its check without looking at it, and the readers' text has it."""
+    block = catalogue()[name]
+    unread = find_unread(block)
+    page = block_page(block)
+    assert ("It never reads" in page) == bool(unread)
+    for each in unread:
+        assert name not in each.readers
+        assert each.declared_in is not block
+        assert each.readers, f"no block reads {each.name}: delete it"
+        for reader in each.readers:
+            assert f"self.{each.name}" in source_text(catalogue()[reader])
+            assert f"[{reader}]({reader}.md)" in page.partition("It never reads")[2]
+    if not unread or block.python_only:
+        return
+    component = Component(block)
+    component.start()
+    accessed = set()
+
+    def note(self, attribute):
+        accessed.add(attribute)
+        return object.__getattribute__(self, attribute)
+
+    monkeypatch.setattr(type(component.block), "__getattribute__", note, raising=False)
+    component.block.initialize()
+    for step in range(3):
+        component.block.step(step * block.default_step, block.default_step)
+    assert accessed
+    assert not accessed & {each.name for each in unread}
 
 
 def test_systems_that_use_a_block_name_it():

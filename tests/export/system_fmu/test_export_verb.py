@@ -91,7 +91,10 @@ WRONG = {
     ("--as-fmu", "--output", "x.ssp"): "--output: x.ssp",
     ("--as-fmu", "--expose", "plant.altitud"): "--expose: plant.altitud: no such variable",
     ("--as-fmu", "--expose", "plant.gravity"): "--expose: plant.gravity: a parameter, which is one of the FMU anyway",
-    ("--as-fmu", "--faults", "plant.gravity"): "--faults: plant.gravity: no such connector of a component",
+    ("--as-fmu", "--faults", "plant.gravit"): "--faults: plant.gravit: no such connector of a component",
+    ("--as-fmu", "--faults", "plant.initial_mass"): (
+        "--faults: plant.initial_mass: a parameter that is fixed after initialisation; set it before the start, --set"
+    ),
     ("--as-fmu", "--slot", "pilot=analytic_guidance"): "--slot: pilot: no such component; use one of",
     ("--as-fmu", "--slot", "guidance=analytic_guidance,"): "--slot: guidance=analytic_guidance,: an empty name",
     (

@@ -24,6 +24,7 @@ from tests.support.builders import component, connection, document, pack, system
 from tests.support.graphs.small_blocks import graphs
 from tests.support.lengths import either
 from tests.support.native.system_fmus import Slave, build_one, fly_one
+from tests.support.native.toolbox import find_semantic_errors
 
 STEP = 0.25  # s, of the small systems
 
@@ -39,8 +40,9 @@ def test_random_graphs(tiny_folder, tmp_path_factory, graph):
     prepared = prepare_system(path, SystemOptions(flavour="native", set=values, algorithm=algorithm))
     with Simulation(prepared, faults=faults) as simulation:
         native = simulation.fly()
-        exposed = [name for name in native.signals if "." in name]
         names = [fault.name for fault in faults]
+        tuned = [name for name in names if name.rpartition(".")[2] in ("slope", "flag_at", "factor")]
+        exposed = [name for name in native.signals if "." in name and name not in tuned]
         fmu = build_one(folder / "one.fmu", path, exposed=exposed, faulty=names, set=values, algorithm=algorithm)
         assert validate_fmu(str(fmu)) == []
         kinds = {"override": 1, "bias": 2, "freeze": 3}
@@ -79,6 +81,7 @@ def test_whole_systems(tmp_path, name):
     exposed = [signal for signal in native.signals if "." in signal]
     fmu = build_one(tmp_path / "one.fmu", name, exposed=exposed)
     assert validate_fmu(str(fmu)) == []
+    assert find_semantic_errors(fmu) == []
     flown = fly_one(fmu)
     end = len(native.time)
     inputs = {each.name for each in fmpy.read_model_description(str(fmu)).modelVariables if each.causality == "input"}

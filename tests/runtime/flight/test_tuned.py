@@ -19,7 +19,7 @@ from perilune.analysis.common.errors import InputError
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from perilune.fmus_src.paths import CACHE
-from tests.support.builders import component, connection, document, fly, pack, system
+from tests.support.builders import component, connection, document, fly, inline, pack, system
 from tests.support.kernels.users_blocks import Gains
 from tests.support.lone_fmus import build_lone_fmu
 
@@ -138,6 +138,25 @@ def test_a_column_drives_a_parameter_of_a_component(tiny: Path, tmp_path: Path) 
     rises = [1.0, 1.0, 1.0, 7.0, 7.0, 7.0, 7.0, 7.0]
     assert flown["ramp.y"].tolist() == ramp(rises)
     assert flown.provenance["input"]["signals"] == ["ramp.slope"]
+
+
+def test_of_a_parameter_that_the_system_gives(tiny_folder: Path, tmp_path: Path) -> None:
+    """Closed form: u = 2, y = k u and (k + 1) u."""
+    text = document(
+        system(
+            component("gain", "gain", "parameter factor Real; input u Real m; output y Real m"),
+            connections=connection("k", "gain.factor") + connection("u", "gain.u"),
+            declared="parameter k Real; input u Real m",
+            bindings=inline("k=Real:4; u=Real:2 m"),
+        ),
+        stop=STOP,
+        step=STEP,
+    )
+    path = pack(tmp_path / "s.ssp", tiny_folder / "native", text)
+    flown = fly(path, [perilune.Fault("gain.factor", "bias", 1.0, 0.5, 1.25)])
+    assert flown.signals["gain.y"].tolist() == [8.0, 8.0, 10.0, 10.0, 10.0, 8.0, 8.0, 8.0, 8.0]
+    recorded = perilune.simulate(path, record=["gain.factor"])
+    assert recorded["gain.factor"].tolist() == [4.0] * 9
 
 
 REFUSED = {

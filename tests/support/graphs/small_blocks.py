@@ -1,4 +1,5 @@
-"""Random systems of the blocks of builders.py: connections of all types, faults, what is recorded, the algorithm."""
+"""Random systems of the blocks of builders.py: connections of all types, faults of connectors and tunable parameters,
+what is recorded, the algorithm."""
 
 from hypothesis import strategies as st
 
@@ -8,6 +9,7 @@ from tests.support.builders import component, connection, document, system
 # Blocks of tests/support/builders.py: connectors by type, and the inputs that an output follows at once.
 REAL_INPUTS = {"gain": ["u"], "delay": ["u"], "cross": ["a", "b"], "careful": ["u"]}
 REAL_OUTPUTS = {"ramp": ["y"], "gain": ["y"], "delay": ["y"], "cross": ["ya", "yb"], "careful": ["y"], "trouble": ["y"]}
+TUNABLE = {"ramp": ["slope", "flag_at"], "gain": ["factor"]}
 KINDS = ["ramp", "gain", "delay", "cross", "careful", "whole", "trouble"]
 FACTORS = st.sampled_from([1.0, -2.5, 1e-3])
 BENT = '<ssc:LinearTransformation factor="{}" offset="{}"/>'
@@ -19,6 +21,12 @@ NEGATED = (
     '<ssc:BooleanMappingTransformation><ssc:MapEntry source="true" target="false"/>'
     '<ssc:MapEntry source="false" target="true"/></ssc:BooleanMappingTransformation>'
 )
+
+
+def draw_fault(draw, name, kind, start):
+    """Draw a fault that its connector or parameter can have: of flag_at, an Integer, a whole number from 0 on."""
+    amount = draw(st.sampled_from([0.0, 2.0, 3.0]) if name.endswith(".flag_at") else FACTORS)
+    return Fault(name, kind, 0.0 if kind == "freeze" else amount, start, start + 0.7)
 
 
 @st.composite
@@ -45,9 +53,10 @@ def graphs(draw):
         reals += [f"{name}.{port}" for port in REAL_OUTPUTS.get(kind, ())]
         elements.append(component(name, kind, "; ".join(declared)))
     values = {f"{kind}{n}.kind": draw(st.integers(0, 3)) for n, kind in enumerate(kinds) if kind == "trouble"}
+    tunable = [f"{kind}{n}.{name}" for n, kind in enumerate(kinds) for name in TUNABLE.get(kind, ())]
     connectors += reals
     faults = [
-        Fault(draw(st.sampled_from(connectors)), kind, 0.0 if kind == "freeze" else draw(FACTORS), start, start + 0.7)
+        draw_fault(draw, draw(st.sampled_from(connectors) | st.sampled_from(tunable)), kind, start)
         for kind, start in draw(
             st.lists(
                 st.tuples(st.sampled_from(["override", "bias", "freeze"]), st.sampled_from([0.0, 0.25, 0.5])),

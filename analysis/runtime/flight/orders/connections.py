@@ -40,7 +40,7 @@ class Connections:
         groups: dict[str | None, dict[str, Link]] = {name: {} for name in (*network.fmus, None)}
         for name in self._slots:
             link = network.driver.get(name)
-            if link is not None and link.target.component is not None:
+            if link is not None and link.target.component is not None and not link.is_parameter:
                 self._chain(name, groups[link.target.component])
         for node in network.nodes.values():
             if node.name in self._slots and node.component is None:

@@ -1,0 +1,70 @@
+"""The types of a system's Enumerations, as its components and its description define them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ....fmus_src.export.description.system import EnumerationMember, EnumerationType
+from ...common.zips import open_zip, read_entry
+from ...runtime.ssp.documents import parse_xml
+from ...runtime.ssp.fmu_description import DESCRIPTION
+from ...runtime.ssp.names import split_name
+from ...runtime.system.fmu import Fmu
+from ...runtime.system.network import Network
+
+
+class Enumerations:
+    """Types by name of a signal or connector; ``networks`` are those of the system with each choice of candidates."""
+
+    def __init__(self, networks: Sequence[Network]) -> None:
+        self._networks = networks
+        self._in_fmus: dict[str, Mapping[str, EnumerationType]] = {}  # by digest
+
+    def of(self, name: str) -> EnumerationType | None:
+        """Return the type of a signal or connector.
+
+        None of one that is no Enumeration, or has other members with another candidate, so that it can be an Integer
+        alone.
+        """
+        types = [each for network in self._networks for each in self._in_network(network, name)]
+        first = types[0] if types else None
+        return first if all(first and each and each.numbers == first.numbers for each in types) else None
+
+    def in_fmu(self, fmu: Fmu) -> Mapping[str, EnumerationType]:
+        """Return the types of an FMU's Enumerations by variable."""
+        if fmu.digest not in self._in_fmus:
+            defined = _read_types(fmu)
+            declared = {each.name: each.declaredType for each in fmu.description.modelVariables}
+            types = {name: defined[kind.name] for name, kind in declared.items() if kind and kind.name in defined}
+            self._in_fmus[fmu.digest] = types
+        return self._in_fmus[fmu.digest]
+
+    def _in_network(self, network: Network, name: str) -> list[EnumerationType | None]:
+        """Return the type in one network, nothing where it does not have the name."""
+        component, variable = split_name(name, network.fmus)
+        if component:
+            fmu = network.fmus[component]
+            return [self.in_fmu(fmu).get(variable)] if variable in fmu.variables else []
+        node = network.nodes.get(name)
+        if node is None or not node.enumeration:
+            return [] if node is None else [None]
+        for other in network.nodes.values():  # a connector without a type has the very members of what it is linked to
+            if other.component is not None and other.enumeration is node.enumeration:
+                return [self.in_fmu(network.fmus[other.component])[other.variable]]
+        declared = network.description.enumerations
+        defined = next(each for each, members in declared.items() if members is node.enumeration)
+        return [EnumerationType(defined, tuple(EnumerationMember(*member) for member in node.enumeration.items()))]
+
+
+def _read_types(fmu: Fmu) -> dict[str, EnumerationType]:
+    """Return the Enumerations that the modelDescription.xml of an FMU of ours defines, by name."""
+    root = parse_xml(read_entry(open_zip(fmu.content, fmu.label), DESCRIPTION, fmu.label), fmu.label)
+    types = {}
+    for kind in root.iterfind("TypeDefinitions/SimpleType[Enumeration]"):
+        members = [
+            EnumerationMember(each.get("name", ""), int(each.get("value", "")), each.get("description", ""))
+            for each in kind.iterfind("Enumeration/Item")
+        ]
+        name = kind.get("name", "")
+        types[name] = EnumerationType(name, tuple(members), kind.get("description", ""))
+    return types
