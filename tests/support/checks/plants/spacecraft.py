@@ -50,17 +50,17 @@ def start_of_flight():
     return radius * (sine * across - cosine * sun), 7668.0 * (cosine * across + sine * sun)
 
 
-def loads(t, held, r, v, rotation, dipole, force, torque):
-    """Return force and torque on the body, and the torque that no input commands; Sun and pole of a time ``held``."""
-    sun, pole = celestial.sun(EPOCH + held), celestial.earth_pole(EPOCH + held)
+def loads(t, instant, r, v, rotation, dipole, force, torque):
+    """Return force and torque, and the torque that no input commands; Sun and pole are those of a time ``instant``."""
+    sun, pole = celestial.sun(EPOCH + instant), celestial.earth_pole(EPOCH + instant)
     fixed = celestial.earth_fixed(EPOCH + t, pole, TT_MINUS_UT1)
     rho = DENSITY_FACTOR * surroundings.density(r, sun, BULGE, surroundings.height(fixed @ r))
     wind = rotation.T @ (v - surroundings.air_velocity(r, pole[2]))
     away = sun - r
-    distance, share = np.linalg.norm(away), surroundings.light(r, sun)
+    distance, visible = np.linalg.norm(away), surroundings.light(r, sun)
     e = rotation.T @ away / distance
-    air, light = surroundings.drag(PLATES, rho, wind), surroundings.sunlight(PLATES, share, distance, e)
-    pressure = surroundings.PRESSURE * (surroundings.UNIT / distance) ** 2 * share
+    air, light = surroundings.drag(PLATES, rho, wind), surroundings.sunlight(PLATES, visible, distance, e)
+    pressure = surroundings.PRESSURE * (surroundings.UNIT / distance) ** 2 * visible
     sphere = -0.5 * rho * SPHERE_DRAG * SPHERE_AREA * np.linalg.norm(wind) * wind
     sphere = sphere - pressure * SPHERE_REFLECTIVITY * SPHERE_AREA * e
     field = rotation.T @ fixed.T @ harmonics.magnetic_field(fixed @ r, EPOCH, MAGNETIC_DEGREE)
@@ -85,21 +85,21 @@ def slope_of(motors, dipole, force, torque, external):
     def slope(t, y):
         r, v, q, w, speeds, eta, rate = np.split(y, [3, 6, 10, 13, 17, 17 + W.size])
         rotation = matrix_of(q)
-        push, turn, _ = loads(t, t, r, v, rotation, dipole, force, torque)
+        acting, turn, _ = loads(t, t, r, v, rotation, dipole, force, torque)
         fixed = celestial.earth_fixed(EPOCH + t, celestial.earth_pole(EPOCH + t), TT_MINUS_UT1)
         fall = fixed.T @ harmonics.earth_gravity(fixed @ r, GRAVITY_DEGREE) + external
         fall = fall + celestial.tide(r, celestial.sun(EPOCH + t), celestial.SUN_PARAMETER)
         fall = fall + celestial.tide(r, celestial.moon(EPOCH + t), celestial.MOON_PARAMETER)
         momentum = INERTIA @ w + SPIN * speeds @ AXES + D @ rate
         friction = VISCOUS * speeds + COULOMB * np.clip(speeds / BAND, -1.0, 1.0)
-        modal = -L.T @ push / MASS - 2.0 * DAMPING[MODES] * W * rate - W**2 * eta
+        modal = -L.T @ acting / MASS - 2.0 * DAMPING[MODES] * W * rate - W**2 * eta
         right = np.concatenate(
-            [turn - np.cross(L @ eta / MASS, push) - np.cross(w, momentum), motors - friction, modal]
+            [turn - np.cross(L @ eta / MASS, acting) - np.cross(w, momentum), motors - friction, modal]
         )
         accelerations = np.linalg.solve(matrix, right)
         q_rate = 0.5 * np.array([-q[1:] @ w, *(q[0] * w + np.cross(q[1:], w))])
         return np.concatenate(
-            [v, fall + rotation @ push / MASS, q_rate, accelerations[:3], accelerations[3:7], rate, accelerations[7:]]
+            [v, fall + rotation @ acting / MASS, q_rate, accelerations[:3], accelerations[3:7], rate, accelerations[7:]]
         )
 
     return slope
@@ -131,17 +131,17 @@ def spacecraft():
     r, v, q, w, speeds, eta, rate = np.split(y, [3, 6, 10, 13, 17, 17 + W.size], axis=1)
     assert (np.abs(speeds[:, 0]) < BAND).all()
     assert (np.abs(speeds[:, 1:]) > BAND).all()
-    acting, disturbances = [], []
+    forces, disturbances = [], []
     for n in range(ROWS):
-        t, held = STEP * n, max(STEP * n - 0.5 * INTERNAL, 0.0)
+        t, instant = STEP * n, max(STEP * n - 0.5 * INTERNAL, 0.0)
         inputs = max(n - 1, 0)
-        push, _, disturbance = loads(
-            t, held, r[n], v[n], matrix_of(q[n]), applied[inputs], force[inputs], torque[inputs]
+        acting, _, disturbance = loads(
+            t, instant, r[n], v[n], matrix_of(q[n]), applied[inputs], force[inputs], torque[inputs]
         )
-        acting.append(push / MASS)
+        forces.append(acting / MASS)
         disturbances.append(disturbance)
-    shares = [surroundings.light(r[n], celestial.sun(EPOCH + STEP * n)) for n in (0, -1)]
-    assert 0.0 < shares[0] < shares[1] < 1.0
+    light = [surroundings.light(r[n], celestial.sun(EPOCH + STEP * n)) for n in (0, -1)]
+    assert 0.0 < light[0] < light[1] < 1.0
     momentum = w @ INERTIA + SPIN * speeds @ AXES + rate @ D.T
     displacements = np.zeros((ROWS, 4))
     displacements[:, MODES] = eta
@@ -165,7 +165,7 @@ def spacecraft():
             "applied_torques": np.vstack([np.zeros(4), motors[:-1]]),
             "mode_displacements": displacements,
             "angular_momentum": np.array([matrix_of(q[n]) @ momentum[n] for n in range(ROWS)]),
-            "specific_force": np.array(acting),
+            "specific_force": np.array(forces),
             "applied_dipole": follow(applied),
             "disturbance_torque": np.array(disturbances),
             "status": follow(np.where(clipped, 3, beyond)) * (np.arange(ROWS) > 0),

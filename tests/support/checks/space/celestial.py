@@ -28,7 +28,7 @@ DISTANCE = np.array([
 ])  # fmt: skip
 
 
-def turned(longitude, latitude, distance):
+def equatorial(longitude, latitude, distance):
     """Return a position (m) from the angles (rad) of the ecliptic of J2000.0."""
     across = np.exp(1j * longitude) * np.cos(latitude)
     tilted = complex(across.imag, np.sin(latitude)) * np.exp(1j * np.radians(23.43929111))
@@ -44,7 +44,7 @@ def sun(time):
     e = 0.016708634 - 0.000042037 * t
     true_anomaly = anomaly + centre + wobble
     distance = 1.000001018 * UNIT * (1.0 - e**2) / (1.0 + e * np.cos(true_anomaly))
-    return turned(perihelion + true_anomaly, 0.0, distance)
+    return equatorial(perihelion + true_anomaly, 0.0, distance)
 
 
 def moon(time):
@@ -60,7 +60,7 @@ def moon(time):
     )
     latitude = ARCSECOND * (18520.0 * np.sin(argument) + add(LATITUDE, np.sin))
     mean = 2.0 * np.pi * np.modf(0.606433 + 1336.851344 * t)[0]
-    return turned(mean + longitude, latitude, 1000.0 * add(DISTANCE, np.cos))
+    return equatorial(mean + longitude, latitude, 1000.0 * add(DISTANCE, np.cos))
 
 
 def earth_pole(time):

@@ -50,7 +50,7 @@ def segment(radius, distance):
 
 
 def light(position, sun):
-    """Return the visible share of the Sun's disk: two segments of disks in the sky cover it."""
+    """Return how much is visible of the Sun's disk: two segments of disks in the sky cover it."""
     away = sun - position
     a = np.arcsin(SUN_RADIUS / np.linalg.norm(away))
     b = np.arcsin(SHADOW_RADIUS / np.linalg.norm(position))
@@ -80,9 +80,9 @@ def drag(plates, rho, velocity):
     return loads(plates, lambda n, c_d, s, d: -0.5 * rho * c_d * max(n @ velocity / speed, 0.0) * speed * velocity)
 
 
-def sunlight(plates, share, distance, e):
+def sunlight(plates, visible, distance, e):
     """Return the load of light from a unit vector e in body axes: absorbed, reflected and scattered photons."""
-    p = PRESSURE * (UNIT / distance) ** 2 * share
+    p = PRESSURE * (UNIT / distance) ** 2 * visible
 
     def force(n, c_d, specular, diffuse):
         c = max(n @ e, 0.0)
