@@ -26,7 +26,7 @@ class SpaceEnvironment(SpaceModel):
     whose field then differs from degree 13 by 221 nT and 0.31 deg (rms at 500 km). It acts on nothing: the plant
     evaluates its own models in the stages of its integration.
     Frames: inertial (GCRS axes, origin at the body's centre), body. Equations: docs/systems/earth_pointing.md.
-    Sources: those of `mathlib.space`. Light time, aberration and refraction are left out.
+    Sources: those of `mathlib.space`. Assumes straight light without travel time: no aberration, no refraction.
     """
 
     default_step = 0.25
