@@ -90,6 +90,19 @@ def test_air_above_the_equator():
         assert surroundings(atmosphere=Atmosphere.VACUUM, position=position)["density"] == 0.0
 
 
+@pytest.mark.parametrize("atmosphere", [Atmosphere.EXPONENTIAL, Atmosphere.HARRIS_PRIESTER])
+def test_air_below_its_table(atmosphere):
+    """The density of 100 km: 5.297e-7 kg/m3 of Vallado, 4.974e-7 of Harris and Priester, both without a bulge."""
+    axes, density = fixed_axes(EQUINOX), {Atmosphere.EXPONENTIAL: 5.297e-7, Atmosphere.HARRIS_PRIESTER: 4.974e-7}
+    for height, status in [(100.001e3, EnvironmentStatus.GOOD), (60e3, EnvironmentStatus.BELOW_AIR)]:
+        block = surroundings(atmosphere=atmosphere, position=axes.T @ [6378137.0 + height, 0.0, 0.0])
+        assert block["status"] == status
+        assert block["density"] == pytest.approx(density[atmosphere], rel=2e-4)
+    assert (
+        surroundings(atmosphere=Atmosphere.VACUUM, position=[6438137.0, 0.0, 0.0])["status"] == EnvironmentStatus.GOOD
+    )
+
+
 def test_the_prime_meridian_turns_once_in_a_sidereal_day():
     turn = 86400.0 / 1.00273781191135448
     block = surroundings(epoch=EQUINOX)

@@ -111,6 +111,12 @@ def test_an_input_that_is_not_finite_counts_as_zero(name, bad):
         assert flown.fly(0.5)["status"] == SpacecraftStatus.GOOD
 
 
+def test_below_the_table_of_the_air():
+    start = {"initial_position": [6378137.0 + 60e3, 0.0, 0.0], "internal_step": 0.25}
+    assert plant(**start).fly(0.25)["status"] == SpacecraftStatus.BELOW_AIR
+    assert plant(**start, **QUIET).fly(0.25)["status"] == SpacecraftStatus.GOOD
+
+
 @pytest.mark.parametrize(
     ("body", "position", "speed"),
     [(CelestialBody.EARTH, 6379e3, 8e3), (CelestialBody.MOON, 1738e3, 2e3)],
@@ -136,7 +142,7 @@ def test_a_start_below_the_surface(position):
 
 
 def test_a_start_above_the_pole_of_the_ellipsoid():
-    assert plant(initial_position=[0.0, 0.0, 6356.8e3])["status"] == SpacecraftStatus.GOOD
+    assert plant(**QUIET, initial_position=[0.0, 0.0, 6356.8e3])["status"] == SpacecraftStatus.GOOD
 
 
 @pytest.mark.parametrize(

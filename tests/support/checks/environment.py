@@ -31,7 +31,7 @@ def evaluate(t, r, q):
     fixed = celestial.earth_fixed(time, celestial.earth_pole(time), TT_MINUS_UT1)
     field = fixed.T @ harmonics.magnetic_field(fixed @ r, EPOCH, DEGREE)
     height = surroundings.height(fixed @ r)
-    assert 100e3 < height < 1000e3
+    assert 0.0 < height < 1000e3
     return {
         "sun_direction": unit(sun - r),
         "sun_distance": np.linalg.norm(sun - r),
@@ -41,24 +41,25 @@ def evaluate(t, r, q):
         "magnetic_field_body": matrix_of(unit(q)).T @ field,
         "density": DENSITY_FACTOR * surroundings.density(r, sun, BULGE, height),
         "planet_angle": celestial.earth_angle(time, TT_MINUS_UT1),
-        "status": float(time > harmonics.FIELD_END),
+        "status": 2.0 if height < 100e3 else float(time > harmonics.FIELD_END),
     }
 
 
 def space_environment():
-    """Light, half-shadow, shadow; outputs held at an attitude of length 0 and at a position inside the Earth."""
+    """Light, half-shadow, shadow, less than 100 km; outputs stay at a quaternion of length 0 and inside the Earth."""
     r, q = positions(), np.random.default_rng(58).normal(size=(ROWS, 4))
     q[:, 0] += np.where(q[:, 0] > 0.0, 0.5, -0.5)
     q[6] = 0.0
+    r[9] *= 6.43e6 / np.linalg.norm(r[9])
     r[12] *= 6.3e6 / np.linalg.norm(r[12])
     inputs, rows = follow(np.arange(ROWS)), []
     for n, k in enumerate(inputs):
         if k in (6, 12):
-            rows.append(rows[-1] | {"status": 2.0})
+            rows.append(rows[-1] | {"status": 3.0})
         else:
             rows.append(evaluate(STEP * n, r[k], q[k]))
     outputs = {name: np.array([row[name] for row in rows]) for name in rows[0]}
-    assert set(outputs["status"]) == {0.0, 1.0, 2.0}
+    assert set(outputs["status"]) == {0.0, 1.0, 2.0, 3.0}
     light = outputs["illumination"]
     assert min((light == 1.0).sum(), (light == 0.0).sum(), ((light > 0.0) & (light < 1.0)).sum()) > 4
     return Check(

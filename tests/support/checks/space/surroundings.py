@@ -33,7 +33,7 @@ def height(position):
 
 
 def density(position, sun, exponent, h):
-    """Return Harris and Priester's density (kg/m3) at a height h (m) of the table; position and Sun inertial."""
+    """Return Harris and Priester's density (kg/m3) at a height h (m), at least 100 km; position and Sun inertial."""
     logarithm = [np.interp(h / 1000.0, HEIGHT, np.log(column)) for column in (LOWEST, HIGHEST)]
     lowest, highest = 1e-12 * np.exp(logarithm)
     east = np.exp(1j * np.radians(30.0)) * complex(*sun[:2])
