@@ -3,6 +3,7 @@
 Truth: dates that standards publish, Python's calendar; a published example, conservation laws of a conic section.
 """
 
+import re
 from datetime import UTC, datetime, timedelta
 
 import numpy as np
@@ -11,6 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import perilune
+from perilune.fmus_src.paths import ROOT
+from perilune.fmus_src.plants.spacecraft import Spacecraft
 
 EARTH = 3.986004415e14  # m3/s2
 ELLIPSE = {"semi_major_axis": 7e6, "eccentricity": 0.1}
@@ -111,3 +114,17 @@ def test_no_orbit(changed, message):
         perilune.orbit(**ELLIPSE | changed)
     assert str(caught.value).startswith(message)
     assert "\n" not in str(caught.value)
+
+
+def test_the_start_in_the_conventions():
+    """The page's own lines make parameters of the plant: its default orbit on the day of its default epoch."""
+    page = (ROOT / "docs" / "concepts" / "conventions.md").read_text(encoding="utf-8")
+    (lines,) = re.findall(r"^```python\n(.*?perilune\.orbit.*?)^```", page, re.MULTILINE | re.DOTALL)
+    names: dict = {"perilune": perilune}
+    exec(lines, names)
+    start = {name.removeprefix("plant."): number for name, number in names["start"].items()}
+    plant = Spacecraft()
+    assert start.keys() <= plant.variables.keys()
+    assert start["epoch"] - plant.epoch == pytest.approx(69.184, abs=1e-6)
+    np.testing.assert_allclose(start["initial_position"], [*plant.initial_position])
+    np.testing.assert_allclose(start["initial_velocity"], [*plant.initial_velocity], atol=3.0)
