@@ -54,6 +54,24 @@ def test_a_low_orbit_of_the_earth():
     np.testing.assert_allclose(flown["velocity"], [-26.3788690558191, -980.5181061366195, 7549.26391839155], atol=1e-8)
 
 
+@pytest.mark.parametrize(("step", "error"), [(6.0, 2.0e-3), (2.0, 2.7e-5)])
+def test_error_of_the_method(step, error):
+    """As another Runge-Kutta of fourth order has it, with pole, Sun and Moon of the middle of each step."""
+    flown = plant(**QUIET, internal_step=step).fly(5676.0)
+    expected = [6877971.77501071, 4755.1909619965345, 24504.531887988538]
+    assert np.linalg.norm(flown["position"] - expected) == pytest.approx(error, rel=0.1)
+
+
+@given(st.integers(0, 10**6))
+def test_time_is_that_since_the_epoch(start):
+    """A later start of the simulation and an earlier epoch are one, to the last bit."""
+    settings = {"residual_dipole": [0.0, 0.0, 0.0], "sphere_area": 2.0, "internal_step": 1.0}
+    early = plant(**settings, epoch=8.2e8 + start).fly(10.0)
+    late = plant(**settings, epoch=8.2e8, start_time=float(start)).fly(10.0)
+    for name in ("position", "velocity", "specific_force"):
+        assert early[name].tolist() == late[name].tolist()
+
+
 def test_third_bodies():
     flown = plant(**QUIET, internal_step=2.0, third_bodies=False).fly(5676.0)
     expected = [6877971.77501071, 4755.1909619965345, 24504.531887988538]

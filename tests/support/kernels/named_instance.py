@@ -11,12 +11,12 @@ from tests.support.kernels.native_instance import OK, NativeInstance
 
 
 class NamedInstance:
-    """One instance, started with parameters and inputs; ``plant["position"]`` is an array of all its elements.
+    """One instance, started with parameters and inputs at a time (s); ``plant["position"]`` has all its elements.
 
     Freed with the object. Steps fail the test where the FMU reports an error.
     """
 
-    def __init__(self, block: type[Block], **settings: Any) -> None:
+    def __init__(self, block: type[Block], start_time: float = 0.0, **settings: Any) -> None:
         self.instance = NativeInstance(block)
         self.references: dict[str, list[int]] = {}
         first = 0
@@ -24,8 +24,8 @@ class NamedInstance:
             self.references[name] = list(range(first, first + variable.size))
             first += variable.size
         self.kinds = self.instance.kinds
-        self.time = 0.0
-        self.instance.enter()
+        self.time = start_time
+        self.instance.enter(start_time)
         self.set(**settings)
         assert self.instance.start() == OK, self.instance.log
 
