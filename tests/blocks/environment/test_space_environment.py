@@ -14,7 +14,7 @@ from perilune.fmus_src.environment.space_environment import EnvironmentStatus, S
 from perilune.fmus_src.interfaces.ports.space import Atmosphere, CelestialBody
 from perilune.fmus_src.plants.spacecraft import Spacecraft
 from tests.support.checks.space import celestial
-from tests.support.kernels.named_instance import NamedInstance
+from tests.support.native.named_instance import NamedInstance
 
 YEAR_2025, EQUINOX, YEAR_2030 = 788961600.0, 827301600.0, 788961600.0 + 1826.0 * 86400.0  # s TT since J2000.0
 SUN = {
@@ -196,8 +196,8 @@ def test_the_plant_has_the_same_surroundings(seed, degree):
     magnetic = NamedInstance(Spacecraft, **plant, **common, residual_dipole=dipole)
     torque = np.cross(dipole, block["magnetic_field_body"])
     np.testing.assert_allclose(magnetic["disturbance_torque"], torque, atol=1e-17)
-    moving = NamedInstance(Spacecraft, **plant, sphere_area=2.0, sphere_drag=2.0, sphere_reflectivity=0.0)
+    spacecraft = NamedInstance(Spacecraft, **plant, sphere_area=2.0, sphere_drag=2.0, sphere_reflectivity=0.0)
     wind = celestial.EARTH_RATE * np.cross(celestial.earth_pole(EQUINOX)[2], position)
     force = 0.5 * block["density"] * 2.0 * 2.0 * np.linalg.norm(wind) * wind / 50.0
-    felt = Rotation.from_quat(q, scalar_first=True).apply(moving["specific_force"])
+    felt = Rotation.from_quat(q, scalar_first=True).apply(spacecraft["specific_force"])
     np.testing.assert_allclose(felt, force, rtol=1e-9, atol=1e-24)

@@ -13,8 +13,8 @@ from scipy.spatial.transform import Rotation
 import perilune
 from perilune.fmus_src.interfaces.ports.space import CelestialBody
 from perilune.fmus_src.plants.spacecraft import Spacecraft
-from tests.support.kernels.named_instance import NamedInstance
-from tests.support.space_states import (
+from tests.support.native.named_instance import NamedInstance
+from tests.support.space.states import (
     FAR,
     FREQUENCY,
     FRICTIONLESS,
@@ -47,7 +47,7 @@ def random_start(seed):
 
 
 def test_a_low_orbit_of_the_earth():
-    """Gravity of degree 8, Sun, Moon, moving pole; 2e-6 m of the bound are the other program's."""
+    """Gravity of degree 8, Sun, Moon, spacecraft pole; 2e-6 m of the bound are the other program's."""
     flown = plant(**QUIET, internal_step=1.0).fly(5676.0)
     expected = [6877971.77501071, 4755.1909619965345, 24504.531887988538]
     assert np.linalg.norm(flown["position"] - expected) < 1e-5
@@ -189,10 +189,10 @@ def test_energy_drifts_with_the_fifth_power_of_the_step():
 
 
 @given(st.sampled_from([2, 4, 8, 16, 32]), seeds)
-def test_communication_steps_change_no_bit(parts, seed):
+def test_communication_steps_change_no_bit(number, seed):
     start = random_start(seed) | {"sphere_area": 1.0, "motor_torques": [1e-3, 2e-3, 0.0, 0.0]}
     whole = plant(**start, internal_step=0.25).fly(8.0)
-    divided = plant(**start, internal_step=0.25).fly(8.0, parts)
+    divided = plant(**start, internal_step=0.25).fly(8.0, number)
     for name in ("position", "quaternion", "angular_momentum", "wheel_speeds"):
         assert divided[name].tolist() == whole[name].tolist()
 

@@ -11,9 +11,9 @@ import perilune
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.interfaces.ports.space import CelestialBody
 from perilune.fmus_src.plants.spacecraft import Spacecraft, SpacecraftStatus
-from tests.support.kernels.named_instance import NamedInstance
 from tests.support.lengths import LONG
-from tests.support.space_states import FAR, FRICTIONLESS, PARTICLES, QUIET
+from tests.support.native.named_instance import NamedInstance
+from tests.support.space.states import FAR, FRICTIONLESS, PARTICLES, QUIET
 
 NAN, INFINITE = float("nan"), float("inf")
 STATE = ("position", "velocity", "quaternion", "angular_momentum", "spin", "mode_displacements", "modal_momenta")

@@ -23,7 +23,6 @@ class NamedInstance:
         for name, variable in block.variables.items():
             self.references[name] = list(range(first, first + variable.size))
             first += variable.size
-        self.kinds = self.instance.kinds
         self.time = start_time
         self.instance.enter(start_time)
         self.set(**settings)
@@ -45,10 +44,18 @@ class NamedInstance:
         assert numbers is not None, self.instance.log
         return np.array(numbers) if len(numbers) > 1 else numbers[0]
 
+    def step(self, time: float, step: float) -> None:
+        """Take one communication step from a time (s)."""
+        assert self.instance.do_step(time, step) == OK, self.instance.log
+
+    def read(self) -> list | None:
+        """Return all numbers, in order of declaration."""
+        return self.instance.get([reference for group in self.references.values() for reference in group])
+
     def fly(self, duration: float, steps: int = 1) -> NamedInstance:
         """Fly for a duration (s) in equal communication steps."""
         for _ in range(steps):
             h = duration / steps
-            assert self.instance.do_step(self.time, h) == OK, self.instance.log
+            self.step(self.time, h)
             self.time += h
         return self
