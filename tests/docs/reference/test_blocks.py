@@ -77,11 +77,12 @@ def test_the_page_has_every_variable(name):
     assert {name.partition(".")[0] for name in seen} == set(catalogue()[name].variables)
 
 
+@pytest.mark.usefixtures("fmus")
 def test_systems_that_use_a_block_name_it():
     """As text searches of the systems' own files find them."""
     for name, usage in usages().items():
         for system in usage.components:
-            assert f"{name}.fmu" in (ROOT / "ssp_systems" / system / "SystemStructure.ssd").read_text(encoding="utf-8")
+            assert f'"{name}"' in (ROOT / "ssp_systems" / system / "system.toml").read_text(encoding="utf-8")
         for system, campaigns in usage.campaigns.items():
             for campaign in campaigns:
                 folder = ROOT / "ssp_systems" / system / "campaigns"
