@@ -81,9 +81,9 @@ def test_there_and_back(copied, name):
     assert back.paths[:2] == (toml, toml.with_name(NOTES))  # and its parameter sets, which are there
     assert back.toml == (SYSTEMS / name / TOML).read_text(encoding="utf-8")
     perilune.compose(toml)
-    built, again = (folder / name / SSD for folder in (SYSTEMS, toml.parents[1]))
-    assert find_difference(built.read_bytes(), again.read_bytes()) is None
-    flights = [perilune.simulate(path.parent) for path in (built, again)]
+    built, rebuilt = (folder / name / SSD for folder in (SYSTEMS, toml.parents[1]))
+    assert find_difference(built.read_bytes(), rebuilt.read_bytes()) is None
+    flights = [perilune.simulate(path.parent) for path in (built, rebuilt)]
     assert flights[0].status == flights[1].status
     assert set(flights[0].signals) == set(flights[1].signals)
     for signal, values in flights[0].signals.items():
