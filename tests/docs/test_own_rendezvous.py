@@ -35,8 +35,8 @@ def transition(t):
     """Position and velocity, and what an acceleration held for t (s) adds to them."""
     whole = np.zeros((9, 9))
     whole[:6, :6], whole[3:6, 6:] = RATES, np.eye(3)
-    moved = expm(whole * t)
-    return moved[:6, :6], moved[:6, 6:]
+    phi = expm(whole * t)
+    return phi[:6, :6], phi[:6, 6:]
 
 
 def measure(x):
@@ -80,13 +80,13 @@ def test_the_plant_follows_it_under_any_force(blocks):
     random, plant = np.random.default_rng(1), blocks["RelativeMotion"]()
     plant.initial_position, plant.initial_velocity = vector(*START[:3]), vector(*START[3:])
     plant.initialize()
-    moved, gained = transition(H)
+    phi, gained = transition(H)
     expected, spent = START, 0.0
     for k in range(STEPS):
         force = random.normal(size=3)
         plant.force = vector(*force)
         plant.step(k * H, H)
-        expected, spent = moved @ expected + gained @ force / MASS, spent + H * np.linalg.norm(force) / MASS
+        expected, spent = phi @ expected + gained @ force / MASS, spent + H * np.linalg.norm(force) / MASS
         assert np.linalg.norm(np.array(plant.position) - expected[:3]) < 1e-12 * np.linalg.norm(expected[:3])
     assert plant.range == pytest.approx(np.linalg.norm(expected[:3]), rel=1e-12)
     assert plant.speed == pytest.approx(np.linalg.norm(expected[3:]), rel=1e-11)
