@@ -53,7 +53,7 @@ def test_composed_once_more_it_has_the_same_bytes(copied, name):
 
 @pytest.mark.parametrize("name", system_names())
 def test_all_that_a_person_wrote_is_in_it(name):
-    """Every connection of the system.toml, nothing else, and the annotations byte for byte; the way back is the file."""
+    """All connections of the system.toml, no others, and the annotations byte for byte; the way back is that file."""
     root = etree.parse(SYSTEMS / name / SSD).getroot()
     pairs = {
         tuple(
