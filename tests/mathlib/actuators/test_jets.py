@@ -80,7 +80,10 @@ def shared(wrench, rule, maximum=MAXIMUM):
 
 
 def programmes(wrenches, maximum=MAXIMUM):
-    """Least sums of thrusts for many wrenches, as one sparse linear programme per 50: scipy 1.15 takes minutes for larger ones."""
+    """Least sums of thrusts for many wrenches, as one sparse linear programme per 50.
+
+    Scipy 1.15 takes a hundred times as long as 1.17 for larger ones.
+    """
     sums = []
     for block in np.array_split(np.asarray(wrenches), max(1, len(wrenches) // 50)):
         matrix = sparse.block_diag([B] * len(block), format="csc")
