@@ -36,7 +36,7 @@ from tests.support.lengths import LONG
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("fmus")]
 
 SYSTEM = "lunar_terminal_guidance"
-LARGEST = 18e6  # bytes, of which the documentation is 2.7e6
+LARGEST = 24e6  # bytes; native FMUs for three platforms are 14.9e6, the documentation 3.2e6
 X86_64, ARM64 = 0x01000007, 0x0100000C  # Apple, mach/machine.h
 MACHINE = {"linux64": (b"\x7fELF", 18, b"\x3e\x00"), "win64": (b"MZ", None, b"")}  # ELF e_machine 62: x86_64
 
