@@ -93,7 +93,7 @@ bench: build
 
 # What `pip install perilune` takes on disk, alone and with each extra: the table of README.md; five minutes.
 sizes: wheel
-	$(BIN)/python -m benchmarks.sizes
+	$(BIN)/python -m release.sizes
 
 # Instructions, counted by callgrind (Debian's valgrind), and time of a plan and of a cycle of each descent law.
 guidance-cost: build

@@ -1,1 +1,1 @@
-"""A release: wheel and source distribution, built twice and compared, the changelog's head, the tag. `make release`."""
+"""A release: archives built twice and compared, the changelog's head, the tag, the size of an installation."""

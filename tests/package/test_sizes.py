@@ -1,6 +1,6 @@
 """The sizes that README and docs state are those that `make sizes` has stored.
 
-Truth: benchmarks/sizes.json; files of known length, and pip's own list of them, for what is added up.
+Truth: release/sizes.json; files of known length, and pip's own list of them, for what is added up.
 """
 
 from __future__ import annotations
@@ -8,8 +8,8 @@ from __future__ import annotations
 import json
 import re
 
-from benchmarks.sizes import STORED, TOOLS, size_of, sizes_by_package
 from perilune.fmus_src.paths import ROOT
+from release.sizes import STORED, TOOLS, size_of, sizes_by_package
 from tests.package.test_packaging import PROJECT
 
 SIZES = json.loads(STORED.read_text(encoding="utf-8"))

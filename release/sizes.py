@@ -1,9 +1,9 @@
 """Size on disk of what `pip install perilune` installs, alone and with each extra.
 
-    python -m benchmarks.sizes [WHEEL]
+    python -m release.sizes [WHEEL]
 
 Installs the wheel with the versions of constraints.txt, in an environment for each, and adds up the files of its
-site-packages with their bytecode, in bytes. Writes `benchmarks/sizes.json`, which README and docs are compared with,
+site-packages with their bytecode, in bytes. Writes `release/sizes.json`, which README and docs are compared with,
 and prints it, with the largest packages.
 """
 
@@ -22,7 +22,7 @@ from pathlib import Path
 
 from perilune.fmus_src.paths import ROOT
 
-STORED = ROOT / "benchmarks" / "sizes.json"
+STORED = Path(__file__).with_suffix(".json")
 LARGEST = 12  # packages that are listed
 TOOLS = ("docs", "dev")  # extras of those who change Perilune
 PIP = ("-m", "pip", "--disable-pip-version-check", "--python")
@@ -50,7 +50,7 @@ def sizes_by_package(site: Path) -> dict[str, int]:
     for each in distributions(path=[str(site)]):
         paths = {Path(str(file.locate())) for file in each.files or ()}
         sizes[each.name] = sum(path.stat().st_size for path in paths if path.is_file())
-    return dict(sorted(sizes.items(), key=lambda item: -item[1]))
+    return dict(sorted(sizes.items(), key=lambda each: -each[1]))
 
 
 def measure(wheel: Path) -> dict[str, object]:
