@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import perilune
+from perilune.fmus_src.paths import ROOT
 
 PERIOD, STIFFNESS, DAMPING = 0.125, 0.3**2, 2.0 * 0.9 * 0.3
 MODE_DAMPING = 0.005
@@ -76,3 +77,17 @@ def test_margins_are_those_of_the_closed_form(loops, point, axis):
     grid = np.linspace(1e-3, pi / PERIOD, 200_000)
     changes = np.count_nonzero(np.diff(np.sign(np.abs(response(grid)) - 1.0)))
     assert len(loop["phase_crossings"]) == changes
+
+
+def test_the_page_has_these_numbers(loops):
+    """The rows of docs/systems/flexible_slew.md, about x."""
+    page = (ROOT / "docs" / "systems" / "flexible_slew.md").read_text(encoding="utf-8")
+    for point in POINTS:
+        loop = loops[point, "attitude[1]"]
+        (row,) = [line for line in page.splitlines() if line.startswith(f"| {point} |")]
+        phases = ", ".join(f"{x['phase_deg']:.2f} at {x['frequency_rad_s']:.3f}" for x in loop["phase_crossings"])
+        least = min(loop["gain_crossings"], key=lambda x: abs(x["gain_db"]))
+        (radius,) = [each["value"] for each in loop["requirements"] if each["quantity"] == "stability"]
+        ending = "" if loop["stable"] else ": **unstable**"
+        stated = f"| {phases} | {least['gain_db']:.2f} at {least['frequency_rad_s']:.3f} | {radius:.5f}{ending} |"
+        assert row.endswith(stated), stated
