@@ -32,8 +32,9 @@ class AocsModes(Block):
 
     DETUMBLE to SUN after the rate was below calm_rate for settle_time. SUN to NADIR after an attitude was known and
     panel_normal within sun_error of the Sun for settle_time. To DETUMBLE after the rate was above lost_rate for
-    lost_time; to SUN from NADIR after no attitude for blind_time. Each is decided at this block's samples. Wheels are
-    off and torquers brake in DETUMBLE; wheels are on and torquers unload them in the other modes.
+    lost_time; to SUN from NADIR after no attitude for blind_time. Each is decided at this block's samples, of which one
+    that is not finite keeps the mode and ends a spell of settling or of lost_rate. Wheels are off and torquers brake in
+    DETUMBLE; wheels are on and torquers unload them in the other modes.
     Frame: body. Equations: docs/systems/earth_pointing.md. Source: ours.
     """
 
@@ -97,7 +98,10 @@ class AocsModes(Block):
         self.status = AocsModesStatus.NOT_FINITE
         q = self.estimated_quaternion
         finite = is_finite(self.estimated_angular_velocity) and is_finite(self.sun_direction)
-        if finite and math.isfinite(q.w) and is_finite(q[1:4]):
+        if not (finite and math.isfinite(q.w) and is_finite(q[1:4])):
+            self.settled_since = t
+            self.fast_since = t
+        else:
             self.status = AocsModesStatus.GOOD
             if not self.ready():
                 self.settled_since = t
