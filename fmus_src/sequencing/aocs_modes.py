@@ -103,18 +103,21 @@ class AocsModes(Block):
             self.fast_since = t
         else:
             self.status = AocsModesStatus.GOOD
-            if not self.ready():
+            ready = self.ready()
+            if not ready:
                 self.settled_since = t
-            if not norm(self.estimated_angular_velocity) > self.lost_rate:
+            fast = norm(self.estimated_angular_velocity) > self.lost_rate
+            if not fast:
                 self.fast_since = t
             if self.attitude_known:
                 self.blind_since = t
-            settled = t - self.settled_since >= self.settle_time
-            blind = t - self.blind_since >= self.blind_time
+            settled = ready and t - self.settled_since >= self.settle_time
+            lost = fast and t - self.fast_since >= self.lost_time
+            blind = not self.attitude_known and t - self.blind_since >= self.blind_time
             if self.mode == AocsMode.DETUMBLE:
                 if settled:
                     self.enter(AocsMode.SUN, t)
-            elif t - self.fast_since >= self.lost_time:
+            elif lost:
                 self.enter(AocsMode.DETUMBLE, t)
             elif self.mode == AocsMode.SUN:
                 if settled:
