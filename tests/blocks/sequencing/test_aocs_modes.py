@@ -160,6 +160,15 @@ def test_the_angle_to_the_sun_is_that_of_the_panel_in_any_attitude(seed, angle, 
         assert modes.mode == (AocsMode.NADIR if angle < 1.0 else AocsMode.SUN)
 
 
+@pytest.mark.parametrize("quaternion", [[0.0] * 4, [0.0, 0.3, -0.2, 0.3]])
+def test_a_quaternion_shorter_than_a_half_is_no_attitude(quaternion):
+    for mode, seconds in ((AocsMode.SUN, 400.0), (AocsMode.NADIR, 299.75)):
+        flight = flight_in(mode)
+        flight.modes.estimated_quaternion = quaternion
+        assert flight.fly(seconds) == mode
+    assert flight.fly(0.25) == AocsMode.SUN
+
+
 def test_times_of_0_need_the_condition_nonetheless():
     modes = AocsModes(settle_time=0.0, lost_time=0.0, blind_time=0.0, attitude_known=True)
     modes.initialize()
