@@ -1,6 +1,6 @@
-"""Builds every FMU to build/fmus/FLAVOUR/NAME.fmu and packs every system to build/ssp/SYSTEM.ssp."""
+"""Builds every FMU to build/fmus/FLAVOUR/NAME.fmu, composes every system and packs it to build/ssp/SYSTEM.ssp."""
 
-from perilune.fmus_src.export.command import main
+from perilune.analysis.shipped import main
 
 if __name__ == "__main__":
     raise SystemExit(main())

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parent
 # As build_fmus.py, which a source distribution does not hold.
-BUILD_FMUS = "from perilune.fmus_src.export.command import main; raise SystemExit(main())"
+BUILD_FMUS = "from perilune.analysis.shipped import main; raise SystemExit(main())"
 BUILD_DOCS = "from docs.reference.build import main; raise SystemExit(main())"
 ENVIRONMENT = dict(os.environ)  # without a date that nobody asks for: FMUs have the release's then
 EPOCH = int(os.environ.setdefault("SOURCE_DATE_EPOCH", "315532800"))  # s; of itself 1980, where the dates of zips begin
@@ -46,13 +46,13 @@ class BuildWithFmus(build_py):
             super().run()
             return
         shutil.rmtree(self.build_lib, ignore_errors=True)  # else files that are no more would be packed again
-        super().run()
         output = (Path(self.build_lib) / "perilune" / "build").resolve()
         options = ["--output", output, "--flavour", "native", "--portable"]
         for platform in ("linux64", "win64", "darwin64"):
             options += ["--platform", platform]
         subprocess.run([sys.executable, "-c", BUILD_FMUS, *options], cwd=ROOT, env=ENVIRONMENT, check=True)
         shutil.rmtree(output / "ssp")  # holds the FMUs a second time
+        super().run()  # takes the SSDs, which were composed next to their files
         scripts = ["--require", "--output", output / "web" / "bundles"]
         subprocess.run([sys.executable, ROOT / "build_web.py", *scripts], check=True)
         self.build_site(output / "site")

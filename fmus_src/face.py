@@ -1,9 +1,13 @@
 """What one needs to write a block, by name and the module that defines it.
 
-`from perilune import TerminalGuidance` finds it here, and so does an FMU, whose packed files know no `perilune`.
+`from perilune import TerminalGuidance` finds it here, and so does an FMU, whose packed files know no `perilune`: they
+import from this module, since a name of a package is that of its submodule (`block`) where there is one.
 """
 
 from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
 
 HOMES = {
     "actuators.gyro_steering": ("GyroSteering",),
@@ -34,3 +38,9 @@ HOMES = {
     "variables": ("DeclarationError", "Input", "Output", "Parameter", "State"),
 }
 HOME_OF = {name: home for home, names in HOMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name in HOME_OF:
+        return getattr(import_module(f".{HOME_OF[name]}", __package__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

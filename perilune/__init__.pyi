@@ -4,6 +4,8 @@ editors and `perilune/__init__.py`.
 
 from . import modal as modal
 from .analysis.common.errors import InputError as InputError
+from .analysis.design.orbits.starts import epoch as epoch
+from .analysis.design.orbits.starts import orbit as orbit
 from .analysis.design.synthesis.outcome import SynthesisResult as SynthesisResult
 from .analysis.design.trajectories.path import PlanError as PlanError
 from .analysis.design.trajectories.vehicle import Landing as Landing

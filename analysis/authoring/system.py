@@ -9,11 +9,11 @@ from pathlib import Path
 
 from ...fmus_src.catalogue import blocks_in_file
 from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
-from ...fmus_src.export.ssp_package import DESCRIPTION
+from ...fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE
 from ..compose.assembly import compose_document, folder_archive
 from ..compose.document import fmu_source
 from ..compose.files import add_mark
-from ..compose.source import SYSTEM_FILE, read_source
+from ..compose.source import read_source
 from ..verbs.options.campaigns import BATCH, RUN
 from ..verbs.options.command import write_command
 from ..verbs.options.studies import STABILITY

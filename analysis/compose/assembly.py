@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from ...fmus_src.block import snake_case
 from ...fmus_src.export.available import fmu_flavours
 from ...fmus_src.export.ssp_package import DESCRIPTION, system_files
 from ...fmus_src.paths import names_fmu
@@ -37,7 +39,9 @@ def load_fmus(source: SystemSource, archive: SystemArchive, flavour: str | None 
             if names_fmu(component.fmu) or error.element != name or component.fmu in fmu_flavours():
                 problems.append(error.text)
                 continue
+            file = _file_of_block(component.fmu, archive)
             remedy = f"{suggestion(component.fmu, fmu_flavours())}; {HOW_TO_BUILD}"
+            remedy = remedy if file is None else f"perilune export {file} builds it"
             problems.append(source.problem(component.where, f"no FMU {component.fmu} is built", remedy).text)
     for name in source.parameter_sets:
         if not archive.has(set_source(name)):
@@ -47,6 +51,15 @@ def load_fmus(source: SystemSource, archive: SystemArchive, flavour: str | None 
     if problems:
         raise SeveralProblemsError(*problems)
     return fmus
+
+
+def _file_of_block(fmu: str, archive: SystemArchive) -> Path | None:
+    """Return the file in the system's folder with a class whose FMU would have this name, by its text alone."""
+    for path in sorted(archive.path.glob("*.py")):
+        classes = re.findall(r"^class (\w+)\(", path.read_text(encoding="utf-8", errors="replace"), re.MULTILINE)
+        if fmu in map(snake_case, classes):
+            return Path(archive.label) / path.name
+    return None
 
 
 def compose_document(source: SystemSource, archive: SystemArchive) -> bytes:

@@ -8,13 +8,14 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from ...fmus_src.export.ssp_package import SYSTEM_FILE
 from ..common.atomic import write_atomically
 from ..common.bounds import ARCHIVE_BYTES, XML_BYTES
 from ..common.errors import InputError
 from ..common.regular import read_input
-from ..runtime.ssp.archive import SystemArchive
+from ..runtime.ssp.archive import SystemArchive, open_system
 from .document import fmu_source, set_source
-from .source import ANNOTATIONS_FILE, SystemSource
+from .source import ANNOTATIONS_FILE, SystemSource, read_source
 from .text import write_toml
 
 OTHERWISE = "and is not written over"
@@ -57,6 +58,26 @@ def check_unedited_source(path: Path, ssd: Path, raw: bytes) -> None:
     if content != raw and (match is None or match["source"] != digest):
         problem = f"was edited since perilune compose read it, {OTHERWISE}"
         raise InputError(path, "", problem, "move it away, or write to another folder")
+
+
+def report_changed_source(system: str | Path) -> list[str]:
+    """Return a line where a system's `system.toml`, or its annotations, changed since its SSD was composed of it.
+
+    Raises InputError as reading the system does.
+    """
+    archive = open_system(system)
+    file = archive.path / SYSTEM_FILE
+    match = MARK.search(archive.read(archive.description, "system")) if file.is_file() else None
+    if match is None:
+        return []
+    try:
+        raw = read_source(file)[1]
+    except InputError:
+        raw = b""
+    if hashlib.sha256(raw).hexdigest().encode() == match["source"]:
+        return []
+    path = os.path.relpath(file) if file.is_relative_to(Path.cwd()) else str(file)
+    return [f"{path}: has changed since {archive.description} was composed of it; perilune compose {path}"]
 
 
 def write_source(source: SystemSource, archive: SystemArchive, path: Path) -> list[Path]:

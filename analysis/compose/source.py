@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ...fmus_src.export.ssp_package import SYSTEM_FILE
 from ...fmus_src.units import BASE_UNITS
 from ..campaigns.spec.source import key_lines, parse_toml
 from ..campaigns.spec.table import Table, integer, names, number, text
@@ -16,7 +17,6 @@ from ..common.regular import read_input
 from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.given_values import ParameterValue
 
-SYSTEM_FILE = "system.toml"
 ANNOTATIONS_FILE = "annotations.xml"
 KINDS = ("input", "output", "parameter")  # of connectors of the system
 LISTS = ("connections", "declare", "unconnected")

@@ -75,7 +75,7 @@ def bound_trials(system: FilePath, campaign: FilePath, **options: Unpack[BoundsO
     one per processor) does not change results. ``store`` writes the table where [lookup.bound] reads it. Raises
     InputError.
     """
-    plan = read_plan(Path(system), os.fspath(campaign), SystemOptions(), trials=options["trials"])
+    plan = read_plan(os.fspath(system), os.fspath(campaign), SystemOptions(), trials=options["trials"])
     lookup = _find_lookup(plan)
     count, intervals = worker_count(options["workers"]), options["intervals"] or INTERVALS
     inputs, archive = _inputs_of(plan, lookup)

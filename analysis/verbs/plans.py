@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -215,7 +216,7 @@ def plan_landing_bound(
     chosen = system_options(options)
     if system is None and chosen != SystemOptions():
         raise InputError("design bound", "system options", "there is no system that they are for", "name a system")
-    prepared = None if system is None else prepare_system(Path(system), chosen)
+    prepared = None if system is None else prepare_system(os.fspath(system), chosen)
     inputs = None if prepared is None else _read_inputs(prepared)
     of_vehicle, of_landing = format_numbers(options, OF_VEHICLE), format_numbers(options, OF_LANDING)
     is_changed = bool(of_vehicle or of_landing or landing or vehicle)

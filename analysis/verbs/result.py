@@ -12,6 +12,7 @@ from typing import Any, Protocol
 from ..common.atomic import write_atomically
 from ..common.errors import ExitStatus, InputError, call_by_flags
 from ..common.targets import Results, check_file, check_folder
+from ..compose.files import report_changed_source
 from ..runtime.system.options import system_options
 from ..runtime.system.stale import report_fmus
 from .common.browser import open_page, require_browser
@@ -72,11 +73,13 @@ def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]
 
 
 def report_state_of_fmus(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> None:
-    """A line on standard error for every source file that is newer than the FMUs built of it, which are simulated."""
+    """Print a line on standard error for every source that changed since what is simulated was built of it."""
     if "system" not in arguments or "use" not in options_of(verb.options):
         return
     complete = {**defaults_of(verb.options), **options}
-    for line in report_fmus(arguments["system"], system_options(complete), options.get("compare", {})):
+    system = arguments["system"]
+    lines = report_fmus(system, system_options(complete), options.get("compare", {}))
+    for line in [*lines, *report_changed_source(system)]:
         print(f"perilune: {line}", file=sys.stderr)
 
 

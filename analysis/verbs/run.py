@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
@@ -159,7 +160,7 @@ def simulate(system: FilePath, **options: Unpack[RunOptions]) -> Result:
     """
     series = options["input"]
     prepared = prepare_system(
-        Path(system), system_options(options), series=None if series is None else read_series(series)
+        os.fspath(system), system_options(options), series=None if series is None else read_series(series)
     )
     figures, faults, level = tuple(read_figures(prepared)), faults_of(options["faults"]), options["log"]
     log = None if level is None else Log(level)

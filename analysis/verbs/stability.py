@@ -157,7 +157,7 @@ def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> Stabilit
     """
     at, campaign, draws = options["at"], options["campaign"], options["draws"]
     request = read_request(
-        Path(system),
+        os.fspath(system),
         system_options(options),
         loops=options["loops"],
         at=(at,) if isinstance(at, int | float) else tuple(at),

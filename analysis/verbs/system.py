@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Unpack
 
-from ...fmus_src.export.ssp_package import DESCRIPTION
+from ...fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE
 from ...fmus_src.paths import names_fmu
 from ..common.atomic import write_atomically
 from ..common.bounds import ARCHIVE_BYTES
@@ -17,7 +17,7 @@ from ..common.regular import read_input
 from ..common.scratch import make_folder
 from ..compose.document import RESOURCES
 from ..compose.files import check_unedited, check_unedited_source, write_new
-from ..compose.source import SYSTEM_FILE, ComponentSource, Entry, SetValue, SystemSource
+from ..compose.source import ComponentSource, Entry, SetValue, SystemSource
 from ..compose.text import write_toml
 from .compose import compose_source
 from .options.campaigns import RunOptions

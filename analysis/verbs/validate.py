@@ -12,7 +12,7 @@ from typing import ClassVar, Unpack, overload
 from attrs import evolve
 from fmpy.validation import validate_model_description
 
-from ...fmus_src.export.ssp_package import DESCRIPTION
+from ...fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE
 from ...fmus_src.paths import names_fmu
 from ..campaigns.spec.checks import check_plan
 from ..campaigns.spec.file import SYNTHESIS, read_campaign
@@ -24,7 +24,6 @@ from ..common.errors import ExitStatus, InputError
 from ..common.regular import read_input
 from ..common.visible import on_one_line
 from ..compose.likeness import find_difference
-from ..compose.source import SYSTEM_FILE
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
 from ..design.trajectories.stored_bound import MissingBound, find_bound

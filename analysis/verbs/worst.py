@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from contextlib import chdir
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -104,7 +105,7 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
             result = replace(worst_case(plan, options["metric"], **search), commands=commands_of(plan))
         else:
             request = margin_asked(
-                Path(system),
+                os.fspath(system),
                 system_options(options),
                 campaign=str(campaign),
                 configuration=options["configuration"],

@@ -16,7 +16,7 @@ from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.run_report import write_run_report
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.system.options import SystemOptions
-from perilune.fmus_src.export.command import main as build_fmus
+from perilune.analysis.shipped import main as build
 from perilune.fmus_src.paths import BUILD
 
 from .landing import fly_landings
@@ -31,7 +31,7 @@ def main(output: Path = BUILD / "demo", trials: int = TRIALS) -> int:
     """Run the demonstration; returns the exit status."""
     began = time.perf_counter()
     print("Building the FMUs and systems ...", flush=True)
-    status = build_fmus([])
+    status = build([])
     if status:
         return status
     try:

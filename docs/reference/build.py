@@ -23,7 +23,7 @@ from .pages import TOP, derived_pages, reference_navigation
 DOCS = TOP / "docs"
 SETTINGS = DOCS / "site" / "site.toml"
 PYTHON = {
-    "docstring_style": None,  # prose, not sections
+    "docstring_style": "numpy",  # sections where there are any; the others are prose
     "filters": ["!^_"],
     "heading_level": 2,
     "members_order": "source",

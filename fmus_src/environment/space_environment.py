@@ -16,6 +16,7 @@ class EnvironmentStatus(Enumeration):
 
     GOOD = member("good")
     OUTSIDE_YEARS = member("outside 2025 to 2030, magnetic field extrapolated")
+    BELOW_AIR = member("below 100 km, density that of 100 km")
     UNCHANGED = member("position or attitude not finite, or inside the body; outputs stay")
 
 
@@ -26,7 +27,7 @@ class SpaceEnvironment(SpaceModel):
     whose field then differs from degree 13 by 221 nT and 0.31 deg (rms at 500 km). It acts on nothing: the plant
     evaluates its own models in the stages of its integration.
     Frames: inertial (GCRS axes, origin at the body's centre), body. Equations: docs/systems/earth_pointing.md.
-    Sources: those of `mathlib.space`. Light time, aberration and refraction are left out.
+    Sources: those of `mathlib.space`. Assumes straight light without travel time: no aberration, no refraction.
     """
 
     default_step = 0.25
@@ -57,6 +58,8 @@ class SpaceEnvironment(SpaceModel):
         self.status = EnvironmentStatus.GOOD
         if not in_validity(self.epoch + t):
             self.status = EnvironmentStatus.OUTSIDE_YEARS
+        if self.is_below_air(r):
+            self.status = EnvironmentStatus.BELOW_AIR
         to_sun = self.sun - r
         field = self.flux_density(t, r)
         self.environment.sun_distance = norm(to_sun)

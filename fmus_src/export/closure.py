@@ -46,13 +46,20 @@ class Closure:
 
     def pack_closure(self) -> dict[str, bytes]:
         """The files with imports of the source package, and of what it lies in, renamed, below the package's folder."""
-        names = f"{re.escape(SOURCE_PACKAGE)}|{re.escape(FACE_PACKAGE)}"
-        pattern = re.compile(rf"^(\s*(?:from|import)\s+)(?:{names})\b(?=\s|\.)".encode(), re.MULTILINE)
-        replacement = rb"\g<1>" + self.package.encode()
-        return {
-            f"{self.package}/{name}": pattern.sub(replacement, content) if name.endswith(".py") else content
-            for name, content in self.files.items()
+        renamed = {
+            _imports_of(SOURCE_PACKAGE, r"(?=\s|\.)"): rb"\g<1>" + self.package.encode(),
+            _imports_of(FACE_PACKAGE, r"(?=\s)"): rb"\g<1>" + f"{self.package}.face".encode(),
         }
+        packed = dict(self.files)
+        for pattern, replacement in renamed.items():
+            packed |= {
+                name: pattern.sub(replacement, content) for name, content in packed.items() if name.endswith(".py")
+            }
+        return {f"{self.package}/{name}": content for name, content in packed.items()}
+
+
+def _imports_of(package: str, end: str) -> re.Pattern[bytes]:
+    return re.compile(rf"^(\s*(?:from|import)\s+){re.escape(package)}\b{end}".encode(), re.MULTILINE)
 
 
 def closure_of(block_class: type[Block]) -> Closure:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import sys
 import tempfile
 from importlib.metadata import version
@@ -15,7 +16,7 @@ from ..evidence.block import add_evidence
 from ..own_digests import note_own
 from .archive import content_guid, read_zip, write_zip
 from .attributes import check_attributes
-from .closure import Closure, closure_of
+from .closure import Closure, ClosureError, closure_of
 from .description.fmi2 import model_description
 from .description.origin import accompanying_files, origin
 from .judge.tunable import tunable_parameters
@@ -55,8 +56,15 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
         tunable=tuple(tunable_parameters(block_class)),
         script_class=f"{block_class.__name__}Slave",
     )
-    files = _with_pythonfmu(closure, script_name, script)
     is_ours = is_shipped(block_class)
+    try:
+        files = _with_pythonfmu(closure, script_name, script)
+    except Exception as error:  # whatever the user's file raises where it is packed is reported as one line
+        if is_ours:
+            raise
+        failed = f"importing it as it is packed into the FMU failed: {type(error).__name__}: {error}"
+        remedy = "name the files that it reads in `data` of the block, and read them in `initialize`"
+        raise ClosureError(f"{inspect.getfile(block_class)}: {failed}; {remedy}") from error
     files |= accompanying_files(2, is_ours=is_ours, runs_python=True)
     tool = f"Perilune {version('perilune')} with PythonFMU {version('pythonfmu')}"
 

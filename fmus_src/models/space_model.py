@@ -25,6 +25,8 @@ from ..mathlib.space.orientation import (
 )
 from ..mathlib.vectors import Vector3, cross, dot, norm, vector
 
+LOWEST_AIR = 100e3  # m, height at which both tables of the air begin
+
 
 class SpaceModel(Block, interface=True):
     """Axes of the planet, Sun and Moon, magnetic field, air and shadow about Earth or Moon.
@@ -113,6 +115,12 @@ class SpaceModel(Block, interface=True):
                 bulge = bulge_fraction(r, self.sun / norm(self.sun), self.bulge_exponent)
                 return self.density_factor * harris_priester_density(self.height(r), bulge)
         return 0.0
+
+    def is_below_air(self, r: Vector3) -> bool:
+        """True if a position is below the tables of the air, where the density is that of 100 km."""
+        if self.central_body == CelestialBody.EARTH and self.atmosphere != Atmosphere.VACUUM:
+            return self.height(r) < LOWEST_AIR
+        return False
 
     def air_velocity(self, r: Vector3) -> Vector3:
         """Return the velocity of the air (m/s, inertial), which turns with the planet."""

@@ -2,9 +2,7 @@
 
 import math
 
-from ..block import Input, Output, Parameter, State
-from ..interfaces.ports import space
-from ..interfaces.ports.space import SpaceEnvironment
+from ..block import Output, State
 from ..kernel.matrices import Matrix, identity, zeros
 from ..mathlib.attitude.quaternion import (
     difference,
@@ -44,20 +42,6 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
     Crassidis 2014, sections 5.1 and 6.2.
     """
 
-    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="of the star tracker, any length")
-    roll_sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error about the boresight; 0: as the others")
-    sun_sigma = Parameter(0.02, unit="rad", minimum=1e-12, description="error of the direction to the Sun, per axis")
-    field_sigma = Parameter(0.02, unit="rad", minimum=1e-12, description="error of the field's direction, per axis")
-    gate = Parameter(0.0, unit="1", minimum=0.0, description="largest innovation squared, three components; 0: any")
-    rejects_to_restart = Parameter(20, minimum=1, description="samples left out in a row until the attitude is open")
-    star_time = Input(-1.0, unit="s", description="when the star sample was taken; below 0: now")
-    measured_sun = Input([0.0, 0.0, 0.0], unit="1", frame="body", description="measured direction to the Sun")
-    sun_count = Input(0, description="samples of the Sun so far; a change signals a new one")
-    sun_direction = SpaceEnvironment.sun_direction.input("to the Sun, as known on board")
-    measured_field = space.MAGNETIC_FIELD.input("measured field")
-    field_count = Input(0, description="samples of the field so far; a change signals a new one")
-    magnetic_field = SpaceEnvironment.magnetic_field.input("magnetic field, as known on board")
-    attitude_known = Output(False, direct=True, description="true: an attitude was measured")
     rejected = Output(0, direct=True, description="samples beyond the gate so far")
     star_counted = State(0, description="star_count of the last sample")
     sun_counted = State(0, description="sun_count of the last sample")

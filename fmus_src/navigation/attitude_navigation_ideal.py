@@ -14,6 +14,7 @@ class AttitudeNavigationIdeal(AttitudeNavigation):
 
     def pass_on(self) -> None:
         """Pass the truth on."""
+        self.attitude_known = True
         self.estimated_quaternion = self.quaternion
         self.estimated_angular_velocity = self.angular_velocity
 

@@ -25,6 +25,7 @@ class SpacecraftStatus(Enumeration):
     SPEED_LIMITED = member("a wheel at its speed limit")
     DIPOLE_LIMITED = member("a dipole limited")
     NO_NORMAL = member("a plate without normal left out")
+    BELOW_AIR = member("below 100 km, density of the air that of 100 km")
     MODE_TOO_FAST = member("a mode too fast for the internal step")
     NOT_FINITE = member("an input not finite, taken as 0")
     BELOW_SURFACE = member("below the surface, nothing moves")
@@ -212,6 +213,8 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
             self.status = SpacecraftStatus.DIPOLE_LIMITED
         if self.lacks_normal:
             self.status = SpacecraftStatus.NO_NORMAL
+        if self.is_below_air(self.position):
+            self.status = SpacecraftStatus.BELOW_AIR
         if self.fastest * self.internal_step > FASTEST_MODE:
             self.status = SpacecraftStatus.MODE_TOO_FAST
         if not finite:

@@ -5,11 +5,14 @@ Truth: `perilune.simulate` with the same options; Python's json and csv modules.
 
 import csv
 import json
+import re
+import shutil
 
 import pytest
 
 import perilune
 from perilune.analysis.cli import main
+from perilune.fmus_src.paths import SYSTEMS
 
 SYSTEM = "lunar_terminal_guidance"
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -64,3 +67,15 @@ def test_packed_and_unpacked_fly_alike(tmp_path):
         assert main(["run", str(system), "--parameters", "noisy.ssv", "--stop-time", "30", "--json", str(target)]) == 1
         finals.append(json.loads(target.read_text())["final"])
     assert finals[0] == finals[1]
+
+
+def test_a_folder_of_a_shipped_systems_name_is_meant_by_its_path(tmp_path, monkeypatch, capsys):
+    """Truth: the stop time that the folder's SSD has, 2 s."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(SYSTEMS / SYSTEM, tmp_path / SYSTEM)
+    ssd = tmp_path / SYSTEM / "SystemStructure.ssd"
+    ssd.write_text(re.sub('stopTime="[^"]*"', 'stopTime="2"', ssd.read_text(encoding="utf-8")), encoding="utf-8")
+    assert main(["run", f"./{SYSTEM}"]) == 1
+    assert "stop time reached at t = 2 s" in capsys.readouterr().out
+    assert main(["batch", f"./{SYSTEM}", "--campaign", "paper", "--trials", "2", "--json", "-"]) == 0
+    assert json.loads(capsys.readouterr().out)["steps"] == 20  # of 0.1 s

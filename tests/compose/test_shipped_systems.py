@@ -1,61 +1,125 @@
-"""Every shipped system as a system.toml and back: the same SSD, and the same flight bit by bit.
+"""Every shipped system: composed by the build, the same bytes again, and back to its system.toml; and its own flight.
 
-Truth: the shipped SSD in canonical XML, connectors, connections and units sorted here; its own flight.
+Truth: what a person wrote, system.toml and annotations.xml; SSP's schema; numbers of vector pairs counted by the text.
 """
 
 from __future__ import annotations
 
+import re
 import shutil
+import tomllib
 
 import pytest
 from lxml import etree
 
 import perilune
+from perilune.analysis import shipped
+from perilune.analysis.cli import main
+from perilune.analysis.compose.likeness import find_difference
 from perilune.analysis.runtime.ssp.archive import system_names
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.analysis.runtime.ssp.documents import check_schema
+from perilune.fmus_src.paths import BUILD, SYSTEMS
 from tests.support.lengths import either
 
 pytestmark = pytest.mark.usefixtures("fmus")
-SSD = "SystemStructure.ssd"
-SORTED = ("Connectors", "Connections", "Units")
-
-
-def canonical(path):
-    """Canonical XML without comments and space between elements, children of SORTED in order of their text."""
-    root = etree.parse(path, etree.XMLParser(remove_blank_text=True, remove_comments=True)).getroot()
-    for element in root.iter():
-        if etree.QName(element).localname in SORTED:
-            element[:] = sorted(element, key=lambda each: etree.tostring(each, method="c14n"))
-    return etree.tostring(root, method="c14n")
-
-
+SSD, TOML, NOTES = "SystemStructure.ssd", "system.toml", "annotations.xml"
 NAMES = either(system_names(), ["lunar_descent_2d", "lunar_terminal_guidance"])
+INDEX = re.compile(r"\[[\d,]+\]$")
+
+
+@pytest.fixture
+def copied(tmp_path):
+    """A folder with a copy of a shipped system, without the files named."""
+
+    def copy(name, *without):
+        folder = tmp_path / name
+        shutil.copytree(SYSTEMS / name, folder, ignore=shutil.ignore_patterns(*without))
+        return folder
+
+    return copy
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_its_short_file_states_its_ssd(name):
-    (check,) = perilune.validate(SYSTEMS / name / "system.toml")
-    assert (check.problems, check.notes) == ((), ())
-    assert perilune.compose(name).toml == (SYSTEMS / name / "system.toml").read_text(encoding="utf-8")
+def test_composed_once_more_it_has_the_same_bytes(copied, name):
+    """In another folder, whatever the flavour of the FMUs that it takes types and units of."""
+    folder = copied(name, SSD)
+    built = (SYSTEMS / name / SSD).read_bytes()
+    check_schema(etree.fromstring(built), "ssd", SSD)
+    assert perilune.compose(folder / TOML).paths == (folder / SSD,)
+    assert (folder / SSD).read_bytes() == built
+    (folder / SSD).unlink()
+    assert shipped.compose_shipped(folder / TOML, [BUILD / "fmus" / "python"]).read_bytes() == built
+
+
+@pytest.mark.parametrize("name", system_names())
+def test_all_that_a_person_wrote_is_in_it(name):
+    """All connections of the system.toml, no others, and the annotations byte for byte; the way back is that file."""
+    root = etree.parse(SYSTEMS / name / SSD).getroot()
+    pairs = {
+        tuple(
+            ".".join(filter(None, (each.get(f"{end}Element"), INDEX.sub("", each.get(f"{end}Connector")))))
+            for end in ("start", "end")
+        )
+        for each in root.iter("{*}Connection")
+    }
+    stated = tomllib.loads((SYSTEMS / name / TOML).read_text(encoding="utf-8"))
+    texts = [*stated["connections"], *stated.get("system", {}).get("connections", ())]
+    written = {
+        (INDEX.sub("", source.strip()), INDEX.sub("", target.strip()))
+        for source, _, targets in (text.partition("->") for text in texts)
+        for target in re.split(r",(?![^\[]*\])", targets)
+    }
+    assert pairs == written
+    assert {each.get("name") for each in root.iter("{*}Component")} == set(stated["components"])
+    assert (SYSTEMS / name / NOTES).read_bytes() in (SYSTEMS / name / SSD).read_bytes()
+    assert perilune.compose(name).toml == (SYSTEMS / name / TOML).read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_there_and_back(tmp_path, name):
-    shutil.copytree(
-        SYSTEMS / name, tmp_path / name, ignore=shutil.ignore_patterns(SSD, "system.toml", "annotations.xml")
-    )
-    toml = tmp_path / name / "system.toml"
+def test_there_and_back(copied, name):
+    toml = copied(name, SSD, TOML, NOTES) / TOML
     back = perilune.compose(name, output=toml)
-    assert back.paths[0] == toml
-    assert perilune.compose(toml).paths == (tmp_path / name / SSD,)
-    shipped, composed = (folder / name / SSD for folder in (SYSTEMS, tmp_path))
-    assert canonical(composed) == canonical(shipped)
-    annotations = (tmp_path / name / "annotations.xml").read_bytes()
-    assert annotations in shipped.read_bytes()
-    assert annotations in composed.read_bytes()
-    assert sorted(perilune.compose(tmp_path / name).toml.split()) == sorted(back.toml.split())
-    flights = [perilune.simulate(folder / name) for folder in (SYSTEMS, tmp_path)]
+    assert back.paths[:2] == (toml, toml.with_name(NOTES))  # and its parameter sets, which are there
+    perilune.compose(toml)
+    built, rebuilt = (folder / name / SSD for folder in (SYSTEMS, toml.parents[1]))
+    assert find_difference(built.read_bytes(), rebuilt.read_bytes()) is None
+    flights = [perilune.simulate(path.parent) for path in (built, rebuilt)]
     assert flights[0].status == flights[1].status
     assert set(flights[0].signals) == set(flights[1].signals)
     for signal, values in flights[0].signals.items():
         assert values.tobytes() == flights[1][signal].tobytes(), signal
+
+
+def test_what_changed_since_is_reported(copied, monkeypatch, capsys):
+    """One line on standard error, with the command that mends it, for the system.toml and for its annotations."""
+    name = "lunar_descent_2d"
+    folder = copied(name)
+    monkeypatch.chdir(folder.parent)
+    line = f"perilune: {name}/{TOML}: has changed since {SSD} was composed of it; perilune compose {name}/{TOML}\n"
+    for file, before, after in ((TOML, 'name = "', '# mine\nname = "'), (NOTES, "</Report>", "<!-- mine --></Report>")):
+        assert main(["run", f"./{name}", "--stop-time", "1"]) in (0, 1)
+        assert line not in capsys.readouterr().err
+        text = (folder / file).read_text(encoding="utf-8")
+        assert before in text
+        (folder / file).write_text(text.replace(before, after), encoding="utf-8")
+        assert main(["run", f"./{name}", "--stop-time", "1"]) in (0, 1)
+        assert line in capsys.readouterr().err
+        assert main(["compose", f"{name}/{TOML}"]) == 0
+
+
+def test_one_that_is_not_built_says_how(copied, monkeypatch, capsys):
+    folder = copied("lunar_descent_2d", SSD)
+    monkeypatch.setattr("perilune.analysis.runtime.ssp.archive.SYSTEMS", folder.parent)
+    assert main(["run", "lunar_descent_2d"]) == 2
+    assert capsys.readouterr().err.endswith(f"lunar_descent_2d: {SSD}: not found; run make build\n")
+    monkeypatch.undo()
+    monkeypatch.chdir(folder.parent)
+    assert main(["run", "./lunar_descent_2d"]) == 2
+    assert capsys.readouterr().err.endswith(f"perilune compose {folder}/{TOML} writes it\n")
+
+
+def test_an_edited_one_is_not_written_over(copied):
+    ssd = copied("lunar_descent_2d") / SSD
+    ssd.write_text(ssd.read_text(encoding="utf-8").replace('startTime="0"', 'startTime="1"'), encoding="utf-8")
+    with pytest.raises(perilune.InputError, match="was edited since perilune compose wrote it"):
+        shipped.compose_shipped(ssd.with_name(TOML), [BUILD / "fmus" / "python"])

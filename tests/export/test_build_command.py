@@ -88,6 +88,12 @@ WRONG = {
         "    def step(self, t: float, h: float) -> None:\n        self.y = 1.0\n",
         "import of perilune.simulate: not packed into the FMU",
     ),
+    "one that cannot be imported where it is packed": (
+        "from pathlib import Path\n" + HEAD + 'assert Path(__file__).parent.name != "outside"\n'
+        'class A(Block):\n    """A."""\n    y = Output(0.0, unit="1", description="y")\n'
+        "    def step(self, t: float, h: float) -> None:\n        self.y = 1.0\n",
+        "mine.py: importing it as it is packed into the FMU failed: AssertionError",
+    ),
     "raises": ("raise RuntimeError('100 %')\n", "importing it failed: RuntimeError: 100 %"),
 }
 

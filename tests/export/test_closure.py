@@ -55,6 +55,7 @@ def runs(closure, folder, class_name="Outside"):
 IMPORTS = {
     "a function": ("from perilune.fmus_src.mathlib.vectors import norm, vector\n", "norm(vector(3.0, 4.0, 0.0))", 5.0),
     "names of the face": ("from perilune import (\n    norm,\n    vector,\n)\n", "norm(vector(3.0, 4.0, 0.0))", 5.0),
+    "a name of the face that a module has, too": ("from perilune import block\n", "float(block(2, 3).stop)", 5.0),
     "a module": ("from perilune.fmus_src.mathlib import vectors\n", "vectors.norm(vectors.vector(3.0, 4.0, 0.0))", 5.0),
     "a module by another name": (
         "from perilune.fmus_src.mathlib import vectors as v\n",

@@ -36,7 +36,6 @@ BUILD_ALL = """
 import sys
 from pathlib import Path
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.export.command import main
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 for name, block in list(catalogue().items())[:: int(sys.argv[2])]:
     build_python_fmu(block, Path(sys.argv[1]) / f"{name}.fmu")

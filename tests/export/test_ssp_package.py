@@ -76,9 +76,9 @@ def test_an_fmu_that_is_missing_is_named(folder, tmp_path):
 
 @pytest.mark.usefixtures("fmus")
 def test_our_systems_are_packed_as_built():
-    for path in SYSTEMS.glob("*/SystemStructure.ssd"):
+    for path in SYSTEMS.glob("*/system.toml"):
         with zipfile.ZipFile(BUILD / "ssp" / f"{path.parent.name}.ssp") as archive:
             names = set(archive.namelist())
             assert set(system_files(path.parent)) <= names
-            assert archive.read("SystemStructure.ssd") == path.read_bytes()
+            assert archive.read("SystemStructure.ssd") == path.with_name("SystemStructure.ssd").read_bytes()
             assert any(name.endswith(".fmu") for name in names)

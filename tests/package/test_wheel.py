@@ -129,7 +129,7 @@ def test_every_verb_in_another_folder(installed, perform, tmp_path):
     before = installed.files()
     assert perform("--version") == "perilune 0.1.0\n"
     listed = json.loads(perform("list", "--json", "-"))
-    assert set(listed["systems"]) == {path.parent.name for path in (ROOT / "ssp_systems").glob("*/SystemStructure.ssd")}
+    assert set(listed["systems"]) == {path.parent.name for path in (ROOT / "ssp_systems").glob("*/system.toml")}
     for name, block in catalogue().items():
         assert listed["fmus"][name]["built"] == (["python"] if block.python_only else ["native", "python"])
     for flavour in ("native", "python"):

@@ -48,7 +48,7 @@ def same(first, second):
 
 
 def test_every_system_is_in_the_table():
-    assert sorted(DEFAULTS) == sorted(path.parent.name for path in SYSTEMS.glob("*/SystemStructure.ssd"))
+    assert sorted(DEFAULTS) == sorted(path.parent.name for path in SYSTEMS.glob("*/system.toml"))
 
 
 @pytest.mark.parametrize("system", either(list(DEFAULTS), ["landing_mission", "orbital_attitude"]))

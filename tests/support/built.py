@@ -1,4 +1,4 @@
-"""Whether what lies in build/fmus was made of the sources as they are."""
+"""Whether what lies in build/fmus, and the SSDs of systems, were made of the sources as they are."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from functools import cache
 from pathlib import Path
 
 from perilune import fmus_src
-from perilune.fmus_src.paths import shipped_fmu
+from perilune.analysis.compose.files import report_changed_source
+from perilune.analysis.runtime.ssp.archive import system_names
+from perilune.fmus_src.paths import SYSTEMS, shipped_fmu
 
 
 @cache
@@ -21,3 +23,9 @@ def native_are_current(names: Iterable[str]) -> bool:
     """Whether these native FMUs are there, and not older than any source."""
     paths = [shipped_fmu(name, "native") for name in names]
     return all(path.is_file() and path.stat().st_mtime >= newest_source() for path in paths)
+
+
+def systems_are_current() -> bool:
+    """True if every shipped system has an SSD that was composed of its files as they are."""
+    folders = [SYSTEMS / name for name in system_names()]
+    return all((each / "SystemStructure.ssd").is_file() and not report_changed_source(each) for each in folders)

@@ -13,7 +13,7 @@ from perilune.fmus_src.paths import ROOT
 BLOCK = re.compile(r"^```(sh|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 DOTS = "..."
 WALL_CLOCK = re.compile(r"^(\w+: (?:pass|fail),) [\d.]+ s$")
-SAVED = re.compile(r"^Save it as `(\w+\.(?:py|toml))`:\n+```(?:python|toml)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+SAVED = re.compile(r"^Save it as `([\w/]+\.(?:py|toml))`:\n+```(?:python|toml)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 

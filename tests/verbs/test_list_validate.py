@@ -19,7 +19,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 def test_list(capsys):
     assert main(["list", "--json", "-"]) == 0
     actual = json.loads(capsys.readouterr().out)
-    assert set(actual["systems"]) == {path.parent.name for path in SYSTEMS.glob("*/SystemStructure.ssd")}
+    assert set(actual["systems"]) == {path.parent.name for path in SYSTEMS.glob("*/system.toml")}
     landing = actual["systems"]["lunar_terminal_guidance"]
     assert landing["parameter_sets"] == ["exact.ssv", "ideal.ssv", "noisy.ssv", "paper.ssv"]
     assert landing["campaigns"] == ["choices", "noisy", "paper", "slant_range"]

@@ -15,7 +15,7 @@ from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
 from ....fmus_src.export.available import find_fmu
-from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
+from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, SYSTEM_FILE, system_files
 from ....fmus_src.paths import FLAVOURS, IS_CHECKOUT, ROOT, SYSTEMS, names_fmu, own_fmus
 from ...common.bounds import ARCHIVE_BYTES, bound_of
 from ...common.errors import InputError, suggestion
@@ -256,7 +256,7 @@ def open_system(system: str | Path) -> SystemArchive:
     if path.suffix == ".py":
         remedy = f"perilune export {text} builds them; fly the folder of a system that names them"
         raise InputError(text, "", "a file of blocks is no system", remedy)
-    if path.name == "system.toml":
+    if path.name == SYSTEM_FILE:
         remedy = f"perilune compose {text} writes its SSD; give the folder"
         raise InputError(text, "", "a file of which a system is composed is no system", remedy)
     if path.suffix == ".toml":
@@ -269,7 +269,7 @@ def open_system(system: str | Path) -> SystemArchive:
 
 def system_names() -> list[str]:
     """Names of the systems under ssp_systems."""
-    return sorted(entry.parent.name for entry in SYSTEMS.glob(f"*/{DESCRIPTION}"))
+    return sorted(entry.parent.name for entry in SYSTEMS.glob(f"*/{SYSTEM_FILE}"))
 
 
 def _leaves(name: str) -> bool:
@@ -290,6 +290,9 @@ def _folder(path: Path, description: str | None = None) -> SystemArchive:
         has_ssd = any(path.glob("*.ssd"))  # before the folder is searched, which may be a large one
         if not has_ssd and not (path / OSP_DESCRIPTION).is_file():
             remedy = f"give a folder with an SSD or an {OSP_DESCRIPTION}, or such a file by its name"
+            if (path / SYSTEM_FILE).is_file():
+                remedy = f"perilune compose {label}/{SYSTEM_FILE} writes it"
+                remedy = "run make build" if path.parent == SYSTEMS.resolve() else remedy
             raise InputError(label, DESCRIPTION, "not found", remedy)
         description = DESCRIPTION if has_ssd else OSP_DESCRIPTION
     files = system_files(path)

@@ -37,7 +37,7 @@ def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, An
         raise InputError("`set`", f"{name}={text}", "a study has no sweeps", "give one value")
     series, draws = options["input"], options.get("draws")
     plan = read_plan(
-        Path(system),
+        os.fspath(system),
         os.fspath(campaign),
         settings,
         trials=options.get("trials"),

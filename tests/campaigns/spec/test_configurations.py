@@ -93,6 +93,7 @@ def file(tmp_path) -> Path:
     return path
 
 
+@pytest.mark.usefixtures("fmus")
 def test_flies_as_the_same_options_would(file, tmp_path):
     (plain := tmp_path / "plain.toml").write_text(CAMPAIGN)
     both = perilune.batch("lunar_terminal_guidance", file)
@@ -110,6 +111,7 @@ def test_flies_as_the_same_options_would(file, tmp_path):
         assert chosen.trials[name].metrics["mass"].tolist() == truth.tolist()
 
 
+@pytest.mark.usefixtures("fmus")
 def test_stored_and_replayed(file, tmp_path):
     folder = tmp_path / "results"
     perilune.batch("lunar_terminal_guidance", file, configuration="search", output=folder)
@@ -130,6 +132,7 @@ WRONG = {
 }
 
 
+@pytest.mark.usefixtures("fmus")
 @pytest.mark.parametrize("case", WRONG)
 def test_wrong_options(file, case):
     options, message = WRONG[case]
@@ -138,6 +141,7 @@ def test_wrong_options(file, case):
     assert message in str(error.value)
 
 
+@pytest.mark.usefixtures("fmus")
 def test_a_study_is_of_one(file):
     with pytest.raises(
         InputError, match="the campaign has 2 variants, and a study is of one; give configuration nominal"
@@ -145,6 +149,7 @@ def test_a_study_is_of_one(file):
         perilune.sensitivity("lunar_terminal_guidance", file, base=64)
 
 
+@pytest.mark.usefixtures("fmus")
 def test_unknown_fmu_names_the_configuration(tmp_path):
     path = tmp_path / "wrong.toml"
     path.write_text(CAMPAIGN + '[configuration.x]\nuse = { guidance = "no_such_guidance" }\n')

@@ -116,11 +116,12 @@ def test_what_a_block_never_reads_another_one_does(name, monkeypatch):
     assert not accessed & {each.name for each in unread}
 
 
+@pytest.mark.usefixtures("fmus")
 def test_systems_that_use_a_block_name_it():
     """As text searches of the systems' own files find them."""
     for name, usage in usages().items():
         for system in usage.components:
-            assert f"{name}.fmu" in (ROOT / "ssp_systems" / system / "SystemStructure.ssd").read_text(encoding="utf-8")
+            assert f'"{name}"' in (ROOT / "ssp_systems" / system / "system.toml").read_text(encoding="utf-8")
         for system, campaigns in usage.campaigns.items():
             for campaign in campaigns:
                 folder = ROOT / "ssp_systems" / system / "campaigns"

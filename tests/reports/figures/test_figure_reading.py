@@ -20,11 +20,10 @@ from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.fmus_src.export.ssp_package import pack_system
 from perilune.fmus_src.paths import BUILD, SYSTEMS
 from tests.support.builders import component, connection, document, pack, system
-from tests.support.pages.declaring import with_report
+from tests.support.pages.declaring import shipped_ssd, with_report
 
 pytestmark = pytest.mark.usefixtures("fmus")
 NAME = "orbital_attitude"
-SSD = (SYSTEMS / NAME / "SystemStructure.ssd").read_text(encoding="utf-8")
 BAND = '<Band signal="plant.angles" low="-1" high="1" unit="deg"/>'
 DEGREE = math.pi / 180.0
 
@@ -48,7 +47,7 @@ def folder(tmp_path):
 
 
 def declare(folder, inside):
-    text = with_report(SSD, inside)
+    text = with_report(shipped_ssd(NAME), inside)
     (folder / "SystemStructure.ssd").write_text(text, encoding="utf-8")
     return text
 
@@ -60,7 +59,7 @@ def read(folder, loaded, inside):
 
 def test_nothing_is_asked_for(folder, loaded):
     requested = re.compile(r'<ssc:Annotation type="org.perilune.report">.*?</ssc:Annotation>', re.DOTALL)
-    (folder / "SystemStructure.ssd").write_text(requested.sub("", SSD), encoding="utf-8")
+    (folder / "SystemStructure.ssd").write_text(requested.sub("", shipped_ssd(NAME)), encoding="utf-8")
     assert read_figures(prepare_system(folder, SystemOptions(), loaded)) == []
 
 
@@ -185,7 +184,7 @@ def test_everything_wrong_is_refused_with_its_line(folder, loaded, name):
 
 @pytest.mark.parametrize("inside", ["", "<Reprot/>", '<Report xmlns="https://perilune.org/report"/>' * 2])
 def test_the_annotation_holds_just_one_report(folder, loaded, inside):
-    text = with_report(SSD, "@")
+    text = with_report(shipped_ssd(NAME), "@")
     begin, end = text.index("<Report"), text.index("</Report>") + len("</Report>")
     (folder / "SystemStructure.ssd").write_text(text[:begin] + inside + text[end:], encoding="utf-8")
     with pytest.raises(InputError, match=r"line \d+"):

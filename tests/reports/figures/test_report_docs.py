@@ -29,7 +29,7 @@ def test_every_shape_has_a_script():
 
 
 def test_what_our_systems_ask_for_is_documented():
-    requested = "".join(path.read_text(encoding="utf-8") for path in SYSTEMS.glob("*/SystemStructure.ssd"))
+    requested = "".join(path.read_text(encoding="utf-8") for path in SYSTEMS.glob("*/annotations.xml"))
     reports = " ".join(re.findall(r"<Report .*?</Report>", requested, re.DOTALL))
     names = {*re.findall(r"<([A-Z]\w+)", reports), *re.findall(r"\s(\w+)=\"", reports)} - {"Report", "xmlns"}
     assert len(names) > 20

@@ -30,11 +30,10 @@ from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.fmus_src.paths import SYSTEMS
 from tests.support.builders import component, document, pack, system
-from tests.support.pages.declaring import with_report
+from tests.support.pages.declaring import shipped_ssd, with_report
 
 pytestmark = pytest.mark.usefixtures("fmus")
 NAME = "orbital_attitude"
-SSD = (SYSTEMS / NAME / "SystemStructure.ssd").read_text(encoding="utf-8")
 PHASES = (
     '<Phases signal="plant.status" spent="plant.jet_seconds" status="pulses.pulse_count">\n'
     '<Phase value="1" name="first" until="observer.yaw_sigma"/>\n<Phase value="1" name="then this"/>\n'
@@ -56,7 +55,7 @@ def folder(tmp_path):
 
 
 def read(folder, loaded, inside):
-    (folder / "SystemStructure.ssd").write_text(with_report(SSD, inside), encoding="utf-8")
+    (folder / "SystemStructure.ssd").write_text(with_report(shipped_ssd(NAME), inside), encoding="utf-8")
     return read_figures(prepare_system(folder, SystemOptions(), loaded))
 
 

@@ -2,11 +2,22 @@
 
 from collections.abc import Callable
 
-from tests.support.checks import actuators, control, disturbances, guidance, navigation, plants, sensors, sequencing
+from tests.support.checks import (
+    actuators,
+    control,
+    disturbances,
+    environment,
+    guidance,
+    navigation,
+    plants,
+    sensors,
+    sequencing,
+)
 from tests.support.checks.check import Check
 
 MODULES = {
     "plants": plants,
+    "environment": environment,
     "navigation": navigation,
     "guidance": guidance,
     "control": control,

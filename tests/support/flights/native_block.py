@@ -1,45 +1,13 @@
-"""A native block with its variables by name, and flights of a point mass under a guidance in it."""
+"""Flights of a point mass under a guidance in a native block."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from tests.support.flights.convex_descent import EXHAUST_SPEED, MAXIMUM, MINIMUM, MU, RADIUS, central
-from tests.support.kernels.native_instance import OK, NativeInstance
+from tests.support.native.named_instance import NamedInstance
 
 STEP = 0.1  # s
-
-
-class NativeBlock:
-    """One instance; inputs and parameters are set, all variables read, by name."""
-
-    def __init__(self, block, **values):
-        self.instance = NativeInstance(block)
-        self.sizes = {name: variable.size for name, variable in block.variables.items()}
-        firsts = np.cumsum([0, *self.sizes.values()]).tolist()
-        self.references = {
-            name: list(range(first, first + size))
-            for (name, size), first in zip(self.sizes.items(), firsts, strict=False)
-        }
-        self.set(**values)
-        self.instance.enter()
-        assert self.instance.start() == OK, self.instance.log
-
-    def set(self, **values):
-        for name, value in values.items():
-            numbers = np.atleast_1d(value).tolist()
-            assert self.instance.set(self.references[name], numbers) == OK, self.instance.log
-
-    def step(self, time, step):
-        assert self.instance.do_step(time, step) == OK, self.instance.log
-
-    def __getitem__(self, name):
-        numbers = self.instance.get(self.references[name])
-        return numbers[0] if len(numbers) == 1 else np.array(numbers)
-
-    def read(self):
-        """All numbers, in order of declaration."""
-        return self.instance.get([reference for group in self.references.values() for reference in group])
 
 
 @dataclass(frozen=True)
@@ -50,7 +18,7 @@ class Flight:
     propellant: float
     miss: float
     speed: float
-    guidance: NativeBlock
+    guidance: NamedInstance
     outputs: dict
 
     @property
@@ -61,7 +29,7 @@ class Flight:
 
 def begin(block, descent, **parameters):
     """The block at the start of a descent with the limits of that."""
-    return NativeBlock(
+    return NamedInstance(
         block,
         target_position=descent.target,
         gravity_correction=True,

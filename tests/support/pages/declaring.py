@@ -1,5 +1,15 @@
 """A system's description with figures of its own asked for."""
 
+from functools import cache
+
+from perilune.fmus_src.paths import SYSTEMS
+
+
+@cache
+def shipped_ssd(name):
+    """The text of a shipped system's SSD, which a build composes."""
+    return (SYSTEMS / name / "SystemStructure.ssd").read_text(encoding="utf-8")
+
 
 def with_report(ssd, inside):
     """The description with the elements of Report in its annotation's place, on lines of their own."""

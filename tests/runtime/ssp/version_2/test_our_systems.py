@@ -16,6 +16,7 @@ import pytest
 from lxml import etree
 
 from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.analysis.runtime.ssp.dimensions import array_shapes
 from perilune.analysis.runtime.ssp.documents import check_schema
 from perilune.analysis.runtime.ssp.version_2 import package
@@ -24,12 +25,12 @@ from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.analysis.verbs.export import export
 from perilune.fmus_src.export.archive import read_zip, write_zip
-from perilune.fmus_src.paths import BUILD, SYSTEMS
+from perilune.fmus_src.paths import BUILD
 from tests.support.builders import fly
 from tests.support.lengths import either
 
 pytestmark = pytest.mark.usefixtures("fmus")
-NAMES = sorted(path.parent.name for path in SYSTEMS.glob("*/SystemStructure.ssd"))
+NAMES = system_names()
 
 
 def grouped(description: etree._Element) -> dict[str, tuple[int, ...]]:

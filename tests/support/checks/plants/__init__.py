@@ -1,5 +1,5 @@
 """Truths of plants: closed forms, and scipy's DOP853 on equations written out anew."""
 
-from tests.support.checks.plants import attitude_lander, bodies, landers, wheels
+from tests.support.checks.plants import attitude_lander, bodies, landers, spacecraft, wheels
 
-TRUTHS = {**attitude_lander.TRUTHS, **bodies.TRUTHS, **landers.TRUTHS, **wheels.TRUTHS}
+TRUTHS = {**attitude_lander.TRUTHS, **bodies.TRUTHS, **landers.TRUTHS, **spacecraft.TRUTHS, **wheels.TRUTHS}

@@ -1,0 +1,139 @@
+"""Parameters of a spacecraft's start: `perilune.epoch` and `perilune.orbit`."""
+
+from __future__ import annotations
+
+import math
+from datetime import UTC, datetime, timedelta
+
+import numpy as np
+
+from ....fmus_src.mathlib.space.earth_gravity import GRAVITATIONAL_PARAMETER
+from ...common.errors import InputError
+
+J2000 = datetime(2000, 1, 1, 12, tzinfo=UTC)
+LEAP_SECONDS = 37  # TAI - UTC (s) from LEAP_SECONDS_START on: IERS Bulletin C 52, 2016
+LEAP_SECONDS_START = datetime(2017, 1, 1, tzinfo=UTC)
+TT_MINUS_TAI = timedelta(milliseconds=32184)
+ELEMENTS = ("semi_major_axis", "eccentricity", "inclination", "node", "argument_of_perigee", "true_anomaly", "mu")
+
+
+def epoch(utc: str, *, leap_seconds: int | None = None) -> float:
+    """Return terrestrial time (TT) in seconds since J2000.0 (2000-01-01 12:00 TT), as the parameter ``epoch`` takes it.
+
+    Parameters
+    ----------
+    utc : str
+        Date and time of ISO 8601 with a zone: ``"2026-03-20T18:00:00Z"``.
+    leap_seconds : int, optional
+        TAI - UTC (s) at that time; 37 from 2017 on, until another leap second is announced. Earlier dates need it.
+
+    Returns
+    -------
+    float
+        TT - J2000.0 (s), with TT = UTC + leap_seconds + 32.184 s.
+
+    Raises
+    ------
+    InputError
+        The text is no date with a zone, or is before 2017 and has no ``leap_seconds``.
+
+    Notes
+    -----
+    Source: IERS Conventions 2010, chapter 10.
+
+    Examples
+    --------
+    >>> perilune.epoch("2026-03-20T18:00:00Z")
+    827301669.184
+    """
+    remedy = "write it as 2026-03-20T18:00:00Z"
+    try:
+        time = datetime.fromisoformat(utc)
+    except (TypeError, ValueError):
+        raise InputError("`utc`", repr(utc), "not a date and time of ISO 8601", remedy) from None
+    if time.tzinfo is None:
+        raise InputError("`utc`", repr(utc), "without a zone", remedy)
+    if leap_seconds is None:
+        if time < LEAP_SECONDS_START:
+            raise InputError("`utc`", repr(utc), "before 2017", "give `leap_seconds`, TAI - UTC in s at that time")
+        leap_seconds = LEAP_SECONDS
+    if isinstance(leap_seconds, bool) or not isinstance(leap_seconds, int):
+        raise InputError("`leap_seconds`", repr(leap_seconds), "not a whole number", f"give one, as {LEAP_SECONDS}")
+    return (time - J2000 + timedelta(seconds=leap_seconds) + TT_MINUS_TAI) / timedelta(seconds=1)
+
+
+def orbit(
+    *,
+    semi_major_axis: float,
+    eccentricity: float = 0.0,
+    inclination: float = 0.0,
+    node: float = 0.0,
+    argument_of_perigee: float = 0.0,
+    true_anomaly: float = 0.0,
+    mu: float = GRAVITATIONAL_PARAMETER,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return position and velocity of an orbit, as ``initial_position`` and ``initial_velocity`` take them.
+
+    Parameters
+    ----------
+    semi_major_axis : float
+        In m; negative of a hyperbola.
+    eccentricity : float
+        0 to below 1 of an ellipse, above 1 of a hyperbola.
+    inclination, node, argument_of_perigee, true_anomaly : float
+        In rad: from the equator of the inertial axes, from their x axis to the ascending node, from there to the
+        perigee, from there to the spacecraft.
+    mu : float
+        Gravitational parameter of the body (m3/s2), by default the Earth's of GGM03S.
+
+    Returns
+    -------
+    tuple of two numpy arrays
+        Position (m) and velocity (m/s), inertial axes, each of three elements.
+
+    Raises
+    ------
+    InputError
+        An element is not finite or of no conic section, or the true anomaly lies beyond a hyperbola's asymptote.
+
+    Notes
+    -----
+    Source: Vallado 2013, algorithm 10.
+
+    Examples
+    --------
+    >>> r, v = perilune.orbit(semi_major_axis=6878137.0, inclination=1.7)
+    """
+    numbers = (semi_major_axis, eccentricity, inclination, node, argument_of_perigee, true_anomaly, mu)
+    for name, number in zip(ELEMENTS, numbers, strict=True):
+        if isinstance(number, bool) or not isinstance(number, int | float | np.number) or not math.isfinite(number):
+            raise InputError(f"`{name}`", repr(number), "not a finite number", "give one in SI units, angles in rad")
+    if not mu > 0.0:
+        raise InputError("`mu`", repr(mu), "not above 0", "give the body's gravitational parameter in m3/s2")
+    if eccentricity < 0.0 or eccentricity == 1.0:
+        raise InputError(
+            "`eccentricity`", repr(eccentricity), "neither an ellipse nor a hyperbola", "give 0 to below 1, or above 1"
+        )
+    parameter = semi_major_axis * (1.0 - eccentricity) * (1.0 + eccentricity)  # semi-latus rectum
+    if not parameter > 0.0:
+        sign = "above 0, as of an ellipse" if eccentricity < 1.0 else "below 0, as of a hyperbola"
+        raise InputError("`semi_major_axis`", repr(semi_major_axis), f"not {sign}", "change it or `eccentricity`")
+    cosine, sine = math.cos(true_anomaly), math.sin(true_anomaly)
+    if not 1.0 + eccentricity * cosine > 0.0:
+        raise InputError(
+            "`true_anomaly`", repr(true_anomaly), "beyond the asymptote of the hyperbola", "give an angle nearer to 0"
+        )
+    turn = _rotation(node, 2) @ _rotation(inclination, 0) @ _rotation(argument_of_perigee, 2)
+    position = parameter / (1.0 + eccentricity * cosine) * np.array([cosine, sine, 0.0])
+    velocity = math.sqrt(mu / parameter) * np.array([-sine, eccentricity + cosine, 0.0])
+    return turn @ position, turn @ velocity
+
+
+def _rotation(angle: float, axis: int) -> np.ndarray:
+    """Return the rotation by an angle (rad) about a coordinate axis."""
+    matrix = np.eye(3)
+    first, second = (axis + 1) % 3, (axis + 2) % 3
+    matrix[first, first] = matrix[second, second] = math.cos(angle)
+    matrix[second, first] = math.sin(angle)
+    matrix[first, second] = -matrix[second, first]
+    return matrix

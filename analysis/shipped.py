@@ -1,0 +1,73 @@
+"""The command line of build_fmus.py: FMUs built, the shipped systems composed of their `system.toml` and packed."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..fmus_src.export.build import build_fmus
+from ..fmus_src.export.compilers import CompilationFailed, CompilerMissing, compiled_here, platforms_of
+from ..fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE, pack_system
+from ..fmus_src.paths import BUILD, FLAVOURS, SYSTEMS
+from .common.atomic import write_atomically
+from .compose.document import fmu_source
+from .compose.files import check_unedited
+from .compose.source import read_source
+from .verbs.compose import compose_source
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Build FMUs and systems; returns the exit status: 0 done, 1 compilation failed, 2 wrong input."""
+    parser = argparse.ArgumentParser(prog="build_fmus.py", description="Build every FMU and pack every system.")
+    parser.add_argument("--output", type=Path, metavar="DIR", default=BUILD, help="default: build")
+    parser.add_argument("--flavour", choices=(*FLAVOURS, "all"), default="all")
+    parser.add_argument(
+        "--platform",
+        action="append",
+        choices=tuple(platforms_of(2)),
+        help="platforms of native FMUs; may be repeated; default: that of this machine",
+    )
+    parser.add_argument("--portable", action="store_true", help="compile with zig, against an old C library")
+    options = parser.parse_args(arguments)
+    flavours: tuple[str, ...] = FLAVOURS if options.flavour == "all" else (options.flavour,)
+    platforms = options.platform or compiled_here()
+    if not platforms and "native" in flavours:
+        flavours = tuple(flavour for flavour in flavours if flavour != "native")
+        print("no C compiler for this machine: native FMUs are not built; pip install ziglang", file=sys.stderr)
+        if not flavours:
+            return 1
+    try:
+        counts = {flavour: build_fmus(flavour, options.output, platforms, options.portable) for flavour in flavours}
+        print(
+            ", ".join(f"{count} {flavour} FMUs" for flavour, count in counts.items()), f"in {options.output / 'fmus'}"
+        )
+        folders = [options.output / "fmus" / flavour for flavour in flavours]
+        for path in sorted(SYSTEMS.glob(f"*/{SYSTEM_FILE}")):
+            compose_shipped(path, folders)
+            print(pack_system(path.parent, folders, options.output / "ssp"))
+    except ValueError as error:
+        print(f"build_fmus.py: {error}", file=sys.stderr)
+        return 2
+    except (CompilerMissing, CompilationFailed) as error:
+        print(f"build_fmus.py: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def compose_shipped(path: Path, fmus: Sequence[Path]) -> Path:
+    """Write the SSD next to a `system.toml`, with the FMUs of the first of these folders that has them; return it.
+
+    Raises InputError for a system that would not fly, and for an SSD that was edited.
+    """
+    source, raw = read_source(path)
+    built = {}
+    for name in {fmu_source(component.fmu) for component in source.components.values()}:
+        files = [folder / Path(name).name for folder in fmus if (folder / Path(name).name).is_file()]
+        if files:
+            built[name] = files[0].read_bytes()
+    target = path.with_name(DESCRIPTION)
+    check_unedited(target)
+    write_atomically(target, compose_source(source, path.parent, raw, path.name, built))
+    return target

@@ -1,0 +1,44 @@
+"""The FMUs of all blocks, built into a folder: flavours, platforms, progress."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import TypeVar
+
+from tqdm import tqdm
+
+from ..catalogue import catalogue
+from ..own_digests import list_own
+from .native_fmu import build_native_fmu
+from .pythonfmu_fmu import build_python_fmu
+
+T = TypeVar("T")
+
+
+def build_fmus(flavour: str, output: Path, platforms: Sequence[str], portable: bool) -> int:
+    """Build the FMUs of one flavour to ``output``/fmus/FLAVOUR and return their number.
+
+    Blocks that need Python have no native form. Raises CompilerMissing and CompilationFailed.
+    """
+    folder, blocks = output / "fmus" / flavour, catalogue()
+    names = [name for name, block in blocks.items() if flavour == "python" or not block.python_only]
+
+    def build(name: str) -> Path:
+        path = folder / f"{name}.fmu"
+        if flavour == "python":
+            return build_python_fmu(blocks[name], path)
+        return build_native_fmu(blocks[name], path, platforms=platforms, portable=portable)
+
+    # Native FMUs take their time in compilers, each a process; pythonfmu's builder changes sys.path meanwhile.
+    threads = 1 if flavour == "python" else os.cpu_count()
+    with ThreadPoolExecutor(threads) as pool:
+        list_own(folder, list(_progress(pool.map(build, names), f"{flavour} FMUs", len(names))))
+    return len(names)
+
+
+def _progress(work: Iterable[T], what: str, total: int) -> Iterable[T]:
+    """The same with a bar on standard error, if that is a terminal."""
+    return tqdm(work, desc=what, total=total, unit="FMU", disable=None, leave=False)

@@ -1,0 +1,1 @@
+"""What tests of a spacecraft and of its surroundings share."""
