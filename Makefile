@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | notebooks | explore | gains | checks | figures | screenshots | bench | bench-basilisk | crosscheck | basilisk | sanitize | fuzz | lowest | newest | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | release | notebooks | explore | gains | checks | figures | screenshots | bench | sizes | bench-basilisk | crosscheck | basilisk | sanitize | fuzz | lowest | newest | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # Basilisk: an environment of its own for cross-checks, and a folder next to ours for a plant.
@@ -55,6 +55,10 @@ docs: build
 wheel: .venv/ready
 	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir build/wheel .
 
+# Wheel and source distribution, each built twice and compared, then the changelog's head, a commit and a tag (CONTRIBUTING.md).
+release: .venv/ready
+	$(BIN)/python -m release
+
 # The notebooks of docs/notebooks as pages with their results: build/notebooks/NAME.html.
 notebooks: build
 	mkdir -p build/notebooks/run
@@ -86,6 +90,10 @@ screenshots: build browser
 
 bench: build
 	$(BIN)/python -m benchmarks.importers
+
+# What `pip install perilune` takes on disk, alone and with each extra: the table of README.md; five minutes.
+sizes: wheel
+	$(BIN)/python -m release.sizes
 
 # Instructions, counted by callgrind (Debian's valgrind), and time of a plan and of a cycle of each descent law.
 guidance-cost: build
@@ -142,7 +150,8 @@ fuzz: build
 	$(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --target build/fuzz/site --upgrade $(ATHERIS)
 	PYTHONPATH=build/fuzz/site $(BIN)/python -m tests.fuzz $(FUZZ)
 
-# The suite with the oldest and with the newest packages that pyproject.toml permits, each in an environment of its own.
+# The suite with the oldest and with the newest packages that pyproject.toml permits, each in an environment of its own;
+# before it a noisy flight of each system, which has the lock's bits. PYTHON=python3.13 has newer ones than 3.11.
 ENDS := build/ends
 
 lowest: CONSTRAINTS = --constraint $(ENDS)/floors.txt
@@ -153,6 +162,9 @@ lowest newest: build
 	$(ENDS)/$@/bin/pip install $(QUIET) --disable-pip-version-check 'setuptools>=77'
 	$(ENDS)/$@/bin/pip install $(QUIET) --disable-pip-version-check --upgrade --upgrade-strategy eager --no-build-isolation \
 		$(CONSTRAINTS) --editable '.[dev]'
+	$(BIN)/python -m tests.package.flights > $(ENDS)/lock.flights
+	$(ENDS)/$@/bin/python -m tests.package.flights > $(ENDS)/$@.flights
+	diff $(ENDS)/lock.flights $(ENDS)/$@.flights
 	$(ENDS)/$@/bin/python -m pytest -n 2 --dist loadfile
 
 # The elementary functions: errors of a million arguments each against mpmath, and the coefficients of their polynomials.
@@ -219,4 +231,4 @@ INSTALL = $(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --no
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build web docs wheel notebooks explore gains checks figures screenshots bench guidance-cost bench-basilisk large importers crosscheck basilisk sanitize fuzz lowest newest processors emulator windows browser browser-firefox lint clean
+.PHONY: demo test quick long long-campaigns build web docs wheel release notebooks explore gains checks figures screenshots bench sizes guidance-cost bench-basilisk large importers crosscheck basilisk sanitize fuzz lowest newest processors emulator windows browser browser-firefox lint clean

@@ -1,12 +1,18 @@
-"""What pyproject.toml cannot say of the wheel: FMUs, documentation, bill of materials, the same bytes everywhere."""
+"""What pyproject.toml cannot say of a wheel and a source distribution.
 
+FMUs, documentation, bill of materials, the page of a package index, the same bytes everywhere.
+"""
+
+import gzip
 import hashlib
+import io
 import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import tomllib
 from collections.abc import Iterator
 from datetime import UTC, datetime
@@ -17,6 +23,7 @@ from uuid import UUID
 from setuptools import setup
 from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build_py import build_py
+from setuptools.command.sdist import sdist
 
 if TYPE_CHECKING:
     from cyclonedx.model.component import Component
@@ -28,6 +35,8 @@ BUILD_DOCS = "from docs.reference.build import main; raise SystemExit(main())"
 ENVIRONMENT = dict(os.environ)  # without a date that nobody asks for: FMUs have the release's then
 EPOCH = int(os.environ.setdefault("SOURCE_DATE_EPOCH", "315532800"))  # s; of itself 1980, where the dates of zips begin
 MODE = 0o644  # of all files, whatever the umask of whoever builds
+IMAGE = re.compile(r"^!\[[^\]]*\]\((?!https?:)[^)]*\)\n+", re.MULTILINE)
+LINK = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]*\)")
 BILL = "sboms/perilune.cdx.json"  # PEP 770: in .dist-info
 
 
@@ -79,6 +88,29 @@ class ReproducibleWheel(bdist_wheel):
         for path in Path(wheelfile_base).parent.rglob("*"):
             if path.is_file():
                 path.chmod(MODE)
+
+
+class ReproducibleSdist(sdist):
+    """Gives all files the same date, mode and owner, in the order of their names."""
+
+    def make_archive(self, base_name: str, format: str, base_dir: str, **_: object) -> str:  # type: ignore[override]
+        """Write ``base_dir`` as a compressed tar archive and return its path. Raises ValueError for other formats."""
+        if format != "gztar":
+            raise ValueError(f"a source distribution is a .tar.gz here, not {format}")
+        path = Path(f"{base_name}.tar.gz")
+        packed = gzip.GzipFile(filename="", mode="wb", fileobj=path.open("wb"), mtime=EPOCH)
+        with packed.fileobj, packed, tarfile.open(fileobj=packed, mode="w", format=tarfile.PAX_FORMAT) as archive:
+            for file in sorted(each for each in Path(base_dir).rglob("*") if each.is_file()):
+                content = file.read_bytes()
+                member = tarfile.TarInfo(file.as_posix())
+                member.size, member.mtime, member.mode = len(content), EPOCH, MODE
+                archive.addfile(member, io.BytesIO(content))
+        return str(path)
+
+
+def index_page(readme: str) -> str:
+    """Return README.md as a package index shows it, which has no files next to it: without their images and links."""
+    return LINK.sub(r"\1", IMAGE.sub("", readme))
 
 
 def write_bill() -> str:
@@ -155,4 +187,8 @@ def list_scripts() -> Iterator["Component"]:
         )
 
 
-setup(cmdclass={"build_py": BuildWithFmus, "bdist_wheel": ReproducibleWheel})
+setup(
+    cmdclass={"build_py": BuildWithFmus, "bdist_wheel": ReproducibleWheel, "sdist": ReproducibleSdist},
+    long_description=index_page((ROOT / "README.md").read_text(encoding="utf-8")),
+    long_description_content_type="text/markdown",
+)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -14,7 +15,9 @@ import tomllib
 from importlib import import_module
 
 import pytest
+import trove_classifiers
 from packaging.requirements import Requirement
+from packaging.specifiers import SpecifierSet
 from packaging.utils import canonicalize_name
 from packaging.version import Version
 
@@ -35,7 +38,7 @@ FILES = """
 import json
 import os
 from setuptools.dist import Distribution
-found = Distribution()
+found = Distribution({"long_description": "as setup.py writes it"})
 found.parse_config_files()
 command = found.get_command_obj("build_py")
 command.ensure_finalized()
@@ -68,6 +71,18 @@ def test_the_citation_is_of_this_version():
     assert declared["version"] == PROJECT["version"]
     assert declared["license"] == PROJECT["license"]
     assert (declared["cff-version"], declared["title"]) == ("1.2.0", "Perilune")
+
+
+def test_the_head_of_the_changelog_is_what_is_unreleased_or_this_version():
+    head = re.findall("^## (.*)", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)[0]
+    assert head == "Unreleased" or re.fullmatch(rf"{re.escape(PROJECT['version'])} \(\d{{4}}-\d\d-\d\d\)", head)
+
+
+def test_classifiers_are_known_and_name_the_versions_of_python():
+    assert set(PROJECT["classifiers"]) <= trove_classifiers.classifiers
+    versions = re.findall(r":: Python :: (3\.\d+)$", "\n".join(PROJECT["classifiers"]), re.MULTILINE)
+    permitted = SpecifierSet(PROJECT["requires-python"])
+    assert versions == [f"3.{minor}" for minor in range(50) if f"3.{minor}" in permitted]
 
 
 def test_make_refuses_an_old_python_before_it_makes_anything(tmp_path):

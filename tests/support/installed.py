@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -34,6 +36,19 @@ class Installed:
         """All of site-packages: size and date by name."""
         collected = {path: path.stat() for path in self.site.rglob("*") if path.is_file()}
         return {str(path.relative_to(self.site)): (stat.st_size, stat.st_mtime_ns) for path, stat in collected.items()}
+
+
+def copy_of_checkout(folder: Path) -> Path:
+    """Copy the tracked files, with other dates and modes, into a folder without git, and return it."""
+    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    for name in filter(None, names.split("\0")):
+        copy = folder / name
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(ROOT / name, copy, follow_symlinks=False)
+        if not copy.is_symlink():
+            copy.chmod(0o600)
+            os.utime(copy, (1e9, 1e9))
+    return folder
 
 
 def build_wheel(folder: Path, source: Path = ROOT, **process: Any) -> Path:

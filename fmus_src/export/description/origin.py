@@ -12,7 +12,7 @@ from pathlib import Path
 import fmpy
 
 from ....analysis.common.errors import InputError
-from ...paths import IS_CHECKOUT, ROOT
+from ...paths import IS_CHECKOUT, PACKAGE, ROOT
 
 # The release of this version, which its FMUs are dated with, so that builds are the same bytes.
 RELEASED = datetime(2026, 11, 29, tzinfo=UTC)
@@ -83,6 +83,8 @@ def _licence(package: str) -> str:
     if package == "perilune" and IS_CHECKOUT:  # where metadata next to the sources may be found first, without it
         return (ROOT / "LICENSE").read_text(encoding="utf-8")
     text = distribution(package).read_text("licenses/LICENSE")
+    if text is None and package == "perilune":  # an unpacked source distribution, of which a wheel is being built
+        text = (PACKAGE.parent / "LICENSE").read_text(encoding="utf-8")
     assert text is not None, f"{package} is installed without its licence"
     return text
 

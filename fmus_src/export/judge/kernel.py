@@ -123,11 +123,18 @@ Returned = Value | Several
 
 @dataclass(frozen=True)
 class Constant:
-    """A float, int, bool, vector or tuple of numbers, named in a module and never changed."""
+    """A float, int, bool, vector or tuple of numbers, named in a module and never changed.
+
+    Compared by its text, since NaN is not equal to itself.
+    """
 
     module: str
     name: str
-    value: Any
+    value: Any = field(compare=False)
+    text: str = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", repr(self.value))
 
 
 @dataclass(frozen=True)

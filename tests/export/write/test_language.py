@@ -5,6 +5,7 @@ from __future__ import annotations
 from inspect import getsourcelines
 
 from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.judge.kernel import Constant
 from perilune.fmus_src.export.judge.subset import check
 from perilune.fmus_src.export.write.translate import translate
 from tests.support import lengths
@@ -108,6 +109,13 @@ def test_everything_that_bundles_can_do_is_bitwise_equal_with_its_fault() -> Non
 def test_enumerations_of_one_module_may_name_their_members_alike() -> None:
     assert [Engine.READY, Tank.READY, Valve.READY] == [0, 1, 2]
     fly(Pair(Readiness, lengths.generator("statuses")), lengths.size(200))
+
+
+def test_a_constant_that_is_not_a_number_has_one_name() -> None:
+    """NaN is not equal to itself, and dataclasses compare field by field since Python 3.13."""
+    assert Constant("math", "nan", float("nan")) == Constant("math", "nan", float("nan"))
+    assert len({Constant("math", "nan", float("nan")), Constant("math", "nan", float("nan"))}) == 1
+    assert Constant("m", "GOOD", 1) != Constant("m", "GOOD", 2)
 
 
 def test_generated_integrators_are_readable() -> None:
