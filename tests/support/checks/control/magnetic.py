@@ -43,7 +43,7 @@ def magnetic_control():
     field[number == WEAK] *= 0.02
     momentum = random.normal(0.0, 0.02, (ROWS, 3))
     field[new & (number == WRONG_FIELD), 1] = np.nan
-    momentum[new & (number == WRONG_MOMENTUM), 2] = np.inf
+    momentum[new & (number == WRONG_MOMENTUM), 2] = np.nan
     seen = follow(np.arange(ROWS))
     before, sample, rows = None, None, []
     for row, source in enumerate(seen):

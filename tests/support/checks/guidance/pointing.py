@@ -9,7 +9,7 @@ CYCLE, ROWS = 0.25, 73
 NADIR, SUN, INERTIAL = range(3)
 GOOD, OLD_ORBIT, DEGENERATE, NOT_FINITE = range(4)
 MU, J2, RADIUS = 4.0e14, 1.1e-3, 6.4e6
-NO_SUN, NO_COUNT, ALONG, FALLING = 45, range(12, 37), range(50, 53), range(60, 64)  # rows
+NO_ORBIT, NO_COUNT, ALONG, FALLING = range(4), range(12, 37), range(50, 53), range(60, 64)  # rows
 
 
 def oblate_acceleration(r):
@@ -49,26 +49,26 @@ def orbit_samples():
     v = 7600.0 * (-np.sin(angle) * [0.6, 0.48, 0.64] + np.cos(angle) * [-0.79, 0.38, 0.48])
     fall = np.isin(np.arange(ROWS), FALLING)
     v[fall] = -3e-4 * r[fall]
+    r[NO_ORBIT] = 0.0
     return r, v, taken, count
 
 
 def pointing_guidance():
-    """All modes and statuses: an old orbit, the Sun along the orbit normal, a fall, a Sun that is not finite."""
+    """All modes and statuses: an old orbit, the Sun along the orbit normal, a fall, no orbit at first."""
     r, v, taken, count = orbit_samples()
     sun = np.tile([0.3, -0.7, 0.55], (ROWS, 1)) + 0.01 * np.arange(ROWS)[:, None]
     sun[ALONG] = -2.0 * np.cross(r[ALONG], v[ALONG])
-    sun[NO_SUN, 1] = np.nan
     mode = np.repeat([NADIR, SUN, INERTIAL, SUN, NADIR, SUN], [20, 12, 9, 14, 11, 7])
     offset, fixed = Rotation.from_rotvec([0.2, -0.1, 0.4]), Rotation.from_rotvec([1.0, 0.5, -2.0])
     panel, secondary = np.array([0.1, -2.0, 0.3]), np.array([0.2, 0.1, 1.5])
     seen = follow(np.arange(ROWS))
     reference, before, rows = (Rotation.identity(), np.zeros(3), np.zeros(3)), None, []
     for row, n in enumerate(seen):
-        time, finite = CYCLE * row, n != NO_SUN
+        time, finite = CYCLE * row, n not in NO_ORBIT
         if finite and count[n] != before:
             before, at = count[n], taken[n]
             position, velocity = carry(r[n], v[n], time - at)
-        else:
+        elif finite:
             position, velocity = carry(position, velocity, CYCLE)
         status = GOOD if finite else NOT_FINITE
         if finite and time - at > 5.0:
