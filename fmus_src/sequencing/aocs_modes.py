@@ -94,8 +94,9 @@ class AocsModes(Block):
         if self.mode == AocsMode.DETUMBLE:
             return norm(self.estimated_angular_velocity) < self.calm_rate
         sun = to_body(normalise(self.estimated_quaternion), self.sun_direction)
-        angle = atan2(norm(cross(self.panel_normal, sun)), dot(self.panel_normal, sun))
-        return self.knows_attitude() and angle < self.sun_error
+        sine = norm(cross(self.panel_normal, sun))
+        cosine = dot(self.panel_normal, sun)
+        return self.knows_attitude() and sine + abs(cosine) > 0.0 and atan2(sine, cosine) < self.sun_error
 
     def set_mode(self, t: float) -> None:
         """Set the mode at t (s)."""

@@ -169,6 +169,12 @@ def test_a_quaternion_shorter_than_a_half_is_no_attitude(quaternion):
     assert flight.fly(0.25) == AocsMode.SUN
 
 
+def test_no_direction_to_the_sun_is_not_on_it():
+    flight = flight_in(AocsMode.SUN)
+    flight.modes.sun_direction = [0.0, 0.0, 0.0]
+    assert flight.fly(400.0) == AocsMode.SUN
+
+
 def test_times_of_0_need_the_condition_nonetheless():
     modes = AocsModes(settle_time=0.0, lost_time=0.0, blind_time=0.0, attitude_known=True)
     modes.initialize()
