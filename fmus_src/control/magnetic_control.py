@@ -86,7 +86,7 @@ class MagneticControl(Block):
                     largest = abs(dipole[i])
             if largest > self.dipole_limit:
                 self.status = MagneticControlStatus.LIMITED
-                dipole = self.dipole_limit / largest * dipole
+                dipole = self.dipole_limit * (dipole / largest)
             self.planned_dipole = dipole
         self.previous_field = field
         self.has_field = True

@@ -7,7 +7,7 @@ from ..interfaces.ports import body, robot, sampling
 from ..interfaces.ports.space import MagneticMode, PointingMode, SpaceEnvironment
 from ..kernel.enumerations import Enumeration, member
 from ..kernel.functions import atan2
-from ..mathlib.attitude.quaternion import normalise, to_body
+from ..mathlib.attitude.quaternion import is_attitude, normalise, to_body
 from ..mathlib.vectors import cross, dot, is_finite, norm
 from ..units import deg
 
@@ -32,8 +32,9 @@ class AocsModes(Block):
 
     DETUMBLE to SUN after the rate was below calm_rate for settle_time. SUN to NADIR after an attitude was known and
     panel_normal within sun_error of the Sun for settle_time. To DETUMBLE after the rate was above lost_rate for
-    lost_time; to SUN from NADIR after no attitude for blind_time. Each is decided at this block's samples. Wheels are
-    off and torquers brake in DETUMBLE; wheels are on and torquers unload them in the other modes.
+    lost_time; to SUN from NADIR after no attitude for blind_time, and a quaternion shorter than 0.5 is none. Each is
+    decided at this block's samples, of which one that is not finite keeps the mode and ends a spell of settling or of
+    lost_rate. Wheels are off and torquers brake in DETUMBLE; wheels are on and torquers unload them in the other modes.
     Frame: body. Equations: docs/systems/earth_pointing.md. Source: ours.
     """
 
@@ -84,33 +85,45 @@ class AocsModes(Block):
         if mode == AocsMode.NADIR:
             self.pointing_mode = PointingMode.NADIR
 
+    def knows_attitude(self) -> bool:
+        """True if the attitude is usable; a quaternion shorter than 0.5 is none."""
+        return self.attitude_known and is_attitude(self.estimated_quaternion)
+
     def ready(self) -> bool:
         """True if the condition to go on to the next mode holds."""
         if self.mode == AocsMode.DETUMBLE:
             return norm(self.estimated_angular_velocity) < self.calm_rate
         sun = to_body(normalise(self.estimated_quaternion), self.sun_direction)
-        angle = atan2(norm(cross(self.panel_normal, sun)), dot(self.panel_normal, sun))
-        return self.attitude_known and angle < self.sun_error
+        sine = norm(cross(self.panel_normal, sun))
+        cosine = dot(self.panel_normal, sun)
+        return self.knows_attitude() and sine + abs(cosine) > 0.0 and atan2(sine, cosine) < self.sun_error
 
     def set_mode(self, t: float) -> None:
         """Set the mode at t (s)."""
         self.status = AocsModesStatus.NOT_FINITE
         q = self.estimated_quaternion
         finite = is_finite(self.estimated_angular_velocity) and is_finite(self.sun_direction)
-        if finite and math.isfinite(q.w) and is_finite(q[1:4]):
+        if not (finite and math.isfinite(q.w) and is_finite(q[1:4])):
+            self.settled_since = t
+            self.fast_since = t
+        else:
             self.status = AocsModesStatus.GOOD
-            if not self.ready():
+            ready = self.ready()
+            if not ready:
                 self.settled_since = t
-            if not norm(self.estimated_angular_velocity) > self.lost_rate:
+            fast = norm(self.estimated_angular_velocity) > self.lost_rate
+            if not fast:
                 self.fast_since = t
-            if self.attitude_known:
+            known = self.knows_attitude()
+            if known:
                 self.blind_since = t
-            settled = t - self.settled_since >= self.settle_time
-            blind = t - self.blind_since >= self.blind_time
+            settled = ready and t - self.settled_since >= self.settle_time
+            lost = fast and t - self.fast_since >= self.lost_time
+            blind = not known and t - self.blind_since >= self.blind_time
             if self.mode == AocsMode.DETUMBLE:
                 if settled:
                     self.enter(AocsMode.SUN, t)
-            elif t - self.fast_since >= self.lost_time:
+            elif lost:
                 self.enter(AocsMode.DETUMBLE, t)
             elif self.mode == AocsMode.SUN:
                 if settled:

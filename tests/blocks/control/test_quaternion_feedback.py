@@ -82,7 +82,10 @@ def test_an_error_limit_bounds_the_rate():
     assert rates.max() == pytest.approx(bound, rel=5e-3)
 
 
-@pytest.mark.parametrize("name", ["estimated_quaternion", "estimated_angular_velocity", "wheel_momentum"])
+NAMES = ["estimated_quaternion", "estimated_angular_velocity", "wheel_momentum", "feedforward_torque"]
+
+
+@pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("wrong", [math.nan, math.inf])
 def test_what_is_not_finite_leaves_the_torque_as_it_is(name, wrong):
     control = QuaternionFeedback()
@@ -110,3 +113,44 @@ def test_the_integral_takes_a_constant_torque_off():
     for n in range(80):
         control.step(0.125 * n, 0.125)
     assert control.torque_command.x - first == pytest.approx(-180.0 * 0.3**2 / 20.0 * 2e-3 * 10.0, rel=1e-5)
+
+
+def wrong_attitude(**inputs):
+    """A control at a constant error of attitude and rate, with an integral."""
+    return QuaternionFeedback(
+        integral_time=20.0,
+        estimated_quaternion=Rotation.from_rotvec([2e-3, -1e-3, 3e-3]).as_quat(scalar_first=True).tolist(),
+        estimated_angular_velocity=[1e-3, 2e-3, -1e-3],
+        **inputs,
+    )
+
+
+def test_a_torque_fed_forward_is_added_and_changes_no_bit_at_its_start():
+    torque = np.array([0.01, -0.02, 0.03])
+    plain, zero, fed = wrong_attitude(), wrong_attitude(), wrong_attitude(feedforward_torque=torque.tolist())
+    zero.feedforward_torque = [-0.0, 0.0, -0.0]
+    for control in (plain, zero, fed):
+        control.initialize()
+    for n in range(3):
+        for control in (plain, zero, fed):
+            control.step(0.125 * n, 0.125)
+        assert tuple(plain.torque_command) == tuple(zero.torque_command)
+        np.testing.assert_allclose(np.subtract(fed.torque_command, plain.torque_command), torque, atol=1e-16)
+
+
+def test_off_there_is_no_torque_and_the_integral_begins_again():
+    """On again the torque is that of the first tick of another control, to the bit."""
+    fresh, control = wrong_attitude(feedforward_torque=[0.1, 0.0, 0.0]), wrong_attitude()
+    fresh.initialize()
+    control.feedforward_torque = [0.1, 0.0, 0.0]
+    control.initialize()
+    control.step(0.0, 0.125)
+    assert tuple(control.torque_command) != tuple(fresh.torque_command)
+    control.active, control.wheel_momentum = False, [math.nan, 0.0, 0.0]
+    control.step(0.125, 0.125)
+    assert control.status == QuaternionFeedbackStatus.OFF
+    assert tuple(control.torque_command) == (0.0, 0.0, 0.0)
+    control.active, control.wheel_momentum = True, [0.0, 0.0, 0.0]
+    control.step(0.25, 0.125)
+    assert control.status == QuaternionFeedbackStatus.GOOD
+    assert tuple(control.torque_command) == tuple(fresh.torque_command)

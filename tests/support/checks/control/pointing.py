@@ -9,7 +9,10 @@ ROWS = 33
 
 
 def quaternion_feedback():
-    """Errors within and beyond the band of the integral and the limit; quaternions of either sign, any length."""
+    """Errors within and beyond the band of the integral and the limit; quaternions of either sign, any length.
+
+    A torque fed forward; off for a while, which clears the integral: the error stays that of the last sample then.
+    """
     inertia = np.array([[12.0, -0.7, 0.3], [-0.7, 9.0, 0.5], [0.3, 0.5, 7.0]])
     w0, damping, time, band, limit = 0.8, 0.7, 5.0, 0.3, 0.5
     random = np.random.default_rng(46)
@@ -25,12 +28,17 @@ def quaternion_feedback():
     assert 0 < (length < band).sum() < ROWS
     bounded = 2.0 * q * np.minimum(1.0, limit / length)[:, None]
     stiffness, friction = w0**2 + 2.0 * damping * w0 / time, 2.0 * damping * w0 + 1.0 / time
+    feedforward = random.normal(0.0, 0.1, (ROWS, 3))
+    active = (np.arange(ROWS) < 14) | (np.arange(ROWS) > 18)
     # a tick sees the inputs of the row before, the first one those of the first row: they are integrated twice
     seen = follow(np.arange(ROWS))
-    integral = np.cumsum(np.where((length < band)[:, None], 2.0 * q, 0.0)[seen], axis=0) * STEP * w0**2 / time
+    integral = np.cumsum(np.where((length < band)[:, None] & active[:, None], 2.0 * q, 0.0)[seen], axis=0)
+    integral -= np.where((seen > 18)[:, None], integral[seen == 18], 0.0)
+    integral *= STEP * w0**2 / time
+    on, answered = active[seen], np.maximum.accumulate(np.where(active, np.arange(ROWS), 0))[seen]
     seen_rate, seen_acceleration = error.inv().apply(wanted), error.inv().apply(acceleration)
     answer = seen_acceleration + np.cross(seen_rate, rate) - stiffness * bounded - friction * (rate - seen_rate)
-    torque = np.cross(rate, rate @ inertia.T + wheels) + answer @ inertia.T
+    torque = np.cross(rate, rate @ inertia.T + wheels) + answer @ inertia.T + feedforward
     return Check(
         truth="rotations by scipy, the law by numpy",
         step=STEP,
@@ -41,11 +49,13 @@ def quaternion_feedback():
             "reference_angular_velocity": wanted,
             "reference_angular_acceleration": acceleration,
             "wheel_momentum": wheels,
+            "feedforward_torque": feedforward,
+            "active": active,
         },
         outputs={
-            "torque_command": torque[seen] - integral @ inertia.T,
-            "attitude_error": 2.0 * q[seen],
-            "status": np.zeros(ROWS),
+            "torque_command": np.where(on[:, None], torque[seen] - integral @ inertia.T, 0.0),
+            "attitude_error": 2.0 * q[answered],
+            "status": np.where(on, 0, 3),
         },
         tolerances={"torque_command": (1e-12, 0.0), "attitude_error": (1e-14, 0.0), "status": (0.0, 0.0)},
         parameters={

@@ -10,6 +10,7 @@ from tests.support.checks.guidance import (
     jerk_limited,
     network,
     planar_network,
+    pointing,
     rendezvous,
     slews,
 )
@@ -24,6 +25,7 @@ MODULES = (
     jerk_limited,
     network,
     planar_network,
+    pointing,
     rendezvous,
     slews,
 )

@@ -133,6 +133,10 @@ def pointing_monitor():
     off = 0.02 * np.exp(-0.6 * TIME) + np.where((TIME > 2.2) & (TIME < 2.7), 0.02, 0.0)
     true = target * Rotation.from_rotvec(np.outer(off, [0.6, 0.0, 0.8]))
     reference = target * Rotation.from_rotvec(np.outer(0.5 * off, [0.0, 1.0, 0.0]))
+    estimate = true * Rotation.from_rotvec(0.3 * np.sin(TIME[:, None] + PHASES))
+    boresight = np.array([0.6, -1.2, 2.0])
+    aims = zip(true.apply(boresight), reference.apply(boresight), strict=True)
+    cone = np.array([Rotation.align_vectors([aim], [wanted])[0].magnitude() for aim, wanted in aims])
     rate = np.outer(np.where(TIME < 1.7, 0.01, 1e-4), [0.0, 0.6, -0.8])
     angle_limit, rate_limit, hold = 0.01, 1e-3, 1.0
     within = (off <= angle_limit) & (np.linalg.norm(rate, axis=1) <= rate_limit)
@@ -154,10 +158,13 @@ def pointing_monitor():
             "quaternion": true.as_quat(scalar_first=True),
             "angular_velocity": rate,
             "reference_quaternion": reference.as_quat(scalar_first=True),
+            "estimated_quaternion": -estimate.as_quat(scalar_first=True),
         },
         outputs={
             "attitude_error": (reference.inv() * true).as_rotvec()[seen],
             "pointing_error": off[seen],
+            "half_cone": cone[seen],
+            "knowledge_error": (true.inv() * estimate).as_rotvec()[seen],
             "rate": np.linalg.norm(rate, axis=1)[seen],
             "settling_time": np.array(settling),
             "finished": np.array(finished),
@@ -165,6 +172,8 @@ def pointing_monitor():
         tolerances={
             "attitude_error": (1e-14, 0.0),
             "pointing_error": (1e-14, 0.0),
+            "half_cone": (1e-14, 0.0),
+            "knowledge_error": (1e-14, 0.0),
             "rate": (1e-15, 0.0),
             "settling_time": (1e-12, 0.0),
             "finished": (0.0, 0.0),
@@ -174,6 +183,7 @@ def pointing_monitor():
             "angle_limit": angle_limit,
             "rate_limit": rate_limit,
             "hold_time": hold,
+            "boresight": boresight,
         },
     )
 

@@ -1,5 +1,5 @@
 """Truths of sequencing: what a whole record of inputs implies, or the record that makes a flight written beforehand."""
 
-from tests.support.checks.sequencing import landing, monitors
+from tests.support.checks.sequencing import aocs, landing, monitors
 
-TRUTHS = {**landing.TRUTHS, **monitors.TRUTHS}
+TRUTHS = {**aocs.TRUTHS, **landing.TRUTHS, **monitors.TRUTHS}
