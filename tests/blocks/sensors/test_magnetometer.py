@@ -69,7 +69,7 @@ def test_an_input_that_is_not_finite_is_no_sample(name):
     assert (block.status, block.sample_count) == (MagnetometerStatus.GOOD, 2)
 
 
-def test_sizes_of_drawn_errors():
+def test_sizes_of_random_errors():
     """Per flight a bias and nine elements of S, which stay; per sample the noise."""
     flights = [magnetometer([0.0, 0.0, 0.0], stream=k, **PERFECT | {"bias_sigma": 2e-7}) for k in range(200)]
     assert_variance([[*block.measured_field] for block in flights], 2e-7)
