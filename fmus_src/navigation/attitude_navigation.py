@@ -15,6 +15,8 @@ class AttitudeNavigationStatus(Enumeration):
     REJECTED = member("last sample beyond the gate and left out")
     NO_RECENT_STAR = member("no star sample for 30 s")
     UNKNOWN = member("no attitude measured yet")
+    NO_DIRECTION = member("last direction to the Sun or of the field not finite or 0 and left out")
+    TOO_LATE = member("last star sample older than eight cycles and left out")
 
 
 class AttitudeNavigation(Block, interface=True):
