@@ -102,10 +102,10 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         for i in range(TURNS):
             k = TURNS - 1 - i
             if self.turn_ends[k] > self.star_time + ROUNDING:
-                share = 1.0
+                fraction = 1.0
                 if self.turn_starts[k] < self.star_time - ROUNDING:
-                    share = (self.turn_ends[k] - self.star_time) / (self.turn_ends[k] - self.turn_starts[k])
-                q = multiply(q, from_rotation_vector(share * self.turns[k, 0:3]))
+                    fraction = (self.turn_ends[k] - self.star_time) / (self.turn_ends[k] - self.turn_starts[k])
+                q = multiply(q, from_rotation_vector(fraction * self.turns[k, 0:3]))
         return normalise(q)
 
     def restart(self, variance: float) -> None:

@@ -44,7 +44,7 @@ def fly(delays, steps, start=True, **settings):
 
 @pytest.mark.parametrize("delay", [0.25, 0.5, 2.0, 0.1, 0.6])
 def test_a_late_sample_equals_one_on_time(delay):
-    """By whole cycles, and by shares of one."""
+    """By whole cycles, and by fractions of one."""
     on_time, late = (fly({n: by for n in range(9, 60, 2)}, 60) for by in (0.0, delay))
     assert [*late.estimated_quaternion] == pytest.approx([*on_time.estimated_quaternion], abs=1e-14)
     assert [*late.estimated_bias] == pytest.approx([*on_time.estimated_bias], abs=1e-14)

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from perilune.fmus_src.mathlib.rng import normals, seed_streams, uniform
+from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.sensors.rate_gyros import RateGyros, RateGyrosStatus
 from tests.support.lengths import either
 
@@ -87,6 +89,16 @@ def test_errors_that_are_off_leave_the_stream_as_it_was(walk):
     assert after[1:] == pytest.approx(before[:-1] + 1e-3 * sum(RATE), abs=1e-9)
 
 
+def test_at_defaults_a_sample_is_rate_bias_and_noise():
+    """Bit by bit, from the same stream of numbers."""
+    block, stream = gyros(sigma=1e-3, bias_limit=2e-3, bias=[1e-3, 0.0, 2e-3], seed=3, stream=2), [0.0] * 6
+    seed_streams(stream, 3, 2)
+    bias = vector(1e-3, 0.0, 2e-3) + 2e-3 * (2.0 * vector(*(uniform(stream) for _ in range(3))) - vector(1.0, 1.0, 1.0))
+    for k in range(20):
+        assert [*block.measured_angular_velocity] == [*(vector(*RATE) + bias + 1e-3 * normals(stream))]
+        block.step(0.2 * k, 0.2)
+
+
 def allan_variance(tau, noise, instability, lag, walk):
     """IEEE Std 952, annex C."""
     x = tau / lag
@@ -135,7 +147,7 @@ def test_a_flight_has_the_allan_deviation(flight, size):
     noise = math.sqrt((SIGMA**2 + QUANTUM**2 / 12.0) * STEP)
     expected = allan_variance(size * STEP, noise, INSTABILITY, LAG, WALK)
     assert 0.5 * covariance[0] == pytest.approx(expected, rel=0.01)
-    shares = (covariance[1:] / covariance[0]) ** 2
-    freedom = 3.0 * pairs / (1.0 + 2.0 * np.sum((1.0 - np.arange(1, len(covariance)) / pairs) * shares))
+    ratios = (covariance[1:] / covariance[0]) ** 2
+    freedom = 3.0 * pairs / (1.0 + 2.0 * np.sum((1.0 - np.arange(1, len(covariance)) / pairs) * ratios))
     low, high = stats.chi2.interval(0.999, freedom)
     assert low < freedom * np.mean(differences**2) / covariance[0] < high

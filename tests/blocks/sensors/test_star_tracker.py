@@ -12,6 +12,9 @@ from hypothesis import strategies as st
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
+from perilune.fmus_src.mathlib.attitude.quaternion import from_rotation_vector, multiply, normalise
+from perilune.fmus_src.mathlib.rng import normals, seed_streams
+from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.sensors.star_inertial import StarInertial, StarTrackerStatus
 
 ATTITUDE = Rotation.from_rotvec([0.4, -1.1, 0.7])
@@ -80,7 +83,7 @@ def test_a_sample_arrives_late_with_its_time(latency):
     block = StarInertial(latency=latency, sun_exclusion=0.5, attitude_sigma=0.0)
     block.sun_direction = [1.0, 0.0, 0.0]
     block.initialize()
-    taken = [0.0]
+    times = [0.0]
     for k in range(12):
         time = 0.5 * (k + 1)
         dazzled = 4 <= k < 7
@@ -88,14 +91,14 @@ def test_a_sample_arrives_late_with_its_time(latency):
         block.quaternion = Rotation.from_rotvec([0.1 * time, 0.0, 0.0]).as_quat(scalar_first=True).tolist()
         block.step(0.5 * k, 0.5)
         if not dazzled:
-            taken.append(time)
+            times.append(time)
         assert block.status == (StarTrackerStatus.DAZZLED if dazzled else StarTrackerStatus.GOOD)
-        arrived = [instant for instant in taken if instant <= time - 0.5 * latency]
+        arrived = [instant for instant in times if instant <= time - 0.5 * latency]
         assert block.sample_count == len(arrived)
         if arrived:
             assert block.sample_time == arrived[-1]
-            turned = Rotation.from_quat([*block.measured_quaternion], scalar_first=True).as_rotvec()
-            assert turned == pytest.approx([0.1 * arrived[-1], 0.0, 0.0], abs=1e-14)
+            rotation = Rotation.from_quat([*block.measured_quaternion], scalar_first=True).as_rotvec()
+            assert rotation == pytest.approx([0.1 * arrived[-1], 0.0, 0.0], abs=1e-14)
 
 
 def test_errors_about_the_boresight_and_across_it():
@@ -110,3 +113,15 @@ def test_errors_about_the_boresight_and_across_it():
     for squares, sigma, freedom in ((about**2, 6e-4, 1), ((across**2).sum(axis=1), 1e-4, 2)):
         low, high = stats.chi2.interval(0.999, freedom * len(errors))
         assert low < squares.sum() / sigma**2 < high
+
+
+def test_at_defaults_a_sample_is_the_attitude_after_a_small_rotation():
+    """Bit by bit, from the same stream of numbers."""
+    block, stream = StarInertial(attitude_sigma=1e-2, seed=3, stream=2), [0.0] * 6
+    block.quaternion = ATTITUDE.as_quat(scalar_first=True).tolist()
+    block.initialize()
+    seed_streams(stream, 3, 2)
+    for k in range(20):
+        error = from_rotation_vector(1e-2 * normals(stream))
+        assert [*block.measured_quaternion] == [*normalise(multiply(vector(*block.quaternion), error))]
+        block.step(0.125 * k, 0.125)
