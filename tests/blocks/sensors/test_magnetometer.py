@@ -40,6 +40,13 @@ def test_scale_factors_coupling_and_bias():
     assert [*block.measured_field] == pytest.approx([2.13325e-05, -1.01389e-05, 2.97997e-05], rel=1e-13)
 
 
+def test_a_dipole_adds_a_column_of_the_coupling():
+    coupling = 1e-8 * np.arange(9.0).reshape(3, 3)
+    for k in range(3):
+        block = magnetometer([0.0, 0.0, 0.0], dipole=np.eye(3)[k], coupling=coupling.ravel().tolist(), **PERFECT)
+        assert [*block.measured_field] == pytest.approx(coupling[:, k], rel=1e-14)
+
+
 @given(st.lists(st.floats(-2e-4, 2e-4), min_size=3, max_size=3))
 def test_limits_and_steps(field):
     """A component leaves its true one by half a step, but for the range; on the half it goes up."""

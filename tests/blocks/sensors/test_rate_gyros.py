@@ -106,6 +106,17 @@ def allan_variance(tau, noise, instability, lag, walk):
     return noise**2 / tau + wandering + walk**2 * tau / 3.0
 
 
+def test_the_correlated_bias_begins_in_its_steady_state():
+    """Over flights, at the start and after many times of its correlation."""
+    flights = [gyros(instability_sigma=1e-3, instability_time=0.5, stream=k) for k in range(200)]
+    for _ in range(2):
+        errors = [np.subtract(block.measured_angular_velocity, RATE) for block in flights]
+        low, high = stats.chi2.interval(0.999, np.size(errors))
+        assert low < np.sum(np.square(errors)) / 1e-3**2 < high
+        for block in flights:
+            fly(block, 20)
+
+
 def test_the_closed_form_has_the_numbers_of_a_small_satellites_gyro():
     tau = np.array([0.25, 1.0, 10.0, 100.0, 300.0, 1000.0, 3000.0, 10000.0])
     deviations = np.sqrt(allan_variance(tau, 4.4e-5, 4.8e-6, 300.0, 2e-9))
