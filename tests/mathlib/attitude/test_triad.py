@@ -31,7 +31,7 @@ def test_axes_of_a_rotation(seed):
 
 @pytest.mark.parametrize("axis", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.36, -0.48, 0.8]])
 @pytest.mark.parametrize("angle", [0.0, 1e-9, math.pi / 2.0, math.pi - 1e-9, math.pi])
-def test_axes_of_half_a_turn_and_of_none(axis, angle):
+def test_axes_of_half_a_turn_and_of_no_turn(axis, angle):
     """Where three of four components or the scalar are near 0."""
     truth = Rotation.from_rotvec(angle * np.array(axis))
     q = from_axes(*(vector(*column) for column in truth.as_matrix().T))

@@ -16,13 +16,13 @@ from perilune.fmus_src.mathlib.estimation.sensor_errors import LATEST, make_room
 from perilune.fmus_src.mathlib.vectors import vector
 
 numbers = st.floats(-1e3, 1e3)
-ONE, NONE = vector(1.0, 1.0, 1.0), vector(0.0, 0.0, 0.0)
+ONE, ZERO = vector(1.0, 1.0, 1.0), vector(0.0, 0.0, 0.0)
 
 
 @given(st.floats(1e-3, 1e3), st.floats(1e-3, 1e3), st.floats(0.01, 100.0))
 def test_a_gauss_markov_error_keeps_its_variance(elapsed, time, sigma):
     """Its decay is e^(-t/T); decay^2 sigma^2 and the new share are sigma^2 again."""
-    decay, fresh = next_markov(ONE, elapsed, time, sigma, NONE).x, next_markov(NONE, elapsed, time, sigma, ONE).x
+    decay, fresh = next_markov(ONE, elapsed, time, sigma, ZERO).x, next_markov(ZERO, elapsed, time, sigma, ONE).x
     assert decay == pytest.approx(math.exp(-elapsed / time), rel=1e-14)
     assert (decay * sigma) ** 2 + fresh**2 == pytest.approx(sigma**2, rel=1e-12)
 
@@ -30,11 +30,11 @@ def test_a_gauss_markov_error_keeps_its_variance(elapsed, time, sigma):
 @given(st.floats(0.1, 10.0), st.floats(0.1, 10.0))
 def test_two_steps_are_one_of_both_lengths(first, second):
     """In decay, and in the variance of the new share."""
-    decay = next_markov(next_markov(ONE, first, 3.0, 2.0, NONE), second, 3.0, 2.0, NONE).x
-    assert decay == pytest.approx(next_markov(ONE, first + second, 3.0, 2.0, NONE).x, rel=1e-13)
-    early = next_markov(next_markov(NONE, first, 3.0, 2.0, ONE), second, 3.0, 2.0, NONE).x
-    late = next_markov(NONE, second, 3.0, 2.0, ONE).x
-    assert math.hypot(early, late) == pytest.approx(next_markov(NONE, first + second, 3.0, 2.0, ONE).x, rel=1e-12)
+    decay = next_markov(next_markov(ONE, first, 3.0, 2.0, ZERO), second, 3.0, 2.0, ZERO).x
+    assert decay == pytest.approx(next_markov(ONE, first + second, 3.0, 2.0, ZERO).x, rel=1e-13)
+    early = next_markov(next_markov(ZERO, first, 3.0, 2.0, ONE), second, 3.0, 2.0, ZERO).x
+    late = next_markov(ZERO, second, 3.0, 2.0, ONE).x
+    assert math.hypot(early, late) == pytest.approx(next_markov(ZERO, first + second, 3.0, 2.0, ONE).x, rel=1e-12)
 
 
 @given(st.lists(numbers, min_size=3, max_size=3), st.sampled_from([0.125, 0.1, 3.0, 1e-4]))
