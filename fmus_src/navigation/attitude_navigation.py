@@ -6,7 +6,7 @@ from ..kernel.enumerations import Enumeration, member
 
 
 class AttitudeNavigationStatus(Enumeration):
-    """What the estimate rests on."""
+    """State of the estimate."""
 
     GOOD = member("good")
     NO_GYROS = member("last gyro sample not finite, last rate used")

@@ -45,7 +45,9 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
     Crassidis 2014, sections 5.1 and 6.2.
     """
 
-    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="of the star tracker, any length")
+    boresight = Parameter(
+        [0.0, 0.0, 1.0], unit="1", frame="body", description="boresight of the star tracker, of any length"
+    )
     roll_sigma = Parameter(
         0.0, unit="rad", minimum=0.0, description="error of a star sample about the boresight; 0: star_sigma"
     )
@@ -55,7 +57,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
     rejects_to_restart = Parameter(
         20, minimum=1, description="samples beyond the gate in a row until the covariance restarts"
     )
-    star_time = Input(-1.0, unit="s", description="when the star sample was taken; below 0: now")
+    star_time = Input(-1.0, unit="s", description="time of the star sample; below 0: now")
     measured_sun = Input([0.0, 0.0, 0.0], unit="1", frame="body", description="measured direction to the Sun")
     sun_count = Input(0, description="samples of the Sun so far; a change signals a new one")
     sun_direction = SpaceEnvironment.sun_direction.input("to the Sun, as known on board")

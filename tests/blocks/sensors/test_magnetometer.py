@@ -81,7 +81,7 @@ def test_sizes_of_random_errors():
     flights = [magnetometer([0.0, 0.0, 0.0], stream=k, **PERFECT | {"bias_sigma": 2e-7}) for k in range(200)]
     assert_variance([[*block.measured_field] for block in flights], 2e-7)
     flights = [magnetometer(stream=k, **PERFECT | {"scale_sigma": 2e-3}) for k in range(200)]
-    assert_variance([block.whole_scale.rows for block in flights], 2e-3)
+    assert_variance([block.total_scale.rows for block in flights], 2e-3)
     errors = [np.subtract(block.measured_field, FIELD) for block in flights]
     assert_variance(errors, 2e-3 * np.linalg.norm(FIELD))
     first = [*flights[0].measured_field]
