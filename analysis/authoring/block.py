@@ -54,8 +54,9 @@ def new_block(name: str, slot: str | None) -> Written:
 
 
 def where_it_flies(slot: str) -> tuple[str, str]:
-    """The system of fewest components that has a slot, and the component it is."""
-    blocks, interface = catalogue(), slots()[slot]
+    """The system of fewest components that has a slot, and the component it is; a slot may be a block's class itself."""
+    blocks = catalogue()
+    interface = slots().get(slot) or blocks[slot]
     candidates = []
     for name in system_names():
         elements = read_description(open_system(name)).system.elements
