@@ -166,10 +166,10 @@ def change(guidance, **inputs):
 def test_what_is_not_finite_leaves_the_reference(name, wrong):
     guidance = guidance_of([7e6, 0.0, 0.0], [0.0, 5e3, 5e3])
     first, good = change(guidance), getattr(guidance, name)
-    moved = {"estimated_velocity": [0.0, 5e3, 6e3]}
-    assert change(guidance, **(moved | {name: wrong if name == "sample_time" else [0.0, wrong, 0.0]})) == first
+    other = {"estimated_velocity": [0.0, 5e3, 6e3]}
+    assert change(guidance, **(other | {name: wrong if name == "sample_time" else [0.0, wrong, 0.0]})) == first
     assert guidance.status == PointingStatus.NOT_FINITE
-    assert change(guidance, **({name: good} | moved)) != first
+    assert change(guidance, **({name: good} | other)) != first
     assert guidance.status == PointingStatus.GOOD
 
 
