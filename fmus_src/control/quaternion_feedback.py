@@ -6,7 +6,9 @@ from ..block import Block, Input, Inputs, Output, Parameter, State
 from ..interfaces.ports import body, robot, sampling, satellite
 from ..interfaces.ports.satellite import AttitudeReference
 from ..kernel.enumerations import Enumeration, member
+from ..kernel.matrices import zeros
 from ..mathlib.attitude.quaternion import difference, is_attitude, normalise, to_body
+from ..mathlib.estimation.sensor_errors import LATEST, make_room
 from ..mathlib.vectors import Vector3, cross, is_finite, limit_length, norm, vector
 
 
@@ -29,9 +31,9 @@ class QuaternionFeedback(Block):
     wheel_momentum. With the natural frequency w0 and the damping z, k = w0^2 and c = 2 z w0. An integral_time T > 0
     adds the pole -1/T: k = w0^2 + 2 z w0/T, c = 2 z w0 + 1/T and i' = w0^2/T 2 q, where 2 |q| is below
     integral_band. error_limit bounds 2 |q| in k 2 q, and so the rate of a turn without reference to k error_limit/c.
-    feedforward_torque is added. While it is not active the torque and the integral are 0.
-    The torque stays until the next sample. Inputs that are not finite leave it as it is; without an attitude, estimated
-    or to follow, it is 0.
+    feedforward_torque is added. While it is not active the torque and the integral are 0. A command acts ``delay``
+    samples after its tick. The torque stays until the next sample. Inputs that are not finite leave it as it is;
+    without an attitude, estimated or to follow, it is 0.
     Frame: body. Equations and margins: docs/systems/satellite_pointing.md. Assumes a rigid body with inertia as known.
     Source: Wie, Weiss and Arapostathis 1989; Wie 1998, section 7.
     """
@@ -44,6 +46,7 @@ class QuaternionFeedback(Block):
     integral_time = Parameter(0.0, unit="s", minimum=0.0, description="T; 0: no integral")
     integral_band = Parameter(0.01, unit="rad", minimum=0.0, description="error below which it is integrated")
     error_limit = Parameter(2.0, unit="rad", minimum=0.0, description="largest 2 |q| that the torque answers")
+    delay = Parameter(0, minimum=0, maximum=LATEST, description="samples until a command acts, computing time")
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "between ticks; 0: every communication point")
     estimated_quaternion = robot.QUATERNION.input()
     estimated_angular_velocity = body.ANGULAR_VELOCITY.input("angular velocity, estimated")
@@ -55,11 +58,12 @@ class QuaternionFeedback(Block):
     attitude_error = body.ROTATION.output("2 q, from the reference to the estimated attitude", direct=True)
     status = Output(QuaternionFeedbackStatus, direct=True)
     integral = body.ANGULAR_ACCELERATION.state("of the error: i of the torque")
+    commands = State(zeros(LATEST + 1, 3), unit="N.m", frame="body", description="last commands, the newest first")
     period = State(0.0, unit="s", description="to the next tick")
 
     def initialize(self) -> None:
         self.period = self.sample_period
-        self.command()
+        self.tick()
 
     def finite(self) -> bool:
         """Whether all inputs are."""
@@ -108,8 +112,19 @@ class QuaternionFeedback(Block):
         if norm(self.feedforward_torque) > 0.0:
             self.torque_command = self.torque_command + self.feedforward_torque
 
+    def tick(self) -> None:
+        """Command a new torque; let the one act that is due."""
+        if self.delay == 0:
+            self.command()
+            return
+        self.torque_command = self.commands[0, 0:3]
+        self.command()
+        make_room(self.commands, 3)
+        self.commands[0, 0:3] = self.torque_command
+        self.torque_command = self.commands[self.delay, 0:3]
+
     def step(self, t: float, h: float) -> None:
         self.period = self.sample_period
         if self.period <= 0.0:
             self.period = h
-        self.command()
+        self.tick()

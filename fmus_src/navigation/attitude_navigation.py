@@ -7,7 +7,7 @@ from ..kernel.enumerations import Enumeration, member
 
 
 class AttitudeNavigationStatus(Enumeration):
-    """What the estimate rests on."""
+    """State of the estimate."""
 
     GOOD = member("good")
     NO_GYROS = member("last gyro sample not finite, last rate used")
@@ -16,6 +16,8 @@ class AttitudeNavigationStatus(Enumeration):
     REJECTED = member("last sample beyond the gate and left out")
     NO_RECENT_STAR = member("no star sample for 30 s")
     UNKNOWN = member("no attitude measured yet")
+    NO_DIRECTION = member("last direction to the Sun or of the field not finite or 0 and left out")
+    TOO_LATE = member("last star sample older than eight cycles and left out")
 
 
 class AttitudeNavigation(Block, interface=True):
@@ -40,12 +42,18 @@ class AttitudeNavigation(Block, interface=True):
     first_bias_sigma = Parameter(
         3e-6, unit="rad/s", minimum=0.0, description="bias of the gyros at the start, 1 sigma per axis"
     )
-    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="of the star tracker, any length")
-    roll_sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error about the boresight; 0: as the others")
+    boresight = Parameter(
+        [0.0, 0.0, 1.0], unit="1", frame="body", description="boresight of the star tracker, of any length"
+    )
+    roll_sigma = Parameter(
+        0.0, unit="rad", minimum=0.0, description="error of a star sample about the boresight; 0: star_sigma"
+    )
     sun_sigma = Parameter(0.02, unit="rad", minimum=1e-12, description="error of the direction to the Sun, per axis")
     field_sigma = Parameter(0.02, unit="rad", minimum=1e-12, description="error of the field's direction, per axis")
-    gate = Parameter(0.0, unit="1", minimum=0.0, description="largest innovation squared, three components; 0: any")
-    rejects_to_restart = Parameter(20, minimum=1, description="samples left out in a row until the attitude is open")
+    gate = Parameter(0.0, unit="1", minimum=0.0, description="largest normalised innovation squared; 0: no gate")
+    rejects_to_restart = Parameter(
+        20, minimum=1, description="samples beyond the gate in a row until the covariance restarts"
+    )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "navigation cycle; 0: every communication point")
     quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
     angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity")
@@ -53,7 +61,7 @@ class AttitudeNavigation(Block, interface=True):
     star_count = Input(0, description="star samples so far; a change signals a new one")
     measured_angular_velocity = body.ANGULAR_VELOCITY.input("measured by the gyros")
     gyro_count = Input(0, description="gyro samples so far; a change signals a new one")
-    star_time = Input(-1.0, unit="s", description="when the star sample was taken; below 0: now")
+    star_time = Input(-1.0, unit="s", description="time of the star sample; below 0: now")
     measured_sun = Input([0.0, 0.0, 0.0], unit="1", frame="body", description="measured direction to the Sun")
     sun_count = Input(0, description="samples of the Sun so far; a change signals a new one")
     sun_direction = SpaceEnvironment.sun_direction.input("to the Sun, as known on board")

@@ -31,12 +31,13 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
 
     A star sample corrects the attitude by a small rotation in body axes, and the bias; the first one is the first
     attitude. Its error is star_sigma per axis, about the boresight roll_sigma where that is not 0. One with a
-    sample_time before now, up to eight cycles, is first turned on by the gyros. Directions to the Sun and of the
-    magnetic field correct the attitude across themselves, by their references in inertial axes; without a star, both at
-    once make the first attitude (TRIAD). Three components are taken in one after another, as exact as at once. The
-    covariance is 6 x 6.
-    A sample that is not finite, or no attitude, is left out and reported. So is one whose normalised innovation squared
-    is beyond ``gate``; after rejects_to_restart in a row of one sensor the covariance of the attitude is as at first.
+    star_time before now, by up to eight cycles, is first turned on by the gyros; an older one is left out. A direction,
+    to the Sun or of the magnetic field, corrects the attitude across itself, by its reference in inertial axes. Before
+    the first star sample, both in one cycle make the first attitude (TRIAD). Three components are taken in one after
+    another, as exact as at once. The covariance is 6 x 6.
+    A sample that is not finite, or no attitude, or a direction of length 0, is left out and reported. So is one with a
+    normalised innovation squared beyond ``gate``; after rejects_to_restart in a row of one sensor the covariance of the
+    attitude is the initial one.
     Assumes independent errors as declared.
     Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2; Black 1964 (TRIAD); Markley and
     Crassidis 2014, sections 5.1 and 6.2.
@@ -48,7 +49,8 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
     field_counted = State(0, description="field_count of the last sample")
     rejected_in_row = State([0] * 3, description="samples beyond the gate since the last good one: star, Sun, field")
     last_star = State(0.0, unit="s", description="time of the last good star sample")
-    turns = State(zeros(TURNS, 4), unit="1", description="turns of the last cycles by the gyros, the newest first")
+    turns = State(zeros(TURNS, 3), unit="rad", frame="body", description="of the last cycles by gyros, newest first")
+    turn_starts = State([0.0] * TURNS, unit="s", description="starts of these cycles")
     turn_ends = State([0.0] * TURNS, unit="s", description="ends of these cycles")
 
     def initialize(self) -> None:
@@ -57,32 +59,43 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.field_counted = self.field_count
         self.last_star = self.start_time
         for k in range(TURNS):
-            self.turns[k, 0] = 1.0
+            self.turn_starts[k] = self.start_time
             self.turn_ends[k] = self.start_time
         self.begin()
         self.take_samples(self.start_time)
 
-    def remember_turn(self, t: float) -> None:
-        """Put the turn of the cycle that ends at t (s) first."""
+    def remember_turn(self, start: float, end: float) -> None:
+        """Put the turn of the cycle between two times (s) first."""
         for i in range(TURNS - 1):
             k = TURNS - 1 - i
-            self.turns[k, 0:4] = self.turns[k - 1, 0:4]
+            self.turns[k, 0:3] = self.turns[k - 1, 0:3]
+            self.turn_starts[k] = self.turn_starts[k - 1]
             self.turn_ends[k] = self.turn_ends[k - 1]
-        self.turns[0, 0:4] = from_rotation_vector(self.turn)
-        self.turn_ends[0] = t
+        self.turns[0, 0:3] = self.turn
+        self.turn_starts[0] = start
+        self.turn_ends[0] = end
 
     def turned_on(self, q: Vector4) -> Vector4:
-        """Return the attitude of star_time as it is now, by the gyros."""
+        """Return the attitude of star_time as it is now, by the gyros; in a cycle they turn steadily."""
         if self.star_time < 0.0:
             return q
         for i in range(TURNS):
             k = TURNS - 1 - i
             if self.turn_ends[k] > self.star_time + ROUNDING:
-                q = multiply(q, self.turns[k, 0:4])
+                fraction = 1.0
+                if self.turn_starts[k] < self.star_time - ROUNDING:
+                    fraction = (self.turn_ends[k] - self.star_time) / (self.turn_ends[k] - self.turn_starts[k])
+                q = multiply(q, from_rotation_vector(fraction * self.turns[k, 0:3]))
         return normalise(q)
 
+    def restart(self, variance: float) -> None:
+        """Set the variance of the attitude (rad^2) per axis, without correlation to the bias."""
+        self.covariance[ROTATION, ROTATION] = variance * identity(3)
+        self.covariance[ROTATION, BIAS] = zeros(3, 3)
+        self.covariance[BIAS, ROTATION] = zeros(3, 3)
+
     def accept(self, sensor: int, h: Matrix, variances: Vector3, z: Vector3) -> bool:
-        """Take three components in, unless they are beyond the gate; whether they are within."""
+        """Take three components in unless they are beyond the gate. True if they are within."""
         if self.gate > 0.0:
             square = squared_distance(self.covariance, h, variances, z)
             if square > self.gate:
@@ -91,9 +104,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
                 self.rejected_in_row[sensor] = self.rejected_in_row[sensor] + 1
                 if self.rejected_in_row[sensor] >= self.rejects_to_restart:
                     self.rejected_in_row[sensor] = 0
-                    self.covariance[ROTATION, ROTATION] = identity(3)
-                    self.covariance[ROTATION, BIAS] = zeros(3, 3)
-                    self.covariance[BIAS, ROTATION] = zeros(3, 3)
+                    self.restart(1.0)
                 return False
         self.rejected_in_row[sensor] = 0
         x, self.covariance, self.innovation_square = update_three(zeros(6, 1), self.covariance, h, variances, z)
@@ -111,6 +122,9 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         if not is_attitude(self.measured_quaternion):
             self.status = AttitudeNavigationStatus.NO_ATTITUDE
             return
+        if self.star_time >= 0.0 and self.star_time < self.turn_starts[TURNS - 1] - ROUNDING:
+            self.status = AttitudeNavigationStatus.TOO_LATE
+            return
         measured = self.turned_on(normalise(self.measured_quaternion))
         if not self.begun:
             self.begun = True
@@ -119,7 +133,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
             sigma = self.star_sigma
             if self.roll_sigma > sigma:
                 sigma = self.roll_sigma
-            self.covariance[ROTATION, ROTATION] = sigma * sigma * identity(3)
+            self.restart(sigma * sigma)
             return
         rotation = to_rotation_vector(difference(self.estimated_quaternion, measured))
         h = zeros(3, 6)
@@ -148,17 +162,19 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         variances = sigma * sigma * vector(1.0, 1.0, 1.0)
         self.accept(sensor, h, variances, z)
 
-    def is_direction(self, measured: Vector3, reference: Vector3) -> bool:
-        """True if both vectors are finite and not 0."""
-        if is_finite(measured) and is_finite(reference):
-            return norm(measured) > 0.0 and norm(reference) > 0.0
+    def is_new(self, counted: bool, measured: Vector3, reference: Vector3) -> bool:
+        """True if a counted direction and its reference are finite and not 0; report it if they are not."""
+        if not counted:
+            return False
+        if is_finite(measured) and is_finite(reference) and norm(measured) > 0.0 and norm(reference) > 0.0:
+            return True
+        self.status = AttitudeNavigationStatus.NO_DIRECTION
         return False
 
     def take_directions(self) -> None:
         """Take new directions in, or begin with them."""
-        sun = self.sun_count != self.sun_counted and self.is_direction(self.measured_sun, self.sun_direction)
-        field = self.field_count != self.field_counted
-        field = field and self.is_direction(self.measured_field, self.magnetic_field)
+        sun = self.is_new(self.sun_count != self.sun_counted, self.measured_sun, self.sun_direction)
+        field = self.is_new(self.field_count != self.field_counted, self.measured_field, self.magnetic_field)
         self.sun_counted = self.sun_count
         self.field_counted = self.field_count
         if self.begun:
@@ -172,7 +188,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
                 self.begun = True
                 self.estimated_quaternion = first.quaternion
                 variance = self.sun_sigma * self.sun_sigma + self.field_sigma * self.field_sigma
-                self.covariance[ROTATION, ROTATION] = variance / (TRIAD_SINE * TRIAD_SINE) * identity(3)
+                self.restart(variance / (TRIAD_SINE * TRIAD_SINE))
 
     def take_samples(self, t: float) -> None:
         """Take all new samples in, and report."""
@@ -188,6 +204,6 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
 
     def step(self, t: float, h: float) -> None:
         self.predict(t + h - self.last_time)
+        self.remember_turn(self.last_time, t + h)
         self.last_time = t + h
-        self.remember_turn(t + h)
         self.take_samples(t + h)

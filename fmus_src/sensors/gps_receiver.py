@@ -14,31 +14,31 @@ GOOD = 7
 
 
 class ReceiverStatus(Enumeration):
-    """What became of the last sample."""
+    """State of the last sample."""
 
     GOOD = member("good")
-    OUTAGE = member("outage, last sample stays")
-    NOT_FINITE = member("an input not finite, last sample stays")
+    OUTAGE = member("outage, no sample")
+    NOT_FINITE = member("input not finite, no sample")
 
 
 class GpsReceiver(RandomSensor):
-    """Position and velocity in inertial axes, with white noise, a slowly changing error of position, and latency.
+    """Position and velocity in inertial axes with white noise, a Gauss-Markov error of position, and latency.
 
-    position + markov + position_sigma n, velocity + velocity_sigma n; the Gauss-Markov error has markov_sigma per axis
-    and a correlation e^(-t/markov_time), which begins in its steady state. A sample arrives ``latency`` samples after
-    it was taken, with the time at which it was taken, wrong by clock_error. In an outage no sample is taken, those
-    under way arrive. Which numbers a flight uses depends on seed, stream and the sample's number only.
-    Frame: inertial. Equations: docs/systems/earth_pointing.md. There is no model of signals.
+    measured position = position + markov + position_sigma n, measured velocity = velocity + velocity_sigma n. The
+    Gauss-Markov error has markov_sigma per axis and the autocorrelation e^(-t/markov_time); it begins in its steady
+    state. A sample arrives ``latency`` sample periods later, with its time plus clock_error. During an outage no
+    sample is taken; those under way arrive. Which numbers a flight uses depends on seed, stream and the sample's number
+    only. Frame: inertial. Equations: docs/systems/earth_pointing.md. Assumes no model of signals or satellites.
     """
 
     default_step = 1.0
 
     position_sigma = Parameter(3.0, unit="m", minimum=0.0, description="white error, 1 sigma per axis")
     velocity_sigma = Parameter(0.03, unit="m/s", minimum=0.0, description="white error, 1 sigma per axis")
-    markov_sigma = Parameter(5.0, unit="m", minimum=0.0, description="correlated error of position, 1 sigma per axis")
-    markov_time = Parameter(300.0, unit="s", minimum=1e-3, description="time of its correlation")
+    markov_sigma = Parameter(5.0, unit="m", minimum=0.0, description="Gauss-Markov error of position, 1 sigma per axis")
+    markov_time = Parameter(300.0, unit="s", minimum=1e-3, description="correlation time of the Gauss-Markov error")
     clock_error = Parameter(0.0, unit="s", description="error of sample_time")
-    latency = Parameter(1, minimum=0, maximum=LATEST, description="samples until one arrives")
+    latency = Parameter(1, minimum=0, maximum=LATEST, description="delay of a sample, in sample periods")
     sample_period = sampling.SAMPLE_PERIOD.parameter(1.0)
     seed, stream = sampling.random_stream()
     position = inertial.POSITION.input("true position")
@@ -46,10 +46,10 @@ class GpsReceiver(RandomSensor):
     outage = Input(False, description="true: no sample is taken")
     measured_position = inertial.POSITION.output("measured position", direct=True)
     measured_velocity = inertial.VELOCITY.output("measured velocity", direct=True)
-    sample_time = Output(0.0, unit="s", direct=True, description="time at which the sample was taken, by the receiver")
-    sample_count = sampling.SAMPLE_COUNT.output("samples that arrived; tells a new one from one that stays")
+    sample_time = Output(0.0, unit="s", direct=True, description="time of the sample by the clock of the receiver")
+    sample_count = sampling.SAMPLE_COUNT.output("samples that arrived; a change signals a new one")
     status = Output(ReceiverStatus, direct=True)
-    markov = inertial.POSITION.state("correlated error of position")
+    markov = inertial.POSITION.state("Gauss-Markov error of position")
     samples = State(zeros(LATEST + 1, 8), description="last samples, the newest first: SI, time, 1 for good")
     start_time = sampling.START_TIME.state()
     last_time = State(0.0, unit="s", description="time of the last sample")

@@ -11,32 +11,39 @@ from .random_sensor import RandomSensor
 
 
 class MagnetometerStatus(Enumeration):
-    """What became of the last sample."""
+    """State of the last sample."""
 
     GOOD = member("good")
     SATURATED = member("saturated")
-    NOT_FINITE = member("an input not finite, no sample")
+    NOT_FINITE = member("input not finite, no sample")
 
 
 class Magnetometer(RandomSensor):
-    """Magnetic field in body axes, with bias, scale factors, misalignment, noise, the torquers' own field, steps.
+    """Magnetometer of three axes with scale factors, misalignment, bias, noise, field of the torquers, range, rounding.
 
-    measured = (1 + S) B + K m + bias + drawn bias + sigma n, within +- range, at the nearest multiple of quantum. S is
-    scale plus a drawn matrix, both constant over a flight; m the dipole of the torquers, as the plant applies it. The
-    first sample is at the start. Which numbers a flight uses depends on seed, stream and the sample's number only.
+    measured = (1 + S) B + K m + bias + random bias + sigma n, limited to +- range and rounded to a multiple of quantum.
+    S is scale plus a random matrix; it and the random bias are constant over a flight. m is the dipole of the torquers,
+    as the plant applies it. The first sample is at the start. Which numbers a flight uses depends on seed, stream and
+    the sample's number only.
     Frame: body. Equations: docs/systems/earth_pointing.md. Assumes errors that do not change with temperature.
     """
 
     default_step = 1.0
 
     sigma = Parameter(5e-8, unit="T", minimum=0.0, description="noise, 1 sigma per axis")
-    bias = space.MAGNETIC_FIELD.parameter(description="constant error beside the drawn one")
-    bias_sigma = Parameter(2e-7, unit="T", minimum=0.0, description="drawn bias, 1 sigma per axis")
+    bias = space.MAGNETIC_FIELD.parameter(description="constant error, added to the random bias")
+    bias_sigma = Parameter(
+        2e-7, unit="T", minimum=0.0, description="random bias, constant over a flight, 1 sigma per axis"
+    )
     scale = Parameter([0.0] * 9, unit="1", frame="body", columns=3, description="S, scale factors and misalignment")
-    scale_sigma = Parameter(2e-3, unit="1", minimum=0.0, description="drawn S, 1 sigma per element")
-    coupling = Parameter([0.0] * 9, frame="body", columns=3, description="K, field over the torquers' dipole, T/(A m2)")
+    scale_sigma = Parameter(
+        2e-3, unit="1", minimum=0.0, description="random additions to S, constant over a flight, 1 sigma per element"
+    )
+    coupling = Parameter(
+        [0.0] * 9, frame="body", columns=3, description="K, field by the dipole of the torquers, T/(A m2)"
+    )
     range = Parameter(1e-4, unit="T", minimum=1e-9, description="largest measured component")
-    quantum = Parameter(1e-8, unit="T", minimum=0.0, description="step of the output; 0: none")
+    quantum = Parameter(1e-8, unit="T", minimum=0.0, description="quantisation step of the output; 0: none")
     sample_period = sampling.SAMPLE_PERIOD.parameter(1.0)
     seed, stream = sampling.random_stream()
     magnetic_field_body = space.MAGNETIC_FIELD.input("true field")
@@ -44,18 +51,18 @@ class Magnetometer(RandomSensor):
     measured_field = space.MAGNETIC_FIELD.output("measured field", direct=True)
     sample_count = sampling.SAMPLE_COUNT.output()
     status = Output(MagnetometerStatus, direct=True)
-    whole_bias = space.MAGNETIC_FIELD.state("bias with the drawn one")
-    whole_scale = State(zeros(3, 3), frozen=True, description="S with the drawn one")
+    total_bias = space.MAGNETIC_FIELD.state("constant and random bias")
+    total_scale = State(zeros(3, 3), frozen=True, description="S with its random additions")
     generator = sampling.GENERATOR.state()
 
     def draw_constants(self) -> None:
         numbers = normals(self.generator)
-        self.whole_bias = self.bias + self.bias_sigma * numbers
-        self.whole_scale = self.scale
+        self.total_bias = self.bias + self.bias_sigma * numbers
+        self.total_scale = self.scale
         for i in range(3):
             row = normals(self.generator)
             for j in range(3):
-                self.whole_scale[i, j] = self.scale[i, j] + self.scale_sigma * row[j]
+                self.total_scale[i, j] = self.scale[i, j] + self.scale_sigma * row[j]
 
     def measure(self) -> None:
         """Take a sample."""
@@ -64,7 +71,7 @@ class Magnetometer(RandomSensor):
             self.status = MagnetometerStatus.NOT_FINITE
             return
         b = self.magnetic_field_body
-        y = b + self.whole_scale @ b + self.coupling @ self.applied_dipole + self.whole_bias + self.sigma * numbers
+        y = b + self.total_scale @ b + self.coupling @ self.applied_dipole + self.total_bias + self.sigma * numbers
         within = saturate(y, self.range)
         self.status = MagnetometerStatus.GOOD
         if norm(within - y) > 0.0:

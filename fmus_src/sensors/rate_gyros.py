@@ -13,46 +13,46 @@ from .random_sensor import RandomSensor
 
 
 class RateGyrosStatus(Enumeration):
-    """What became of the last sample."""
+    """State of the last sample."""
 
     GOOD = member("good")
     SATURATED = member("saturated")
-    NOT_FINITE = member("not finite")
+    NOT_FINITE = member("sample not finite")
 
 
 class RateGyros(RandomSensor):
-    """Angular velocity about three axes, with bias, scale factors, misalignment, noise, instability, range and steps.
+    """Three rate gyros with scale factors, misalignment, bias, noise, bias instability, range, rounding and latency.
 
-    measured = (1 + S) true + bias + drawn bias + instability + sigma n, within +- range, at the nearest multiple of
-    quantum. The drawn bias is uniform within +- bias_limit per axis and constant over a flight, but for a random walk
-    of bias_walk sqrt(h) n per sample, h (s) after the last one; measured is the bias in the middle between both. An
-    angle random walk of s rad/sqrt(s) is sigma = s/sqrt(sample_period). Bias instability is a Gauss-Markov process that
-    begins in its steady state. A sample arrives ``latency`` samples after it was taken. The first sample is at the
-    start. Which numbers a flight uses depends on seed, stream and the sample's number only, and on whether there are a
-    walk and an instability. Frame: body.
+    measured = (1 + S) true + bias + random bias + instability + sigma n, limited to +- range and rounded to a multiple
+    of quantum. The random bias is uniform within +- bias_limit per axis and constant over a flight, but for a random
+    walk of bias_walk sqrt(h) n per sample, h (s) after the last one; a sample has the mean of the bias before and after
+    this step. An angle random walk of s rad/sqrt(s) is sigma = s/sqrt(sample_period). Bias instability is a first-order
+    Gauss-Markov process that begins in its steady state. A sample arrives ``latency`` sample periods later. The first
+    sample is at the start. Which numbers a flight uses depends on seed, stream and the sample's number only, and on
+    whether there are a walk and an instability. Frame: body.
     Source: Farrenkopf 1978; Crassidis and Junkins 2012, section 7.1; IEEE Std 952. Sizes: docs/systems.
     """
 
     default_step = 0.2
 
-    sigma = Parameter(0.0, unit="rad/s", minimum=0.0, description="error, 1 sigma per axis")
-    bias = body.ANGULAR_VELOCITY.parameter(description="constant error beside the drawn one")
-    bias_limit = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest drawn bias per axis")
+    sigma = Parameter(0.0, unit="rad/s", minimum=0.0, description="white noise, 1 sigma per axis")
+    bias = body.ANGULAR_VELOCITY.parameter(description="constant error, added to the random bias")
+    bias_limit = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest random bias per axis")
     bias_walk = Parameter(0.0, minimum=0.0, description="random walk of the bias, rad/s per square root of s")
     scale = Parameter([0.0] * 9, unit="1", frame="body", columns=3, description="S, scale factors and misalignment")
-    instability_sigma = Parameter(0.0, unit="rad/s", minimum=0.0, description="correlated bias, 1 sigma per axis")
-    instability_time = Parameter(300.0, unit="s", minimum=1e-3, description="time of its correlation")
+    instability_sigma = Parameter(0.0, unit="rad/s", minimum=0.0, description="bias instability, 1 sigma per axis")
+    instability_time = Parameter(300.0, unit="s", minimum=1e-3, description="correlation time of the bias instability")
     range = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest measured component; 0: no limit")
-    quantum = Parameter(0.0, unit="rad/s", minimum=0.0, description="step of the output; 0: none")
-    latency = Parameter(0, minimum=0, maximum=LATEST, description="samples until one arrives")
+    quantum = Parameter(0.0, unit="rad/s", minimum=0.0, description="quantisation step of the output; 0: none")
+    latency = Parameter(0, minimum=0, maximum=LATEST, description="delay of a sample, in sample periods")
     sample_period = sampling.SAMPLE_PERIOD.parameter()
     seed, stream = sampling.random_stream()
     angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity, absolute")
     measured_angular_velocity = body.ANGULAR_VELOCITY.output("measured angular velocity, absolute", direct=True)
-    true_bias = body.ANGULAR_VELOCITY.output("whole bias")
+    true_bias = body.ANGULAR_VELOCITY.output("bias without the instability")
     sample_count = sampling.SAMPLE_COUNT.output()
     status = Output(RateGyrosStatus, direct=True)
-    instability = body.ANGULAR_VELOCITY.state("correlated bias")
+    instability = body.ANGULAR_VELOCITY.state("bias instability")
     samples = State(zeros(LATEST + 1, 3), unit="rad/s", frame="body", description="last samples, the newest first")
     measurements = State(0, description="samples so far, arrived or not")
     has_scale = State(False, description="true: S is not 0")

@@ -1,5 +1,7 @@
 """Attitude from star trackers and gyroscopes together, or from one star tracker."""
 
+import math
+
 from ..block import Output, Parameter, State
 from ..interfaces.ports import body, inertial, robot, sampling
 from ..interfaces.ports.space import SpaceEnvironment
@@ -17,21 +19,21 @@ GOOD = 5
 
 
 class StarTrackerStatus(Enumeration):
-    """What became of the last sample."""
+    """State of the last sample."""
 
     GOOD = member("good")
-    DAZZLED = member("Sun, Moon or the body's limb too near to the boresight, no sample")
-    TOO_FAST = member("turning too fast, no sample")
+    DAZZLED = member("Sun, Moon or limb too near to the boresight, no sample")
+    TOO_FAST = member("angular velocity too high, no sample")
 
 
 class StarInertial(RandomSensor):
     """Star-inertial attitude: the true quaternion turned by a small rotation, new in every sample.
 
     The rotation vector has normal, independent components of attitude_sigma in body axes, about the boresight
-    roll_sigma where that is not 0. No sample is taken while the Sun is within sun_exclusion of the boresight, the limb
-    of the body within limb_exclusion, the Moon within moon_exclusion, or the angular velocity above rate_limit; each
-    where it is not 0. A sample arrives ``latency`` samples after it was taken, with its time. The first sample is at
-    the start. Which normal numbers a flight uses depends on seed, stream and the sample's number only.
+    roll_sigma if that is not 0. No sample is taken while the Sun is within sun_exclusion of the boresight, the Moon
+    within moon_exclusion, the limb of the body within limb_exclusion, or the angular velocity above rate_limit; 0 turns
+    an exclusion off. A sample arrives ``latency`` sample periods later, with its time. The first sample is at the
+    start. Which normal numbers a flight uses depends on seed, stream and the sample's number only.
     Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md; exclusions are ours.
     Assumes small errors without bias.
     """
@@ -41,14 +43,24 @@ class StarInertial(RandomSensor):
     attitude_sigma = Parameter(
         4.84813681109536e-6, unit="rad", minimum=0.0, description="error, 1 sigma per axis; 1 arcsec"
     )
-    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="of the tracker, any length; 0: none")
-    roll_sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error about the boresight; 0: as the others")
-    sun_exclusion = Parameter(0.0, unit="rad", minimum=0.0, description="angle of the Sun from the boresight; 0: any")
-    limb_exclusion = Parameter(0.0, unit="rad", minimum=0.0, description="angle of the body's limb from it; 0: any")
-    moon_exclusion = Parameter(0.0, unit="rad", minimum=0.0, description="angle of the Moon from it; 0: any")
-    rate_limit = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest angular velocity; 0: any")
-    body_radius = Parameter(6378137.0, unit="m", minimum=0.0, description="of the body that has the limb")
-    latency = Parameter(0, minimum=0, maximum=LATEST, description="samples until one arrives")
+    boresight = Parameter(
+        [0.0, 0.0, 1.0], unit="1", frame="body", description="boresight of the tracker, of any length"
+    )
+    roll_sigma = Parameter(
+        0.0, unit="rad", minimum=0.0, description="error about the boresight, 1 sigma; 0: attitude_sigma"
+    )
+    sun_exclusion = Parameter(
+        0.0, unit="rad", minimum=0.0, maximum=math.pi, description="exclusion angle of the Sun; 0: none"
+    )
+    limb_exclusion = Parameter(
+        0.0, unit="rad", minimum=0.0, maximum=0.5 * math.pi, description="exclusion angle of the body's limb; 0: none"
+    )
+    moon_exclusion = Parameter(
+        0.0, unit="rad", minimum=0.0, maximum=math.pi, description="exclusion angle of the Moon; 0: none"
+    )
+    rate_limit = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest angular velocity; 0: no limit")
+    body_radius = Parameter(6378137.0, unit="m", minimum=0.0, description="radius of the body")
+    latency = Parameter(0, minimum=0, maximum=LATEST, description="delay of a sample, in sample periods")
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.125)
     seed, stream = sampling.random_stream()
     quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
@@ -57,7 +69,7 @@ class StarInertial(RandomSensor):
     sun_direction = SpaceEnvironment.sun_direction.input()
     moon_position = SpaceEnvironment.moon_position.input()
     measured_quaternion = robot.MEASURED_QUATERNION.output("measured, from body to inertial, scalar first", direct=True)
-    sample_time = Output(0.0, unit="s", direct=True, description="time at which the sample was taken")
+    sample_time = Output(0.0, unit="s", direct=True, description="time of the sample")
     sample_count = sampling.SAMPLE_COUNT.output()
     status = Output(StarTrackerStatus, direct=True)
     samples = State(zeros(LATEST + 1, 6), description="last samples, the newest first: attitude, time in s, 1 for good")

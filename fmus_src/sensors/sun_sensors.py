@@ -18,22 +18,25 @@ BRIGHTNESS = 0.5  # of the Sun's disk, for the fine head
 
 
 class SunSensorStatus(Enumeration):
-    """What became of the last sample."""
+    """State of the last sample."""
 
     GOOD = member("good")
-    NO_SUN = member("no Sun, last direction stays")
-    NOT_FINITE = member("an input not finite or no attitude, last direction stays")
+    NO_SUN = member("no Sun, direction unchanged")
+    NOT_FINITE = member("input not finite or no attitude, no sample")
 
 
 class SunSensors(RandomSensor):
-    """Six coarse heads with currents as the cosine of the Sun, and a fine head with a small field.
+    """Six coarse Sun sensor heads with cosine characteristic, and a fine head with a small field of view.
 
-    A head with the normal n has max(0, n.s) (1 + scale) times the visible share of the Sun within field_of_view of n,
-    albedo_factor max(0, n.down) everywhere, and noise. The sum of currents times normals is along the Sun, for pairs of
-    opposite heads on perpendicular axes; it counts while it is longer than threshold. Where fine_sigma is not
-    0, the Sun within fine_field of the boresight gives the true direction, turned by a small normal rotation. Scales
-    are drawn at the start and stay. Which numbers a flight uses depends on seed, stream and the sample's number only.
-    Frames: body; Sun and position in inertial axes. Equations: docs/systems/earth_pointing.md.
+    The current of a head with normal n is max(0, n.s) (1 + scale) times the visible share of the Sun, if s, the
+    direction to the Sun, is within field_of_view of n; plus albedo_factor max(0, n.down), plus noise. The measured
+    direction is that of the sum of currents times normals, as long as the sum is longer than threshold. For pairs of
+    opposite heads on perpendicular axes it is exact with a field_of_view of 90 deg; with less, components below
+    its cosine are 0, which at 85 deg are up to 7.1 deg. If fine_sigma is not 0 and the Sun within fine_field of the
+    boresight, the fine head gives the true direction instead, after a small random rotation. Scale factors are random
+    and constant over a flight. Which numbers a flight uses depends on seed, stream and the sample's number only.
+    Frames: body; Sun and position in inertial axes. Equations: docs/systems/earth_pointing.md. Assumes heads without
+    shadows of the spacecraft.
     """
 
     default_step = 0.5
@@ -46,14 +49,22 @@ class SunSensors(RandomSensor):
         description="unit normals of the heads, by row",
     )
     sigma = Parameter(0.01, unit="1", minimum=0.0, description="noise of a current, 1 sigma, of full scale")
-    scale_sigma = Parameter(0.0, unit="1", minimum=0.0, description="drawn relative error of a head, 1 sigma")
+    scale_sigma = Parameter(
+        0.0, unit="1", minimum=0.0, description="random scale factor of a head, constant over a flight, 1 sigma"
+    )
     albedo_factor = Parameter(0.0, unit="1", minimum=0.0, description="current of a head that looks straight down")
-    field_of_view = Parameter(deg(85.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle of a head")
+    field_of_view = Parameter(
+        deg(85.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle that a head sees"
+    )
     threshold = Parameter(0.5, unit="1", minimum=0.0, description="shortest sum of currents that counts as the Sun")
-    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="of the fine head, any length")
-    fine_sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error of the fine head, 1 sigma; 0: no fine head")
+    boresight = Parameter(
+        [0.0, 0.0, 1.0], unit="1", frame="body", description="boresight of the fine head, of any length"
+    )
+    fine_sigma = Parameter(
+        0.0, unit="rad", minimum=0.0, description="error of the fine head, 1 sigma per axis; 0: no fine head"
+    )
     fine_field = Parameter(
-        deg(30.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle of the fine head"
+        deg(30.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle that the fine head sees"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.5)
     seed, stream = sampling.random_stream()
@@ -61,14 +72,14 @@ class SunSensors(RandomSensor):
     position = inertial.POSITION.input("true position")
     sun_direction = SpaceEnvironment.sun_direction.input()
     illumination = SpaceEnvironment.illumination.input()
-    currents = Output([0.0] * HEADS, unit="1", direct=True, description="of the heads, of full scale")
+    currents = Output([0.0] * HEADS, unit="1", direct=True, description="currents of the heads, of full scale")
     measured_direction = Output(
         [1.0, 0.0, 0.0], unit="1", frame="body", direct=True, description="measured direction to the Sun"
     )
-    valid = Output(False, direct=True, description="true: the last sample has the Sun")
-    sample_count = sampling.SAMPLE_COUNT.output("samples with the Sun; tells a new one from one that stays")
+    valid = Output(False, direct=True, description="true: the Sun is in the last sample")
+    sample_count = sampling.SAMPLE_COUNT.output("samples with the Sun; a change signals a new one")
     status = Output(SunSensorStatus, direct=True)
-    scales = State([0.0] * HEADS, unit="1", frozen=True, description="relative errors of the heads")
+    scales = State([0.0] * HEADS, unit="1", frozen=True, description="scale factors of the heads")
     generator = sampling.GENERATOR.state()
 
     def draw_constants(self) -> None:

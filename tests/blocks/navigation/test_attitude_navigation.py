@@ -12,6 +12,7 @@ from scipy import stats
 from scipy.linalg import solve_discrete_are
 from scipy.spatial.transform import Rotation
 
+from perilune.fmus_src.kernel.matrices import Matrix
 from perilune.fmus_src.mathlib.estimation.attitude_errors import random_walks, transition
 from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.navigation.attitude_navigation import AttitudeNavigationStatus
@@ -82,6 +83,25 @@ def predicted_sigma(block, step):
     f = np.array(transition(vector(0.0, 0.0, 0.0), step).rows)
     q = np.array(random_walks(block.gyro_random_walk, block.bias_random_walk, step).rows)
     return np.sqrt(np.diag(f @ p @ f.T + q))[:3]
+
+
+def test_the_steady_state_of_a_small_satellite():
+    """Published closed forms as numbers; the covariance of Riccati's equation stays as it is over a cycle."""
+    sigma, walk, drift, period = 4.848e-5, 4.4e-5, 2.4e-8, 0.5
+    before, after = farrenkopf(sigma, walk, drift, period)
+    assert (before, after) == pytest.approx((4.5489556659266924e-05, 3.317281551699553e-05), rel=1e-12)
+    p = riccati(sigma, walk, drift, period)
+    p -= np.outer(p[:, 0], p[0]) / (p[0, 0] + sigma**2)
+    assert np.sqrt(np.diag(p)) == pytest.approx([after, 1.027777801328818e-06], rel=1e-8)
+    block = navigation(star_sigma=sigma, gyro_random_walk=walk, bias_random_walk=drift)
+    block.covariance = Matrix(np.kron(p, np.eye(3)).tolist())
+    tick(block, 0.0, 0.25)
+    assert [*predicted_sigma(block, 0.25)] == pytest.approx([before] * 3, rel=1e-9)
+    tick(block, 0.25, 0.25, star=NO_TURN)
+    assert np.array(block.covariance.rows) == pytest.approx(np.kron(p, np.eye(3)), rel=1e-7, abs=1e-22)
+    assert [*block.attitude_sigma, *block.bias_sigma] == pytest.approx(
+        [after] * 3 + [1.027777801328818e-06] * 3, rel=1e-8
+    )
 
 
 def test_errors_have_the_covariance_that_the_filter_states():
