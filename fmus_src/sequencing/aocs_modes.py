@@ -76,7 +76,6 @@ class AocsModes(Block):
         self.mode = mode
         self.begun = t
         self.settled_since = t
-        self.blind_since = t
         self.wheels_on = mode != AocsMode.DETUMBLE
         self.magnetic_mode = MagneticMode.UNLOAD
         self.pointing_mode = PointingMode.SUN
