@@ -86,8 +86,8 @@ def test_the_page_has_these_numbers(loops):
         loop = loops[point, "attitude[1]"]
         (row,) = [line for line in page.splitlines() if line.startswith(f"| {point} |")]
         phases = ", ".join(f"{x['phase_deg']:.2f} at {x['frequency_rad_s']:.3f}" for x in loop["phase_crossings"])
-        least = min(loop["gain_crossings"], key=lambda x: abs(x["gain_db"]))
+        smallest = min(loop["gain_crossings"], key=lambda x: abs(x["gain_db"]))
         (radius,) = [each["value"] for each in loop["requirements"] if each["quantity"] == "stability"]
         ending = "" if loop["stable"] else ": **unstable**"
-        stated = f"| {phases} | {least['gain_db']:.2f} at {least['frequency_rad_s']:.3f} | {radius:.5f}{ending} |"
+        stated = f"| {phases} | {smallest['gain_db']:.2f} at {smallest['frequency_rad_s']:.3f} | {radius:.5f}{ending} |"
         assert row.endswith(stated), stated

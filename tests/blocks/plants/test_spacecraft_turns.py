@@ -30,8 +30,8 @@ def quintic(w):
     return abs(2.0 * ANGLE / QUINTIC * series)
 
 
-def pieces(turn):
-    """Durations (s) and accelerations (rad/s2) of a turn in pieces."""
+def segments(turn):
+    """Durations (s) and accelerations (rad/s2) of a turn in segments."""
     if turn is bang_coast:
         return [(RAMP, ACCELERATION), (COAST - RAMP, 0.0), (RAMP, -ACCELERATION)]
     edges = np.linspace(0.0, 1.0, 2001)
@@ -62,7 +62,7 @@ def test_the_hub_swings_as_the_closed_form_says(frequency, turn):
         mode_rotation=rotation,
         internal_step=0.01,
     )
-    for duration, acceleration in pieces(turn):
+    for duration, acceleration in segments(turn):
         craft.set(body_torque=[0.0, 0.0, INERTIA * acceleration])
         craft.fly(duration)
     craft.set(body_torque=[0.0, 0.0, 0.0])
