@@ -71,6 +71,16 @@ def size_over_time(vector: str, factor: float = 1.0) -> Callable[[Result], Curve
     return lambda flight: (flight.time, factor * np.linalg.norm(flight[vector], axis=1))
 
 
+def settled(signal: str, factor: float) -> Callable[[Result], Curve]:
+    """A signal over time, times ``factor``, once a satellite has pointed to nadir for ten minutes."""
+
+    def curve(flight: Result) -> Curve:
+        rows = (flight["modes.mode"] == 2) & (flight["modes.time_in_mode"] > 600.0)
+        return flight.time[rows], factor * flight[signal][rows]
+
+    return curve
+
+
 DEG = 180.0 / np.pi
 ARCSEC = 3600.0 * DEG
 RPM = 30.0 / np.pi
@@ -147,6 +157,18 @@ PICTURES = {
                 TIME,
                 "wheel speed, rpm",
                 {f"wheel {k}": over_time(f"satellite.wheel_speeds[{k}]", RPM) for k in (1, 2, 3, 4)},
+            ),
+        ),
+    ),
+    "earth_pointing": SystemPicture(
+        (
+            Panel(TIME, "angular velocity, deg/s", {"": size_over_time("satellite.angular_velocity", DEG)}),
+            Panel(TIME, "angle of the boresight, arcsec", {"": settled("monitor.half_cone", ARCSEC)}, band=(180.0,)),
+            Panel(
+                TIME,
+                "momentum of the wheels, N m s",
+                {axis: over_time(f"satellite.wheel_momentum[{k}]") for k, axis in enumerate("xyz", 1)},
+                band=(-0.02, 0.02),
             ),
         ),
     ),

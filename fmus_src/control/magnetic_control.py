@@ -27,8 +27,9 @@ class MagneticControl(Block):
     magnetometer and acts for active_fraction of the time T between samples, so that it is 0 when the next one is
     taken. feedforward_torque is -(m x B) while wheels are unloaded, for their controller.
     A gain of 2 n (1 + sin i) Jmin, with the orbital rate n and the inclination i to the magnetic equator, brakes best.
-    Frame: body. Equations: docs/systems/earth_pointing.md. Source: Stickler and Alfriend 1976; Avanzini and Giulietti
-    2012; Markley and Crassidis 2014, section 7.5.
+    Frame: body. Equations: docs/systems/earth_pointing.md. Assumes torquers without lag, and samples of the field that
+    are field_period apart. Source: Stickler and Alfriend 1976; Avanzini and Giulietti 2012; Markley and Crassidis 2014,
+    section 7.5.
     """
 
     default_step = 0.25

@@ -32,8 +32,9 @@ class PointingGuidance(Block):
     -2 (r.v)/r^2 of it. SUN: panel_normal towards the Sun, secondary as near to the orbit normal as it can be, at rest.
     INERTIAL: inertial_quaternion, at rest.
     A sample of the orbit is carried from its sample_time to now, and on from there, by r + v h + g h^2/2, v + g h.
-    Frames: inertial; reference (axes of the reference). Equations: docs/systems/earth_pointing.md. Source: Wertz 1978,
-    section 16; Markley and Crassidis 2014, section 5.1.
+    Frames: inertial; reference (axes of the reference). Equations: docs/systems/earth_pointing.md. Assumes that the
+    axis of the body is the inertial z; the angular acceleration leaves the change of the oblateness's term out.
+    Source: Wertz 1978, section 16; Markley and Crassidis 2014, section 5.1.
     """
 
     default_step = 0.25

@@ -35,7 +35,7 @@ class AocsModes(Block):
     lost_time; to SUN from NADIR after no attitude for blind_time, and a quaternion shorter than 0.5 is none. Each is
     decided at this block's samples, of which one that is not finite keeps the mode and ends a spell of settling or of
     lost_rate. Wheels are off and torquers brake in DETUMBLE; wheels are on and torquers unload them in the other modes.
-    Frame: body. Equations: docs/systems/earth_pointing.md. Source: ours.
+    Frame: body. Rules: docs/systems/earth_pointing.md. Assumes that nobody else orders a mode. Source: ours.
     """
 
     default_step = 0.25
@@ -76,7 +76,6 @@ class AocsModes(Block):
         self.mode = mode
         self.begun = t
         self.settled_since = t
-        self.blind_since = t
         self.wheels_on = mode != AocsMode.DETUMBLE
         self.magnetic_mode = MagneticMode.UNLOAD
         self.pointing_mode = PointingMode.SUN

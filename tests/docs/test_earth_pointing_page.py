@@ -21,7 +21,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 PAGE = (ROOT / "docs" / "systems" / "earth_pointing.md").read_text(encoding="utf-8")
 ARCSEC = math.pi / 648000.0
 WALK, STAR, PERIOD, FREQUENCY, DAMPING = 4.4e-5, 10.0 * ARCSEC, 0.5, 0.1, 0.9
-TRIALS, SHARE, CONFIDENCE = 200, 0.95, 0.9
+TRIALS, PROBABILITY, CONFIDENCE = 200, 0.95, 0.9
 ACROSS = np.array([[1.0, 0.0, 0.0], [0.0, 0.5, math.sqrt(0.75)]])  # of the boresight (0, sqrt(3)/2, -1/2)
 REQUIREMENTS = re.findall(
     r"^\| `(\w+)`: .*? \| (\d+) \| (?:\*\*)?(met|not met)(?:\*\*)? \| ([\d.]*)", PAGE, re.MULTILINE
@@ -29,7 +29,7 @@ REQUIREMENTS = re.findall(
 
 
 def row(title):
-    """The cells of a row after its title."""
+    """The columns of a row after its title."""
     line = next(line for line in PAGE.splitlines() if line.startswith(f"| {title}"))
     return [cell.strip() for cell in line.strip("|").split("|")[1:]]
 
@@ -85,8 +85,8 @@ def test_pointing_is_noise_through_the_loop_and_disturbances():
     noise = WALK * math.sqrt(DAMPING / FREQUENCY) / ARCSEC
     torque = flight()["satellite.disturbance_torque"][in_nadir()]
     offset = root_mean_square(torque / [4.2, 4.0, 3.0]) / FREQUENCY**2 / ARCSEC
-    cells = re.findall(r"(\d+): gyro noise .* = (\d+), disturbances .* = (\d+)", row("pointing error")[1])
-    assert cells == [(f"{math.hypot(noise, offset):.0f}", f"{noise:.0f}", f"{offset:.0f}")]
+    columns = re.findall(r"(\d+): gyro noise .* = (\d+), disturbances .* = (\d+)", row("pointing error")[1])
+    assert columns == [(f"{math.hypot(noise, offset):.0f}", f"{noise:.0f}", f"{offset:.0f}")]
     assert math.hypot(noise, offset) < float(row("pointing error")[0]) < 1.2 * math.hypot(noise, offset)
 
 
@@ -102,9 +102,9 @@ def test_verdicts_follow_from_failures():
     assert declared["trials"] == TRIALS
     assert [name for name, *_ in REQUIREMENTS] == list(declared["requirement"])
     for name, failures, verdict, _ in REQUIREMENTS:
-        probability = stats.binom.cdf(int(failures), TRIALS, 1.0 - SHARE)
+        probability = stats.binom.cdf(int(failures), TRIALS, 1.0 - PROBABILITY)
         assert (verdict == "met") == (probability <= 1.0 - CONFIDENCE), name
-    rank = max(n for n in range(TRIALS) if stats.binom.cdf(n, TRIALS, 1.0 - SHARE) <= 1.0 - CONFIDENCE) + 1
+    rank = max(n for n in range(TRIALS) if stats.binom.cdf(n, TRIALS, 1.0 - PROBABILITY) <= 1.0 - CONFIDENCE) + 1
     assert f"{rank}th worst of {TRIALS}" in PAGE
 
 
@@ -112,7 +112,7 @@ def test_verdicts_follow_from_failures():
 def test_the_campaign():
     (trials,) = perilune.batch("earth_pointing", "dispersed").trials.values()
     metrics = trials.metrics
-    share = metrics["starlit"] / (1.0 - (metrics["sun_time"] + 600.0) / 34056.0)
+    starlit = metrics["starlit"] / (1.0 - (metrics["sun_time"] + 600.0) / 34056.0)
     points = metrics["on_target"] >= 0.99 * metrics["starlit"]
     met = {
         "detumbles": metrics["calm_time"] <= 5460.0,
@@ -126,7 +126,7 @@ def test_the_campaign():
     for name, failures, _, bound in REQUIREMENTS:
         assert int(failures) == np.sum(~met[name]), name
         assert bound == bounds.get(name, ""), name
-    few = share < 0.62
+    few = starlit < 0.62
     assert f"all {np.sum(~points)} are among the {np.sum(few)} flights" in PAGE
     assert not np.any(~points & ~few)
     assert int(np.argmin(metrics["on_target"] / metrics["starlit"])) == 123

@@ -44,6 +44,12 @@ def test_dipole_of_two_fields(limit, expected):
     assert tuple(control.feedforward_torque) == (0.0, 0.0, 0.0)
 
 
+def test_a_slower_change_of_the_field_asks_for_less():
+    """The same change in two seconds instead of one: half of the dipole."""
+    control = control_of(MagneticMode.DETUMBLE, FIRST, SECOND, dipole_limit=1e3, field_period=2.0)
+    np.testing.assert_allclose(control.dipole, np.divide(UNLIMITED, 2.0), rtol=1e-12)
+
+
 def test_dipole_that_unloads_and_what_the_wheels_give_against_it():
     control = control_of(MagneticMode.UNLOAD, SECOND, momentum=MOMENTUM)
     np.testing.assert_allclose(control.dipole, UNLOADING, rtol=1e-13)

@@ -149,10 +149,10 @@ def test_the_angle_to_the_sun_is_that_of_the_panel_in_any_attitude(seed, angle, 
     random = np.random.default_rng(seed)
     panel, attitude = random.normal(size=3), Rotation.random(rng=random)
     axis = np.cross(panel, random.normal(size=3))
-    turned = Rotation.from_rotvec(angle * axis / np.linalg.norm(axis)).apply(panel)
+    off_panel = Rotation.from_rotvec(angle * axis / np.linalg.norm(axis)).apply(panel)
     modes = AocsModes(panel_normal=panel.tolist(), settle_time=0.0, sun_error=1.0, attitude_known=True)
     modes.estimated_quaternion = (scale * attitude.as_quat(scalar_first=True)).tolist()
-    modes.sun_direction = (3.0 * attitude.apply(turned)).tolist()
+    modes.sun_direction = (3.0 * attitude.apply(off_panel)).tolist()
     modes.initialize()
     assert modes.mode == AocsMode.SUN  # at rest
     modes.step(0.0, 0.25)

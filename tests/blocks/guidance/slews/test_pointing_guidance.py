@@ -23,7 +23,7 @@ vectors = st.tuples(components, components, components).map(np.array)
 
 
 def slope(_, y):
-    """Gravity of a point and of J2: Vallado 2013, equation 8-30, in components."""
+    """Gravity of a point and of J2, in components."""
     x, distance = y[:3], np.linalg.norm(y[:3])
     shape = np.array([1.0, 1.0, 3.0]) - 5.0 * (x[2] / distance) ** 2
     return [*y[3:], *(-MU / distance**3 * (1.0 + 1.5 * J2 * (RADIUS / distance) ** 2 * shape) * x)]
@@ -31,7 +31,7 @@ def slope(_, y):
 
 @functools.cache
 def orbit():
-    """Position and velocity over time, of an orbit with an eccentricity of 0.03 at 63 deg."""
+    """Position and velocity over time, of an orbit with an eccentricity of 0.06 at 63 deg."""
     start = [6.7e6, 1e6, 0.0, -800.0, 3.5e3, 7.0e3]
     return solve_ivp(slope, (-5.0, 6000.0), start, method="DOP853", rtol=1e-12, atol=1e-6, dense_output=True).sol
 
@@ -166,10 +166,10 @@ def change(guidance, **inputs):
 def test_what_is_not_finite_leaves_the_reference(name, wrong):
     guidance = guidance_of([7e6, 0.0, 0.0], [0.0, 5e3, 5e3])
     first, good = change(guidance), getattr(guidance, name)
-    moved = {"estimated_velocity": [0.0, 5e3, 6e3]}
-    assert change(guidance, **(moved | {name: wrong if name == "sample_time" else [0.0, wrong, 0.0]})) == first
+    other = {"estimated_velocity": [0.0, 5e3, 6e3]}
+    assert change(guidance, **(other | {name: wrong if name == "sample_time" else [0.0, wrong, 0.0]})) == first
     assert guidance.status == PointingStatus.NOT_FINITE
-    assert change(guidance, **({name: good} | moved)) != first
+    assert change(guidance, **({name: good} | other)) != first
     assert guidance.status == PointingStatus.GOOD
 
 

@@ -39,23 +39,23 @@ def carry(r, v, h):
 
 
 def orbit_samples():
-    """Samples each second, taken 1 s before; none for more than 5 s; then one that falls straight down."""
+    """Samples each second, 1 s old; none for more than 5 s; then one that falls straight down."""
     time = CYCLE * np.arange(ROWS)
     count = 7 + np.arange(ROWS) // 4
     count[NO_COUNT] = count[NO_COUNT[0] - 1]
-    taken = np.floor(time) - 1.0
-    angle = 1.1e-3 * taken[:, None]
+    sampled_at = np.floor(time) - 1.0
+    angle = 1.1e-3 * sampled_at[:, None]
     r = 6.9e6 * (np.cos(angle) * [0.6, 0.48, 0.64] + np.sin(angle) * [-0.8, 0.36, 0.48])
     v = 7600.0 * (-np.sin(angle) * [0.6, 0.48, 0.64] + np.cos(angle) * [-0.79, 0.38, 0.48])
     fall = np.isin(np.arange(ROWS), FALLING)
     v[fall] = -3e-4 * r[fall]
     r[NO_ORBIT] = 0.0
-    return r, v, taken, count
+    return r, v, sampled_at, count
 
 
 def pointing_guidance():
     """All modes and statuses: an old orbit, the Sun along the orbit normal, a fall, no orbit at first."""
-    r, v, taken, count = orbit_samples()
+    r, v, sampled_at, count = orbit_samples()
     sun = np.tile([0.3, -0.7, 0.55], (ROWS, 1)) + 0.01 * np.arange(ROWS)[:, None]
     sun[ALONG] = -2.0 * np.cross(r[ALONG], v[ALONG])
     mode = np.repeat([NADIR, SUN, INERTIAL, SUN, NADIR, SUN], [20, 12, 9, 14, 11, 7])
@@ -66,7 +66,7 @@ def pointing_guidance():
     for row, n in enumerate(seen):
         time, finite = CYCLE * row, n not in NO_ORBIT
         if finite and count[n] != before:
-            before, at = count[n], taken[n]
+            before, at = count[n], sampled_at[n]
             position, velocity = carry(r[n], v[n], time - at)
         elif finite:
             position, velocity = carry(position, velocity, CYCLE)
@@ -94,7 +94,7 @@ def pointing_guidance():
             "mode": mode,
             "estimated_position": r,
             "estimated_velocity": v,
-            "sample_time": taken,
+            "sample_time": sampled_at,
             "orbit_count": count,
             "sun_direction": sun,
         },

@@ -60,7 +60,7 @@ def aocs_modes():
         elif blind >= BLIND:
             after = SUN
         if after != mode:
-            mode, begun, settled, blind = after, row, 0, 0
+            mode, begun, settled = after, row, 0
         rows.append([mode, CYCLE * (row - begun)])
     mode, time = map(np.array, zip(*rows, strict=True))
     changes = 1 + np.flatnonzero(np.diff(mode))
