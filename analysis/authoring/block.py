@@ -54,7 +54,7 @@ def new_block(name: str, slot: str | None) -> Written:
 
 
 def where_it_flies(slot: str) -> tuple[str, str]:
-    """The system of fewest components that has a slot, and the component it is; a slot may be a block's class itself."""
+    """The system of fewest components that has a slot, or a block of that name, and which component it is."""
     blocks = catalogue()
     interface = slots().get(slot) or blocks[slot]
     candidates = []
