@@ -33,6 +33,7 @@ HOMES = {
     "navigation.attitude_observer": ("AttitudeObserver",),
     "navigation.filtered_navigation": ("FilteredNavigation",),
     "navigation.inertial_navigation": ("InertialNavigation",),
+    "plants.spacecraft": ("Spacecraft", "SpacecraftMotion"),
     "ports": ("Port",),
     "units": ("deg",),
     "variables": ("DeclarationError", "Input", "Output", "Parameter", "State"),

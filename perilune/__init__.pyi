@@ -211,6 +211,8 @@ from .fmus_src.mathlib.vectors import (
 from .fmus_src.navigation.attitude_observer import AttitudeObserver as AttitudeObserver
 from .fmus_src.navigation.filtered_navigation import FilteredNavigation as FilteredNavigation
 from .fmus_src.navigation.inertial_navigation import InertialNavigation as InertialNavigation
+from .fmus_src.plants.spacecraft import Spacecraft as Spacecraft
+from .fmus_src.plants.spacecraft import SpacecraftMotion as SpacecraftMotion
 from .fmus_src.ports import Port as Port
 from .fmus_src.units import deg as deg
 from .fmus_src.variables import (

@@ -54,8 +54,9 @@ def new_block(name: str, slot: str | None) -> Written:
 
 
 def where_it_flies(slot: str) -> tuple[str, str]:
-    """The system of fewest components that has a slot, and the component it is."""
-    blocks, interface = catalogue(), slots()[slot]
+    """The system of fewest components that has a slot, or a block of that name, and which component it is."""
+    blocks = catalogue()
+    interface = slots().get(slot) or blocks[slot]
     candidates = []
     for name in system_names():
         elements = read_description(open_system(name)).system.elements

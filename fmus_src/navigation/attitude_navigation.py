@@ -64,7 +64,7 @@ class AttitudeNavigation(Block, interface=True):
     star_time = Input(-1.0, unit="s", description="time of the star sample; below 0: now")
     measured_sun = Input([0.0, 0.0, 0.0], unit="1", frame="body", description="measured direction to the Sun")
     sun_count = Input(0, description="samples of the Sun so far; a change signals a new one")
-    sun_direction = SpaceEnvironment.sun_direction.input("to the Sun, as known on board")
+    sun_direction = SpaceEnvironment.sun_direction.input("to the Sun, as known on board", start=[0.0] * 3)
     measured_field = space.MAGNETIC_FIELD.input("measured field")
     field_count = Input(0, description="samples of the field so far; a change signals a new one")
     magnetic_field = SpaceEnvironment.magnetic_field.input("magnetic field, as known on board")

@@ -29,7 +29,7 @@ class RateGyros(RandomSensor):
     this step. An angle random walk of s rad/sqrt(s) is sigma = s/sqrt(sample_period). Bias instability is a first-order
     Gauss-Markov process that begins in its steady state. A sample arrives ``latency`` sample periods later. The first
     sample is at the start. Which numbers a flight uses depends on seed, stream and the sample's number only, and on
-    whether there are a walk and an instability. Frame: body.
+    whether there are a walk and an instability. Frame: body. Assumes errors that do not change with temperature.
     Source: Farrenkopf 1978; Crassidis and Junkins 2012, section 7.1; IEEE Std 952. Sizes: docs/systems.
     """
 

@@ -66,7 +66,7 @@ class StarInertial(RandomSensor):
     quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
     angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity")
     position = inertial.POSITION.input("true position, from the centre of the body")
-    sun_direction = SpaceEnvironment.sun_direction.input()
+    sun_direction = SpaceEnvironment.sun_direction.input("to the Sun; 0: no Sun", start=[0.0] * 3)
     moon_position = SpaceEnvironment.moon_position.input()
     measured_quaternion = robot.MEASURED_QUATERNION.output("measured, from body to inertial, scalar first", direct=True)
     sample_time = Output(0.0, unit="s", direct=True, description="time of the sample")

@@ -52,12 +52,21 @@ def errs_as_declared(flight):
     assert flight.final()["plant.position[1]"] == pytest.approx(-50.0, abs=2.0)
 
 
+def is_off_by_the_leak(flight):
+    """By torque over stiffness, J w0^2, about the leak's axis."""
+    offset = [abs(flight.final()[f"monitor.attitude_error[{axis}]"]) for axis in (1, 2, 3)]
+    assert offset[0] == pytest.approx(1e-4 / (180.0 * 0.3**2), rel=0.02)
+    assert max(offset[1:]) < 0.02 * offset[0]
+    assert flight.status == "finished"
+
+
 TASKS = {
     "terminal_guidance": meets_its_target,
     "orbital_control": holds_the_orbital_frame,
     "entry_control": holds_its_bank,
     "allocation": steps_its_throttle,
     "navigation": errs_as_declared,
+    "spacecraft": is_off_by_the_leak,
 }
 
 

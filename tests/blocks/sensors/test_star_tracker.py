@@ -63,6 +63,15 @@ def test_the_limb_near_the_boresight(angle, seed):
     assert_excluded(tracker(nadir=away(angle, seed)), False)
 
 
+def test_inputs_that_are_not_connected_exclude_nothing():
+    """At any boresight: their starts are no direction."""
+    limits = {"sun_exclusion": 3.0, "moon_exclusion": 3.0, "limb_exclusion": 1.5, "rate_limit": 1e-6}
+    for axis in (*np.eye(3), *-np.eye(3)):
+        block = StarInertial(boresight=axis.tolist(), **limits)
+        block.initialize()
+        assert_excluded(block, False)
+
+
 def test_turning_fast():
     block = tracker(rate_limit=0.02)
     for rate, status, count in (

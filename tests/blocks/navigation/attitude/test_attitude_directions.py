@@ -120,6 +120,14 @@ def test_a_direction_that_is_not_finite_or_zero_is_left_out(name, wrong):
     assert tick(block) == Status.GOOD
 
 
+def test_a_direction_without_a_reference_is_left_out():
+    """Where the inputs of the inertial directions are not connected."""
+    block = AttitudeNavigationFilter()
+    block.initialize()
+    assert tick(block, sun=body(SUN), field=body(FIELD)) == Status.NO_DIRECTION
+    assert not block.attitude_known
+
+
 def test_a_spike_is_left_out_and_counted():
     """On either side of the gate, by the innovation's own covariance; and of each sensor."""
     prior, gate = 0.01, 16.27

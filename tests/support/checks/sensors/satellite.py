@@ -21,38 +21,107 @@ NOT_FINITE = 5  # sample of an input that is not finite
 SHAPE = np.array([[2.0, -1.0, 0.5], [0.5, 3.0, -0.2], [1.0, 0.2, -1.0]])
 
 
+def delayed(rows, good, late):
+    """Rows of good samples as they arrive ``late`` samples after they were taken, 0 before, and their count."""
+    arrived = np.concatenate([np.zeros(late, dtype=bool), good[: SAMPLES - late]])
+    return keep(np.concatenate([np.zeros_like(rows[:late]), rows[: SAMPLES - late]]), arrived)
+
+
+def correlated(first, fresh, sigma, lag):
+    """A first-order Gauss-Markov error that begins in its steady state, summed from all its past."""
+    ages = np.subtract.outer(np.arange(SAMPLES), np.arange(SAMPLES)) * EVERY * STEP
+    weights = np.where(ages >= 0.0, np.exp(-np.abs(ages) / lag), 0.0)
+    weights[:, 1:] *= np.sqrt(1.0 - np.exp(-2.0 * EVERY * STEP / lag))
+    return sigma * weights @ np.concatenate([[first], fresh])
+
+
 def rate_gyros():
-    """A drawn bias that walks, a declared one and white errors; a sample has the bias half way of its step."""
+    """All errors at once; a sample has the random walk half way of its step, and arrives a period late."""
     velocity, bias, limit, sigma = wave(0.05, 0.0, 1.0, 2.0), np.array([0.001, -0.002, 0.003]), 0.004, 0.002
-    numbers, walk = Numbers(SEED, STREAM), 0.003
+    numbers, walk, slow, lag = Numbers(SEED, STREAM), 0.003, 0.002, 1.5
+    scale, largest, quantum = 0.02 * SHAPE, 0.045, 1e-4
     first = bias + limit * (2.0 * numbers.uniform(3) - 1.0)
-    fresh, later = numbers.normal(1, 3), numbers.normal(SAMPLES - 1, 2, 3)
-    steps = walk * np.sqrt(EVERY * STEP) * np.concatenate([np.zeros((1, 3)), later[:, 0]])
-    whole = first + np.cumsum(steps, axis=0)
-    errors = sigma * np.concatenate([fresh, later[:, 1]])
+    unsteady, fresh, later = numbers.normal(3), numbers.normal(1, 3), numbers.normal(SAMPLES - 1, 3, 3)
+    steps = walk * np.sqrt(EVERY * STEP) * np.concatenate([np.zeros((1, 3)), later[:, 1]])
+    total = first + np.cumsum(steps, axis=0)
+    errors = sigma * np.concatenate([fresh, later[:, 2]]) + correlated(unsteady, later[:, 0], slow, lag)
+    y = sampled(velocity) @ (np.eye(3) + scale).T + total - 0.5 * steps + errors
+    within = np.clip(y, -largest, largest)
+    status = (within != y).any(axis=1).astype(int)
+    assert set(status) == {0, 1}
+    measured, count = delayed(quantum * np.floor(within / quantum + 0.5), np.ones(SAMPLES, dtype=bool), 1)
     return check_sensor(
         "closed form with exact random numbers",
         {"angular_velocity": velocity},
-        {"measured_angular_velocity": sampled(velocity) + whole - 0.5 * steps + errors, "true_bias": whole},
-        {"bias": bias, "bias_limit": limit, "sigma": sigma, "bias_walk": walk},
+        {"measured_angular_velocity": measured, "true_bias": total, "status": status},
+        {
+            "bias": bias,
+            "bias_limit": limit,
+            "sigma": sigma,
+            "bias_walk": walk,
+            "scale": scale,
+            "instability_sigma": slow,
+            "instability_time": lag,
+            "range": largest,
+            "quantum": quantum,
+            "latency": 1,
+        },
         (1e-15, 0.0),
+        count,
     )
 
 
 def star_inertial():
-    """The attitude after a small rotation in body axes."""
-    angles, sigma = wave(1.2, 0.3, 1.3, 2.9), 0.02
-    true = Rotation.from_euler("zyx", angles)
-    error = Rotation.from_rotvec(sigma * Numbers(SEED, STREAM).normal(SAMPLES, 3))
-    quaternion = true.as_quat(scalar_first=True)
+    """The attitude after a small rotation in body axes, larger about the boresight; Sun, Moon, limb, rate, latency."""
+    attitude, sigma, roll, late = Rotation.from_euler("zyx", wave(1.2, 0.3, 1.3, 2.9)), 0.02, 0.05, 1
+    boresight = np.array([2.0, -1.0, 2.0]) / 3.0
+    aim = attitude.apply(boresight)
+    rate = wave(0.03, 1.2, 1.3, 1.4)
+    numbers = Numbers(SEED, STREAM).normal(SAMPLES, 3)
+    about = np.outer(numbers @ boresight, boresight)
+    error = Rotation.from_rotvec(sigma * (numbers - about) + roll * about)
+
+    def passing(time, distance, axis):
+        """A vector from the spacecraft that crosses the boresight at a time."""
+        return distance * Rotation.from_rotvec(np.outer(2.0 * (TIME - time), np.cross(axis, aim[0]))).apply(aim)
+
+    position = -passing(3.2, 7e6, [0.0, 0.0, 1.0])
+    sun, moon = passing(0.6, 1.0, [1.0, 0.0, 0.0]), position + passing(1.4, 3e8, [0.0, 1.0, 0.0])
+    limits = {"sun_exclusion": 0.3, "moon_exclusion": 0.25, "limb_exclusion": 0.2, "rate_limit": 0.039}
+
+    def off(direction):
+        """Angle from the boresight at the samples."""
+        cosine = (sampled(direction) * sampled(aim)).sum(axis=1) / np.linalg.norm(sampled(direction), axis=1)
+        return np.arccos(cosine)
+
+    disk = np.arcsin(6378137.0 / 7e6)
+    dazzled = np.array([off(sun) < 0.3, off(moon - position) < 0.25, off(-position) < disk + 0.2])
+    assert (dazzled & (dazzled.sum(axis=0) == 1)).any(axis=1).all()
+    fast = np.linalg.norm(sampled(rate), axis=1) > 0.039
+    status = np.where(dazzled.any(axis=0), 1, np.where(fast, 2, 0))
+    assert set(status) == {0, 1, 2}
+    quaternion = attitude.as_quat(scalar_first=True)
     measured = (Rotation.from_quat(sampled(quaternion), scalar_first=True) * error).as_quat(scalar_first=True)
-    signs = np.sign((measured * sampled(quaternion)).sum(axis=1))
+    measured *= np.sign((measured * sampled(quaternion)).sum(axis=1))[:, None]
+    arrived, count = delayed(measured, status == 0, late)
+    arrived[count == 0] = [1.0, 0.0, 0.0, 0.0]
     return check_sensor(
-        "rotations by scipy; exact random numbers",
-        {"quaternion": quaternion},
-        {"measured_quaternion": signs[:, None] * measured},
-        {"attitude_sigma": sigma},
+        "rotations and angles by scipy; exact random numbers",
+        {
+            "quaternion": quaternion,
+            "angular_velocity": rate,
+            "position": position,
+            "sun_direction": sun,
+            "moon_position": moon,
+        },
+        {
+            "measured_quaternion": arrived,
+            "sample_time": delayed(EVERY * STEP * np.arange(SAMPLES), status == 0, late)[0],
+            "status": status,
+        },
+        {"attitude_sigma": sigma, "roll_sigma": roll, "boresight": 3.0 * boresight, "latency": late, **limits},
         (1e-14, 0.0),
+        count,
     )
 
 
@@ -160,26 +229,17 @@ def gps_receiver():
     white, speed, slow, lag, clock, late = 3.0, 0.03, 5.0, 1.5, -2e-6, 2
     numbers = Numbers(SEED, STREAM)
     first, fresh = numbers.normal(3), numbers.normal(SAMPLES, 3, 3)
-    ages = np.subtract.outer(np.arange(SAMPLES), np.arange(SAMPLES)) * EVERY * STEP
-    weights = np.where(ages >= 0.0, np.exp(-np.abs(ages) / lag), 0.0)
-    weights[:, 1:] *= np.sqrt(1.0 - np.exp(-2.0 * EVERY * STEP / lag))
-    markov = slow * weights @ np.concatenate([[first], fresh[1:, 0]])
+    markov = correlated(first, fresh[1:, 0], slow, lag)
     status = np.where(sampled(outage), 1, np.where(np.isnan(sampled(position)).any(axis=1), 2, 0))
     assert set(status) == {0, 1, 2}
-    arrived = np.concatenate([np.zeros(late, dtype=bool), status[:-late] == 0])
-
-    def delayed(rows):
-        """Rows as they arrive, and their count."""
-        return keep(np.concatenate([np.zeros_like(rows[:late]), rows[:-late]]), arrived)
-
-    measured, count = delayed(sampled(position) + markov + white * fresh[:, 1])
+    measured, count = delayed(sampled(position) + markov + white * fresh[:, 1], status == 0, late)
     return check_sensor(
         "weighted sum of exact random numbers",
         {"position": position, "velocity": velocity, "outage": outage},
         {
             "measured_position": measured,
-            "measured_velocity": delayed(sampled(velocity) + speed * fresh[:, 2])[0],
-            "sample_time": delayed(EVERY * STEP * np.arange(SAMPLES) + clock)[0],
+            "measured_velocity": delayed(sampled(velocity) + speed * fresh[:, 2], status == 0, late)[0],
+            "sample_time": delayed(EVERY * STEP * np.arange(SAMPLES) + clock, status == 0, late)[0],
             "status": status,
         },
         {
