@@ -15,6 +15,7 @@ from tests.support.lengths import either
 
 pytestmark = pytest.mark.usefixtures("fmus")
 DEFAULTS = {
+    "earth_pointing": "noisy",
     "entry_attitude": "noisy",
     "hover_transfer": "noisy",
     "landing_mission": "noisy",
@@ -25,6 +26,7 @@ DEFAULTS = {
     "robot_rendezvous": "noisy",
     "satellite_pointing": "noisy",
 }
+EXACT = "flexible_slew"  # has no random errors, and so neither set
 STOP = 3.0  # s: every sensor has been sampled twice
 # What is known at the start belongs to the start, and this system has ten: its noisy.ssv leaves it as it is.
 FIRST = {"landing_mission": {"navigation.first_position_sigma": 100, "navigation.first_velocity_sigma": 0.1}}
@@ -48,7 +50,11 @@ def same(first, second):
 
 
 def test_every_system_is_in_the_table():
-    assert sorted(DEFAULTS) == sorted(path.parent.name for path in SYSTEMS.glob("*/system.toml"))
+    assert sorted([*DEFAULTS, EXACT]) == sorted(path.parent.name for path in SYSTEMS.glob("*/system.toml"))
+
+
+def test_a_system_without_either_set_does_not_depend_on_seeds():
+    assert same(flight(EXACT), flight(EXACT, seed=2))
 
 
 @pytest.mark.parametrize("system", either(list(DEFAULTS), ["landing_mission", "orbital_attitude"]))
