@@ -18,6 +18,7 @@ from ..runtime.system.fmu import Fmu
 from .source import Entry, SystemSource
 
 ARROW = "->"
+ALL = ".*"  # behind a component: every input of it that nothing is connected to
 TARGETS = re.compile(r",(?![^\[]*\])")  # between names, not between the indices of one
 INDEX = re.compile(r"\[[\d,]+\]$")
 CONNECTED = ("input", "output", "parameter", "structuralParameter", "calculatedParameter")
@@ -215,13 +216,36 @@ class _Wirer:
             self.wiring.connectors[component, name] = self.of_variable(component, variable)
 
     def leave(self, entry: Entry) -> None:
-        """Note inputs that keep their start values."""
+        """Note inputs that keep their start values: one, or with ``component.*`` all that nothing is connected to."""
+        if entry.text.endswith(ALL):
+            self.leave_all(entry.text.removesuffix(ALL), entry)
+            return
         for component, name in self.unused(entry):
             causality = self.fmus[component].variables[name].causality
             if causality != "input":
                 self.refuse(entry, f"is {causality}", "name inputs here")
                 return
             self.left.add((component, name))
+
+    def leave_all(self, component: str, entry: Entry) -> None:
+        """Note all inputs of a component that nothing is connected to."""
+        if component not in self.fmus:
+            self.refuse(entry, f"no component {component}", suggestion(component, self.fmus))
+            return
+        inputs = set(self.open_inputs(component))
+        if not inputs:
+            self.refuse(entry, f"all inputs of {component} are connected or named", "remove it")
+        self.left |= {(component, name) for name in inputs}
+
+    def open_inputs(self, component: str) -> list[str]:
+        """Return the inputs of a component that are neither connected nor named as unconnected."""
+        return [
+            name
+            for name, each in self.fmus[component].variables.items()
+            if each.causality == "input"
+            and (component, name) not in self.wiring.connectors
+            and (component, name) not in self.left | self.written
+        ]
 
     def check_inputs(self) -> None:
         """Refuse inputs that are neither connected nor named as unconnected."""
@@ -230,16 +254,9 @@ class _Wirer:
             for component, fmu in self.fmus.items()
             for name in collapse(name for name, each in fmu.variables.items() if each.causality == "output")
         ]
-        for component, fmu in self.fmus.items():
-            unconnected = [
-                name
-                for name, each in fmu.variables.items()
-                if each.causality == "input"
-                and (component, name) not in self.wiring.connectors
-                and (component, name) not in self.left | self.written
-            ]
+        for component in self.fmus:
             where = self.source.components[component].where
-            for name in dict.fromkeys(INDEX.sub("", name) for name in unconnected):
+            for name in dict.fromkeys(INDEX.sub("", name) for name in self.open_inputs(component)):
                 similar = get_close_matches(name, {output.partition(".")[2] for output in outputs}, 1, NEAR)
                 sources = [output for output in outputs if output.partition(".")[2] in similar]
                 nearest = f"connect it ({', '.join(sources)}?)" if sources else "connect it"

@@ -31,17 +31,17 @@ MISTAKES = {
         '"wheels.torque_command -> control.wheel_momentum"',
         "wheels.torque_command[1] is input and control.wheel_momentum[1] is input; connect an output with an input",
     ),
-    "a variable with a typo": (TORQUE, TORQUE.replace("torque_c", "torqe_c", 1), "of 16 known names: torque_command"),
+    "a variable with a typo": (TORQUE, TORQUE.replace("torque_c", "torqe_c", 1), "of 19 known names: torque_command"),
     "a component with a typo": (
         TORQUE,
         TORQUE.replace("control", "contrl"),
         "no component contrl; use one of control,",
     ),
     "an input that is not connected": (
-        ATTITUDE + ",",
+        '"satellite.wheel_speeds -> wheels.wheel_speeds",',
         "",
-        "components.navigation (line 25): input navigation.measured_quaternion is not connected; connect it "
-        "(star.measured_quaternion?), or name it under unconnected",
+        "components.wheels (line 27): input wheels.wheel_speeds is not connected; connect it (satellite.wheel_speeds?), "
+        "or name it under unconnected",
     ),
     "unequal sizes": (
         ATTITUDE,
@@ -92,9 +92,15 @@ MISTAKES = {
         "declare (line 21): star.sample_count: is connected; leave it out here",
     ),
     "an output left unconnected": (
-        '["control.reference_quaternion"',
-        '["satellite.status", "control.reference_quaternion"',
+        '["star.*"',
+        '["satellite.status", "star.*"',
         "satellite.status: is output; name inputs here",
+    ),
+    "all inputs of no component": ('"star.*"', '"stars.*"', "unconnected (line 19): stars.*: no component stars; use"),
+    "all inputs where none is left": (
+        '"star.*"',
+        '"star.*", "gyros.*"',
+        "unconnected (line 19): gyros.*: all inputs of gyros are connected or named; remove it",
     ),
     "a parameter with a typo": (SET, SET.replace("initial", "inital"), "set.satellite.inital_quaternion: no parameter"),
     "a value of another size": (SET, SET.replace("0.99, ", ""), "3 values for 4; give one for each element"),

@@ -24,7 +24,7 @@ def count(name):
     return [
         number
         for rows in (connectors, connections)
-        for number in (len(rows), len({tuple(INDEX.sub("", word) for word in row) for row in rows}))
+        for number in (len(rows), len({tuple(INDEX.sub("", name) for name in row) for row in rows}))
     ]
 
 
