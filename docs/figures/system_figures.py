@@ -172,6 +172,21 @@ PICTURES = {
             ),
         ),
     ),
+    "flexible_slew": SystemPicture(
+        (
+            Panel(TIME, "angle to the target, deg", {"": over_time("monitor.pointing_error", DEG)}),
+            Panel(
+                TIME,
+                "attitude error, arcsec",
+                {axis: over_time(f"monitor.attitude_error[{k}]", ARCSEC) for k, axis in enumerate("xyz", 1)},
+            ),
+            Panel(
+                TIME,
+                "modal displacements, m √kg",
+                {f"mode {k}": over_time(f"satellite.mode_displacements[{k}]") for k in (1, 2, 3)},
+            ),
+        ),
+    ),
     "entry_attitude": SystemPicture(
         (
             Panel(
