@@ -40,8 +40,8 @@ MISTAKES = {
     "an input that is not connected": (
         '"satellite.wheel_speeds -> wheels.wheel_speeds",',
         "",
-        "components.wheels (line 27): input wheels.wheel_speeds is not connected; connect it (satellite.wheel_speeds?), "
-        "or name it under unconnected",
+        "components.wheels (line 27): input wheels.wheel_speeds is not connected; connect it "
+        "(satellite.wheel_speeds?), or name it under unconnected",
     ),
     "unequal sizes": (
         ATTITUDE,
