@@ -18,7 +18,7 @@ class GravityField(SpaceModel, interface=True):
     """
 
     gravity_degree = Parameter(
-        8, minimum=0, maximum=13, description="highest degree of gravity; 8 at most for the Moon"
+        13, minimum=0, maximum=13, description="highest degree of gravity; 8 at most for the Moon"
     )
     third_bodies = Parameter(True, description="gravity of Sun and Moon, or of Sun and Earth")
     gravity_coefficients = State(zeros(SIZE, SIZE), frozen=True, description="of the gravity field, unnormalised")
