@@ -11,7 +11,7 @@ ROUNDING = 1e-9  # s, of times of communication points
 
 
 class MagneticControlStatus(Enumeration):
-    """What limits the dipole of the last sample."""
+    """Limit of the dipole of the last sample."""
 
     GOOD = member("good")
     LIMITED = member("dipole limited")
@@ -36,7 +36,7 @@ class MagneticControl(Block):
 
     detumble_gain = Parameter(0.0132, unit="N.m.s", minimum=0.0, description="k")
     unload_gain = Parameter(0.002, unit="1/s", minimum=0.0, description="ku")
-    target_momentum = body.ANGULAR_MOMENTUM.parameter(description="wanted of the wheels")
+    target_momentum = body.ANGULAR_MOMENTUM.parameter(description="commanded momentum of the wheels")
     dipole_limit = Parameter(5.0, unit="A.m2", minimum=0.0, description="largest component of the dipole")
     field_period = Parameter(1.0, unit="s", minimum=1e-3, description="T, between samples of the magnetometer")
     active_fraction = Parameter(0.75, unit="1", minimum=0.0, maximum=1.0, description="of T, in which the dipole acts")

@@ -12,7 +12,7 @@ from ..models.space_model import SpaceModel
 
 
 class EnvironmentStatus(Enumeration):
-    """How good the answer is."""
+    """Quality of the outputs."""
 
     GOOD = member("good")
     OUTSIDE_YEARS = member("outside 2025 to 2030, magnetic field extrapolated")

@@ -16,7 +16,7 @@ PARALLEL = 1e-3  # sine of the angle below which two directions are parallel
 
 
 class PointingStatus(Enumeration):
-    """How good the reference is."""
+    """Quality of the reference."""
 
     GOOD = member("good")
     OLD_ORBIT = member("last sample of the orbit older than 5 s, carried on")

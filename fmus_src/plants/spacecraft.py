@@ -18,7 +18,7 @@ FASTEST_MODE = 0.7  # rad of a mode within an internal step: Runge-Kutta then ad
 
 
 class SpacecraftStatus(Enumeration):
-    """What limits the spacecraft, the last one where several do."""
+    """Limit that the spacecraft has reached, the last of several."""
 
     GOOD = member("good")
     TORQUE_LIMITED = member("a motor torque limited")
@@ -202,14 +202,14 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         if not (is_finite(commands[1:4]) and is_finite(vector(commands.w, 0.0, 0.0))):
             finite = False
             commands = vector(0.0, 0.0, 0.0, 0.0)
-        wanted = finite_or_zero(self.dipole)
+        commanded = finite_or_zero(self.dipole)
         self.applied_dipole = vector(
-            clip(wanted.x, -self.dipole_limit, self.dipole_limit),
-            clip(wanted.y, -self.dipole_limit, self.dipole_limit),
-            clip(wanted.z, -self.dipole_limit, self.dipole_limit),
+            clip(commanded.x, -self.dipole_limit, self.dipole_limit),
+            clip(commanded.y, -self.dipole_limit, self.dipole_limit),
+            clip(commanded.z, -self.dipole_limit, self.dipole_limit),
         )
         self.status = SpacecraftStatus.GOOD
-        if norm(self.applied_dipole - wanted) > 0.0:
+        if norm(self.applied_dipole - commanded) > 0.0:
             self.status = SpacecraftStatus.DIPOLE_LIMITED
         if self.lacks_normal:
             self.status = SpacecraftStatus.NO_NORMAL

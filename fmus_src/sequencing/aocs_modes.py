@@ -13,7 +13,7 @@ from ..units import deg
 
 
 class AocsMode(Enumeration):
-    """What the satellite does."""
+    """Mode of the satellite."""
 
     DETUMBLE = member("brake the rotation by torquers")
     SUN = member("panel towards the Sun")
@@ -21,7 +21,7 @@ class AocsMode(Enumeration):
 
 
 class AocsModesStatus(Enumeration):
-    """Whether the mode answers new inputs."""
+    """Validity of the last decision."""
 
     GOOD = member("good")
     NOT_FINITE = member("an input not finite, the mode stays")

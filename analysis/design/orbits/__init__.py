@@ -1,1 +1,1 @@
-"""Where and when a spacecraft starts: parameters from dates and orbital elements."""
+"""Start of a spacecraft: parameters from dates and orbital elements."""

@@ -192,7 +192,7 @@ def write_renewal(
     periods: Mapping[str, int],
     part: int,
 ) -> dict[int, np.ndarray]:
-    """What hands a system's inputs, and parameters with faults, that have changed between two steps over again.
+    """Instructions that pass on a system's inputs, and parameters with faults, changed between two steps.
 
     It is by component, of those that step in the ``part`` that follows with the inputs of its start. Arguments as of
     `write_instructions`.

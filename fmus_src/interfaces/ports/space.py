@@ -56,7 +56,7 @@ class SpaceEnvironment(Bundle):
 
 
 class MagneticMode(Enumeration):
-    """What the torquers do."""
+    """Task of the torquers."""
 
     OFF = member("off")
     DETUMBLE = member("brake the rotation")

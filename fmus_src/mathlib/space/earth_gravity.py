@@ -4,15 +4,17 @@ Source: Tapley et al., The GGM03 mean Earth gravity model from GRACE, 2007: full
 system as published. Their gravitational parameter and radius belong to them.
 """
 
-from ...kernel.matrices import Matrix, zeros
-from .harmonics import SIZE, full_normalisation, set_pair
+from typing import Any
+
+from ...kernel.matrices import Matrix
+from .harmonics import gravity_coefficients
 
 GRAVITATIONAL_PARAMETER = 3.986004415e14  # m3/s2
 RADIUS = 6378136.3  # m
 DEGREE = 13
 
 # C, S of orders 0 to n, for each degree n from 2 on.
-NORMALISED = (
+NORMALISED: Any = (  # a list to the kernel that reads it
     -0.000484169263833, 0.0, -2.234662444661e-10, 1.464715526673e-09, 2.439350113369e-06, -1.400296540441e-06,
     9.572027902208e-07, 0.0, 2.030466388182e-06, 2.482080433653e-07, 9.047846524431e-07, -6.189942681083e-07,
     7.21287188201e-07, 1.414368208779e-06,
@@ -61,12 +63,4 @@ NORMALISED = (
 
 def earth_gravity() -> Matrix:
     """Return the coefficients for `harmonics.gradient`, unnormalised."""
-    cs = zeros(SIZE, SIZE)
-    cs[0, 0] = 1.0
-    k = 0
-    for n in range(2, DEGREE + 1):
-        for m in range(n + 1):
-            factor = full_normalisation(n, m)
-            set_pair(cs, n, m, factor * NORMALISED[k], factor * NORMALISED[k + 1])
-            k = k + 2
-    return cs
+    return gravity_coefficients(NORMALISED, DEGREE)

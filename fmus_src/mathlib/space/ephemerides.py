@@ -1,4 +1,4 @@
-"""Where Sun and Moon are, from the centre of the Earth, and their tides. Kernel functions.
+"""Positions of Sun and Moon from the centre of the Earth, and their tides. Kernel functions.
 
 Frame: axes of the GCRS, geometric positions (no light time, no aberration). t is TT in seconds since J2000.0.
 Between 2020 and 2040 the largest differences from DE421 are 31.6 arcseconds (rms 16.2) and 1.2e4 km for the Sun, 293

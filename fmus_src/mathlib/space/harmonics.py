@@ -11,7 +11,7 @@ Source: Cunningham 1970; Montenbruck and Gill 2000, section 3.2.4.
 
 import math
 
-from ...kernel.matrices import Matrix
+from ...kernel.matrices import Matrix, zeros
 from ..vectors import Vector3, dot, vector
 
 SIZE = 14  # rows and columns of a matrix of coefficients: degrees 0 to 13
@@ -37,6 +37,19 @@ def set_pair(cs: Matrix, n: int, m: int, c: float, s: float) -> None:
     cs[n, m] = c
     if m > 0:
         cs[m - 1, n] = s
+
+
+def gravity_coefficients(normalised: list, degree: int) -> Matrix:
+    """Return coefficients for `gradient` from fully normalised ones: C, S of orders 0 to n, for degrees n from 2 on."""
+    cs = zeros(SIZE, SIZE)
+    cs[0, 0] = 1.0
+    k = 0
+    for n in range(2, degree + 1):
+        for m in range(n + 1):
+            factor = full_normalisation(n, m)
+            set_pair(cs, n, m, factor * normalised[k], factor * normalised[k + 1])
+            k = k + 2
+    return cs
 
 
 def gradient(position: Vector3, mu: float, radius: float, cs: Matrix, degree: int) -> Vector3:

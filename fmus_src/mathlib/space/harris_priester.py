@@ -1,7 +1,7 @@
 """Density of the upper atmosphere with its bulge behind the Sun: Harris and Priester. Kernel functions.
 
-It holds for mean solar activity: beside NRLMSIS 2.0 at 500 km its mean is 0.96 of the density at F10.7 = 150, ten times
-too much at 70, and 0.28 at 230. Whoever disperses it takes a factor from 0.1 to 4.
+It holds for mean solar activity: at 500 km its mean over that of NRLMSIS 2.0 is 0.96 at F10.7 = 150, 10.1 at 70 and
+0.28 at 230. A factor from 0.1 to 4 disperses it over a cycle of the Sun.
 Source: Montenbruck and Gill 2000, section 3.5.2 and table 3.8.
 """
 

@@ -5,15 +5,17 @@ Source: Konopliv et al. 2001, fully normalised coefficients in principal axes, w
 mean-Earth axes of `orientation`.
 """
 
-from ...kernel.matrices import Matrix, zeros
-from .harmonics import SIZE, full_normalisation, set_pair
+from typing import Any
+
+from ...kernel.matrices import Matrix
+from .harmonics import gravity_coefficients
 
 GRAVITATIONAL_PARAMETER = 4.902801056e12  # m3/s2
 RADIUS = 1738000.0  # m
 DEGREE = 8
 
 # C, S of orders 0 to n, for each degree n from 2 on.
-NORMALISED = (
+NORMALISED: Any = (  # a list to the kernel that reads it
     -9.08901807506e-05, 0.0, -2.72203236159e-09, -7.57518292083e-10, 3.46354993722e-05, 1.67294905383e-08,
     -3.2035914003e-06, 0.0, 2.63274401218e-05, 5.46436308982e-06, 1.41881793294e-05, 4.89203650048e-06,
     1.22860589447e-05, -1.78544808164e-06,
@@ -37,12 +39,4 @@ NORMALISED = (
 
 def moon_gravity() -> Matrix:
     """Return the coefficients for `harmonics.gradient`, unnormalised."""
-    cs = zeros(SIZE, SIZE)
-    cs[0, 0] = 1.0
-    k = 0
-    for n in range(2, DEGREE + 1):
-        for m in range(n + 1):
-            factor = full_normalisation(n, m)
-            set_pair(cs, n, m, factor * NORMALISED[k], factor * NORMALISED[k + 1])
-            k = k + 2
-    return cs
+    return gravity_coefficients(NORMALISED, DEGREE)
