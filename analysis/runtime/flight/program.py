@@ -9,6 +9,7 @@ import numpy as np
 
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable
+from ..program import arrays
 from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
 from ..system.checks import changeable
@@ -17,7 +18,6 @@ from ..system.inputs import Drive
 from ..system.network import Network
 from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
-from .compiled import arrays
 from .instructions import InstructionList, Orders, write_instructions
 from .orders.connections import Connections
 from .orders.exchanged import Exchanged

@@ -10,8 +10,8 @@ import numpy as np
 from ...fmi.representations import REPRESENTATIONS
 from ...fmi.variable import Variable
 from ...instances.library import FUNCTION_NAMES
+from ...program import codes
 from ...system.network import Network
-from ..compiled import codes
 
 KINDS = {name: number for number, name in enumerate(REPRESENTATIONS)}
 NUMBERS = {

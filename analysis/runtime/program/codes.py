@@ -1,4 +1,4 @@
-"""The instructions that the compiled loop works off, and how a run ends: numbers that it compares.
+"""Instructions of the loop and endings of a run: the numbers of `c/codes.h` and `c/run.h`, compared at load.
 
 A system becomes a list of instructions (`instructions.py`): one part that initialises, one part that is repeated every
 communication step. The loop knows nothing of algorithms; their order is in the list.
@@ -39,7 +39,8 @@ FLOAT64, FLOAT32, INT8, UINT8, INT16, UINT16, INT32, UINT32, INT64, UINT64, BOOL
 SETTERS, GETTERS, DO_STEP = 14, 27, 40
 ENTER_EVENT_MODE, UPDATE_DISCRETE_STATES, ENTER_STEP_MODE = 46, 47, 48
 
-# How a run ends: Buffers.outcome[0].
+# Words of Buffers.outcome, and the first of them: how a run ends.
+ENDING, SUBJECT, FUNCTION_CALLED, STATUS_RETURNED, POINT_REACHED, INSTRUCTION = range(6)
 STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED, INTERRUPTED, NOT_TAKEN, TOO_LONG, ENDED, STUCK = range(10)
 OUTSIDE_STEP = 10
 OVERRIDE, BIAS, FREEZE, EXCITE = range(4)

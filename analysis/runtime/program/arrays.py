@@ -1,4 +1,7 @@
-"""What the compiled loop works on, as named arrays: program, parameters, memory, what is flown and kept."""
+"""Arrays and numbers that the loop runs on: program, parameters, memory, what is simulated and recorded.
+
+The structures of `c/run.h`, which says what each member is, are filled from attributes of the same names.
+"""
 
 from __future__ import annotations
 
@@ -103,7 +106,7 @@ class StoredValues(NamedTuple):
 
 
 class Fmi3(NamedTuple):
-    """What systems with FMUs of FMI 3.0 have in addition; the loop of others is given an empty tuple instead."""
+    """What systems with FMUs of FMI 3.0 have in addition."""
 
     transfers: Transfers
     start: np.ndarray  # uint64 [s], whole numbers of 64 bits before anything is exchanged
@@ -115,14 +118,6 @@ class Fmi3(NamedTuple):
     initial_sizes: np.ndarray  # uint64 [t]
 
 
-class Fused(NamedTuple):
-    """The steps of a system in C; the loop of others is given an empty tuple instead."""
-
-    address: int  # of the function
-    frame: np.ndarray  # int64 [frame.WORDS], what it is given
-    reals: np.ndarray  # float64 [frame.REALS], likewise
-
-
 class Buffers(NamedTuple):
     """Memory of one run in flight."""
 
@@ -130,8 +125,7 @@ class Buffers(NamedTuple):
     whole: np.ndarray  # int32 [s]
     frozen: np.ndarray  # float64 [f], NaN until a freeze begins
     read_back: Settings  # what the FMUs have of the parameters, once initialised
-    outcome: np.ndarray  # int64 [6]: code; component, slot or parameter; function, fmi2Status, point, instruction; in
-    # flight the component that steps and the point it steps to
+    outcome: np.ndarray  # int64 [6]
     texts: Texts
     halt: np.ndarray  # int64 [1]; another thread makes it other than 0 to end the flight at its next point
 
@@ -142,68 +136,19 @@ def stored(slots: int) -> StoredValues:
     return StoredValues(whole[0], whole[1], np.zeros(8, dtype=np.uint8), np.zeros(2))
 
 
-def blank(
-    *, with_fmi3: bool
-) -> tuple[Program, Buffers, Settings, Span, Recording, np.ndarray, Fmi3 | tuple[()], tuple[()]]:
-    """Arguments of the loop, without a system: their types are those of all systems, or all with FMI 3.0."""
-    real, whole, text, index, byte = np.float64, np.int32, np.uint64, np.int64, np.uint8
-    row, rows = 0, (0, 0)
-    settings = Settings(np.zeros(row, real), np.zeros(row, whole), np.zeros(row, text))
-    program = Program(
-        instructions=np.zeros(rows, text),
-        reset_end=0,
-        phases=np.zeros(row, index),
-        reference=np.zeros(row, np.uint32),
-        initial=np.zeros(row, real),
-        parameter_reference=np.zeros(row, np.uint32),
-        tolerance=np.zeros(row, real),
-        source=np.zeros(row, index),
-        target=np.zeros(row, index),
-        factor=np.zeros(row, real),
-        offset=np.zeros(row, real),
-        table=np.zeros(rows, index),
-        table_from=np.zeros(row, real),
-        table_to=np.zeros(row, real),
-        finished_slot=0,
-        fault_slot=np.zeros(row, index),
-        fault_kind=np.zeros(row, index),
-        fault_window=np.zeros(rows, real),
-        fault_value=np.zeros(row, real),
-        drive_slot=np.zeros(row, index),
-        drive_table=np.zeros(rows, real),
-    )
-    texts = Texts(np.zeros(row, np.uint32), np.zeros(rows, byte), np.zeros(rows, byte), *np.zeros((2, 0), text))
-    buffers = Buffers(
-        values=np.zeros(row, real),
-        whole=np.zeros(row, whole),
-        frozen=np.zeros(row, real),
-        read_back=settings,
-        outcome=np.zeros(row, index),
-        texts=texts,
-        halt=np.zeros(row, index),
-    )
-    span = Span(reset=False, start=0.0, step=0.0, stop=0.0, first=0, last=0)
-    return (
-        program,
-        buffers,
-        settings,
-        span,
-        Recording(np.zeros(row, index), 0, np.zeros(rows), np.zeros(row), 0),
-        np.zeros(rows),
-        _blank_fmi3(texts) if with_fmi3 else (),
-        (),
-    )
+class Run(NamedTuple):
+    """One run of a system."""
 
+    program: Program
+    buffers: Buffers
+    settings: Settings
+    span: Span
+    recording: Recording
+    excitation: np.ndarray  # float64 [r, e], added to the excited slots at the communication points after span.first
+    fmi3: Fmi3 | None
+    fused_steps: int  # address of the steps compiled for the system; 0: instructions are interpreted
 
-def _blank_fmi3(texts: Texts) -> Fmi3:
-    words = np.zeros(0, np.uint64)
-    return Fmi3(
-        transfers=Transfers(np.zeros((0, 0), np.int64), np.zeros(0, np.uint32), np.zeros((0, 0), np.uint64)),
-        start=words,
-        stored=stored(0),
-        given=words,
-        confirmed=words,
-        binaries=texts,
-        sizes=words,
-        initial_sizes=words,
-    )
+    @property
+    def has_fmi3(self) -> bool:
+        """True for a system with FMUs of FMI 3.0."""
+        return self.fmi3 is not None

@@ -1,0 +1,1 @@
+"""The loop that simulates a system: its instructions, what it runs on, and its C."""
