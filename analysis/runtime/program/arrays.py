@@ -13,7 +13,7 @@ import numpy as np
 class Program(NamedTuple):
     """A system as arrays: i instructions, s slots, p parameter values, c connections, f faults."""
 
-    instructions: np.ndarray  # uint64 [i, 7]; unsigned, since numba would look out for negative indices
+    instructions: np.ndarray  # uint64 [i, codes.COLUMNS]
     reset_end: int  # instructions before this one end a flight and reset the FMUs; a fresh instance skips them
     phases: np.ndarray  # int64 [m + 1]: instructions before the first initialise; step n works off part n modulo m
     reference: np.ndarray  # uint32 [s], value references

@@ -82,9 +82,9 @@ def sources() -> dict[str, bytes]:
 
 def _files() -> list[Traversable]:
     """The files that the library is made of: C, and Python that is translated."""
-    own = (file for file in files(__package__).joinpath("c").iterdir() if file.name.endswith((".c", ".h")))
+    written = (file for file in files(__package__).joinpath("c").iterdir() if file.name.endswith((".c", ".h")))
     translated = (file for file in files(elementary.__name__).iterdir() if file.name.endswith(".py"))
-    return sorted([*own, *translated, KERNEL_MATH], key=lambda file: file.name)
+    return sorted([*written, *translated, KERNEL_MATH], key=lambda file: file.name)
 
 
 @cache
@@ -101,7 +101,7 @@ def _compile() -> Path:
         if platform is None:
             raise CompilerMissing
         compilers_for(platform)
-        (file,) = library_files(sources(), MAIN, platform, CACHE / FOLDER)
+        (file,) = library_files(sources(), MAIN, platform, CACHE / FOLDER, flags=FLAGS)
     except CompilerMissing as error:
         problem = "the loop that simulates systems is not built, and there is no C compiler"
         raise InputError("Perilune", FOLDER, problem, "install cc, or pip install ziglang") from error

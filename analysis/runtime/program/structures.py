@@ -27,7 +27,7 @@ SCALARS: dict[str, tuple[Any, type[np.generic]]] = {
 }
 STRUCTURE = re.compile(r"^typedef struct \{\n(.*?)^\} (\w+);", re.DOTALL | re.MULTILINE)
 MEMBER = re.compile(r"^    (?:const )?(\w+) (\*?)(\w+);", re.MULTILINE)
-ENUMERATOR = re.compile(r"\b([A-Z]\w*) = (\d+),")
+ENUMERATOR = re.compile(r"\b([A-Z]\w*) = (\d+)\b")
 SIZES = {"_rows": 0, "_columns": 1}  # axes of an array
 
 
@@ -62,30 +62,30 @@ class Filled:
                 setattr(memory, member.name, value.shape[member.axis])
             elif member.dtype is None and not member.is_structure:
                 setattr(memory, member.name, value)
-            elif value is not None and value is not self._sources.get(place := f"{path}.{member.name}"):
+            elif value is not None and value is not self._sources.get(path_of_member := f"{path}.{member.name}"):
                 if member.is_structure:
-                    self._fill(getattr(memory, member.name), value, place)
+                    self._fill(getattr(memory, member.name), value, path_of_member)
                 else:
-                    setattr(memory, member.name, _address(value, member.dtype, place))
-                self._sources[place] = value
+                    setattr(memory, member.name, _address(value, member.dtype, path_of_member))
+                self._sources[path_of_member] = value
 
 
-def _address(array: np.ndarray, dtype: Any, place: str) -> int:
+def _address(array: np.ndarray, dtype: Any, path: str) -> int:
     if array.dtype != dtype or not array.flags.c_contiguous:
-        raise TypeError(f"{place}: an array of {array.dtype}, {array.strides}, where the loop reads {dtype.__name__}")
+        raise TypeError(f"{path}: an array of {array.dtype}, {array.strides}, where the loop reads {dtype.__name__}")
     return array.ctypes.data
 
 
 @cache
 def structures() -> dict[str, Any]:
     """The ctypes.Structure of each structure of the header; ``members`` describes its members in order."""
-    found: dict[str, Any] = {}
+    known: dict[str, Any] = {}
     for body, name in STRUCTURE.findall(read_header("run.h")):
-        rows = list(_members(body, found))
+        rows = list(_members(body, known))
         fields = [(member.name, kind) for member, kind in rows]
         members = [member for member, _ in rows]
-        found[name] = type(name, (ctypes.Structure,), {"_fields_": fields, "members": members})
-    return found
+        known[name] = type(name, (ctypes.Structure,), {"_fields_": fields, "members": members})
+    return known
 
 
 def _members(body: str, known: dict[str, Any]) -> Iterator[tuple[Member, Any]]:
