@@ -78,7 +78,7 @@ class Simulation(BaseSimulation):
             halt=self.recorder.halt,
         )
         self.loop = Loop(self_contained=prepared.is_self_contained)
-        self._fused_steps = self._fuse(prepared)
+        self.fused_steps = self._fuse(prepared)
         self.life_cycle = LifeCycle(self.instances, self.program, self.fmi3, self._instructions, self._note_subject)
         self.recorder.enter(Phase.IDLE)
 
@@ -94,16 +94,16 @@ class Simulation(BaseSimulation):
 
     def fuse(self) -> None:
         """See `BaseSimulation.fuse`. Raises InputError where the compiler refuses the steps, or changes results."""
-        if not self._fused_steps and can_fuse(self.prepared) and is_compilable(self.program):
+        if not self.fused_steps and can_fuse(self.prepared) and is_compilable(self.program):
             fused = replace(self.prepared, options=replace(self.prepared.options, flavour=FUSED))
             with self.loop.under_way:  # the instances are looked at: who closes this leaves them alone
-                self._fused_steps = self._fuse(fused)
+                self.fused_steps = self._fuse(fused)
             self.prepared = fused
 
     def ignore_finished(self) -> None:
         """Let the flights that follow go on behind the system's own end."""
         self.program = self.program._replace(finished_slot=-1)
-        self._fused_steps = self._fuse(self.prepared)
+        self.fused_steps = self._fuse(self.prepared)
 
     def announce(self, _values: Mapping[str, ParameterValue], _faults: Sequence[Fault | None]) -> None:
         """Nothing: a flight here takes the thread that looks at the last one."""
@@ -260,7 +260,7 @@ class Simulation(BaseSimulation):
             recording=arrays.Recording(self._recorded, every, self.recorder.record, self.recorder.times, 0),
             excitation=excitation,
             fmi3=self.fmi3,
-            fused_steps=self._fused_steps,
+            fused_steps=self.fused_steps,
         )
 
     def _has_learned(self, outcome: Outcome) -> bool:
