@@ -168,6 +168,7 @@ def test_a_page_with_a_scene_stands_alone_and_is_the_same_each_time(tmp_path):
     assert page == page_of(tmp_path / "b.html", *descent())
     (holder,) = parse(page).xpath("//*[@data-scene]")
     assert "needs JavaScript" in holder.text_content()
+    assert len(holder.xpath(".//*[contains(@class, 'still-scene')]")) == 2
     assert holder.xpath("ancestor::section[@class='screen']")  # not in print
     assert "data-scene" not in page_of(tmp_path / "c.html", descent()[0])
 
@@ -177,6 +178,7 @@ def test_without_its_script_a_page_says_so(tmp_path, monkeypatch):
     page = page_of(tmp_path / "a.html", *descent())
     assert "There is no three-dimensional view. The scripts of pages are not built" in text_of(page)
     assert not parse(page).xpath("//script")
+    assert len(parse(page).xpath("//*[contains(@class, 'still-scene')]")) == 2
 
 
 def test_a_run_without_samples_has_no_scene(tmp_path):
@@ -189,6 +191,7 @@ def test_what_is_not_to_scale_is_said():
     assert "Frame: ship; x, y, z." in text
     assert "ship 2 x 3 x 4 m" in text
     assert "Dashed line: ship's beam." in text
+    assert "Arrow: ship's wind, the direction of ship.wind, as long at any distance." in text
     assert "roll about ship.axis is unknown and not shown" in text
     assert "proportional to ship.thrust, 8 m at 400." in text
     assert "Jets: shown while a pulse of ship.lengths lasts, not to scale." in text
