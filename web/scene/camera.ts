@@ -50,10 +50,10 @@ export class Camera {
   }
 
   reset(): void {
-    const { azimuth, elevation, reach, field } = this.scene.camera;
+    const { azimuth, elevation, diagonals, field } = this.scene.camera;
     this.azimuth = this.mode === "chase" ? Math.PI : azimuth;
     this.elevation = elevation;
-    this.distance = reach * Math.hypot(...this.followed.size);
+    this.distance = diagonals * Math.hypot(...this.followed.size);
     if (this.mode === "free") {
       this.distance = Math.max((1.05 * this.whole.radius) / Math.sin(field / 2), this.distance);
       this.target.copy(this.whole.middle);

@@ -77,7 +77,7 @@ interface Scene<Column> {
   sites?: Site<Column>[];
   lines?: Line<Column>[];
   arrows?: Arrow<Column>[];
-  camera: { field: number; azimuth: number; elevation: number; reach: number }; // as it is at first; rad, diagonals of the body
+  camera: { field: number; azimuth: number; elevation: number; diagonals: number }; // as it is at first; rad, of the body
 }
 
 export type SceneData = Scene<Values>;

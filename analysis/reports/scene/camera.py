@@ -42,7 +42,7 @@ def first_camera(scene: SceneView, ground: Ground | None, row: int) -> Camera | 
     up, forward = np.array(UP[scene.up]), np.array(UP[FORWARD[scene.up]])
     if ground is not None and not ground.height(target) < DEEP * ground.radius:
         up, forward = ground.level(target)
-    distance = start.reach * math.hypot(*body.size)
+    distance = start.diagonals * math.hypot(*body.size)
     level = math.cos(start.elevation) * distance
     eye = target + level * (math.cos(start.azimuth) * forward + math.sin(start.azimuth) * np.cross(up, forward))
     eye = eye + math.sin(start.elevation) * distance * up

@@ -49,9 +49,9 @@ class Ground:
         up, along = self.level(eye)
         across = np.cross(up, along)
         if math.isinf(self.radius):
-            reach = FARTHEST * max(self.height(eye), 1.0)
+            extent = FARTHEST * max(self.height(eye), 1.0)
             foot = eye - self.height(eye) * up
-            return foot + reach * np.array([along + across, across - along, -along - across, along - across])
+            return foot + extent * np.array([along + across, across - along, -along - across, along - across])
         angle = math.acos(self.radius / (self.radius + max(self.height(eye), 0.0)))
         around = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)[:, None]
         circle = np.cos(around) * along + np.sin(around) * across

@@ -16,7 +16,7 @@ SAME = 1e-6  # of the depth: what is nearer to a plane is on it
 
 
 class Stroke(NamedTuple):
-    """Something drawn: its points, [n, 3], and the outward normal, [3], of a face that the eye sees from outside."""
+    """Something drawn: its points, [n, 3], and the outward normal, [3], of a facet that the eye sees from outside."""
 
     points: np.ndarray
     markup: Markup
@@ -34,8 +34,8 @@ def in_order(strokes: list[Stroke]) -> list[Stroke]:
     boxes = [(points.min(axis=0), points.max(axis=0)) for points in flat]
     before: dict[int, set[int]] = {index: set() for index in range(len(by_depth))}
     for first, second in combinations(range(len(by_depth)), 2):
-        (low, high), (least, most) = boxes[first], boxes[second]
-        if np.any(low > most) or np.any(least > high):
+        (low, high), (other_low, other_high) = boxes[first], boxes[second]
+        if np.any(low > other_high) or np.any(other_low > high):
             continue
         behind, ahead = _lies_behind(by_depth[first], by_depth[second]), _lies_behind(by_depth[second], by_depth[first])
         if behind and not ahead:
@@ -55,6 +55,6 @@ def _lies_behind(stroke: Stroke, other: Stroke) -> bool:
     return stroke.normal is not None and bool(np.all(_heights(other, stroke) >= -SAME * stroke.depth))
 
 
-def _heights(stroke: Stroke, face: Stroke) -> np.ndarray:
-    """The heights (m) of a stroke's points over the plane of a face, [n]."""
-    return np.asarray((stroke.points - face.points[0]) @ face.normal)
+def _heights(stroke: Stroke, facet: Stroke) -> np.ndarray:
+    """The heights (m) of a stroke's points over the plane of a facet, [n]."""
+    return np.asarray((stroke.points - facet.points[0]) @ facet.normal)

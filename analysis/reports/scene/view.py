@@ -133,16 +133,16 @@ class GroundView:
 class CameraStart:
     """The camera as it is at first: its ``field`` upwards, its direction from a body (rad), its distance.
 
-    The azimuth is counted from forward about up. The distance is ``reach`` diagonals of the body.
+    The azimuth is counted from forward about up. The distance is ``diagonals`` diagonals of the body.
     """
 
     field: float
     azimuth: float
     elevation: float
-    reach: float
+    diagonals: float
 
 
-START = CameraStart(field=math.radians(40.0), azimuth=2.5, elevation=0.25, reach=3.6)
+START = CameraStart(field=math.radians(40.0), azimuth=2.5, elevation=0.25, diagonals=3.6)
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-WIDTH, HEIGHT = 400.0, 290.0
+WIDTH, HEIGHT = 400.0, 260.0
 
 
 def points_of(commands):
