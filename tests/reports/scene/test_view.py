@@ -1,7 +1,8 @@
 """What a page stores of the scenes of our systems, and what is said of them.
 
-Truth: scipy's Rotation on the signals of the flight, the ground's sphere, the time for which the plant says that its
-jets have fired, the jets' matrix of the robot, and the forms of text that HTML and JSON give a meaning.
+Truth: scipy's Rotation on the signals of the flight, a field in two frames, the ground's sphere, the time for which
+the plant says that its jets have fired, the jets' matrix of the robot, and the forms of text that HTML and JSON give a
+meaning.
 """
 
 import json
@@ -108,6 +109,21 @@ def test_the_capsules_wind_angles(flights):
     angles = np.stack([result[f"plant.{name}"] for name in ("bank", "sideslip", "attack")], axis=1)
     expected = there.inv() * velocity_axes * Rotation.from_euler("XYZ", angles)
     assert_near(rotation[rows].as_matrix(), expected[rows].as_matrix())
+
+
+def test_arrows_of_an_earth_satellite(fmus):
+    """The field that the environment states in body axes lies along the one that it states in inertial axes."""
+    result = perilune.simulate("earth_pointing", stop_time=100.0)
+    (declared,) = (figure for figure in result.figures if isinstance(figure, Scene))
+    sun, field = scene_view(declared, result).arrows
+    rows = instants(result.time.size)
+    for arrow, name in ((sun, "sun_direction"), (field, "magnetic_field")):
+        inertial = result[f"environment.{name}"][rows]
+        unit = inertial / np.linalg.norm(inertial, axis=1)[:, None]
+        assert np.stack(arrow.direction, axis=1)[rows] == pytest.approx(unit, abs=1e-9)
+    assert declared.surface.centre == (0.0, 0.0, 0.0)
+    angle = np.degrees(np.linalg.norm(result["satellite.angular_velocity"][0])) * 100.0
+    assert angle > 300.0  # attitudes matter
 
 
 def test_a_landed_vehicle_stands_on_the_ground(flights):
