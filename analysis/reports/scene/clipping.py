@@ -27,7 +27,7 @@ def clip_polygon(corners: np.ndarray, tangent: float, aspect: float) -> np.ndarr
 def visible_stretches(points: np.ndarray, tangent: float, aspect: float) -> list[np.ndarray]:
     """The stretches of a path through points, [n, 3], that are in the picture; points that are nan interrupt it."""
     starts, ends = points[:-1], points[1:]
-    low, high = np.zeros(len(starts)), np.ones(len(starts))
+    low, high = np.zeros(len(starts)), np.where(np.all(np.isfinite(starts + ends), axis=1), 1.0, -1.0)
     for plane, offset in _planes(tangent, aspect):
         before, after = starts @ plane - offset, ends @ plane - offset
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -38,7 +38,7 @@ def size_note(bodies: Iterable[Body]) -> str:
 
 def _arrow_note(arrow: Arrow) -> str:
     axes = f" in axes of {arrow.frame}" if arrow.frame is not None else ""
-    length = f"{number(arrow.length)} m long" if arrow.length is not None else "as long at any distance"
+    length = f"{number(arrow.length)} m long" if arrow.length is not None else "of constant length on the screen"
     return f"Arrow: {arrow.name}, the direction of {arrow.signal.label}{axes}, {length}."
 
 

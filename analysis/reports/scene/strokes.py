@@ -53,12 +53,14 @@ def attitude_at(body: BodyView, row: int) -> np.ndarray | None:
 def line_strokes(scene: SceneView, camera: Camera, ground: Ground | None, row: int) -> Iterator[Stroke]:
     """The lines that are shown at this sample."""
     for line in scene.lines:
+        if line.condition is not None and line.condition[row] == 0.0:
+            continue
         start = point_of(scene, line.start, row)
         if line.end is not None:
             end = point_of(scene, line.end, row)
         elif ground is not None:
             end = start - ground.height(start) * ground.level(start)[0]
-        if line.condition is not None and line.condition[row] == 0.0:
+        else:
             continue
         for stretch in visible_stretches(camera.look(np.stack([start, end])), camera.tangent, WIDTH / HEIGHT):
             markup = Markup('<path class="line" d="{}" style="stroke:{}" fill="none" stroke-dasharray="4"/>')

@@ -207,7 +207,7 @@ def test_what_is_not_to_scale_is_said():
     assert "Frame: ship; x, y, z." in text
     assert "ship 2 x 3 x 4 m" in text
     assert "Dashed line: ship's beam." in text
-    assert "Arrow: ship's wind, the direction of ship.wind, as long at any distance." in text
+    assert "Arrow: ship's wind, the direction of ship.wind, of constant length on the screen." in text
     assert "roll about ship.axis is unknown and not shown" in text
     assert "proportional to ship.thrust, 8 m at 400." in text
     assert "Jets: shown while a pulse of ship.lengths lasts, not to scale." in text
