@@ -11,7 +11,7 @@ from .camera import Camera
 from .ground import Ground
 from .pen import AXES, HEIGHT, WIDTH, lighter, place, text
 from .strokes import ArrowStrokes, attitude_at
-from .view import SceneView, position_at
+from .view import BodyView, SceneView, SiteView, position_at
 
 NAMED, RINGED = 0.23, 0.045  # of the picture's height: larger bodies have no name, no ring
 CORNER = (WIDTH - 46.0, 40.0)  # of the axes
@@ -22,8 +22,11 @@ def draw_names(
     scene: SceneView, arrows: Iterable[ArrowStrokes], camera: Camera, ground: Ground | None, row: int
 ) -> Iterator[Markup]:
     """Names of small bodies, sites and arrows, and rings around what is too small to be seen."""
-    points = [(body, max(body.size) if attitude_at(body, row) is not None else 0.0) for body in scene.bodies]
-    for point, extent in [*points, *((site, 0.0) for site in scene.sites)]:
+    points: list[BodyView | SiteView] = [*scene.bodies, *scene.sites]
+    for point in points:
+        extent = 0.0
+        if isinstance(point, BodyView) and attitude_at(point, row) is not None:
+            extent = max(point.size)
         at = position_at(point, row)
         seen = _on_picture(camera, ground, at)
         if seen is None:
