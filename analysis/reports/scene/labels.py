@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from .camera import Camera
 from .ground import Ground
-from .pen import AXES, HEIGHT, WIDTH, lighter, place, text
+from .pen import AXES, HEIGHT, WIDTH, lighter, text, to_units
 from .strokes import ArrowStrokes, attitude_at
 from .view import BodyView, SceneView, SiteView, position_at
 
@@ -48,7 +48,7 @@ def _on_picture(camera: Camera, ground: Ground | None, point: np.ndarray) -> tup
     seen = camera.look(point[None])
     if not seen[0, 2] > 0.0 or (ground is not None and ground.hides(camera.eye, point[None])[0]):
         return None
-    x, y = place(camera.project(seen))[0]
+    x, y = to_units(camera.project(seen))[0]
     return (float(x), float(y)) if 0.0 <= x <= WIDTH and 0.0 <= y <= HEIGHT else None
 
 

@@ -13,14 +13,14 @@ INK, BEAM = "light-dark(#222, #e6e6e6)", "light-dark(#c92a2a, #ff8787)"
 AXES = ("light-dark(#d9480f, #ff922b)", "light-dark(#2b8a3e, #69db7c)", "light-dark(#1c6fd0, #74c0fc)")
 
 
-def place(points: np.ndarray) -> np.ndarray:
+def to_units(points: np.ndarray) -> np.ndarray:
     """Points of `Camera.project`, [n, 2], in units of the picture."""
     return np.asarray(points * HEIGHT + [WIDTH / 2.0, HEIGHT / 2.0])
 
 
 def path(points: np.ndarray) -> str:
     """The commands of a line through points of `Camera.project`, [n, 2]."""
-    return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in place(points))
+    return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in to_units(points))
 
 
 def text(label: str, x: float, y: float, kind: str = "name", colour: str = INK) -> Markup:

@@ -277,9 +277,9 @@ def _line(line: Line, result: Result) -> LineView:
     return LineView(line.name, line.start, None if line.end == GROUND else line.end, condition)
 
 
-def _arrow(arrow: Arrow, frame: np.ndarray | None, colour: str, result: Result) -> ArrowView:
+def _arrow(arrow: Arrow, frame: np.ndarray | None, colour: str, flight: Result) -> ArrowView:
     """An arrow whose components are in axes of this attitude, [4, n], or in those of the scene."""
-    direction = normalise(arrow.signal.values(result))
+    direction = normalise(arrow.signal.values(flight))
     return ArrowView(
         name=arrow.name,
         colour=colour if arrow.colour is None else HUES[arrow.colour],

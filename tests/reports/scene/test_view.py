@@ -113,16 +113,16 @@ def test_the_capsules_wind_angles(flights):
 
 def test_arrows_of_an_earth_satellite(fmus):
     """The field that the environment states in body axes lies along the one that it states in inertial axes."""
-    result = perilune.simulate("earth_pointing", stop_time=100.0)
-    (declared,) = (figure for figure in result.figures if isinstance(figure, Scene))
-    sun, field = scene_view(declared, result).arrows
-    rows = instants(result.time.size)
+    flight = perilune.simulate("earth_pointing", stop_time=100.0)
+    (declared,) = (figure for figure in flight.figures if isinstance(figure, Scene))
+    sun, field = scene_view(declared, flight).arrows
+    rows = instants(flight.time.size)
     for arrow, name in ((sun, "sun_direction"), (field, "magnetic_field")):
-        inertial = result[f"environment.{name}"][rows]
+        inertial = flight[f"environment.{name}"][rows]
         unit = inertial / np.linalg.norm(inertial, axis=1)[:, None]
         assert np.stack(arrow.direction, axis=1)[rows] == pytest.approx(unit, abs=1e-9)
     assert declared.surface.centre == (0.0, 0.0, 0.0)
-    angle = np.degrees(np.linalg.norm(result["satellite.angular_velocity"][0])) * 100.0
+    angle = np.degrees(np.linalg.norm(flight["satellite.angular_velocity"][0])) * 100.0
     assert angle > 300.0  # attitudes matter
 
 
