@@ -1,8 +1,11 @@
 """Simulations in Basilisk for cross-checks. Runs in Basilisk's environment: nothing of Perilune is imported.
 
-python -m crosscheck.basilisk_side CASE STEP FILE
+python -m crosscheck.basilisk_side FOLDER.CASE FILE DATA [NUMBER]
+
+NUMBER is a step or an amplitude. DATA is a JSON file of numbers for the case, where our side hands some over.
 """
 
+import json
 import sys
 from importlib import import_module
 from pathlib import Path
@@ -94,5 +97,8 @@ def to_mrp(quaternion: object) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    name, step, file = sys.argv[1:]
-    write_table(Path(file), import_module(f"crosscheck.cases.{name}.basilisk").fly(float(step)))
+    name, file, data, *numbers = sys.argv[1:]
+    arguments: list[object] = [float(number) for number in numbers]
+    if Path(data).is_file():
+        arguments.append(json.loads(Path(data).read_text(encoding="utf-8")))
+    write_table(Path(file), import_module(f"crosscheck.{name}.basilisk").fly(*arguments))
