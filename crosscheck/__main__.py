@@ -32,7 +32,10 @@ CASES = (
     "capsule_entry",
     "wheel_satellite",
 )
-MODELS = ("harmonics",)
+MODELS = (
+    *("harmonics", "magnetic_field", "centred_dipole", "eclipse", "surfaces"),
+    *("magnetometer", "sun_heads", "gyros", "nadir"),
+)
 SWINGS = ()
 HEADS = (
     *("case", "step, s", "position, m", "velocity, m/s", "attitude, rad", "rate, rad/s", "mass, kg"),

@@ -38,3 +38,18 @@ def table_of(flight: perilune.Result, signals: dict[str, str]) -> Table:
         rows = {name: columns} if columns.ndim == 1 else {f"{name}[{k + 1}]": row for k, row in enumerate(columns.T)}
         table.update(rows)
     return table
+
+
+def sample(block: str, parameters: dict, inputs: dict[str, np.ndarray], outputs: dict[str, str]) -> Table:
+    """Return the table of a block's FMU that samples its inputs every second: a row per input, the number for a time.
+
+    A step sees the inputs of its begin, so the sample of row k is that of time k + 1. Vectors have a row per sample.
+    """
+    commands: dict[str, np.ndarray] = {}
+    for name, rows in inputs.items():
+        columns = {name: rows} if rows.ndim == 1 else {f"{name}[{k + 1}]": column for k, column in enumerate(rows.T)}
+        commands |= {each: np.append(column, column[-1]) for each, column in columns.items()}
+    number = len(next(iter(inputs.values())))
+    time = np.arange(number + 1.0)
+    table = fly(block, 1.0, float(number), parameters, outputs, {"time": time, **commands})
+    return {name: column[1:] for name, column in table.items()} | {"time": time[:-1]}

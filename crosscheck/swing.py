@@ -43,7 +43,11 @@ def swing_differences(case: Swing, ours: Table, other: Table) -> tuple[float, fl
     largest = float(np.linalg.norm(rows(second, rate), axis=0).max())
     apart = float(np.linalg.norm(rows(first, rate) - rows(second, rate), axis=0).max())
     bent = np.abs(rows(second, case.displacements)).max()
-    return largest, apart, float(np.abs(rows(first, case.displacements) - rows(second, case.displacements)).max() / bent)
+    return (
+        largest,
+        apart,
+        float(np.abs(rows(first, case.displacements) - rows(second, case.displacements)).max() / bent),
+    )
 
 
 def swing_row(case: Swing, whole: tuple[float, float, float], tenth: tuple[float, float, float]) -> list[str]:
