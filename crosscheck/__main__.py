@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterable
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -31,6 +32,8 @@ CASES = (
     "robot_gyros",
     "capsule_entry",
     "wheel_satellite",
+    "leo_zonal",
+    "leo_tesseral",
 )
 MODELS = (
     *("harmonics", "magnetic_field", "centred_dipole", "eclipse", "surfaces"),
@@ -102,7 +105,7 @@ def compare_swings(python: str, names: tuple[str, ...]) -> list[str]:
     return beyond
 
 
-def stated(folder: str, name: str) -> object:
+def stated(folder: str, name: str) -> Any:
     """Return the statement of a case."""
     return import_module(f"crosscheck.{folder}.{name}.case").CASE
 

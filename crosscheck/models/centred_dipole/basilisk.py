@@ -3,8 +3,8 @@
 import numpy as np
 from Basilisk.simulation import magneticFieldCenteredDipole
 
-from crosscheck.basilisk_bench import craft_state, planet_state, update_once
 from crosscheck.models.centred_dipole.case import POINTS
+from crosscheck.space.basilisk_bench import craft_state, planet_state, update_once
 from crosscheck.table import Table, rows_table
 
 

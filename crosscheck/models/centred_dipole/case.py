@@ -2,7 +2,7 @@
 
 from crosscheck.case import vector
 from crosscheck.comparison import Comparison
-from crosscheck.points import points
+from crosscheck.space.points import points
 
 POINTS = points(40, 6.6e6, 8e6)  # m, planet-fixed
 CASE = Comparison(

@@ -3,9 +3,9 @@
 import numpy as np
 from Basilisk.simulation import imuSensor
 
-from crosscheck.basilisk_bench import craft_state, update_once
 from crosscheck.basilisk_side import column
 from crosscheck.models.gyros.case import BIAS, PITCH, RANGE, RATES, ROLL, SCALE, YAW
+from crosscheck.space.basilisk_bench import craft_state, update_once
 from crosscheck.table import Table, rows_table
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from crosscheck.case import vector
 from crosscheck.comparison import Comparison
-from crosscheck.points import directions
+from crosscheck.space.points import directions
 
 SCALE, BIAS = (1.001, 0.999, 1.002), (1e-4, -2e-4, 3e-4)  # 1; rad/s, sensor axes
 RANGE = 0.4  # rad/s

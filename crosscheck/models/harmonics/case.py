@@ -2,7 +2,7 @@
 
 from crosscheck.case import vector
 from crosscheck.comparison import Comparison
-from crosscheck.points import points
+from crosscheck.space.points import points
 
 DEGREE, POINTS = 13, points(50, 6.5e6, 8e6)  # m, planet-fixed
 CASE = Comparison(

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
-from crosscheck.basilisk_bench import craft_state, planet_state, update_once
-from crosscheck.basilisk_field import world_field
 from crosscheck.models.magnetic_field.case import POINTS
+from crosscheck.space.basilisk_bench import craft_state, planet_state, update_once
+from crosscheck.space.basilisk_field import world_field
 from crosscheck.table import Table, rows_table
 
 

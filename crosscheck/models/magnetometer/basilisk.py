@@ -4,9 +4,9 @@ import numpy as np
 from Basilisk.architecture import messaging
 from Basilisk.simulation import magnetometer
 
-from crosscheck.basilisk_bench import craft_state, update_once
 from crosscheck.basilisk_side import column
 from crosscheck.models.magnetometer.case import BIAS, FIELDS, PITCH, RANGE, ROLL, SCALE, YAW
+from crosscheck.space.basilisk_bench import craft_state, update_once
 from crosscheck.table import Table, rows_table
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from crosscheck.case import vector
 from crosscheck.comparison import Comparison
-from crosscheck.points import directions
+from crosscheck.space.points import directions
 
 SCALE, BIAS, RANGE = 1.003, (2e-7, -1e-7, 3e-7), 4.5e-5  # 1; T, sensor axes; T
 YAW, PITCH, ROLL = 0.02, -0.03, 0.01  # rad, from body to sensor axes

@@ -5,8 +5,8 @@ from Basilisk.architecture import messaging
 from Basilisk.fswAlgorithms import hillPoint
 from Basilisk.utilities import RigidBodyKinematics
 
-from crosscheck.basilisk_bench import update_once
 from crosscheck.models.nadir.case import POSITIONS, VELOCITIES
+from crosscheck.space.basilisk_bench import update_once
 from crosscheck.table import Table, rows_table
 
 OURS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]])  # x along the flight, z down, by axes of Hill

@@ -4,7 +4,7 @@ import numpy as np
 
 from crosscheck.case import vector
 from crosscheck.comparison import Comparison
-from crosscheck.points import directions, points
+from crosscheck.space.points import directions, points
 
 POSITIONS = points(20, 6.8e6, 8e6)[2:]  # m, inertial
 VELOCITIES = 7500.0 * np.cross(directions(20)[2:], [0.3, -0.5, 0.8]) + 900.0 * directions(20)[2:]  # m/s

@@ -4,7 +4,6 @@ import numpy as np
 from Basilisk.architecture import messaging
 from Basilisk.simulation import coarseSunSensor
 
-from crosscheck.basilisk_bench import craft_state, planet_state, update_once
 from crosscheck.basilisk_side import column
 from crosscheck.models.sun_heads.case import (
     ATTITUDES,
@@ -14,6 +13,7 @@ from crosscheck.models.sun_heads.case import (
     NORMALS,
     SUN_DIRECTION,
 )
+from crosscheck.space.basilisk_bench import craft_state, planet_state, update_once
 from crosscheck.table import Table, rows_table
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from crosscheck.case import vector
 from crosscheck.comparison import Comparison
-from crosscheck.points import attitudes
+from crosscheck.space.points import attitudes
 
 FIELD_OF_VIEW = math.radians(60.0)  # half-angle
 NORMALS = ((1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, -1.0))

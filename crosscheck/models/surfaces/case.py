@@ -4,7 +4,7 @@ import numpy as np
 
 from crosscheck.case import vector
 from crosscheck.comparison import Comparison
-from crosscheck.points import attitudes
+from crosscheck.space.points import attitudes
 
 # Area (m2), unit outward normal, centre (m), drag coefficient, specular and diffuse reflectivity; body.
 PLATES = (
