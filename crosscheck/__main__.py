@@ -34,6 +34,9 @@ CASES = (
     "wheel_satellite",
     "leo_zonal",
     "leo_tesseral",
+    "leo_gradient",
+    "leo_torquers",
+    "leo_plates",
 )
 MODELS = (
     *("harmonics", "magnetic_field", "centred_dipole", "eclipse", "surfaces"),

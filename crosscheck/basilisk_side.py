@@ -31,6 +31,7 @@ class Flight:
         self.add(self.craft, priority=1)
         self.states = self.craft.scStateOutMsg.recorder()
         self.is_begun = False
+        self.kept: list[object] = []  # modules that Python would drop before the simulation ends
 
     def add(self, model: object, priority: int = -1) -> None:
         """Update a model at every step; those of higher priority first."""

@@ -8,11 +8,12 @@ from perilune.fmus_src.mathlib.space.orientation import earth_axes, fixed_axes
 EPOCH, TT_MINUS_UT1 = 827301600.0, 69.184  # s
 
 
-def surroundings(step: float, duration: float, turns: bool = True) -> dict:
+def surroundings(step: float, duration: float, turns: bool = True, epoch: float = EPOCH, at: float = 0.0) -> dict:
     """Return Earth, Sun and Moon for each step (s) of a flight: those of its middle, as `spacecraft` holds them.
 
-    The axes of the Earth (by rows, inertial) are those at the begin of each step about the pole of its middle, with
-    their rate; without ``turns`` they do not turn about it. Coefficients of gravity go with them.
+    The axes of the Earth (by rows, inertial) are those at the begin of each step, or after a fraction ``at`` of it,
+    about the pole of its middle, with their rate; without ``turns`` they do not turn within a step. Coefficients of
+    gravity go with them.
     """
     given: dict = {
         "normalised": list(earth_gravity.NORMALISED),
@@ -23,11 +24,11 @@ def surroundings(step: float, duration: float, turns: bool = True) -> dict:
         **{name: [] for name in ("sun", "moon", "axes", "axes_rate")},
     }
     for k in range(round(duration / step)):
-        middle = EPOCH + (k + 0.5) * step
+        middle = epoch + (k + 0.5) * step
         given["sun"].append(ephemerides.sun_position(middle).elements())
         given["moon"].append(ephemerides.moon_position(middle).elements())
         pole = earth_axes(middle, TT_MINUS_UT1)
-        axes = fixed_axes(pole, EPOCH + k * step)
+        axes = fixed_axes(pole, epoch + (k + at) * step)
         rows = np.array([axes.meridian.elements(), axes.east.elements(), axes.pole.elements()])
         rate = pole.rate * np.array([rows[1], -rows[0], np.zeros(3)])
         given["axes"].append(rows.tolist())

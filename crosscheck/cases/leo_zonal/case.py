@@ -13,7 +13,7 @@ CASE = Case(
     integrator="Runge-Kutta of fourth order",
     matched="here by a class that overrides one method of the plant, so that tesseral terms are 0; in Basilisk pole, "
     "Sun and Moon of a step are those of its middle, as here",
-    step=10.0,
+    step=5.0,
     duration=5600.0,
     quantities={"position": POSITION, "velocity": VELOCITY},
     bounds={"position": 1e-6, "velocity": 1e-9},

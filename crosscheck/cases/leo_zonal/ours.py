@@ -1,16 +1,12 @@
 """The orbit by a subclass of spacecraft, exported as a user exports one."""
 
-import tempfile
 from pathlib import Path
 
-import perilune
 from crosscheck.cases.leo_zonal.case import CASE, DEGREE, SPEED, START
-from crosscheck.perilune_side import table_of
+from crosscheck.perilune_side import fly
 from crosscheck.space.plant import GRAVITY_ALONE
 from crosscheck.space.surroundings import surroundings
 from crosscheck.table import Table
-
-BLOCK = "zonal_spacecraft"
 
 
 def handed_over(step: float) -> dict:
@@ -27,12 +23,6 @@ def simulate(step: float) -> Table:
         "initial_velocity": list(SPEED),
         "internal_step": step,
     }
-    with tempfile.TemporaryDirectory() as folder:
-        (fmu,) = perilune.export(Path(__file__).parent / f"{BLOCK}.py", output=f"{folder}/{BLOCK}.fmu", flavour="native").paths
-        flight = perilune.simulate(
-            fmu,
-            step=step,
-            stop_time=CASE.duration,
-            set={f"{BLOCK}.{name}": setting for name, setting in parameters.items()},
-        )
-        return table_of(flight, {name: f"{BLOCK}.{name}" for name in ("position", "velocity")})
+    outputs = {"position": "position", "velocity": "velocity"}
+    file = Path(__file__).with_name("zonal_spacecraft.py")
+    return fly("zonal_spacecraft", step, CASE.duration, parameters, outputs, file=file)
