@@ -42,7 +42,7 @@ MODELS = (
     *("harmonics", "magnetic_field", "centred_dipole", "eclipse", "surfaces"),
     *("magnetometer", "sun_heads", "gyros", "nadir"),
 )
-SWINGS = ()
+SWINGS = ("slosh", "panels")
 HEADS = (
     *("case", "step, s", "position, m", "velocity, m/s", "attitude, rad", "rate, rad/s", "mass, kg"),
     *("wheel speed, rad/s", "order"),
@@ -59,7 +59,8 @@ def main(python: str, names: tuple[str, ...]) -> int:
         if chosen:
             beyond += compare(python, chosen)
             print()
-    print(*statements(name for name in CASES if name in names), sep="\n")
+    if flights := tuple(name for name in CASES if name in names):
+        print(*statements(flights), sep="\n")
     for line in beyond:
         print(f"beyond its bound: {line}", file=sys.stderr)
     return len(beyond)

@@ -25,7 +25,10 @@ class Comparison:
 
 
 def relative_differences(case: Comparison, ours: Table, other: Table) -> dict[str, float]:
-    """Return the largest length of a difference over the largest length, by quantity; raises ValueError if all are 0."""
+    """Return the largest length of a difference over the largest length, by quantity.
+
+    Raises ValueError where a quantity is 0 at all inputs, or an input is in one table only.
+    """
     first, second = at_common_times(ours, other)
     if first["time"].size != other["time"].size:
         raise ValueError(f"{case.title}: {first['time'].size} of {other['time'].size} inputs are common")

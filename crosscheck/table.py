@@ -56,7 +56,7 @@ def angles_between(first: np.ndarray, second: np.ndarray) -> np.ndarray:
 
 
 def rows_table(**vectors: np.ndarray) -> Table:
-    """Return the table of quantities at inputs, a row per input, whose number stands for the time: vectors by element."""
+    """Return the table of quantities at inputs, a row per input, its number in place of time; vectors by element."""
     table: Table = {"time": np.arange(float(len(next(iter(vectors.values())))))}
     for name, rows in vectors.items():
         table |= {f"{name}[{k + 1}]": column for k, column in enumerate(np.asarray(rows, dtype=float).T)}

@@ -12,7 +12,7 @@ END_OF_FILE = "9" * 48
 def world_field(schmidt: list[float], file: Path) -> object:
     """Return the module of the World Magnetic Model with other coefficients g, h (nT), constant in time.
 
-    They are of orders 0 to n for each degree n from 1 on. The module reads the file, which is written, when it is reset.
+    They are of orders 0 to n for each degree n from 1 on. The file is written; the module reads it when it is reset.
     """
     pairs = iter(zip(schmidt[0::2], schmidt[1::2], strict=True))
     lines = [f"    {YEAR:.1f}            IGRF-14         01/01/2025"]
