@@ -1,4 +1,4 @@
-"""Simulates all cases in both codes and compares them: the tables and the figure of docs/concepts/crosscheck.md.
+"""Simulates all cases in both codes and compares them: the tables and figures of docs/concepts/crosscheck.md.
 
     python -m crosscheck PYTHON [CASE ...]
 
@@ -21,23 +21,15 @@ from crosscheck.figure import draw_differences
 from crosscheck.swing import TENTH, Swing, swing_differences, swing_row
 from crosscheck.table import differences
 
-FIGURE: Path = ROOT / "docs" / "images" / "crosscheck" / "differences.svg"
-CASES = (
-    "moon_thrust",
-    "moon_coast",
-    "robot_jets",
-    "gravity_gradient",
-    "free_rotation",
-    "guided_descent",
-    "robot_gyros",
-    "capsule_entry",
-    "wheel_satellite",
-    "leo_zonal",
-    "leo_tesseral",
-    "leo_gradient",
-    "leo_torquers",
-    "leo_plates",
-)
+FIGURES: Path = ROOT / "docs" / "images" / "crosscheck"
+DRAWN = {  # cases by the figure that has them
+    "differences.svg": (
+        *("moon_thrust", "moon_coast", "robot_jets", "gravity_gradient", "free_rotation", "guided_descent"),
+        *("robot_gyros", "capsule_entry", "wheel_satellite"),
+    ),
+    "low_orbit.svg": ("leo_zonal", "leo_tesseral", "leo_gradient", "leo_torquers", "leo_plates"),
+}
+CASES = tuple(name for names in DRAWN.values() for name in names)
 MODELS = (
     *("harmonics", "magnetic_field", "centred_dipole", "eclipse", "surfaces"),
     *("magnetometer", "sun_heads", "gyros", "nadir"),
@@ -67,7 +59,7 @@ def main(python: str, names: tuple[str, ...]) -> int:
 
 
 def compare_flights(python: str, names: tuple[str, ...]) -> list[str]:
-    """Print the table of flights; what is beyond its bound. Draw the figure of all flights."""
+    """Print the table of flights; what is beyond its bound. Draw each figure all of whose flights are among them."""
     print_row(HEADS, begins=True)
     flown: dict[str, list[dict[str, np.ndarray]]] = {}
     beyond = []
@@ -77,8 +69,9 @@ def compare_flights(python: str, names: tuple[str, ...]) -> list[str]:
         coarse, fine = ({each: float(column.max()) for each, column in rows.items()} for rows in flown[name])
         print_row(row_of(case, coarse, fine))
         beyond += [f"{name}: {each} {coarse[each]:.3g}" for each, bound in case.bounds.items() if coarse[each] > bound]
-    if names == CASES:
-        draw_differences({name: stated("cases", name) for name in names}, flown, FIGURE)
+    for figure, drawn in DRAWN.items():
+        if set(drawn) <= set(names):
+            draw_differences({name: stated("cases", name) for name in drawn}, flown, FIGURES / figure)
     return beyond
 
 

@@ -2,11 +2,10 @@
 
 import numpy as np
 from Basilisk.architecture import messaging, sysModel
-from Basilisk.simulation import gravityEffector, spacecraft
+from Basilisk.simulation import gravityEffector, spacecraft, sphericalHarmonicsGravityModel
 from Basilisk.utilities import macros
 
 from crosscheck.basilisk_side import Flight
-from crosscheck.space.basilisk_gravity import harmonics
 
 NAMES = ("earth", "sun", "moon")
 
@@ -59,3 +58,17 @@ def surround(flight: Flight, given: dict, step: float, degree: int) -> Surroundi
         bodies.append(body)
     flight.craft.gravField.gravBodies = spacecraft.GravBodyVector(bodies)
     return surroundings
+
+
+def harmonics(normalised: list[float], mu: float, radius: float, degree: int) -> object:
+    """Return the model of gravity: C, S of orders 0 to n for each degree n from 2 on; mu in m3/s2, radius in m."""
+    c, s = [[1.0], [0.0, 0.0]], [[0.0], [0.0, 0.0]]
+    pairs = iter(zip(normalised[0::2], normalised[1::2], strict=True))
+    for n in range(2, degree + 1):
+        row = [next(pairs) for _ in range(n + 1)]
+        c.append([each for each, _ in row])
+        s.append([each for _, each in row])
+    model = sphericalHarmonicsGravityModel.SphericalHarmonicsGravityModel()
+    model.cBar, model.sBar, model.maxDeg = c, s, degree
+    model.muBody, model.radEquator = mu, radius
+    return model

@@ -1,6 +1,9 @@
-"""Points and directions at which models are compared. Needs numpy alone."""
+"""Points, directions and an orbit at which models are compared. Needs numpy alone."""
 
 import numpy as np
+
+# m, m/s, inertial: a circle at 500 km, inclined by 97.4 deg
+LOW_ORBIT = (6878137.0, 0.0, 0.0), (0.0, -980.4704108126322, 7549.203993067037)
 
 
 def directions(number: int) -> np.ndarray:

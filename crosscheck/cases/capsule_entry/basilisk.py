@@ -44,7 +44,7 @@ def fly(step: float) -> Table:
     start = ((EARTH_RADIUS + HEIGHT, LONGITUDE, LATITUDE), (SPEED, FLIGHT_PATH_ANGLE, HEADING), ATTITUDE_ANGLES)
     position, velocity, quaternion = to_inertial(np.zeros(1), *(np.array(column(each)) for each in start))
     flight.start(position[:, 0], velocity[:, 0], to_mrp(quaternion[:, 0]), ANGULAR_VELOCITY)
-    ahead = Ahead(flight.craft, step)
+    ahead = Ahead(flight.craft, step, MU)
     flight.add(ahead, priority=0)
     air = exponentialAtmosphere.ExponentialAtmosphere()
     air.planetRadius, air.scaleHeight = EARTH_RADIUS, SCALE_HEIGHT

@@ -1,9 +1,10 @@
 """A spacecraft tumbles in the gravity gradient of a low orbit."""
 
 from crosscheck.case import ATTITUDE, POSITION, RATE, VELOCITY, Case
+from crosscheck.space.points import LOW_ORBIT
 
 MU = 3.986004415e14  # m3/s2
-START, SPEED = (6878137.0, 0.0, 0.0), (0.0, -980.4704108126322, 7549.203993067037)  # m, m/s, inertial
+START, SPEED = LOW_ORBIT
 MASS, INERTIA = 800.0, ((180.0, -4.0, 2.0), (-4.0, 150.0, 3.0), (2.0, 3.0, 120.0))  # kg, kg m2
 QUATERNION, ANGULAR_VELOCITY = (0.5, 0.5, -0.1, 0.7), (0.002, -0.004, 0.003)  # body to inertial; rad/s, body
 

@@ -5,38 +5,20 @@ import math
 import numpy as np
 from Basilisk.simulation import exponentialAtmosphere, zeroWindModel
 
-from crosscheck.basilisk_side import Flight, column, to_mrp
-from crosscheck.cases.leo_plates.case import (
-    ANGULAR_VELOCITY,
-    CASE,
-    DENSITY,
-    HEIGHT,
-    INERTIA,
-    MASS,
-    MU,
-    PLATES,
-    QUATERNION,
-    RADIUS,
-    SCALE_HEIGHT,
-    SPEED,
-    START,
-)
+from crosscheck.basilisk_side import column
+from crosscheck.cases.leo_plates import case
+from crosscheck.cases.leo_plates.case import CASE, DENSITY, HEIGHT, PLATES, RADIUS, SCALE_HEIGHT
 from crosscheck.space.basilisk_ahead import Ahead
 from crosscheck.space.basilisk_bench import planet_state
-from crosscheck.space.basilisk_gradient import add_gravity_gradient
-from crosscheck.space.basilisk_plates import drag_plates, sunlit_plates
+from crosscheck.space.basilisk_effectors import begin_in_gradient, drag_plates, sunlit_plates
 from crosscheck.space.basilisk_surroundings import Surroundings
 from crosscheck.table import Table
 
 
 def fly(step: float, given: dict) -> Table:
     """The craft is updated first, then the air of its next step and the Sun."""
-    flight = Flight(step)
-    flight.attract(MU)
-    flight.set_inertia([list(row) for row in INERTIA], MASS)
-    flight.start(START, SPEED, to_mrp(QUATERNION), ANGULAR_VELOCITY)
-    add_gravity_gradient(flight)
-    ahead, surroundings = Ahead(flight.craft, step), Surroundings(given, step)
+    flight = begin_in_gradient(case, step)
+    ahead, surroundings = Ahead(flight.craft, step, case.MU), Surroundings(given, step)
     flight.add(ahead, priority=0)
     flight.add(surroundings, priority=0)
     air = exponentialAtmosphere.ExponentialAtmosphere()

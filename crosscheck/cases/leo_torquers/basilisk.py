@@ -7,35 +7,19 @@ import numpy as np
 from Basilisk.architecture import messaging
 from Basilisk.simulation import MtbEffector
 
-from crosscheck.basilisk_side import Flight, to_mrp
-from crosscheck.cases.leo_torquers.case import (
-    ANGULAR_VELOCITY,
-    CASE,
-    COMMANDS,
-    INERTIA,
-    LIMIT,
-    MASS,
-    MU,
-    QUATERNION,
-    RESIDUAL,
-    SPEED,
-    START,
-)
+from crosscheck.cases.leo_torquers import case
+from crosscheck.cases.leo_torquers.case import CASE, COMMANDS, LIMIT, RESIDUAL
 from crosscheck.space.basilisk_ahead import Ahead
+from crosscheck.space.basilisk_effectors import begin_in_gradient
 from crosscheck.space.basilisk_field import world_field
-from crosscheck.space.basilisk_gradient import add_gravity_gradient
 from crosscheck.space.basilisk_surroundings import Surroundings
 from crosscheck.table import Table
 
 
 def fly(step: float, given: dict) -> Table:
     """The craft is updated first, then where it will be in the middle of its next step, then the field there."""
-    flight = Flight(step)
-    flight.attract(MU)
-    flight.set_inertia([list(row) for row in INERTIA], MASS)
-    flight.start(START, SPEED, to_mrp(QUATERNION), ANGULAR_VELOCITY)
-    add_gravity_gradient(flight)
-    ahead, surroundings = Ahead(flight.craft, step), Surroundings(given, step)
+    flight = begin_in_gradient(case, step)
+    ahead, surroundings = Ahead(flight.craft, step, case.MU), Surroundings(given, step)
     flight.add(ahead, priority=0)
     flight.add(surroundings, priority=0)
     bars = MtbEffector.MtbEffector()

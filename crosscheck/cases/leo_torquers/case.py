@@ -1,9 +1,10 @@
 """Magnetorquers and a residual dipole turn a spacecraft in a low orbit."""
 
 from crosscheck.case import ATTITUDE, RATE, Case
+from crosscheck.space.points import LOW_ORBIT
 
 MU = 3.986004415e14  # m3/s2
-START, SPEED = (6878137.0, 0.0, 0.0), (0.0, -980.4704108126322, 7549.203993067037)  # m, m/s, inertial
+START, SPEED = LOW_ORBIT
 MASS, INERTIA = 800.0, ((180.0, -4.0, 2.0), (-4.0, 150.0, 3.0), (2.0, 3.0, 120.0))  # kg, kg m2
 QUATERNION, ANGULAR_VELOCITY = (0.5, 0.5, -0.1, 0.7), (0.02, -0.03, 0.01)  # body to inertial; rad/s, body
 COMMANDS = (  # s, A m2: when dipoles begin; the limit cuts some
@@ -20,8 +21,8 @@ CASE = Case(
     gravitation="point mass, 3.986004415e14 m3/s2, and its gradient",
     environment="magnetic field, IGRF-14 at 2025.0 to degree 12, in the axes of the Earth that turns",
     integrator="Runge-Kutta of fourth order; quaternion and inertial angular momentum here, MRP and rate in Basilisk",
-    matched="same dipoles, changed between steps; in Basilisk `MtbEffector` with the residual dipole as three bars more, "
-    "in the field of `MagneticFieldWMM` in the middle of each step; wheels of 1e-9 kg m2 here",
+    matched="same dipoles, changed between steps; in Basilisk `MtbEffector` with three bars more for the residual "
+    "dipole, in the field of `MagneticFieldWMM` in the middle of each step; wheels of 1e-9 kg m2 here",
     step=1.0,
     duration=600.0,
     quantities={"attitude": ATTITUDE, "rate": RATE},

@@ -2,21 +2,10 @@
 
 import numpy as np
 
-from crosscheck.cases.leo_torquers.case import (
-    ANGULAR_VELOCITY,
-    CASE,
-    COMMANDS,
-    FIELD_DEGREE,
-    INERTIA,
-    LIMIT,
-    MASS,
-    QUATERNION,
-    RESIDUAL,
-    SPEED,
-    START,
-)
+from crosscheck.cases.leo_torquers import case
+from crosscheck.cases.leo_torquers.case import CASE, COMMANDS, FIELD_DEGREE, LIMIT, RESIDUAL
 from crosscheck.perilune_side import fly
-from crosscheck.space.plant import GRAVITY_ALONE, OUTPUTS, POINT_MASS, WITHOUT_WHEELS, flat
+from crosscheck.space.plant import OUTPUTS, in_gradient
 from crosscheck.space.surroundings import surroundings
 from crosscheck.table import Table
 from perilune.fmus_src.mathlib.space import magnetic_field
@@ -35,20 +24,11 @@ def simulate(step: float) -> Table:
     segment = np.repeat(np.arange(times.size - 1), 2)
     commands = {f"dipole[{k + 1}]": dipoles[segment, k] for k in range(3)}
     parameters = {
-        **GRAVITY_ALONE,
-        **POINT_MASS,
-        **WITHOUT_WHEELS,
+        **in_gradient(case, step),
         "epoch": magnetic_field.START,
         "magnetic_degree": FIELD_DEGREE,
         "residual_dipole": list(RESIDUAL),
         "dipole_limit": LIMIT,
-        "mass": MASS,
-        "inertia": flat(INERTIA),
-        "initial_position": list(START),
-        "initial_velocity": list(SPEED),
-        "initial_quaternion": list(QUATERNION),
-        "initial_angular_velocity": list(ANGULAR_VELOCITY),
-        "internal_step": step,
     }
     inputs = {"time": np.repeat(times, 2)[1:-1], **commands}
     return fly("spacecraft", step, CASE.duration, parameters, OUTPUTS, inputs)

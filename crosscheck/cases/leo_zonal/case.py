@@ -1,9 +1,10 @@
 """A low orbit of the Earth under zonal harmonics, Sun and Moon."""
 
 from crosscheck.case import POSITION, VELOCITY, Case
+from crosscheck.space.points import LOW_ORBIT
 
 DEGREE = 8
-START, SPEED = (6878137.0, 0.0, 0.0), (0.0, -980.4704108126322, 7549.203993067037)  # m, m/s, inertial
+START, SPEED = LOW_ORBIT
 
 CASE = Case(
     title="low orbit, zonal gravity, Sun and Moon",

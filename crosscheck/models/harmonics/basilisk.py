@@ -4,7 +4,7 @@ import numpy as np
 
 from crosscheck.basilisk_side import column
 from crosscheck.models.harmonics.case import DEGREE, POINTS
-from crosscheck.space.basilisk_gravity import harmonics
+from crosscheck.space.basilisk_surroundings import harmonics
 from crosscheck.table import Table, rows_table
 
 

@@ -6,7 +6,7 @@ from Basilisk.architecture import messaging
 from crosscheck.basilisk_side import Flight, to_mrp
 from crosscheck.models.surfaces.case import ATTITUDES, DENSITY, PLATES, SUN, VELOCITY
 from crosscheck.space.basilisk_bench import planet_state
-from crosscheck.space.basilisk_plates import drag_plates, sunlit_plates
+from crosscheck.space.basilisk_effectors import drag_plates, sunlit_plates
 from crosscheck.table import Table, rows_table
 
 HEAVY, STEP = 1e12, 1e-8  # kg and kg m2; s

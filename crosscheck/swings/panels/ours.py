@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from crosscheck.space.swinging_plant import swing_plant
+from crosscheck.space.plant import swing_plant
 from crosscheck.swings.panels.case import (
     ABOUT_HINGE,
     ARM,

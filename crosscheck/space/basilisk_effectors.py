@@ -1,11 +1,12 @@
-"""Plates in Basilisk under drag and solar pressure. Runs in Basilisk's environment."""
+"""Forces and torques of the surroundings on a craft of Basilisk. Runs in Basilisk's environment."""
 
 from collections.abc import Iterable
+from types import ModuleType
 
 import numpy as np
-from Basilisk.simulation import facetDragDynamicEffector, facetSRPDynamicEffector
+from Basilisk.simulation import GravityGradientEffector, facetDragDynamicEffector, facetSRPDynamicEffector
 
-from crosscheck.basilisk_side import column
+from crosscheck.basilisk_side import Flight, column, to_mrp
 
 
 def drag_plates(plates: Iterable[Iterable[float]]) -> object:
@@ -26,3 +27,17 @@ def sunlit_plates(plates: Iterable[Iterable[float]]) -> object:
         still = column((0.0, 0.0, 0.0))
         effector.addFacet(area, np.eye(3).tolist(), column((nx, ny, nz)), still, column((x, y, z)), diffuse, specular)
     return effector
+
+
+def begin_in_gradient(case: ModuleType, step: float) -> Flight:
+    """Return the flight of a rigid craft about a point mass, under its gravity gradient, as a case has it."""
+    flight = Flight(step)
+    flight.attract(case.MU)
+    flight.set_inertia([list(row) for row in case.INERTIA], case.MASS)
+    flight.start(case.START, case.SPEED, to_mrp(case.QUATERNION), case.ANGULAR_VELOCITY)
+    gradient = GravityGradientEffector.GravityGradientEffector()
+    gradient.addPlanetName("centre")
+    flight.craft.addDynamicEffector(gradient)
+    flight.add(gradient)
+    flight.kept.append(gradient)
+    return flight

@@ -1,0 +1,104 @@
+"""Flights with modes and what cases of spacecraft have in common, as far as they need no Basilisk.
+
+Truth: mass, centre and inertia add up; derivatives of rotations; free particles on springs by eigenvalues.
+"""
+
+from importlib import import_module
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from crosscheck.__main__ import SWINGS
+from crosscheck.space.hub import hub_of, steiner
+from crosscheck.space.surroundings import surroundings
+from crosscheck.swing import HEADS, TENTH, Swing, swing_differences, swing_row
+from perilune.fmus_src.paths import ROOT
+
+FOLDER = ROOT / "crosscheck" / "swings"
+PAGE = (ROOT / "docs" / "concepts" / "crosscheck.md").read_text(encoding="utf-8")
+
+
+def case_of(name):
+    return import_module(f"crosscheck.swings.{name}.case")
+
+
+def simulate(name, amplitude):
+    return import_module(f"crosscheck.swings.{name}.ours").simulate(amplitude)
+
+
+@pytest.mark.parametrize("name", SWINGS)
+def test_each_swing_has_both_sides(name):
+    case = case_of(name).CASE
+    assert case.duration / case.step == round(case.duration / case.step)
+    for file in ("ours.py", "basilisk.py"):
+        assert (FOLDER / name / file).is_file()
+
+
+def test_the_page_has_every_swing():
+    table = PAGE.partition("## Modes")[2].partition("\n\n- ")[0]
+    lines = [line for line in table.splitlines() if line.startswith("|")]
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    assert tuple(cells[0]) == HEADS
+    for name, row in zip(SWINGS, cells[2:], strict=True):
+        case = case_of(name).CASE
+        largest, whole, tenth, fall = map(float, row[1:5])
+        assert row[0] == case.title
+        assert fall == pytest.approx(whole / tenth, rel=0.05)
+        assert fall >= case.fall
+        assert whole <= case.bound * largest
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_a_hub_and_its_masses_are_the_whole(seed):
+    random = np.random.default_rng(seed)
+    inertia = np.diag([300.0, 280.0, 260.0]) + 5.0 * np.ones((3, 3))
+    moving = [
+        (m, s, np.diag([0.3, 0.2, 0.4])) for m, s in zip((10.0, 20.0), random.uniform(-1, 1, (2, 3)), strict=True)
+    ]
+    mass, place, own = hub_of(500.0, inertia, moving)
+    everything = [(mass, place, own), *moving]
+    assert sum(m for m, _, _ in everything) == pytest.approx(500.0)
+    np.testing.assert_allclose(sum(m * s for m, s, _ in everything), 0.0, atol=1e-12)
+    np.testing.assert_allclose(sum(i + steiner(m, s) for m, s, i in everything), inertia, rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", SWINGS)
+def test_our_flights_are_linear_in_their_modes(fmus, name):
+    """From rest displacements grow with the drive, but for what body axes turn meanwhile."""
+    whole, tenth = (simulate(name, size)["displacement[1]"] for size in (TENTH, 0.1 * TENTH))
+    np.testing.assert_allclose(whole, 10.0 * tenth, atol=0.05 * np.abs(whole).max())
+    assert np.abs(whole).max() > 1e-5
+
+
+@pytest.mark.parametrize("name", SWINGS)
+def test_our_flights_begin_as_a_rigid_whole(fmus, name):
+    """The first angular acceleration is (I - D Me^-1 D')^-1 of the torque and of what the force drives the modes to."""
+    case = case_of(name)
+    table = simulate(name, 1.0)
+    rate = np.stack([table[f"rate[{k}]"] for k in (1, 2, 3)], axis=1)
+    rigid = np.linalg.solve(np.array(case.INERTIA), case.TORQUE) * table["time"][-1]
+    assert np.linalg.norm(rate[-1] - rigid) < 0.2 * np.linalg.norm(rigid)
+
+
+def test_axes_of_the_earth_turn_as_their_rate_says():
+    """Central differences over half a second before and after: w^3/24 off."""
+    before, now, after = (surroundings(1.0, 2.0, at=at) for at in (-0.5, 0.0, 0.5))
+    slope = np.subtract(after["axes"], before["axes"])
+    np.testing.assert_allclose(slope, now["axes_rate"], atol=1e-13)
+    np.testing.assert_allclose(np.array(now["axes"][0]) @ np.transpose(now["axes"][0]), np.eye(3), atol=1e-14)
+    assert not np.any(surroundings(1.0, 1.0, turns=False)["axes_rate"])
+
+
+def test_a_fall_is_how_often_the_difference_is_that_of_a_tenth():
+    time = np.array([0.0, 1.0])
+    columns = ("rate[1]", "rate[2]", "rate[3]", "displacement[1]")
+    still = {"time": time, **dict.fromkeys(columns, np.zeros(2))}
+    other = still | {"rate[1]": np.array([0.0, 0.5]), "displacement[1]": np.array([0.0, 2.0])}
+    mine = other | {"rate[2]": np.array([0.0, 0.1]), "displacement[1]": np.array([0.0, 1.5])}
+    case = Swing("title", "", "", 1.0, 1.0, ("displacement[1]",), 80.0, 1.0)
+    assert swing_differences(case, mine, other) == (0.5, pytest.approx(0.1), 0.25)
+    assert swing_row(case, (0.5, 0.1, 0.25), (0.05, 0.001, 0.02))[1:] == [
+        *("5.0e-01", "1.0e-01", "1.0e-03", "100", "2.5e-01", "2.0e-02")
+    ]
