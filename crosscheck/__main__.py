@@ -8,7 +8,6 @@ PYTHON is the interpreter of the environment that has Basilisk. Exit status 1 wh
 import sys
 from collections.abc import Iterable
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,15 +20,15 @@ from crosscheck.figure import draw_differences
 from crosscheck.swing import TENTH, Swing, swing_differences, swing_row
 from crosscheck.table import differences
 
-FIGURES: Path = ROOT / "docs" / "images" / "crosscheck"
-DRAWN = {  # cases by the figure that has them
+FOLDER = ROOT / "docs" / "images" / "crosscheck"
+FIGURES = {  # cases by the figure that has them
     "differences.svg": (
         *("moon_thrust", "moon_coast", "robot_jets", "gravity_gradient", "free_rotation", "guided_descent"),
         *("robot_gyros", "capsule_entry", "wheel_satellite"),
     ),
     "low_orbit.svg": ("leo_zonal", "leo_tesseral", "leo_gradient", "leo_torquers", "leo_plates"),
 }
-CASES = tuple(name for names in DRAWN.values() for name in names)
+CASES = tuple(name for names in FIGURES.values() for name in names)
 MODELS = (
     *("harmonics", "magnetic_field", "centred_dipole", "eclipse", "surfaces"),
     *("magnetometer", "sun_heads", "gyros", "nadir"),
@@ -69,9 +68,9 @@ def compare_flights(python: str, names: tuple[str, ...]) -> list[str]:
         coarse, fine = ({each: float(column.max()) for each, column in rows.items()} for rows in flown[name])
         print_row(row_of(case, coarse, fine))
         beyond += [f"{name}: {each} {coarse[each]:.3g}" for each, bound in case.bounds.items() if coarse[each] > bound]
-    for figure, drawn in DRAWN.items():
-        if set(drawn) <= set(names):
-            draw_differences({name: stated("cases", name) for name in drawn}, flown, FIGURES / figure)
+    for figure, group in FIGURES.items():
+        if set(group) <= set(names):
+            draw_differences({name: stated("cases", name) for name in group}, flown, FOLDER / figure)
     return beyond
 
 
@@ -107,9 +106,9 @@ def stated(folder: str, name: str) -> Any:
     return import_module(f"crosscheck.{folder}.{name}.case").CASE
 
 
-def print_row(cells: Iterable[str], begins: bool = False) -> None:
+def print_row(texts: Iterable[str], begins: bool = False) -> None:
     """Print a row of a table, at its begin with the line below."""
-    row = tuple(cells)
+    row = tuple(texts)
     print(f"| {' | '.join(row)} |", *([f"|{' --- |' * len(row)}"] if begins else []), sep="\n", flush=True)
 
 
@@ -118,8 +117,8 @@ def statements(names: Iterable[str]) -> list[str]:
     rows = ["| case | verifies | gravitation | environment | integrator | matched how |", f"|{' --- |' * 6}"]
     for name in names:
         case: Case = stated("cases", name)
-        cells = (case.title, case.verifies, case.gravitation, case.environment, case.integrator, case.matched)
-        rows.append(f"| {' | '.join(cells)} |")
+        texts = (case.title, case.verifies, case.gravitation, case.environment, case.integrator, case.matched)
+        rows.append(f"| {' | '.join(texts)} |")
     return rows
 
 

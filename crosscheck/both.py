@@ -20,9 +20,9 @@ def tables(folder: str, name: str, python: str, *number: float) -> tuple[Table, 
     """
     ours = import_module(f"crosscheck.{folder}.{name}.ours")
     with tempfile.TemporaryDirectory() as temporary:
-        file, data = Path(temporary) / "basilisk.csv", Path(temporary) / "handed_over.json"
+        file, handed = Path(temporary) / "basilisk.csv", Path(temporary) / "handed_over.json"
         if hasattr(ours, "handed_over"):
-            data.write_text(json.dumps(ours.handed_over(*number)), encoding="utf-8")
-        command = [python, "-W", "ignore", "-m", "crosscheck.basilisk_side", f"{folder}.{name}", str(file), str(data)]
+            handed.write_text(json.dumps(ours.handed_over(*number)), encoding="utf-8")
+        command = [python, "-W", "ignore", "-m", "crosscheck.basilisk_side", f"{folder}.{name}", str(file), str(handed)]
         subprocess.run([*command, *map(repr, number)], cwd=ROOT, check=True)
         return getattr(ours, FUNCTIONS[folder])(*number), read_table(file)

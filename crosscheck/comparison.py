@@ -44,7 +44,7 @@ def relative_differences(case: Comparison, ours: Table, other: Table) -> dict[st
 
 def comparison_row(case: Comparison, apart: dict[str, float]) -> list[str]:
     """Return the row of the table: the difference of each quantity, named where there are several."""
-    cells = [f"{difference:.1e}" if difference else "0" for difference in apart.values()]
+    texts = [f"{difference:.1e}" if difference else "0" for difference in apart.values()]
     if len(apart) > 1:
-        cells = [f"{name} {cell}" for name, cell in zip(apart, cells, strict=True)]
-    return [case.title, case.basilisk, case.inputs, ", ".join(cells)]
+        texts = [f"{name} {cell}" for name, cell in zip(apart, texts, strict=True)]
+    return [case.title, case.basilisk, case.inputs, ", ".join(texts)]

@@ -39,5 +39,5 @@ def begin_in_gradient(case: ModuleType, step: float) -> Flight:
     gradient.addPlanetName("centre")
     flight.craft.addDynamicEffector(gradient)
     flight.add(gradient)
-    flight.kept.append(gradient)
+    flight.references.append(gradient)
     return flight

@@ -36,9 +36,9 @@ def swing(
     ``names`` are the states of the effectors, which become displacement[1] and so on.
     """
     flight = Flight(step)
-    mass, place, inertia = hub
+    mass, position, inertia = hub
     flight.set_inertia(inertia.tolist(), mass)
-    flight.craft.hub.r_BcB_B = column(place)
+    flight.craft.hub.r_BcB_B = column(position)
     flight.start((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     for effector in effectors:
         flight.craft.addStateEffector(effector)

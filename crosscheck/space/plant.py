@@ -56,7 +56,7 @@ def swing_plant(
     of a mode that is 1 in the table.
     """
     frequency, damping, translation, rotation, unit = modes
-    none = MODES - len(frequency)
+    unused = MODES - len(frequency)
     parameters = {
         **GRAVITY_ALONE,
         **POINT_MASS,
@@ -64,10 +64,10 @@ def swing_plant(
         **FAR,
         "mass": whole[0],
         "inertia": flat(whole[1]),
-        "mode_frequency": [*map(float, frequency), *[0.0] * none],
-        "mode_damping": [*map(float, damping), *[0.0] * none],
-        "mode_translation": np.vstack([translation, np.zeros((none, 3))]).ravel().tolist(),
-        "mode_rotation": np.vstack([rotation, np.zeros((none, 3))]).ravel().tolist(),
+        "mode_frequency": [*map(float, frequency), *[0.0] * unused],
+        "mode_damping": [*map(float, damping), *[0.0] * unused],
+        "mode_translation": np.vstack([translation, np.zeros((unused, 3))]).ravel().tolist(),
+        "mode_rotation": np.vstack([rotation, np.zeros((unused, 3))]).ravel().tolist(),
         "body_force": drive[0].tolist(),
         "body_torque": drive[1].tolist(),
         "internal_step": step,

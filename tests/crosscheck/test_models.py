@@ -44,9 +44,9 @@ def test_each_comparison_states_itself_and_has_both_sides(name):
 def test_the_page_has_every_comparison():
     table = PAGE.partition("## Models at the same inputs")[2].partition("\n\n- ")[0]
     lines = [line for line in table.splitlines() if line.startswith("|")]
-    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
-    assert tuple(cells[0]) == HEADS
-    for name, row in zip(MODELS, cells[2:], strict=True):
+    entries = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    assert tuple(entries[0]) == HEADS
+    for name, row in zip(MODELS, entries[2:], strict=True):
         case = case_of(name).CASE
         assert row[:3] == [case.title, case.basilisk, case.inputs]
         numbers = [float(cell.rpartition(" ")[2]) for cell in row[3].split(",")]
@@ -84,18 +84,18 @@ def test_our_eclipse_in_40_digits():
     assert np.sum((light > 0.0) & (light < 1.0)) > 40
 
 
-def test_our_magnetometer_measures_the_turned_and_scaled_field(fmus):
+def test_our_magnetometer_measures_the_scaled_field(fmus):
     case = case_of("magnetometer")
-    turned = Rotation.from_euler("ZYX", [case.YAW, case.PITCH, case.ROLL]).inv().apply(case.FIELDS)
-    expected = np.clip(case.SCALE * (turned + case.BIAS), -case.RANGE, case.RANGE)
+    sensed = Rotation.from_euler("ZYX", [case.YAW, case.PITCH, case.ROLL]).inv().apply(case.FIELDS)
+    expected = np.clip(case.SCALE * (sensed + case.BIAS), -case.RANGE, case.RANGE)
     np.testing.assert_allclose(rows(ours("magnetometer"), "field"), expected, atol=1e-19)
     assert (np.abs(expected) == case.RANGE).any()
 
 
-def test_our_gyros_measure_the_turned_and_scaled_rate(fmus):
+def test_our_gyros_measure_the_scaled_rate(fmus):
     case = case_of("gyros")
-    turned = Rotation.from_euler("ZYX", [case.YAW, case.PITCH, case.ROLL]).inv().apply(case.RATES)
-    expected = np.clip(np.array(case.SCALE) * (turned + case.BIAS), -case.RANGE, case.RANGE)
+    sensed = Rotation.from_euler("ZYX", [case.YAW, case.PITCH, case.ROLL]).inv().apply(case.RATES)
+    expected = np.clip(np.array(case.SCALE) * (sensed + case.BIAS), -case.RANGE, case.RANGE)
     np.testing.assert_allclose(rows(ours("gyros"), "rate"), expected, atol=1e-15)
     assert (np.abs(expected) == case.RANGE).any()
 
@@ -122,8 +122,8 @@ def test_our_nadir_turns_with_the_orbit(fmus):
     assert np.abs(rate[:, ::2]).max() < 1e-17
 
 
-def test_our_plates_do_not_depend_on_the_attitude_alone():
-    """Each plate is exposed to air and light at some attitudes and hidden at others."""
+def test_each_plate_is_exposed_at_some_attitudes_and_hidden_at_others():
+    """To air and to light."""
     case = case_of("surfaces")
     turn = Rotation.from_quat(case.ATTITUDES, scalar_first=True).inv()
     normals = np.array(case.PLATES)[:, 1:4]

@@ -39,9 +39,9 @@ def test_each_swing_has_both_sides(name):
 def test_the_page_has_every_swing():
     table = PAGE.partition("## Modes")[2].partition("\n\n- ")[0]
     lines = [line for line in table.splitlines() if line.startswith("|")]
-    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
-    assert tuple(cells[0]) == HEADS
-    for name, row in zip(SWINGS, cells[2:], strict=True):
+    entries = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    assert tuple(entries[0]) == HEADS
+    for name, row in zip(SWINGS, entries[2:], strict=True):
         case = case_of(name).CASE
         largest, whole, tenth, fall = map(float, row[1:5])
         assert row[0] == case.title
@@ -54,11 +54,11 @@ def test_the_page_has_every_swing():
 def test_a_hub_and_its_masses_are_the_whole(seed):
     random = np.random.default_rng(seed)
     inertia = np.diag([300.0, 280.0, 260.0]) + 5.0 * np.ones((3, 3))
-    moving = [
+    masses = [
         (m, s, np.diag([0.3, 0.2, 0.4])) for m, s in zip((10.0, 20.0), random.uniform(-1, 1, (2, 3)), strict=True)
     ]
-    mass, place, own = hub_of(500.0, inertia, moving)
-    everything = [(mass, place, own), *moving]
+    hub_mass, centre, about_centre = hub_of(500.0, inertia, masses)
+    everything = [(hub_mass, centre, about_centre), *masses]
     assert sum(m for m, _, _ in everything) == pytest.approx(500.0)
     np.testing.assert_allclose(sum(m * s for m, s, _ in everything), 0.0, atol=1e-12)
     np.testing.assert_allclose(sum(i + steiner(m, s) for m, s, i in everything), inertia, rtol=1e-12, atol=1e-12)

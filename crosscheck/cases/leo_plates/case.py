@@ -11,8 +11,8 @@ QUATERNION, ANGULAR_VELOCITY = (0.5, 0.5, -0.1, 0.7), (0.002, -0.003, 0.001)  # 
 SUNLIGHT = 30.0  # factor on the areas for light, whose drag coefficients have its inverse: as strong as drag
 LARGER = 1368.0 / 1361.0  # of Basilisk's solar constant
 PLATES = tuple(
-    (SUNLIGHT * area, *rest, coefficient / SUNLIGHT, specular, diffuse)
-    for area, *rest, coefficient, specular, diffuse in SMALL
+    (SUNLIGHT * area, *others, coefficient / SUNLIGHT, specular, diffuse)
+    for area, *others, coefficient, specular, diffuse in SMALL
 )
 
 CASE = Case(

@@ -20,8 +20,8 @@ def handed_over(step: float) -> dict:
 def simulate(step: float) -> Table:
     """Areas larger by the ratio of the solar constants, coefficients of drag smaller by it."""
     rows = [
-        (LARGER * area, *rest, coefficient / LARGER, specular, diffuse)
-        for area, *rest, coefficient, specular, diffuse in PLATES
+        (LARGER * area, *others, coefficient / LARGER, specular, diffuse)
+        for area, *others, coefficient, specular, diffuse in PLATES
     ]
     parameters = {
         **in_gradient(case, step),

@@ -19,8 +19,8 @@ from crosscheck.swings.panels.case import (
     INERTIA,
     MASS,
     OUTWARDS,
-    OWN,
     PANEL,
+    PANEL_INERTIA,
     TORQUE,
 )
 from crosscheck.table import Table
@@ -33,11 +33,11 @@ def fly(amplitude: float) -> Table:
         axes = np.array([-outwards, AXIS, np.cross(-outwards, AXIS)])
         panel = hingedRigidBodyStateEffector.HingedRigidBodyStateEffector()
         panel.mass, panel.d, panel.r_HB_B, panel.dcm_HB = PANEL, ARM, column(hinge), axes.tolist()
-        panel.IPntS_S = (axes @ OWN @ axes.T).tolist()
+        panel.IPntS_S = (axes @ PANEL_INERTIA @ axes.T).tolist()
         panel.k, panel.c = float(ABOUT_HINGE * frequency**2), float(2.0 * damping * frequency * ABOUT_HINGE)
         panel.thetaInit, panel.thetaDotInit = 0.0, 0.0
         panels.append(panel)
-    moving = [(PANEL, centre, OWN) for centre in CENTRES]
+    masses = [(PANEL, centre, PANEL_INERTIA) for centre in CENTRES]
     names = [panel.nameOfThetaState for panel in panels]
     drive = (amplitude * FORCE, amplitude * TORQUE)
-    return swing(hub_of(MASS, INERTIA, moving), panels, names, drive, CASE.step, CASE.duration)
+    return swing(hub_of(MASS, INERTIA, masses), panels, names, drive, CASE.step, CASE.duration)

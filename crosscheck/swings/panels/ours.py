@@ -15,8 +15,8 @@ from crosscheck.swings.panels.case import (
     INERTIA,
     MASS,
     OUTWARDS,
-    OWN,
     PANEL,
+    PANEL_INERTIA,
     TORQUE,
 )
 from crosscheck.table import Table
@@ -26,6 +26,6 @@ def simulate(amplitude: float) -> Table:
     """Participation m d/root(Ih) in translation, (Is a + m s x d)/root(Ih) in rotation, d the velocity by the rate."""
     root = np.sqrt(ABOUT_HINGE)
     velocities = ARM * np.cross(AXIS, OUTWARDS)
-    rotation = (OWN @ AXIS + PANEL * np.cross(CENTRES, velocities)) / root
+    rotation = (PANEL_INERTIA @ AXIS + PANEL * np.cross(CENTRES, velocities)) / root
     modes = (FREQUENCY, DAMPING, PANEL * velocities / root, rotation, np.full(2, root))
     return swing_plant(modes, (MASS, INERTIA), (amplitude * FORCE, amplitude * TORQUE), CASE.step, CASE.duration)

@@ -15,7 +15,7 @@ from crosscheck.swings.slosh.case import (
     INERTIA,
     MASS,
     PARTICLES,
-    PLACES,
+    POSITIONS,
     TORQUE,
 )
 from crosscheck.table import Table
@@ -24,13 +24,13 @@ from crosscheck.table import Table
 def fly(amplitude: float) -> Table:
     """Spring W^2 m, damper 2 zeta W m."""
     particles = []
-    for mass, place, along, frequency, damping in zip(PARTICLES, PLACES, ALONG, FREQUENCY, DAMPING, strict=True):
+    for mass, position, along, frequency, damping in zip(PARTICLES, POSITIONS, ALONG, FREQUENCY, DAMPING, strict=True):
         particle = linearSpringMassDamper.LinearSpringMassDamper()
-        particle.massInit, particle.r_PB_B, particle.pHat_B = float(mass), column(place), column(along)
+        particle.massInit, particle.r_PB_B, particle.pHat_B = float(mass), column(position), column(along)
         particle.k, particle.c = float(mass * frequency**2), float(2.0 * damping * frequency * mass)
         particle.rhoInit, particle.rhoDotInit = 0.0, 0.0
         particles.append(particle)
-    moving = [(float(mass), place, np.zeros((3, 3))) for mass, place in zip(PARTICLES, PLACES, strict=True)]
+    masses = [(float(mass), position, np.zeros((3, 3))) for mass, position in zip(PARTICLES, POSITIONS, strict=True)]
     names = [particle.nameOfRhoState for particle in particles]
     drive = (amplitude * FORCE, amplitude * TORQUE)
-    return swing(hub_of(MASS, INERTIA, moving), particles, names, drive, CASE.step, CASE.duration)
+    return swing(hub_of(MASS, INERTIA, masses), particles, names, drive, CASE.step, CASE.duration)

@@ -12,7 +12,7 @@ from crosscheck.swings.slosh.case import (
     INERTIA,
     MASS,
     PARTICLES,
-    PLACES,
+    POSITIONS,
     TORQUE,
 )
 from crosscheck.table import Table
@@ -21,5 +21,5 @@ from crosscheck.table import Table
 def simulate(amplitude: float) -> Table:
     """Participation root(m) p in translation, root(m) s x p in rotation."""
     root = np.sqrt(PARTICLES)
-    modes = (FREQUENCY, DAMPING, root[:, None] * ALONG, root[:, None] * np.cross(PLACES, ALONG), root)
+    modes = (FREQUENCY, DAMPING, root[:, None] * ALONG, root[:, None] * np.cross(POSITIONS, ALONG), root)
     return swing_plant(modes, (MASS, INERTIA), (amplitude * FORCE, amplitude * TORQUE), CASE.step, CASE.duration)
