@@ -30,7 +30,7 @@ FIGURES = {  # cases by the figure that has them
 }
 CASES = tuple(name for names in FIGURES.values() for name in names)
 MODELS = (
-    *("harmonics", "magnetic_field", "centred_dipole", "eclipse", "surfaces"),
+    *("harmonics", "magnetic_field", "centred_dipole", "eclipse", "surfaces", "sphere"),
     *("magnetometer", "sun_heads", "gyros", "nadir"),
 )
 SWINGS = ("slosh", "panels")

@@ -21,8 +21,8 @@ CASE = Case(
     gravitation="point mass, 3.986004415e14 m3/s2, and its gradient",
     environment="exponential air about a sphere, Sun, no shadow on the way",
     integrator="Runge-Kutta of fourth order; quaternion and inertial angular momentum here, MRP and rate in Basilisk",
-    matched="here by a class that overrides the density; plates 1000 times as large with coefficients of drag of a "
-    "thousandth, so that light is as strong as air; ours larger by 1368/1361, since Basilisk has 1368 W/m2; in "
+    matched="here by a class that overrides the density; plates 30 times as large with coefficients of drag of a "
+    "thirtieth, so that light is as strong as air; ours larger by 1368/1361, since Basilisk has 1368 W/m2; in "
     "Basilisk density and wind of a step are those of its middle",
     step=1.0,
     duration=600.0,
