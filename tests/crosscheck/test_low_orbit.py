@@ -32,8 +32,8 @@ def momentum(table, inertia):
 def tide(position, body, mu):
     """Potential (J/kg, by row) of a body at positions (m) from a centre that it attracts, too."""
     distance = np.linalg.norm(body, axis=1)
-    pull = 1.0 / np.linalg.norm(body - position, axis=1) - np.sum(body * position, axis=1) / distance**3
-    return mu * (pull - 1.0 / distance)
+    inverse = 1.0 / np.linalg.norm(body - position, axis=1) - np.sum(body * position, axis=1) / distance**3
+    return mu * (inverse - 1.0 / distance)
 
 
 def test_energy_stays_in_zonal_gravity(fmus):
