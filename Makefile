@@ -117,7 +117,7 @@ $(IMPORTERS)/ready: .venv/ready
 	$(BIN)/pip install $(QUIET) --disable-pip-version-check --no-deps --ignore-installed --prefix $(IMPORTERS) ecospy==0.7.2 tbb==2023.2.0 tcmlib==1.6.0
 	touch $@
 
-# The same flights here and in Basilisk, which has an environment of its own: the tables and the figure of docs/concepts/crosscheck.md.
+# The same flights and models here and in Basilisk, which has an environment of its own: the tables and figures of docs/concepts/crosscheck.md.
 crosscheck: build $(CROSSCHECK)/ready
 	$(BIN)/python -m crosscheck $(CROSSCHECK)/bin/python
 

@@ -1,36 +1,39 @@
-"""Simulates all cases in both codes and compares them: the tables and the figure of docs/concepts/crosscheck.md.
+"""Simulates all cases in both codes and compares them: the tables and figures of docs/concepts/crosscheck.md.
 
     python -m crosscheck PYTHON [CASE ...]
 
 PYTHON is the interpreter of the environment that has Basilisk. Exit status 1 where a difference exceeds its bound.
 """
 
-import subprocess
 import sys
-import tempfile
 from collections.abc import Iterable
 from importlib import import_module
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from crosscheck import comparison, swing
+from crosscheck.both import ROOT, tables
 from crosscheck.case import Case
+from crosscheck.comparison import Comparison, comparison_row, relative_differences
 from crosscheck.figure import draw_differences
-from crosscheck.table import Table, differences, read_table
+from crosscheck.swing import TENTH, Swing, swing_differences, swing_row
+from crosscheck.table import differences
 
-ROOT = Path(__file__).parents[1]
-FIGURE = ROOT / "docs" / "images" / "crosscheck" / "differences.svg"
-CASES = (
-    "moon_thrust",
-    "moon_coast",
-    "robot_jets",
-    "gravity_gradient",
-    "free_rotation",
-    "guided_descent",
-    "robot_gyros",
-    "capsule_entry",
-    "wheel_satellite",
+FOLDER = ROOT / "docs" / "images" / "crosscheck"
+FIGURES = {  # cases by the figure that has them
+    "differences.svg": (
+        *("moon_thrust", "moon_coast", "robot_jets", "gravity_gradient", "free_rotation", "guided_descent"),
+        *("robot_gyros", "capsule_entry", "wheel_satellite"),
+    ),
+    "low_orbit.svg": ("leo_zonal", "leo_tesseral", "leo_gradient", "leo_torquers", "leo_plates"),
+}
+CASES = tuple(name for names in FIGURES.values() for name in names)
+MODELS = (
+    *("harmonics", "magnetic_field", "centred_dipole", "eclipse", "surfaces", "sphere"),
+    *("magnetometer", "sun_heads", "gyros", "nadir"),
 )
+SWINGS = ("slosh", "panels")
 HEADS = (
     *("case", "step, s", "position, m", "velocity, m/s", "attitude, rad", "rate, rad/s", "mass, kg"),
     *("wheel speed, rad/s", "order"),
@@ -40,42 +43,83 @@ ROUNDING = 0.5  # an order below is one of rounding: half the step does not brin
 
 
 def main(python: str, names: tuple[str, ...]) -> int:
-    """Print the table; the number of cases that differ by more than their bounds."""
-    print(f"| {' | '.join(HEADS)} |\n|{' --- |' * len(HEADS)}")
-    flown: dict[str, list[dict[str, np.ndarray]]] = {}
+    """Print the tables; the number of differences that are beyond their bounds."""
     beyond = []
-    for name in names:
-        case: Case = import_module(f"crosscheck.cases.{name}.case").CASE
-        flown[name] = [apart(name, case, step, python) for step in (case.step, 0.5 * case.step)]
-        coarse, fine = ({each: float(column.max()) for each, column in rows.items()} for rows in flown[name])
-        print(f"| {' | '.join(row_of(case, coarse, fine))} |")
-        beyond += [f"{name}: {each} {coarse[each]:.3g}" for each, bound in case.bounds.items() if coarse[each] > bound]
-    print("", *statements(names), sep="\n")
-    if names == CASES:
-        draw_differences({name: import_module(f"crosscheck.cases.{name}.case").CASE for name in names}, flown, FIGURE)
+    for compare, known in ((compare_flights, CASES), (compare_models, MODELS), (compare_swings, SWINGS)):
+        chosen = tuple(name for name in known if name in names)
+        if chosen:
+            beyond += compare(python, chosen)
+            print()
+    if flights := tuple(name for name in CASES if name in names):
+        print(*statements(flights), sep="\n")
     for line in beyond:
         print(f"beyond its bound: {line}", file=sys.stderr)
     return len(beyond)
 
 
+def compare_flights(python: str, names: tuple[str, ...]) -> list[str]:
+    """Print the table of flights; what is beyond its bound. Draw each figure all of whose flights are among them."""
+    print_row(HEADS, begins=True)
+    flown: dict[str, list[dict[str, np.ndarray]]] = {}
+    beyond = []
+    for name in names:
+        case: Case = stated("cases", name)
+        flown[name] = [differences(case, *tables("cases", name, python, s)) for s in (case.step, 0.5 * case.step)]
+        coarse, fine = ({each: float(column.max()) for each, column in rows.items()} for rows in flown[name])
+        print_row(row_of(case, coarse, fine))
+        beyond += [f"{name}: {each} {coarse[each]:.3g}" for each, bound in case.bounds.items() if coarse[each] > bound]
+    for figure, group in FIGURES.items():
+        if set(group) <= set(names):
+            draw_differences({name: stated("cases", name) for name in group}, flown, FOLDER / figure)
+    return beyond
+
+
+def compare_models(python: str, names: tuple[str, ...]) -> list[str]:
+    """Print the table of models at the same inputs; what is beyond its bound."""
+    print_row(comparison.HEADS, begins=True)
+    beyond = []
+    for name in names:
+        case: Comparison = stated("models", name)
+        apart = relative_differences(case, *tables("models", name, python))
+        print_row(comparison_row(case, apart))
+        beyond += [f"{name}: {each} {apart[each]:.3g}" for each, bound in case.bounds.items() if apart[each] > bound]
+    return beyond
+
+
+def compare_swings(python: str, names: tuple[str, ...]) -> list[str]:
+    """Print the table of flights with modes; what is beyond its bound."""
+    print_row(swing.HEADS, begins=True)
+    beyond = []
+    for name in names:
+        case: Swing = stated("swings", name)
+        whole, tenth = (swing_differences(case, *tables("swings", name, python, size)) for size in (1.0, TENTH))
+        print_row(swing_row(case, whole, tenth))
+        if whole[1] < case.fall * tenth[1]:
+            beyond.append(f"{name}: fall {whole[1] / tenth[1]:.3g}")
+        if whole[1] > case.bound * whole[0]:
+            beyond.append(f"{name}: rate {whole[1]:.3g}")
+    return beyond
+
+
+def stated(folder: str, name: str) -> Any:
+    """Return the statement of a case."""
+    return import_module(f"crosscheck.{folder}.{name}.case").CASE
+
+
+def print_row(texts: Iterable[str], begins: bool = False) -> None:
+    """Print a row of a table, at its begin with the line below."""
+    row = tuple(texts)
+    print(f"| {' | '.join(row)} |", *([f"|{' --- |' * len(row)}"] if begins else []), sep="\n", flush=True)
+
+
 def statements(names: Iterable[str]) -> list[str]:
-    """The rows of the page's second table: what each case states of itself."""
+    """The rows of the page's table of cases: what each flight states of itself."""
     rows = ["| case | verifies | gravitation | environment | integrator | matched how |", f"|{' --- |' * 6}"]
     for name in names:
-        case: Case = import_module(f"crosscheck.cases.{name}.case").CASE
-        stated = (case.title, case.verifies, case.gravitation, case.environment, case.integrator, case.matched)
-        rows.append(f"| {' | '.join(stated)} |")
+        case: Case = stated("cases", name)
+        texts = (case.title, case.verifies, case.gravitation, case.environment, case.integrator, case.matched)
+        rows.append(f"| {' | '.join(texts)} |")
     return rows
-
-
-def apart(name: str, case: Case, step: float, python: str) -> dict[str, np.ndarray]:
-    """How far both codes are apart with a step (s), over time."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "basilisk.csv"
-        command = [python, "-W", "ignore", "-m", "crosscheck.basilisk_side", name, repr(step), str(file)]
-        subprocess.run(command, cwd=ROOT, check=True)
-        ours: Table = import_module(f"crosscheck.cases.{name}.ours").simulate(step)
-        return differences(case, ours, read_table(file))
 
 
 def row_of(case: Case, coarse: dict[str, float], fine: dict[str, float]) -> list[str]:
@@ -88,4 +132,4 @@ def row_of(case: Case, coarse: dict[str, float], fine: dict[str, float]) -> list
 
 if __name__ == "__main__":
     interpreter, *chosen = sys.argv[1:]
-    sys.exit(1 if main(interpreter, tuple(chosen) or CASES) else 0)
+    sys.exit(1 if main(interpreter, tuple(chosen) or (*CASES, *MODELS, *SWINGS)) else 0)

@@ -1,8 +1,11 @@
 """Simulations in Basilisk for cross-checks. Runs in Basilisk's environment: nothing of Perilune is imported.
 
-python -m crosscheck.basilisk_side CASE STEP FILE
+python -m crosscheck.basilisk_side FOLDER.CASE FILE HANDED [NUMBER]
+
+NUMBER is a step or an amplitude. HANDED is a JSON file of numbers for the case, where our side hands some over.
 """
 
+import json
 import sys
 from importlib import import_module
 from pathlib import Path
@@ -28,6 +31,7 @@ class Flight:
         self.add(self.craft, priority=1)
         self.states = self.craft.scStateOutMsg.recorder()
         self.is_begun = False
+        self.references: list[object] = []  # modules that Python would drop before the simulation ends
 
     def add(self, model: object, priority: int = -1) -> None:
         """Update a model at every step; those of higher priority first."""
@@ -94,5 +98,8 @@ def to_mrp(quaternion: object) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    name, step, file = sys.argv[1:]
-    write_table(Path(file), import_module(f"crosscheck.cases.{name}.basilisk").fly(float(step)))
+    name, file, handed, *numbers = sys.argv[1:]
+    arguments: list[object] = [float(number) for number in numbers]
+    if Path(handed).is_file():
+        arguments.append(json.loads(Path(handed).read_text(encoding="utf-8")))
+    write_table(Path(file), import_module(f"crosscheck.{name}.basilisk").fly(*arguments))

@@ -53,3 +53,11 @@ def angles_between(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     a, b = (quaternion / np.linalg.norm(quaternion, axis=0) for quaternion in (first, second))
     vector = a[0] * b[1:] - b[0] * a[1:] - np.cross(a[1:], b[1:], axis=0)
     return 2.0 * np.arcsin(np.minimum(np.linalg.norm(vector, axis=0), 1.0))
+
+
+def rows_table(**vectors: np.ndarray) -> Table:
+    """Return the table of quantities at inputs, a row per input, its number in place of time; vectors by element."""
+    table: Table = {"time": np.arange(float(len(next(iter(vectors.values())))))}
+    for name, rows in vectors.items():
+        table |= {f"{name}[{k + 1}]": column for k, column in enumerate(np.asarray(rows, dtype=float).T)}
+    return table

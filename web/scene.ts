@@ -61,7 +61,7 @@ async function start(holder: HTMLElement): Promise<View | null> {
 }
 
 function say(holder: HTMLElement, text: string): void {
-  holder.replaceChildren(make("p", { class: "empty", role: "status" }, text));
+  holder.prepend(make("p", { class: "empty", role: "status" }, text)); // pictures stay
 }
 
 // A view is made when it comes near to the screen: figures above it are not kept waiting. Far from it, it rests.

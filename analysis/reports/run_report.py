@@ -19,6 +19,7 @@ from .figures.limits import Verdict, limit_document
 from .figures.scene.declared import Scene
 from .interactive.bundles import MISSING
 from .scene.notes import scene_notes
+from .scene.picture import draw_ends
 from .scene.view import scene_view
 from .time_histories import time_histories
 from .trajectory import trajectory_panels, trajectory_reading
@@ -48,6 +49,7 @@ def write_run_report(
     """
     limits = limits_by_verdict(figures, result)
     scene = next((figure for figure in figures if isinstance(figure, Scene)), None)
+    view = scene_view(scene, result) if scene is not None else None
     write_page(
         path,
         Path(__file__).with_name("run_report.html"),
@@ -62,7 +64,8 @@ def write_run_report(
         trajectory=trajectory_panels(result),
         trajectory_reading=trajectory_reading(result),
         joint=joint_findings(figures, result),
-        scene=scene_view(scene, result) if scene is not None else None,
+        scene=view,
+        scene_pictures=draw_ends(view) if view is not None else [],
         scene_notes=scene_notes(scene, result) if scene is not None else [],
         scripts_missing=MISSING,
         sections=figure_sections(figures, result),

@@ -31,7 +31,7 @@ INNER = system(
 SCENE = """<Scene title="Here" axes="north west up" up="z"><Surface kind="plane" name="ground of it"/>
 <Body name="it" shape="lander" size="1 2 3" at="0 0 1">
 <Thrust signal="ramp.y" at="0 0 1" along="0 1 0"/>
-<Jets forces="ramp.y" couple="true"><Jet at="1 0 0" along="0 1 0"/></Jets></Body>
+<Jets forces="ramp.y" couple="true"><Jet at="1 0 0" along="0 1 0"/></Jets><Panel size="1 1 0.1"/></Body>
 <Body name="other" shape="box" size="1 1 1"/>
 <Line from="it" to="other" name="beam"/><Line from="it" to="ground" while="ramp.count"/></Scene>"""
 WITHOUT_REPORT = document(

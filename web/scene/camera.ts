@@ -7,22 +7,20 @@ import { type Instant, positionAt, sampleAt } from "./instant";
 
 export type Mode = "follow" | "chase" | "free";
 
-const FIELD = 40; // deg, upwards
 const STEEPEST = (89 * Math.PI) / 180;
 const LOWEST = 0.05; // of the distance: the camera stays so far above the ground
 const NEAR = 0.01; // of the distance
-const START = { azimuth: 2.5, elevation: 0.25 }; // rad
 const ASIDE = 0.6; // rad, of the free camera from the side of the body
 const [LOW, HIGH] = [0.35, 1.2]; // rad, its elevation
 const UP = { x: new Vector3(1, 0, 0), y: new Vector3(0, 1, 0), z: new Vector3(0, 0, 1) };
 const FORWARD = { x: new Vector3(0, 1, 0), y: new Vector3(1, 0, 0), z: new Vector3(1, 0, 0) };
 
 export class Camera {
-  readonly view = new PerspectiveCamera(FIELD, 1, 0.1, 1e4);
+  readonly view: PerspectiveCamera;
   readonly target = new Vector3();
   mode: Mode = "follow";
-  azimuth = START.azimuth;
-  elevation = START.elevation;
+  azimuth = 0;
+  elevation = 0;
   distance = 1;
   private readonly whole: { middle: Vector3; radius: number };
   private motion: Float32Array | null = null;
@@ -35,6 +33,7 @@ export class Camera {
     private followed: BodyData,
     private readonly ground: Ground | null,
   ) {
+    this.view = new PerspectiveCamera((scene.camera.field * 180) / Math.PI, 1, 0.1, 1e4);
     this.whole = wholeOf(scene);
     this.follow(followed);
   }
@@ -51,11 +50,12 @@ export class Camera {
   }
 
   reset(): void {
-    this.azimuth = this.mode === "chase" ? Math.PI : START.azimuth;
-    this.elevation = START.elevation;
-    this.distance = 3.6 * Math.hypot(...this.followed.size);
+    const { azimuth, elevation, diagonals, field } = this.scene.camera;
+    this.azimuth = this.mode === "chase" ? Math.PI : azimuth;
+    this.elevation = elevation;
+    this.distance = diagonals * Math.hypot(...this.followed.size);
     if (this.mode === "free") {
-      this.distance = Math.max((1.05 * this.whole.radius) / Math.sin((FIELD * Math.PI) / 360), this.distance);
+      this.distance = Math.max((1.05 * this.whole.radius) / Math.sin(field / 2), this.distance);
       this.target.copy(this.whole.middle);
       this.lookFromBody();
     }
@@ -85,7 +85,7 @@ export class Camera {
   // Moves the point looked at across the view, by fractions of its height; the camera is then free.
   pan(right: number, upwards: number): void {
     this.mode = "free";
-    const height = 2 * this.distance * Math.tan((FIELD * Math.PI) / 360);
+    const height = 2 * this.distance * Math.tan(this.scene.camera.field / 2);
     const axis = new Vector3();
     this.view.matrixWorld.extractBasis(axis, new Vector3(), new Vector3());
     this.target.addScaledVector(axis, right * height);

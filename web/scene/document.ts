@@ -1,6 +1,8 @@
 // What a page has of a scene: analysis/reports/scene/view.py, its columns decoded.
 
+import type { Vector3 } from "three";
 import type { Page, Values } from "../page/document";
+import { type Instant, positionAt } from "./instant";
 
 export type Triple = [number, number, number];
 
@@ -23,6 +25,11 @@ interface Jet<Column> {
   along: Triple;
 }
 
+export interface Panel {
+  at: Triple;
+  size: Triple;
+}
+
 interface Body<Column> {
   name: string;
   colour: string;
@@ -33,6 +40,7 @@ interface Body<Column> {
   attitude: Column[]; // none where it is unknown
   thrusts?: Thrust<Column>[];
   jets?: Jet<Column>[];
+  panels?: Panel[];
   flight?: { variant: string; trial: number; failed: boolean }; // where a scene is of several
 }
 
@@ -49,16 +57,27 @@ interface Line<Column> {
   condition?: Column;
 }
 
+interface Arrow<Column> {
+  name: string;
+  colour: string;
+  start: string;
+  direction: Column[]; // unit vectors in the scene's frame
+  length: number; // m, or of the view's height
+  on_screen?: boolean;
+}
+
 interface Scene<Column> {
   title: string;
   axes: [string, string, string];
   up: "x" | "y" | "z";
   origin: Triple;
   time: Column;
-  ground?: { name: string; radius?: number; normal?: Triple };
+  ground?: { name: string; radius?: number; centre?: Triple; normal?: Triple };
   bodies: Body<Column>[];
   sites?: Site<Column>[];
   lines?: Line<Column>[];
+  arrows?: Arrow<Column>[];
+  camera: { field: number; azimuth: number; elevation: number; diagonals: number }; // as it is at first; rad, of the body
 }
 
 export type SceneData = Scene<Values>;
@@ -67,6 +86,7 @@ export type ThrustData = Thrust<Values>;
 export type JetData = Jet<Values>;
 export type SiteData = Site<Values>;
 export type LineData = Line<Values>;
+export type ArrowData = Arrow<Values>;
 
 // The scene of a page; null where it has none.
 export async function readScene(page: Page): Promise<SceneData | null> {
@@ -96,5 +116,14 @@ export async function readScene(page: Page): Promise<SceneData | null> {
         condition === undefined ? line : { ...line, condition: await column(condition) },
       ),
     ),
+    arrows: await Promise.all(
+      (scene.arrows ?? []).map(async (arrow) => ({ ...arrow, direction: await columns(arrow.direction) })),
+    ),
   };
+}
+
+// Whether a body or a site is known by this name at this time, and where it is.
+export function pointOf(scene: SceneData, name: string, instant: Instant, into: Vector3): boolean {
+  const named = [...scene.bodies, ...(scene.sites ?? [])].find((each) => each.name === name);
+  return named !== undefined && positionAt(named.position, instant, into);
 }

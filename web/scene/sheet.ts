@@ -12,6 +12,7 @@ export const SHEET = `
 .scene-mark svg { position: absolute; left: -12px; top: -12px; }
 .scene-mark bdi { position: absolute; left: 0; bottom: var(--scene-gap); transform: translateX(-50%); white-space: nowrap; max-width: 40ch; overflow: hidden;
   text-overflow: ellipsis; }
+.scene-arrow bdi { bottom: 4px; padding: 0 3px; border-radius: 3px; background: light-dark(rgb(238 242 246 / 75%), rgb(13 17 23 / 75%)); }
 .scene-site bdi { left: 14px; bottom: -8px; transform: none; }
 .scene-values, .scene-scale, .scene-triad { position: absolute; pointer-events: none; font-size: 12px; margin: 0; }
 .scene-values { left: 8px; top: 6px; font-variant-numeric: tabular-nums; max-width: calc(100% - 150px); }

@@ -3,6 +3,7 @@
 import { Color, DirectionalLight, Group, HemisphereLight, Quaternion, Scene, Vector3, WebGLRenderer } from "three";
 import { announceTime, followTime } from "../page/time";
 import { announceTrial, followTrial } from "../page/trial";
+import { Arrows } from "./objects/arrows";
 import { Beams } from "./objects/beams";
 import { Camera } from "./camera";
 import { Controls } from "./controls";
@@ -49,6 +50,7 @@ export class View {
   private readonly ground: Ground | null;
   private readonly directions: Directions | null;
   private readonly beams: Beams;
+  private readonly arrows: Arrows;
   private readonly marks: Marks;
   private readonly triad: Triad;
   private readonly readout: Readout;
@@ -73,13 +75,14 @@ export class View {
     this.drawn = this.playback.instant;
     this.directions = this.ground ? null : new Directions(data.up);
     this.beams = new Beams(data, this.ground);
+    this.arrows = new Arrows(data, this.ground);
     this.marks = new Marks(data.bodies, data.sites ?? []);
     this.triad = new Triad(data.axes);
     this.readout = new Readout(data);
     this.shown = data.bodies.map((body) => this.add(body));
     if (this.ground) this.scene.add(this.ground.mesh);
     if (this.directions) this.scene.add(this.directions.lines);
-    this.scene.add(this.beams.group, new HemisphereLight("#ffffff", "#9a9388", 1.8), this.sun, this.sun.target);
+    this.scene.add(this.beams.group, this.arrows.group, new HemisphereLight("#ffffff", "#9a9388", 1.8), this.sun, this.sun.target);
     this.controls = new Controls({
       playback: this.playback,
       camera: this.camera,
@@ -95,7 +98,7 @@ export class View {
     });
     this.setAxes(!this.ground);
     this.stage.setAttribute("aria-label", `${data.title}: arrow keys turn, plus and minus zoom, 0 resets, shift moves`);
-    this.stage.append(renderer.domElement, this.marks.element, this.readout.values, this.triad.element, this.readout.scale);
+    this.stage.append(renderer.domElement, this.marks.element, this.arrows.element, this.readout.values, this.triad.element, this.readout.scale);
     this.element = make("div", {}, this.stage, this.controls.element);
     this.listen();
   }
@@ -104,7 +107,7 @@ export class View {
     const group = new Group();
     const flames = new Flames(data);
     const axes = bodyAxes(1.1 * Math.max(...data.size));
-    group.add(makeShape(data.shape, data.size, data.at), flames.group, axes);
+    group.add(makeShape(data), flames.group, axes);
     const path = new Path(data);
     this.scene.add(group, path.group);
     return { data, group, flames, path, axes };
@@ -138,6 +141,7 @@ export class View {
     this.ground?.setTheme(colours);
     this.directions?.setTheme(colours);
     this.beams.setTheme(colours);
+    this.arrows.setTheme(colours);
     for (const { flames, path } of this.shown) {
       flames.setTheme(colours);
       path.setTheme(colours);
@@ -207,6 +211,7 @@ export class View {
     ground?.lay(camera.target, Math.max(ground.footOf(camera.view.position).height, 0.2 * camera.distance));
     ground?.shade(this.shown.find(({ data }) => data === this.followed)!.group.position, 0.4 * Math.max(...this.followed.size));
     this.directions?.show(camera.view);
+    this.arrows.show(instant, camera, this.stage.clientWidth, this.stage.clientHeight);
     this.light();
     this.renderer.render(this.scene, camera.view);
     this.overlay(instant);

@@ -5,6 +5,8 @@ Positions are in m in the frame of a landing site: z is up there, the body's cen
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 FLATNESS = 1e-3  # m; altitudes that differ by less from the height above the tangent plane show no curvature
@@ -62,12 +64,13 @@ def track_angles(
     return along, across
 
 
-def track_normal(position: np.ndarray, radius: float) -> np.ndarray:
-    """The unit normal, [3], of the great circle through the origin that fits a track of positions, [3, n], best.
+def track_normal(position: np.ndarray, centre: Sequence[float]) -> np.ndarray:
+    """The unit normal, [3], of the great circle that fits a track of positions, [3, n], around a ``centre`` best.
 
-    About it the track turns in the direction of flight. One without a direction is taken as one along x.
+    The circle goes through the point straight up from the centre, along z. About the normal the track turns in the
+    direction of flight. One without a direction is taken as one along x.
     """
-    direction = position[:, np.all(np.isfinite(position), axis=0)] + np.array([[0.0], [0.0], [radius]])
+    direction = position[:, np.all(np.isfinite(position), axis=0)] - np.array(centre)[:, None]
     return _normal(direction / np.linalg.norm(direction, axis=0), np.array([0.0, 0.0, 1.0]))
 
 

@@ -1,6 +1,6 @@
 """Several flights of a system in one scene: their bodies at common times, failures marked.
 
-What a scene declares of forces and lines is left out, since campaigns seldom record it.
+What a scene declares of forces, lines and arrows is left out, since campaigns seldom record it.
 """
 
 from __future__ import annotations
@@ -72,6 +72,7 @@ def flights_view(scene: Scene, flights: Sequence[RecordedFlight]) -> FlightsView
             if position is not None
         ],
         lines=[],
+        arrows=[],
     )
     without_position = [body.name for body in scene.bodies if body.position is not None and body not in located]
     notes = [
@@ -119,6 +120,7 @@ def _body_view(
         attitude=list(attitude),
         thrusts=[],
         jets=[],
+        panels=body.panels,
         flight=recorded.name,
     )
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...runtime.flight.results import Result
 from ..common.quantities import display_unit, number
-from ..figures.scene.declared import Body, Scene, Thrust, ThrustAxis
+from ..figures.scene.declared import Arrow, Body, Scene, Thrust, ThrustAxis
 
 
 def scene_notes(scene: Scene, result: Result) -> list[str]:
@@ -17,6 +17,7 @@ def scene_notes(scene: Scene, result: Result) -> list[str]:
         frame_note(scene),
         size_note(scene.bodies),
         *(f"Dashed line: {line.name}." for line in scene.lines),
+        *(_arrow_note(arrow) for arrow in scene.arrows),
         *(note for body in scene.bodies for note in _body_notes(body, result)),
         "Marks, lines and paths have a constant width on the screen; the light is not the Sun's.",
         *scene.notes,
@@ -33,6 +34,12 @@ def size_note(bodies: Iterable[Body]) -> str:
     """The extents of bodies."""
     sizes = "; ".join(f"{body.name} {' x '.join(number(extent) for extent in body.size)} m" for body in bodies)
     return f"To scale, along the body's axes: {sizes}."
+
+
+def _arrow_note(arrow: Arrow) -> str:
+    axes = f" in axes of {arrow.frame}" if arrow.frame is not None else ""
+    length = f"{number(arrow.length)} m long" if arrow.length is not None else "of constant length on the screen"
+    return f"Arrow: {arrow.name}, the direction of {arrow.signal.label}{axes}, {length}."
 
 
 def _body_notes(body: Body, result: Result) -> list[str]:

@@ -29,6 +29,13 @@ def turn(turns: Iterable[tuple[str, np.ndarray]], size: int) -> np.ndarray:
     return total
 
 
+def rotate(quaternion: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    """Vectors, [3, n], of body axes in axes of the reference."""
+    u = quaternion[1:]
+    across = 2.0 * np.cross(u, vector, axis=0)
+    return vector + quaternion[0] * across + np.cross(u, across, axis=0)
+
+
 def normalise(vector: np.ndarray) -> np.ndarray:
     """Vectors or quaternions of length 1; nan for those without length."""
     length = np.sqrt(np.sum(vector**2, axis=0))

@@ -6,19 +6,21 @@ Arrays are columns of the page, [samples].
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...runtime.flight.results import Result
+from ..common.colours import COLOURS, HUES
 from ..common.quantities import display_unit
 from ..common.round_body import track_normal
-from ..common.style import COLOURS
 from ..figures.declared import Signal
-from ..figures.scene.declared import GROUND, Body, Jets, Line, Scene, Site
+from ..figures.scene.declared import ARROW, GROUND, Arrow, Body, Jets, Line, Panel, Scene, Site
 from .notes import largest_magnitude, plume_length
 from .poses import Pose, compute_poses
+from .quaternions import normalise, rotate
 
 Numbers = Sequence[float]
 
@@ -76,6 +78,7 @@ class BodyView:
     attitude: Sequence[np.ndarray]
     thrusts: Sequence[ThrustView]
     jets: Sequence[JetView]
+    panels: Sequence[Panel]
     flight: FlightName | None = None
 
 
@@ -99,12 +102,47 @@ class LineView:
 
 
 @dataclass(frozen=True)
+class ArrowView:
+    """An arrow from a named point: three columns of its unit vector in the scene's frame, nan where that is unknown.
+
+    Its ``length`` is in m, or ``on_screen`` a fraction of the view's height.
+    """
+
+    name: str
+    colour: str
+    start: str
+    direction: Sequence[np.ndarray]
+    length: float
+    on_screen: bool
+
+
+@dataclass(frozen=True)
 class GroundView:
-    """The ground; of a sphere its ``radius`` (m) and the ``normal`` of the great circle on which its grid is laid."""
+    """The ground: z = 0, or of a sphere its ``radius`` and ``centre`` (m, in the scene's frame).
+
+    The grid of a sphere is laid on the great circle with this ``normal``.
+    """
 
     name: str
     radius: float | None
+    centre: Numbers | None
     normal: Numbers | None
+
+
+@dataclass(frozen=True)
+class CameraStart:
+    """The camera as it is at first: its ``field`` upwards, its direction from a body (rad), its distance.
+
+    The azimuth is counted from forward about up. The distance is ``diagonals`` diagonals of the body.
+    """
+
+    field: float
+    azimuth: float
+    elevation: float
+    diagonals: float
+
+
+START = CameraStart(field=math.radians(40.0), azimuth=2.5, elevation=0.25, diagonals=3.6)
 
 
 @dataclass(frozen=True)
@@ -120,6 +158,8 @@ class SceneView:
     bodies: Sequence[BodyView]
     sites: Sequence[SiteView]
     lines: Sequence[LineView]
+    arrows: Sequence[ArrowView]
+    camera: CameraStart = START
 
 
 def scene_view(scene: Scene, result: Result) -> SceneView | None:
@@ -130,6 +170,9 @@ def scene_view(scene: Scene, result: Result) -> SceneView | None:
     origin = find_origin(poses[0].position)
     names = [*(body.name for body in scene.bodies), *(site.name for site in scene.sites)]
     colours = {name: COLOURS[index % len(COLOURS)] for index, name in enumerate(names)}
+    frames: dict[str | None, np.ndarray] = {
+        body.name: pose.attitude for body, pose in zip(scene.bodies, poses, strict=True)
+    }
     return SceneView(
         title=scene.title,
         axes=scene.axes,
@@ -143,7 +186,16 @@ def scene_view(scene: Scene, result: Result) -> SceneView | None:
         ],
         sites=[_site(site, origin, colours[site.name], result) for site in scene.sites],
         lines=[_line(line, result) for line in scene.lines],
+        arrows=[
+            _arrow(arrow, frames.get(arrow.frame), COLOURS[index % len(COLOURS)], result)
+            for index, arrow in enumerate(scene.arrows, len(names))
+        ],
     )
+
+
+def position_at(point: BodyView | SiteView, row: int) -> np.ndarray:
+    """Where a body or a site of a view is at a sample (m), [3], relative to the view's origin."""
+    return np.array([column[row] for column in point.position])
 
 
 def find_origin(position: np.ndarray) -> np.ndarray:
@@ -157,9 +209,8 @@ def ground_view(scene: Scene, position: np.ndarray) -> GroundView | None:
     surface = scene.surface
     if surface is None:
         return None
-    if surface.radius is None:
-        return GroundView(surface.name, None, None)
-    return GroundView(surface.name, surface.radius, track_normal(position, surface.radius).tolist())
+    normal = None if surface.centre is None else track_normal(position, surface.centre).tolist()
+    return GroundView(surface.name, surface.radius, surface.centre, normal)
 
 
 def _body(body: Body, pose: Pose, origin: np.ndarray, colour: str, result: Result) -> BodyView:
@@ -184,6 +235,7 @@ def _body(body: Body, pose: Pose, origin: np.ndarray, colour: str, result: Resul
             for thrust in body.thrusts
         ],
         jets=[view for jets in body.jets for view in _jets(jets, result)],
+        panels=body.panels,
     )
 
 
@@ -223,3 +275,16 @@ def _site(site: Site, origin: np.ndarray, colour: str, result: Result) -> SiteVi
 def _line(line: Line, result: Result) -> LineView:
     condition = None if line.condition is None else line.condition.values(result)[0]
     return LineView(line.name, line.start, None if line.end == GROUND else line.end, condition)
+
+
+def _arrow(arrow: Arrow, frame: np.ndarray | None, colour: str, flight: Result) -> ArrowView:
+    """An arrow whose components are in axes of this attitude, [4, n], or in those of the scene."""
+    direction = normalise(arrow.signal.values(flight))
+    return ArrowView(
+        name=arrow.name,
+        colour=colour if arrow.colour is None else HUES[arrow.colour],
+        start=arrow.start,
+        direction=list(direction if frame is None else rotate(frame, direction)),
+        length=ARROW if arrow.length is None else arrow.length,
+        on_screen=arrow.length is None,
+    )

@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from Basilisk.architecture import messaging, sysModel
+from Basilisk.architecture import messaging
 from Basilisk.simulation import dragDynamicEffector, exponentialAtmosphere, zeroWindModel
 
 from crosscheck.basilisk_side import Flight, column, to_mrp
@@ -30,25 +30,10 @@ from crosscheck.cases.capsule_entry.case import (
     SPEED,
 )
 from crosscheck.cases.capsule_entry.frames import to_inertial
+from crosscheck.space.basilisk_ahead import Ahead
 from crosscheck.table import Table
 
 SCALE_HEIGHT = (HEIGHTS[1] - HEIGHTS[0]) / math.log(DENSITIES[0] / DENSITIES[1])  # m
-
-
-class Ahead(sysModel.SysModel):
-    """The craft's position in the middle of the next step, where Basilisk takes the air of that step."""
-
-    def __init__(self, craft: object, step: float) -> None:
-        super().__init__()
-        self.ModelTag = "ahead"
-        self.craft, self.length = craft, step
-        self.states = messaging.SCStatesMsg()
-
-    def UpdateState(self, now: int) -> None:  # noqa: N802
-        """Position half a step after this time (ns), at the present velocity."""
-        state = self.craft.scStateOutMsg.read()
-        state.r_BN_N = list(np.array(state.r_BN_N) + 0.5 * self.length * np.array(state.v_BN_N))
-        self.states.write(state, now, self.moduleID)
 
 
 def fly(step: float) -> Table:
@@ -59,7 +44,7 @@ def fly(step: float) -> Table:
     start = ((EARTH_RADIUS + HEIGHT, LONGITUDE, LATITUDE), (SPEED, FLIGHT_PATH_ANGLE, HEADING), ATTITUDE_ANGLES)
     position, velocity, quaternion = to_inertial(np.zeros(1), *(np.array(column(each)) for each in start))
     flight.start(position[:, 0], velocity[:, 0], to_mrp(quaternion[:, 0]), ANGULAR_VELOCITY)
-    ahead = Ahead(flight.craft, step)
+    ahead = Ahead(flight.craft, step, MU)
     flight.add(ahead, priority=0)
     air = exponentialAtmosphere.ExponentialAtmosphere()
     air.planetRadius, air.scaleHeight = EARTH_RADIUS, SCALE_HEIGHT

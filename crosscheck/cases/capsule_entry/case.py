@@ -28,5 +28,5 @@ CASE = Case(
     step=0.2,
     duration=30.0,
     quantities={"position": POSITION, "velocity": VELOCITY, "attitude": ATTITUDE, "rate": RATE},
-    bounds={"position": 0.1, "velocity": 0.01, "attitude": 1e-4, "rate": 1e-4},
+    bounds={"position": 0.1, "velocity": 5e-4, "attitude": 1e-4, "rate": 1e-4},
 )

@@ -3,11 +3,13 @@
 import re
 from pathlib import Path
 
+from perilune.analysis.reports.common.colours import HUES
 from perilune.analysis.reports.figures.history_readers import BAND, CURVE
 from perilune.analysis.reports.figures.reading import BUDGET, READERS
-from perilune.analysis.reports.figures.scene.body_reader import BODY, JETS, NOZZLE
-from perilune.analysis.reports.figures.scene.declared import GROUND, SHAPES
-from perilune.analysis.reports.figures.scene.reader import KINDS, SCENE
+from perilune.analysis.reports.figures.scene.arrow_reader import ARROW_OPTIONAL, ARROW_REQUIRED
+from perilune.analysis.reports.figures.scene.body_reader import BODY, JETS, NOZZLE, PANEL
+from perilune.analysis.reports.figures.scene.declared import ARROW, GROUND, SHAPES
+from perilune.analysis.reports.figures.scene.reader import KINDS, SCENE, SPHERE
 from perilune.analysis.reports.figures.signal_reader import ROWS
 from perilune.fmus_src.paths import ROOT, SYSTEMS
 
@@ -19,6 +21,8 @@ WORDS = set(
 def test_every_element_and_attribute_is_documented():
     assert {*READERS, BUDGET, *BAND, *CURVE, *ROWS} <= WORDS
     assert {*SCENE, *KINDS, *BODY, *JETS, *NOZZLE, *SHAPES, GROUND} <= WORDS
+    assert {*SPHERE, *PANEL, *ARROW_REQUIRED, *ARROW_OPTIONAL, *HUES} <= WORDS
+    assert f"{ARROW:g} of the view's height" in Path(ROOT, "docs", "reports.md").read_text()
 
 
 def test_every_shape_has_a_script():

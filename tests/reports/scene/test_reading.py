@@ -16,6 +16,7 @@ from perilune.analysis.reports.figures.scene.declared import (
     Cartesian,
     Geographic,
     Line,
+    Panel,
     Quaternion,
     Scene,
     ThrustAxis,
@@ -74,13 +75,15 @@ def test_all_that_can_be_declared(read):
                 'position="robot.position" quaternion="robot.quaternion" at="0 0 1"',
                 '<Thrust signal="robot.impulse" at="0 0 -1" along="0 3 4"/>'
                 '<Jets forces="robot.jet_force"><Jet at="1 0 0" along="0 0 2"/><Jet at="0 1 0" along="1 0 0"/>'
-                '<Jet at="0 0 1" along="0 1 0"/></Jets>',
+                '<Jet at="0 0 1" along="0 1 0"/></Jets><Panel size="2 0.1 1" at="0 1 0"/>',
             ),
             body('axis="robot.angular_velocity"', name="other"),
             '<Site name="mark" position="guidance.target_position"/>',
             '<Site name="plan" position="guidance.planned_position"/>',
             '<Line from="it" to="ground" while="ranger.sample_count" name="beam"/>',
             '<Line from="other" to="mark"/>',
+            '<Arrow name="spin" from="mark" signal="robot.angular_velocity" frame="it" length="2.5" colour="sky"/>',
+            '<Arrow name="way" from="it" signal="robot.position"/>',
             more='title="Meeting" frame="inertial" axes="east north up"',
         )
     )
@@ -106,11 +109,17 @@ def test_all_that_can_be_declared(read):
     beam, line = whole.lines
     assert (beam.name, beam.start, beam.end, beam.condition.label) == ("beam", "it", "ground", "ranger.sample_count")
     assert line == Line("other to mark", "other", "mark", None)
+    assert first.panels == (Panel((0.0, 1.0, 0.0), (2.0, 0.1, 1.0)),)
+    spin, way = whole.arrows
+    assert (spin.name, spin.start, spin.frame, spin.length, spin.colour) == ("spin", "mark", "it", 2.5, "sky")
+    assert spin.signal.names == tuple(f"robot.angular_velocity[{k}]" for k in (1, 2, 3))
+    assert (way.frame, way.length, way.colour) == (None, None, None)
 
 
 def test_a_position_over_a_sphere_and_wind_angles(read):
     (whole,) = read(scene(SPHERE, body(f"{GEOGRAPHIC} {WIND}")), CAPSULE)
     (capsule,) = whole.bodies
+    assert whole.surface.centre == (0.0, 0.0, -6371000.0)
     assert (whole.surface.name, whole.surface.radius) == ("Earth", 6371000.0)
     assert whole.axes == ("east", "north", "up")
     assert isinstance(capsule.position, Geographic)
@@ -137,7 +146,7 @@ JET = '<Jet at="1 0 0" along="0 0 1"/>'
 WRONG = {
     # the system, what is wrong with the lines before and after it, which element the message names, words of it
     "no body": (ROBOT, '<Surface kind="plane"/>', "Scene", "no Body"),
-    "unknown element": (ROBOT, "<Bdoy/>", "Bdoy", "unknown element; use one of Body, Line, Site, Surface"),
+    "unknown element": (ROBOT, "<Bdoy/>", "Bdoy", "unknown element; use one of Body, Arrow, Line, Site, Surface"),
     "unknown attribute": (ROBOT, body('colour="red"'), "Body", "unknown attribute colour"),
     "no size": (ROBOT, '<Body name="x" shape="box"/>', "Body", "no size"),
     "two numbers": (ROBOT, '<Body name="x" shape="box" size="1 2"/>', "Body", "size has 2 numbers"),
@@ -215,6 +224,31 @@ WRONG = {
     "a site of another size": (
         ROBOT, '<Site name="x" position="robot.mass"/>', "Site", "position robot.mass has 1 elements, required are 3"
     ),
+    "an arrow without a signal": (ROBOT, '<Arrow name="a" from="it"/>', "Arrow", "no signal"),
+    "an arrow from nowhere": (
+        ROBOT, '<Arrow name="a" from="nobody" signal="robot.position"/>', "Arrow", "from nobody: no such Body or Site"
+    ),
+    "an arrow along a scalar": (
+        ROBOT, '<Arrow name="a" from="it" signal="robot.impulse"/>', "Arrow",
+        "signal robot.impulse has 1 elements, required are 3",
+    ),
+    "an arrow in unknown axes": (
+        ROBOT, '<Arrow name="a" from="it" signal="robot.position" frame="orbit"/>', "Arrow",
+        "frame orbit: no such Body; use one of it; leave it out for the axes of the scene",
+    ),
+    "an arrow in axes without attitude": (
+        ROBOT, '<Arrow name="a" from="it" signal="robot.position" frame="it"/>', "Arrow",
+        "frame it: this Body has no attitude",
+    ),
+    "an arrow of no length": (
+        ROBOT, '<Arrow name="a" from="it" signal="robot.position" length="0"/>', "Arrow",
+        "length '0' is not a positive number",
+    ),
+    "an arrow of an unknown colour": (
+        ROBOT, '<Arrow name="a" from="it" signal="robot.position" colour="red"/>', "Arrow", "colour red is unknown"
+    ),
+    "a flat panel": (ROBOT, body("", '<Panel size="1 0 1"/>', "other"), "Panel", "size 1 0 1 is not positive"),
+    "a plane with a centre": (ROBOT, '<Surface kind="plane" centre="0 0 0"/>', "Surface", "a plane with a centre"),
     "a name twice": (ROBOT, body(), "Body", "name it is there twice or reserved"),
     "a name that is reserved": (ROBOT, body(name="ground"), "Body", "name ground is there twice or reserved"),
 }  # fmt: skip
@@ -250,6 +284,12 @@ def test_everything_wrong_is_refused_with_its_line(read, tmp_path, name):
         ),
         ("", ('<Surface kind="plane"/>', '<Surface kind="plane"/>', body()), "a second Surface"),
         ("", (f"</Scene><Scene>{body()}",), "no Body"),
+        ("", (SPHERE.replace("/>", ' centre="0 0 0"/>'), body(GEOGRAPHIC)), "a centre, with longitude and latitude"),
+        (
+            "",
+            (body('axis="plant.wind"'), '<Arrow name="a" from="it" signal="plant.wind" frame="it"/>'),
+            "frame it: this Body has an axis alone, whose roll is unknown; name a Body with an attitude",
+        ),
     ],
 )
 def test_what_does_not_go_together_is_refused(read, more, elements, words):

@@ -5,6 +5,7 @@ Truth: the samples of the run in float32, and what a picture shows or does not s
 """
 
 import io
+import re
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from perilune.fmus_src.paths import BUILD
 from tests.support.pages.driven import driven
 from tests.support.scenes.descent import descent
 from tests.support.scenes.embedded import require_bundle
+from tests.support.scenes.stills import arrow_tips
 
 ROWS = 101
 AXE = BUILD / "web" / "node_modules" / "axe-core" / "axe.min.js"
@@ -105,6 +107,18 @@ def test_a_picture_changes_with_time_and_only_then(scene):
     assert scene.values == ["50 s", "0.005 m", "0"]  # 100 m aside, the sphere of 1000 km is 5 mm lower
     scene.slider.send_keys(Keys.HOME)
     assert not differ(first, scene.picture())
+
+
+def test_script_and_picture_project_alike(scene, page):
+    """The end of the arrow and the horizon of its name, over the height of either form, from its middle."""
+    scene.picture()
+    (name,) = scene.stage.find_elements(By.CSS_SELECTOR, ".scene-arrow")
+    right, down = map(float, re.findall(r"-?[\d.]+(?=px)", name.get_attribute("style")))
+    width, height = scene.driver.execute_script(
+        "return [arguments[0].clientWidth, arguments[0].clientHeight]", scene.stage
+    )
+    still = arrow_tips(page.read_text(encoding="utf-8"))[0]
+    assert ((right - width / 2) / height, (down - height / 2) / height) == pytest.approx(still, abs=2e-3)
 
 
 def test_keys_reach_every_sample_and_all_scripts_have_its_time(scene):
@@ -197,7 +211,9 @@ def test_without_webgl_there_are_figures_and_one_sentence(browser, page):
         driver.execute_script("document.querySelector('[data-scene]').scrollIntoView()")
         holder = driver.find_element(By.CSS_SELECTOR, "[data-scene]")
         WebDriverWait(driver, 30).until(lambda _: "has no WebGL" in holder.text)
-        assert len(holder.find_elements(By.CSS_SELECTOR, "*")) == 1
+        assert len(holder.find_elements(By.CSS_SELECTOR, ".still-scene")) == 2
+        assert all(each.is_displayed() for each in holder.find_elements(By.CSS_SELECTOR, ".still-scene"))
+        assert not holder.find_elements(By.CSS_SELECTOR, "canvas")
         assert driver.find_elements(By.CSS_SELECTOR, ".live")
 
 
@@ -223,5 +239,5 @@ def test_names_are_text_in_the_view(browser, tmp_path):
         scene.press("Free")
         scene.picture()
         names = [each.get_attribute("textContent") for each in driver.find_elements(By.CSS_SELECTOR, ".scene-mark bdi")]
-        assert names == [HOSTILE, f"{HOSTILE}'s site"]
+        assert names == [HOSTILE, f"{HOSTILE}'s site", f"{HOSTILE}'s wind"]
         assert not driver.find_elements(By.CSS_SELECTOR, "[data-scene] b")

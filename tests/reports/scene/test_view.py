@@ -1,7 +1,8 @@
 """What a page stores of the scenes of our systems, and what is said of them.
 
-Truth: scipy's Rotation on the signals of the flight, the ground's sphere, the time for which the plant says that its
-jets have fired, the jets' matrix of the robot, and the forms of text that HTML and JSON give a meaning.
+Truth: scipy's Rotation on the signals of the flight, a field in two frames, the ground's sphere, the time for which
+the plant says that its jets have fired, the jets' matrix of the robot, and the forms of text that HTML and JSON give a
+meaning.
 """
 
 import json
@@ -110,6 +111,21 @@ def test_the_capsules_wind_angles(flights):
     assert_near(rotation[rows].as_matrix(), expected[rows].as_matrix())
 
 
+def test_arrows_of_an_earth_satellite(fmus):
+    """The field that the environment states in body axes lies along the one that it states in inertial axes."""
+    flight = perilune.simulate("earth_pointing", stop_time=100.0)
+    (declared,) = (figure for figure in flight.figures if isinstance(figure, Scene))
+    sun, field = scene_view(declared, flight).arrows
+    rows = instants(flight.time.size)
+    for arrow, name in ((sun, "sun_direction"), (field, "magnetic_field")):
+        inertial = flight[f"environment.{name}"][rows]
+        unit = inertial / np.linalg.norm(inertial, axis=1)[:, None]
+        assert np.stack(arrow.direction, axis=1)[rows] == pytest.approx(unit, abs=1e-9)
+    assert declared.surface.centre == (0.0, 0.0, 0.0)
+    angle = np.degrees(np.linalg.norm(flight["satellite.angular_velocity"][0])) * 100.0
+    assert angle > 300.0  # attitudes matter
+
+
 def test_a_landed_vehicle_stands_on_the_ground(flights):
     _, declared, document = flights(LANDING)
     position, rotation = stored(document)
@@ -168,6 +184,7 @@ def test_a_page_with_a_scene_stands_alone_and_is_the_same_each_time(tmp_path):
     assert page == page_of(tmp_path / "b.html", *descent())
     (holder,) = parse(page).xpath("//*[@data-scene]")
     assert "needs JavaScript" in holder.text_content()
+    assert len(holder.xpath(".//*[contains(@class, 'still-scene')]")) == 2
     assert holder.xpath("ancestor::section[@class='screen']")  # not in print
     assert "data-scene" not in page_of(tmp_path / "c.html", descent()[0])
 
@@ -177,6 +194,7 @@ def test_without_its_script_a_page_says_so(tmp_path, monkeypatch):
     page = page_of(tmp_path / "a.html", *descent())
     assert "There is no three-dimensional view. The scripts of pages are not built" in text_of(page)
     assert not parse(page).xpath("//script")
+    assert len(parse(page).xpath("//*[contains(@class, 'still-scene')]")) == 2
 
 
 def test_a_run_without_samples_has_no_scene(tmp_path):
@@ -189,6 +207,7 @@ def test_what_is_not_to_scale_is_said():
     assert "Frame: ship; x, y, z." in text
     assert "ship 2 x 3 x 4 m" in text
     assert "Dashed line: ship's beam." in text
+    assert "Arrow: ship's wind, the direction of ship.wind, of constant length on the screen." in text
     assert "roll about ship.axis is unknown and not shown" in text
     assert "proportional to ship.thrust, 8 m at 400." in text
     assert "Jets: shown while a pulse of ship.lengths lasts, not to scale." in text

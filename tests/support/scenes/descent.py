@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from perilune.analysis.reports.figures.scene.declared import Jets, Line, Site, Thrust, ThrustAxis
+from perilune.analysis.reports.figures.scene.declared import Arrow, Jets, Line, Panel, Site, Thrust, ThrustAxis
 from tests.support.scenes.made import body, cartesian, flown, scalar, scene, sphere, vector
 
 
@@ -15,16 +15,19 @@ def descent(name="ship", rows=20, **more):
         thrust=400.0 * (1.0 - along),
         lengths=0.1 * (along > 0.5),
         on=along > 0.3,
+        wind=[2.0 + along, -1.0 + 0.0 * along, 0.5 + along],
     )
     lander = body(
         name,
         cartesian(),
         ThrustAxis(vector("ship.axis", 3)),
         shape="lander",
+        panels=(Panel((0.0, 1.4, 2.0), (1.0, 0.1, 1.0)),),
         thrusts=(Thrust(scalar("ship.thrust"), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)),),
         jets=(Jets(scalar("ship.lengths"), ((1.0, 0.0, 0.0),), ((0.0, 1.0, 0.0),), True, None, True),),
     )
     site = Site(f"{name}'s site", (100.0, 0.0, 0.0))
     line = Line(f"{name}'s beam", name, "ground", scalar("ship.on"))
+    arrow = Arrow(f"{name}'s wind", name, vector("ship.wind", 3), None, None, "green")
     declared = {"title": f"Landing of {name}", "frame": name, "surface": sphere(1e6)}
-    return result, scene(lander, **(declared | {"sites": (site,), "lines": (line,)} | more))
+    return result, scene(lander, **(declared | {"sites": (site,), "lines": (line,), "arrows": (arrow,)} | more))

@@ -29,7 +29,7 @@ def angle(name):
 
 
 def sphere(radius):
-    return Surface("Moon", radius)
+    return Surface("Moon", radius, (0.0, 0.0, -radius))
 
 
 __all__ = ["METRE", "SIZE", "angle", "body", "cartesian", "flown", "scalar", "scene", "sphere", "vector"]

@@ -1,9 +1,9 @@
 // Lines from a point to a point, or to the ground below.
 
 import { BufferAttribute, BufferGeometry, Group, Line, LineDashedMaterial, Vector3 } from "three";
-import type { LineData, SceneData } from "../document";
+import { type LineData, pointOf, type SceneData } from "../document";
 import type { Ground } from "./ground";
-import { type Instant, positionAt } from "../instant";
+import type { Instant } from "../instant";
 import { lineColour, type Theme } from "../theme";
 
 const COLOUR = "#c92a2a";
@@ -46,12 +46,8 @@ export class Beams {
   }
 
   private ends({ start, end }: LineData, instant: Instant): boolean {
-    const point = (name: string, into: Vector3) => {
-      const named = [...this.scene.bodies, ...(this.scene.sites ?? [])].find((each) => each.name === name);
-      return named !== undefined && positionAt(named.position, instant, into);
-    };
-    if (!point(start, this.start)) return false;
-    if (end !== undefined) return point(end, this.end);
+    if (!pointOf(this.scene, start, instant, this.start)) return false;
+    if (end !== undefined) return pointOf(this.scene, end, instant, this.end);
     if (this.ground) this.end.copy(this.ground.footOf(this.start).point);
     return this.ground !== null;
   }

@@ -36,7 +36,7 @@ export class Ground {
     this.radius = ground.radius ?? Infinity;
     this.level = -scene.origin[2];
     this.normal = new Vector3(...(ground.normal ?? [0, 1, 0]));
-    if (ground.radius) this.centre.set(0, 0, -ground.radius).sub(new Vector3(...scene.origin));
+    if (ground.centre) this.centre.set(...ground.centre).sub(new Vector3(...scene.origin));
     this.mesh = new Mesh(patch(this.radius), material(this.radius));
     this.mesh.frustumCulled = false;
   }

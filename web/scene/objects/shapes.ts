@@ -15,7 +15,7 @@ import {
   Vector3,
 } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
-import type { Triple } from "../document";
+import type { BodyData, Triple } from "../document";
 
 const FOIL = "#c8a040";
 const METAL = "#c9ced4";
@@ -32,12 +32,12 @@ const BUILDERS: Record<string, (pieces: BufferGeometry[], size: Triple) => void>
 };
 
 // One mesh, since each costs time in a software renderer.
-export function makeShape(shape: string, size: Triple, at: Triple): Mesh {
+export function makeShape({ shape, size, at, panels }: BodyData): Mesh {
   const pieces: BufferGeometry[] = [];
   BUILDERS[shape]?.(pieces, size);
-  const mesh = new Mesh(mergeGeometries(pieces), new MeshLambertMaterial({ vertexColors: true, side: DoubleSide }));
-  mesh.position.set(...at);
-  return mesh;
+  for (const piece of pieces) piece.translate(...at);
+  for (const panel of panels ?? []) add(pieces, new BoxGeometry(...panel.size), PANEL, panel.at);
+  return new Mesh(mergeGeometries(pieces), new MeshLambertMaterial({ vertexColors: true, side: DoubleSide }));
 }
 
 function add(pieces: BufferGeometry[], geometry: BufferGeometry, colour: string, at: Triple = [0, 0, 0]): void {

@@ -17,11 +17,13 @@ from .declared import (
     Cartesian,
     Geographic,
     Jets,
+    Panel,
     Position,
     Quaternion,
     Surface,
     Thrust,
     ThrustAxis,
+    Vector,
     WindAngles,
 )
 
@@ -30,6 +32,7 @@ WIND = ("bank", "sideslip_angle", "angle_of_attack", "flight_path_angle", "headi
 ATTITUDES = (("quaternion",), ("angles", "sequence"), ("axis",), WIND)
 BODY = ("at", "position", *GEOGRAPHIC, *(name for names in ATTITUDES for name in names))
 NOZZLE = ("at", "along")
+PANEL = ("at", "size")
 JETS = ("forces", "pulses", "count", "couple")
 
 
@@ -37,10 +40,8 @@ def read_body(reader: SignalReader, element: etree._Element, surface: Surface | 
     attributes = reader.attributes(element, ("name", "shape", "size"), BODY)
     if attributes["shape"] not in SHAPES:
         raise reader.refuse(element, f"shape {attributes['shape']} is unknown", suggestion(attributes["shape"], SHAPES))
-    size = read_vector(reader, element, "size")
-    if not all(extent > 0.0 for extent in size):
-        raise reader.refuse(element, f"size {attributes['size']} is not positive", "give three lengths in m")
-    children = reader.parts(element, ("Thrust", "Jets"))
+    size = _read_size(reader, element)
+    children = reader.parts(element, ("Thrust", "Jets", "Panel"))
     position = _position(reader, element, surface)
     return Body(
         name=attributes["name"],
@@ -51,7 +52,21 @@ def read_body(reader: SignalReader, element: etree._Element, surface: Surface | 
         attitude=_attitude(reader, element, position),
         thrusts=tuple(read_available(reader, children["Thrust"], lambda item: _thrust(reader, item))),
         jets=tuple(read_available(reader, children["Jets"], lambda item: _jets(reader, item))),
+        panels=tuple(_panel(reader, item) for item in children["Panel"]),
     )
+
+
+def _read_size(reader: SignalReader, element: etree._Element) -> Vector:
+    """The extents (m) of a body or a panel, all of them positive."""
+    size = read_vector(reader, element, "size")
+    if not all(extent > 0.0 for extent in size):
+        raise reader.refuse(element, f"size {element.get('size')} is not positive", "give three lengths in m")
+    return size
+
+
+def _panel(reader: SignalReader, element: etree._Element) -> Panel:
+    reader.attributes(element, ("size",), ("at",))
+    return Panel(read_vector(reader, element, "at"), _read_size(reader, element))
 
 
 def _position(reader: SignalReader, element: etree._Element, surface: Surface | None) -> Position | None:

@@ -1,8 +1,8 @@
-"""What a three-dimensional scene consists of: bodies with position and attitude, a ground, sites, jets and lines.
+"""What a three-dimensional scene consists of: bodies with position and attitude, a ground, sites, jets, lines, arrows.
 
 The frame of a scene is right-handed and that of the signals; its positions are in m. Where positions are longitude,
 latitude and height it is east, north, up at the ground below the last sample. A sphere's centre is at
-(0, 0, -radius), a plane is z = 0. An attitude turns body axes to axes of the scene.
+(0, 0, -radius) unless declared, a plane is z = 0. An attitude turns body axes to axes of the scene.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from ..declared import Figure, Signal
 
 Vector = tuple[float, float, float]
 GROUND = "ground"
+ARROW = 0.3  # length of an arrow over the view's height, unless declared
 SHAPES = ("box", "capsule", "cylinder", "lander", "satellite")
 
 
@@ -102,6 +103,14 @@ class Jets:
 
 
 @dataclass(frozen=True)
+class Panel:
+    """A plate of solar cells: its centre ``at`` and its ``size`` along the body's axes (m)."""
+
+    at: Vector
+    size: Vector
+
+
+@dataclass(frozen=True)
 class Body:
     """A body of a ``shape`` and its ``size`` along the body's axes (m), whose centre is ``at`` (m, body).
 
@@ -117,14 +126,16 @@ class Body:
     attitude: Attitude | None
     thrusts: tuple[Thrust, ...]
     jets: tuple[Jets, ...]
+    panels: tuple[Panel, ...] = ()
 
 
 @dataclass(frozen=True)
 class Surface:
-    """The ground: a sphere of this ``radius`` (m), or a plane where it is None."""
+    """The ground: a sphere of this ``radius`` around its ``centre`` (m), or the plane z = 0 where both are None."""
 
     name: str
     radius: float | None
+    centre: Vector | None
 
 
 @dataclass(frozen=True)
@@ -146,6 +157,23 @@ class Line:
 
 
 @dataclass(frozen=True)
+class Arrow:
+    """The direction of a ``signal`` of three elements, of any unit and length, from the body or site ``start``.
+
+    Its components are along the axes of the body ``frame``, or those of the scene where that is None. The arrow's
+    ``length`` is in m; where that is None it is `ARROW` of the view's height at any distance. ``colour`` is a name of
+    `HUES`, or None for the next one.
+    """
+
+    name: str
+    start: str
+    signal: Signal
+    frame: str | None
+    length: float | None
+    colour: str | None
+
+
+@dataclass(frozen=True)
 class Scene(Figure):
     """Bodies in a ``frame``, whose ``axes`` have names; ``up`` is "x", "y" or "z"."""
 
@@ -156,3 +184,4 @@ class Scene(Figure):
     bodies: tuple[Body, ...]
     sites: tuple[Site, ...]
     lines: tuple[Line, ...]
+    arrows: tuple[Arrow, ...] = ()

@@ -12,11 +12,13 @@ from ....runtime.ssp.names import elements, split_name
 from ..declared import Signal
 from ..history_readers import METRE
 from ..signal_reader import NUMBERS, MissingSignalError, SignalReader
-from .attributes import check_length, read_available, read_signal
+from .arrow_reader import read_arrow
+from .attributes import check_length, read_available, read_signal, read_vector
 from .body_reader import read_body
 from .declared import GROUND, Geographic, Line, Scene, Site, Surface
 
 SCENE = ("frame", "axes", "up", "title")
+SPHERE = ("radius", "centre", "name")
 KINDS = ("plane", "sphere")
 LOCAL_FRAME, LOCAL_AXES = "local, at the ground below the last sample", ("east", "north", "up")
 
@@ -24,7 +26,7 @@ LOCAL_FRAME, LOCAL_AXES = "local, at the ground below the last sample", ("east",
 def read_scene(reader: SignalReader, element: etree._Element) -> Scene:
     """The scene; raises InputError with the line, and MissingSignalError for a body whose FMU was substituted."""
     reader.attributes(element, (), SCENE)
-    children = reader.parts(element, ("Surface", "Body", "Site", "Line"))
+    children = reader.parts(element, ("Surface", "Body", "Site", "Line", "Arrow"))
     if any(tag(item) == tag(element) for item in element.itersiblings(preceding=True)):
         raise reader.refuse(element, "a second Scene", "write one")
     if not children["Body"]:
@@ -37,6 +39,8 @@ def read_scene(reader: SignalReader, element: etree._Element) -> Scene:
     for body, item in zip(bodies, children["Body"], strict=True):
         if isinstance(body.position, Geographic) != local:
             raise reader.refuse(item, "positions of two kinds", "give all bodies longitude, latitude, height, or none")
+    if local and children["Surface"] and "centre" in children["Surface"][0].attrib:
+        raise reader.refuse(children["Surface"][0], "a centre, with longitude and latitude", "leave centre out")
     sites = read_available(reader, children["Site"], lambda item: _site(reader, item, local))
     named = [*children["Body"], *children["Site"]]
     names = [item.get("name", "").strip() for item in named]
@@ -45,6 +49,8 @@ def read_scene(reader: SignalReader, element: etree._Element) -> Scene:
             raise reader.refuse(named[index], f"name {name} is there twice or reserved", "choose another")
     available = [*(body.name for body in bodies), *(site.name for site in sites)]
     lines = read_available(reader, children["Line"], lambda item: _line(reader, item, names, available, surface))
+    starts = {name: name in available for name in names}
+    arrows = read_available(reader, children["Arrow"], lambda item: read_arrow(reader, item, bodies, starts))
     axes, up = _axes(reader, element, local, surface)
     return Scene(
         title=reader.title(element, "Scene"),
@@ -56,6 +62,7 @@ def read_scene(reader: SignalReader, element: etree._Element) -> Scene:
         bodies=bodies,
         sites=tuple(sites),
         lines=tuple(lines),
+        arrows=tuple(arrows),
     )
 
 
@@ -77,20 +84,21 @@ def _axes(
 
 
 def _surface(reader: SignalReader, element: etree._Element) -> Surface:
-    attributes = reader.attributes(element, ("kind",), ("radius", "name"))
+    attributes = reader.attributes(element, ("kind",), SPHERE)
     if attributes["kind"] not in KINDS:
         raise reader.refuse(element, f"kind {attributes['kind']!r} is unknown", suggestion(attributes["kind"], KINDS))
     name = attributes.get("name") or GROUND
     if attributes["kind"] == "plane":
-        if "radius" in attributes:
-            raise reader.refuse(element, "a plane with a radius", "leave it out, or write sphere")
-        return Surface(name, None)
+        for attribute in SPHERE[:2]:
+            if attribute in attributes:
+                raise reader.refuse(element, f"a plane with a {attribute}", "leave it out, or write sphere")
+        return Surface(name, None, None)
     if "radius" not in attributes:
         raise reader.refuse(element, "a sphere without radius", 'write radius="COMPONENT.VARIABLE"')
     radius = reader.parameter(element, "radius")
     if not radius > 0.0:
         raise reader.refuse(element, f"radius {attributes['radius']} is {radius:g}", "name that of the ground")
-    return Surface(name, radius)
+    return Surface(name, radius, read_vector(reader, element, "centre", (0.0, 0.0, -radius)))
 
 
 def _site(reader: SignalReader, element: etree._Element, local: bool) -> Site:

@@ -1,0 +1,55 @@
+"""The camera of a view as it is at first: at the first body, level with the horizon. web/scene/camera.ts moves it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .ground import Ground
+from .view import SceneView, position_at
+
+LOWEST = 0.05  # of the distance, 2 m at most: the camera stays so far above the ground
+DEEP = -0.5  # radii: below, axes are those of the frame
+UP = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+FORWARD = {"x": "y", "y": "x", "z": "x"}
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Where it is, ``eye`` (m), its axes right, up, forward as rows, and the tangent of half its field, upwards."""
+
+    eye: np.ndarray
+    axes: np.ndarray
+    tangent: float
+
+    def look(self, points: np.ndarray) -> np.ndarray:
+        """Points (m), [n, 3], from the eye along its axes, [n, 3]; the third component is the depth."""
+        return np.asarray((points - self.eye) @ self.axes.T)
+
+    def project(self, seen: np.ndarray) -> np.ndarray:
+        """Points of `look` on the picture, [n, 2]: right of its middle and below it, over the picture's height."""
+        return np.asarray(seen[:, :2] * [0.5, -0.5] / (self.tangent * seen[:, 2:]))
+
+
+def first_camera(scene: SceneView, ground: Ground | None, row: int) -> Camera | None:
+    """The camera at a sample; None where the position of the first body is unknown then."""
+    body, start = scene.bodies[0], scene.camera
+    target = position_at(body, row)
+    if not np.all(np.isfinite(target)):
+        return None
+    up, forward = np.array(UP[scene.up]), np.array(UP[FORWARD[scene.up]])
+    if ground is not None and not ground.height(target) < DEEP * ground.radius:
+        up, forward = ground.level(target)
+    distance = start.diagonals * math.hypot(*body.size)
+    level = math.cos(start.elevation) * distance
+    eye = target + level * (math.cos(start.azimuth) * forward + math.sin(start.azimuth) * np.cross(up, forward))
+    eye = eye + math.sin(start.elevation) * distance * up
+    if ground is not None:
+        missing = min(LOWEST * distance, 2.0) - ground.height(eye)
+        eye = eye + max(missing, 0.0) * ground.level(eye)[0]
+    ahead = (target - eye) / np.linalg.norm(target - eye)
+    right = np.cross(ahead, up)
+    right = right / np.linalg.norm(right)
+    return Camera(eye, np.stack([right, np.cross(right, ahead), ahead]), math.tan(0.5 * start.field))

@@ -1,0 +1,55 @@
+"""Polygons and paths cut at the edges of a picture. Points are those of `Camera.look`: right, up, depth (m)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+NEAR = 1e-2  # m, the least depth
+WIDER = 1.05  # than the picture, so that no cut is in it
+
+
+def clip_polygon(corners: np.ndarray, tangent: float, aspect: float) -> np.ndarray:
+    """The corners, [n, 3], of a convex polygon within a picture of this aspect and tangent of half its field."""
+    for plane, offset in _planes(tangent, aspect):
+        distance = corners @ plane - offset
+        cut: list[np.ndarray] = []
+        for k in range(len(corners)):
+            if distance[k - 1] * distance[k] < 0.0:
+                cut.append(
+                    corners[k - 1] + (corners[k] - corners[k - 1]) * distance[k - 1] / (distance[k - 1] - distance[k])
+                )
+            if distance[k] >= 0.0:
+                cut.append(corners[k])
+        corners = np.array(cut).reshape(-1, 3)
+    return corners
+
+
+def visible_stretches(points: np.ndarray, tangent: float, aspect: float) -> list[np.ndarray]:
+    """The stretches of a path through points, [n, 3], that are in the picture; points that are nan interrupt it."""
+    starts, ends = points[:-1], points[1:]
+    low, high = np.zeros(len(starts)), np.where(np.all(np.isfinite(starts + ends), axis=1), 1.0, -1.0)
+    for plane, offset in _planes(tangent, aspect):
+        before, after = starts @ plane - offset, ends @ plane - offset
+        with np.errstate(divide="ignore", invalid="ignore"):
+            crossing = before / (before - after)
+        low = np.where((before < 0.0) & (after >= 0.0), np.maximum(low, crossing), low)
+        high = np.where((before >= 0.0) & (after < 0.0), np.minimum(high, crossing), high)
+        high = np.where((before >= 0.0) | (after >= 0.0), high, -1.0)
+    stretches: list[list[np.ndarray]] = []
+    last = -2
+    for index in np.flatnonzero(low < high):
+        way = ends[index] - starts[index]
+        first, final = starts[index] + low[index] * way, starts[index] + high[index] * way
+        if index == last + 1 and low[index] == 0.0 and high[last] == 1.0:
+            stretches[-1].append(final)
+        else:
+            stretches.append([first, final])
+        last = int(index)
+    return [np.array(stretch) for stretch in stretches]
+
+
+def _planes(tangent: float, aspect: float) -> list[tuple[np.ndarray, float]]:
+    """Normals of the planes around what is seen, and their distances from the eye; inside is beyond these."""
+    wide, high = WIDER * aspect * tangent, WIDER * tangent
+    sides = ((1.0, 0.0, wide), (-1.0, 0.0, wide), (0.0, 1.0, high), (0.0, -1.0, high))
+    return [(np.array([0.0, 0.0, 1.0]), NEAR), *((np.array(side), 0.0) for side in sides)]

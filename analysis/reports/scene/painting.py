@@ -1,0 +1,60 @@
+"""The order in which strokes of a picture are drawn so that nearer ones hide farther ones (after Newell et al. 1972).
+
+Points are those of `Camera.look`: right, up, depth (m), with the eye at the origin.
+"""
+
+from __future__ import annotations
+
+from graphlib import CycleError, TopologicalSorter
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from markupsafe import Markup
+
+SAME = 1e-6  # of the depth: what is nearer to a plane is on it
+
+
+class Stroke(NamedTuple):
+    """Something drawn: its points, [n, 3], and the outward normal, [3], of a facet that the eye sees from outside."""
+
+    points: np.ndarray
+    markup: Markup
+    normal: np.ndarray | None = None
+
+    @property
+    def depth(self) -> float:
+        return float(self.points[:, 2].mean())
+
+
+def in_order(strokes: list[Stroke]) -> list[Stroke]:
+    """The strokes, each after those that it may hide; by depth alone where they hide each other in a circle."""
+    by_depth = sorted(strokes, key=lambda stroke: -stroke.depth)
+    flat = [stroke.points[:, :2] / stroke.points[:, 2:] for stroke in by_depth]
+    boxes = [(points.min(axis=0), points.max(axis=0)) for points in flat]
+    before: dict[int, set[int]] = {index: set() for index in range(len(by_depth))}
+    for first, second in combinations(range(len(by_depth)), 2):
+        (low, high), (other_low, other_high) = boxes[first], boxes[second]
+        if np.any(low > other_high) or np.any(other_low > high):
+            continue
+        behind, ahead = _lies_behind(by_depth[first], by_depth[second]), _lies_behind(by_depth[second], by_depth[first])
+        if behind and not ahead:
+            before[second].add(first)
+        elif ahead and not behind:
+            before[first].add(second)
+    try:
+        return [by_depth[index] for index in TopologicalSorter(before).static_order()]
+    except CycleError:
+        return by_depth
+
+
+def _lies_behind(stroke: Stroke, other: Stroke) -> bool:
+    """True if a plane of one of the two has the stroke on the far side and the other one on the eye's side."""
+    if other.normal is not None and np.all(_heights(stroke, other) <= SAME * other.depth):
+        return True
+    return stroke.normal is not None and bool(np.all(_heights(other, stroke) >= -SAME * stroke.depth))
+
+
+def _heights(stroke: Stroke, facet: Stroke) -> np.ndarray:
+    """The heights (m) of a stroke's points over the plane of a facet, [n]."""
+    return np.asarray((stroke.points - facet.points[0]) @ facet.normal)

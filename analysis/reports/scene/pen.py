@@ -1,0 +1,41 @@
+"""What pictures of a scene are drawn with: their size, colours of light and dark pages, paths and names as SVG."""
+
+from __future__ import annotations
+
+import numpy as np
+from markupsafe import Markup
+
+from .view import BodyView, SceneView, SiteView, position_at
+
+WIDTH, HEIGHT = 400.0, 260.0  # units of the picture
+SKY, LAND = "light-dark(#eef2f6, #0d1117)", "light-dark(#d8d4cc, #3a3936)"
+INK, BEAM = "light-dark(#222, #e6e6e6)", "light-dark(#c92a2a, #ff8787)"
+AXES = ("light-dark(#d9480f, #ff922b)", "light-dark(#2b8a3e, #69db7c)", "light-dark(#1c6fd0, #74c0fc)")
+
+
+def to_units(points: np.ndarray) -> np.ndarray:
+    """Points of `Camera.project`, [n, 2], in units of the picture."""
+    return np.asarray(points * HEIGHT + [WIDTH / 2.0, HEIGHT / 2.0])
+
+
+def path(points: np.ndarray) -> str:
+    """The commands of a line through points of `Camera.project`, [n, 2]."""
+    return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in to_units(points))
+
+
+def text(label: str, x: float, y: float, kind: str = "name", colour: str = INK) -> Markup:
+    """A name, centred, with an edge in the colour of the sky."""
+    markup = Markup('<text class="{}" x="{:.1f}" y="{:.1f}" style="fill:{};stroke:{}">{}</text>')
+    return markup.format(kind, x, y, colour, SKY, label)
+
+
+def lighter(colour: str) -> str:
+    """A colour that is a quarter lighter where the page is dark."""
+    light = "#" + "".join(f"{round(0.75 * int(colour[k : k + 2], 16) + 0.25 * 255):02x}" for k in (1, 3, 5))
+    return f"light-dark({colour}, {light})"
+
+
+def point_of(scene: SceneView, name: str, row: int) -> np.ndarray:
+    """Where a body or a site is by its name (m), [3]."""
+    points: list[BodyView | SiteView] = [*scene.bodies, *scene.sites]
+    return next(position_at(each, row) for each in points if each.name == name)
