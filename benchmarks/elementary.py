@@ -11,8 +11,8 @@ from random import Random
 
 import numpy as np
 
-from perilune.analysis.runtime.program.elementary import elementary
-from perilune.analysis.runtime.program.write_elementary import FUNCTIONS
+from perilune.analysis.runtime.loop.elementary import elementary
+from perilune.analysis.runtime.loop.write_elementary import FUNCTIONS
 from perilune.fmus_src.export.compilers import PLATFORMS, build_library, local_platform
 from perilune.fmus_src.export.judge.subset_table import ELEMENTARY_FUNCTIONS
 from perilune.fmus_src.export.native_fmu import native_sources

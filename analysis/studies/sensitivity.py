@@ -12,7 +12,7 @@ import numpy as np
 from ..campaigns.spec.plan import BatchPlan
 from ..campaigns.tables import align_columns, assumption_lines
 from ..common.errors import InputError
-from ..runtime.program.elementary import elementary
+from ..runtime.loop.elementary import elementary
 from .draw_space import DrawSpace
 from .flights import SampleFlights
 from .flown import Flown, StudyResult, strict

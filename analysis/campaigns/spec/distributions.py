@@ -12,7 +12,7 @@ import scipy
 
 from ...common.bounds import GRID_POINTS
 from ...common.errors import InputError
-from ...runtime.program.elementary import elementary
+from ...runtime.loop.elementary import elementary
 from ..draws.declared import Columns, Continuous, Design, Distribution, Draw, Independent
 from ..draws.generators import generator
 from .normals import CorrelatedNormal, Normal

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 
 from ...common.bounds import EXPRESSION_CHARACTERS
 from ...common.errors import InputError, suggestion
-from ...runtime.program.elementary import elementary
+from ...runtime.loop.elementary import elementary
 
 Where = tuple[str, str]  # file and element, as in InputError
 

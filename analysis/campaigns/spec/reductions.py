@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...runtime.program.library import load_library
+from ...runtime.loop.library import load_library
 
 REDUCTIONS = ("final", "min", "max", "mean", "rms", "last_outside", "settled", "first")
 MAX = REDUCTIONS.index("max")

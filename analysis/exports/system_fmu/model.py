@@ -17,7 +17,7 @@ from ...runtime.flight.orders.injections import Injection
 from ...runtime.flight.orders.rows import Unloaded
 from ...runtime.flight.program import Layout, build_program
 from ...runtime.flight.selection import find_variables
-from ...runtime.program import arrays, codes
+from ...runtime.loop import arrays, codes
 from ...runtime.system.checks import changeable
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.network import Network

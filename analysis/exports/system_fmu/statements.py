@@ -1,6 +1,6 @@
 """C statements for the instructions of a system's steps, on the blocks inside its struct.
 
-They do what `program/c/loop.c` does with FMUs, in the same order of operations, so that results have the same bits.
+They do what `loop/c/loop.c` does with FMUs, in the same order of operations, so that results have the same bits.
 `self` is the system, `s` its signals; a failure leaves its words in `fault` and returns.
 """
 
@@ -17,7 +17,7 @@ from ....fmus_src.export.write.names import literal
 from ...runtime.flight.orders.fmi2 import FUNCTION
 from ...runtime.fmi.variable import Variable
 from ...runtime.fused.statements import Instruction, table_entries
-from ...runtime.program import codes
+from ...runtime.loop import codes
 from .model import Candidate, ChoiceProgram
 
 GET_REAL = FUNCTION["GetReal"]

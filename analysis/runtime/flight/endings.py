@@ -10,8 +10,8 @@ from fmpy import fmi2
 
 from ..instances.instance import Instance, status_word
 from ..instances.library import FUNCTION_NAMES
-from ..program import arrays, codes
-from ..program.library import load_library
+from ..loop import arrays, codes
+from ..loop.library import load_library
 from ..ssp.names import split_name
 from .program import Layout
 

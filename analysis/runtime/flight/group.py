@@ -8,7 +8,7 @@ from typing import Self
 
 import numpy as np
 
-from ..program import arrays
+from ..loop import arrays
 from ..system.passing.flight_table import FlightTable
 from .orders.injections import NEVER
 from .parameters import Key, Parameters

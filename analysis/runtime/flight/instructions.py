@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
-from ..program import codes
+from ..loop import codes
 from ..system.schedule import Schedule
 from .orders.connections import Term
 from .orders.fmi2 import Fmi2Orders

@@ -14,7 +14,7 @@ from ...common.errors import InputError
 from ..fmi.variable import Variable
 from ..instances.instance import Instance
 from ..instances.slaves import Fmi3Slave
-from ..program import arrays
+from ..loop import arrays
 from ..ssp.fmu_description import find_annotation
 from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem

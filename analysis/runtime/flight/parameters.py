@@ -10,7 +10,7 @@ import numpy as np
 
 from ...common.errors import InputError
 from ..fmi.variable import Variable
-from ..program import arrays
+from ..loop import arrays
 from ..ssp.given_values import ParameterValue, parse_value
 from ..system.fmu import STRUCTURAL, Fmu
 from ..system.network import Network

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable
-from ..program import arrays
+from ..loop import arrays
 from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
 from ..system.checks import changeable

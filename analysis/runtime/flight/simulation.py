@@ -13,7 +13,8 @@ from ...common.collection import no_collection
 from ..fused.fuse import fuse, is_compilable
 from ..fused.refusals import can_fuse, check_fused
 from ..instances.instance import Instance, instantiate
-from ..program import arrays, codes
+from ..loop import arrays, codes
+from ..loop.loop import Loop
 from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
 from ..system.namesakes.namesakes import note_loaded
@@ -25,7 +26,6 @@ from .endings import STATUS, TERMINATED, Outcome, end_request, ended_in_words, i
 from .group import FlightGroup, flights_in_group, group_of
 from .instructions import write_ending
 from .life_cycle import LifeCycle
-from .loop import Loop
 from .memory import Memory
 from .orders.injections import NEVER, of_fault
 from .orders.transfers import needs_events

@@ -17,7 +17,7 @@ from ....fmus_src.paths import CACHE
 from ...common.errors import InputError
 from ...common.machine.os_errors import reason_of, remedy_of
 from ..instances.instance import PLACED, Instance
-from ..program import arrays
+from ..loop import arrays
 from ..system.fmu import Fmu
 from ..system.options import FUSED
 from .component_code import ComponentCode, component_code

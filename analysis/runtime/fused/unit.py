@@ -6,8 +6,8 @@ import itertools
 from collections.abc import Iterable, Mapping
 from importlib.resources import files
 
-from ..program import arrays, codes
-from ..program.structures import read_header
+from ..loop import arrays, codes
+from ..loop.structures import read_header
 from .component_code import ComponentCode
 from .statements import INSTANCE_POINTER, Instruction, Statements
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..fmi.representations import REPRESENTATIONS
-from ..program.library import load_library
+from ..loop.library import load_library
 from ..system.fmu import Fmu
 from .slaves import Fmi3Slave, FMU2WatchedSlave, Slave
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from fmpy import fmi2, fmi3
 
-from ..program.library import load_library
+from ..loop.library import load_library
 
 
 class CallWatch:

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from perilune.analysis.runtime.program import arrays, codes
-from perilune.analysis.runtime.program.structures import structures
+from perilune.analysis.runtime.loop import arrays, codes
+from perilune.analysis.runtime.loop.structures import structures
 
 INSTANCE = 1  # stands for the address of the only one
 

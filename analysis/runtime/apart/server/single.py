@@ -8,7 +8,7 @@ import sys
 
 from ....common.family.ending import end_after
 from ....common.process import leave
-from ...program.library import load_library
+from ...loop.library import load_library
 from ..protocol.messages import Done, send_answer
 from ..protocol.orders import Single
 from ..protocol.requests import unpack

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...program import codes
+from ...loop import codes
 from ...ssp.conversions import IDENTITY
 from ...system.network import Link, Network
 from ...system.passing.parameters import numbers

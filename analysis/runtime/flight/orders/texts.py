@@ -9,7 +9,7 @@ import numpy as np
 
 from ....common.errors import InputError
 from ...fmi.variable import Variable
-from ...program import arrays
+from ...loop import arrays
 from ...system.network import Network
 from ...system.passing.settings import Settings
 from ...system.schedule import origin

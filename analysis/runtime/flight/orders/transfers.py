@@ -10,7 +10,7 @@ import numpy as np
 from ...fmi.representations import REPRESENTATIONS
 from ...fmi.variable import Variable
 from ...instances.library import FUNCTION_NAMES
-from ...program import codes
+from ...loop import codes
 from ...system.network import Network
 
 KINDS = {name: number for number, name in enumerate(REPRESENTATIONS)}

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ctypes
 import threading
 
-from ..program import arrays
-from ..program.library import load_library
-from ..program.structures import Filled
+from . import arrays
+from .library import load_library
+from .structures import Filled
 
 
 class Loop:

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from perilune.analysis.runtime.program.elementary import elementary
-from perilune.analysis.runtime.program.write_elementary import FUNCTIONS
+from perilune.analysis.runtime.loop.elementary import elementary
+from perilune.analysis.runtime.loop.write_elementary import FUNCTIONS
 from tests.kernel.arguments import DRAWS, edges, samples
 from tests.support.lengths import generator
 

@@ -14,12 +14,12 @@ from tests.runtime.fused.test_sanitizers import find_file
 from tests.support.lengths import LONG
 from tests.support.native.sanitizers import UNDEFINED
 
-SIMULATIONS = ("tests/runtime/fmi3", "tests/runtime/flight", "tests/runtime/program/test_elementary.py")
+SIMULATIONS = ("tests/runtime/fmi3", "tests/runtime/flight", "tests/runtime/loop/test_elementary.py")
 REDUCTIONS = ("tests/campaigns/spec/test_reductions.py",)
 TESTS = """
 import sys
 import pytest
-from perilune.analysis.runtime.program import library
+from perilune.analysis.runtime.loop import library
 library.FLAGS = (*library.FLAGS, "-O1", "-fno-sanitize-recover=all", "-fsanitize=address," + sys.argv[1])
 assert not library.built_file(library.BUILD, library.local_platform(library.FMI)).is_file()
 raise SystemExit(pytest.main(["-q", "-n", "0", "-p", "no:cacheprovider", *sys.argv[2:]]))
