@@ -1,0 +1,30 @@
+"""Values as variables store them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..fmi.representations import TEXTS
+from ..fmi.variable import Variable
+from .component import NonFiniteError, Value
+
+
+def as_stored(variable: Variable, value: Value) -> Value:
+    """Return a value as its variable's type has it. Raises NonFiniteError for a number that the type has not.
+
+    A Float64 may have any, which is its FMU's affair; a Boolean is true if it is not 0.
+    """
+    stored = variable.representation
+    if variable.type in TEXTS:
+        return value
+    if variable.type == "Boolean":
+        return value != 0.0
+    number = value if isinstance(value, int) else float(value)
+    if stored.name == "Float32":
+        number = float(np.float32(number))
+    low, high = stored.limits
+    if stored.name != "Float64" and not (math.isfinite(number) and low <= number <= high):
+        raise NonFiniteError(f"{variable.name} is {number}, beyond the limits of {stored.name}")
+    return float(number) if variable.type == "Real" else int(number)
