@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 
 from fmpy.fmi1 import FMICallException
 
-Value = float | int | bool | str | bytes  # a whole number of 64 bits is an int, which no float64 need be
-Values = dict[str, Value]  # by the names of variables, elements of arrays one by one
+Sample = float | int | bool | str | bytes  # a whole number of 64 bits is an int, which no float64 need be
+Samples = dict[str, Sample]  # by the names of variables, elements of arrays one by one
 
 
 class FailedError(Exception):
@@ -46,7 +46,7 @@ class Component(ABC):
         """
 
     @abstractmethod
-    def set(self, values: Mapping[str, Value]) -> None:
+    def set(self, values: Mapping[str, Sample]) -> None:
         """Give all inputs that are connected or driven, and parameters that change in flight.
 
         Called in initialisation mode, then once before every step: with values of the step's start of components
@@ -54,7 +54,7 @@ class Component(ABC):
         """
 
     @abstractmethod
-    def get(self, names: Iterable[str]) -> Values:
+    def get(self, names: Iterable[str]) -> Samples:
         """Return variables at the time that the component has reached.
 
         Called in initialisation mode, where all inputs have been set, then behind `settle` and behind every step.

@@ -17,20 +17,20 @@ from ..system.schedule import origin
 class Roles:
     """What is done with the variables of a component; arrays of FMI 3.0 have all elements in one of these.
 
-    ``given`` are inputs, and parameters that change in flight; ``taken`` outputs; ``recorded`` what else is read.
-    ``uses_events``: FMI 3.0's event mode.
+    ``given`` are inputs, and parameters that change in flight; ``outputs`` also what is connected like one;
+    ``recorded`` what else is read. ``uses_events``: FMI 3.0's event mode, of an FMU that has it and a discrete input.
     """
 
     given: Sequence[Variable]
-    taken: Sequence[Variable]
+    outputs: Sequence[Variable]
     recorded: Sequence[Variable]
     uses_events: bool
 
 
 class Exchange:
-    """``roles`` by component, system ``connectors`` with a value, and the names ``recorded``.
+    """``roles`` by component, system ``connectors`` that have values, and the names of signals ``recorded``.
 
-    ``wanted`` are the only ones of these (None: all that is exchanged); outputs that nothing needs are not taken.
+    These are ``wanted`` ones, or where None all that is exchanged. Outputs that nothing needs are not read.
     """
 
     def __init__(
@@ -63,15 +63,15 @@ class Exchange:
         exchanged = [
             f"{component}.{each.name}"
             for component, roles in self.roles.items()
-            for each in (*roles.given, *roles.taken)
-            if each.type not in TEXTS and (each in roles.taken or self._is_changing(component, each))
+            for each in (*roles.given, *roles.outputs)
+            if each.type not in TEXTS and (each in roles.outputs or self._is_changing(component, each))
         ]
         self.recorded = [*exchanged, *self.connectors] if wanted is None else list(wanted)
 
     def _find_roles(self, component: str) -> Roles:
         fmu = self._network.fmus[component]
         given: list[Variable] = []
-        taken: list[Variable] = []
+        outputs: list[Variable] = []
         recorded: list[Variable] = []
         for array in arrays_of(fmu.variables.values()):
             first, names = array[0], {f"{component}.{each.name}" for each in array}
@@ -80,12 +80,12 @@ class Exchange:
             if (is_input and not is_output) or (first.is_tunable and names & self._tuned):
                 given += array
             elif is_output and self._is_fetched(first, names):
-                taken += array
+                outputs += array
             elif names & self._wanted:
                 recorded += array
         discrete = any(each.causality == "input" and each.variability == "discrete" for each in given)
         has_events = fmu.version == 3 and bool(fmu.description.coSimulation.hasEventMode)
-        return Roles(given, taken, recorded, has_events and discrete)
+        return Roles(given, outputs, recorded, has_events and discrete)
 
     def _is_changing(self, component: str, variable: Variable) -> bool:
         """True of what changes by itself, and not as an element of an array that is given as a whole."""

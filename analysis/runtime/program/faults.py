@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..system.fault import Fault
-from .component import Value
+from .component import Sample
 
 MARGIN = 1e-6  # of a step: the times of communication points, start + n step, carry rounding
 
@@ -16,16 +16,16 @@ class Faults:
     def __init__(self, faults: Sequence[Fault], step: float) -> None:
         self._faults = faults
         self._margin = MARGIN * step
-        self._held: dict[int, Value] = {}  # by the number of a freeze, from when it began
+        self._frozen: dict[int, Sample] = {}  # by the number of a freeze, from when it began
 
-    def apply(self, name: str, value: Value, time: float) -> Value:
+    def apply(self, name: str, sample: Sample, time: float) -> Sample:
         """Return what a connector has at a time (s) instead of its value, each fault behind those before it."""
         for number, fault in enumerate(self._faults):
             if fault.name == name and fault.start - self._margin <= time < fault.stop - self._margin:
                 if fault.kind == "override":
-                    value = float(fault.value)
+                    sample = float(fault.value)
                 elif fault.kind == "bias":
-                    value = float(value) + float(fault.value)
+                    sample = float(sample) + float(fault.value)
                 else:
-                    value = self._held.setdefault(number, value)
-        return value
+                    sample = self._frozen.setdefault(number, sample)
+        return sample

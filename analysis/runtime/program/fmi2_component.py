@@ -9,7 +9,7 @@ from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2LastSuccessfulTime, fmi2Termin
 
 from ..fmi.variable import Variable
 from ..system.fmu import Fmu
-from .component import Component, EndedError, FailedError, Value, Values
+from .component import Component, EndedError, FailedError, Sample, Samples
 from .numbers import as_stored
 from .parameters import Start, solver_tolerance
 from .times import is_within
@@ -33,12 +33,12 @@ class Fmi2Component(Component):
             if each.is_repeated:
                 self.set(each.values)
 
-    def set(self, values: Mapping[str, Value]) -> None:
+    def set(self, values: Mapping[str, Sample]) -> None:
         """See `Component.set`."""
-        for name, value in values.items():
-            self._set(self.fmu.variables[name], value)
+        for name, sample in values.items():
+            self._set(self.fmu.variables[name], sample)
 
-    def get(self, names: Iterable[str]) -> Values:
+    def get(self, names: Iterable[str]) -> Samples:
         """See `Component.get`."""
         return {name: self._get(self.fmu.variables[name]) for name in names}
 
@@ -61,9 +61,9 @@ class Fmi2Component(Component):
                 raise FailedError(f"{self.name} asked for the end at {time} s, outside of its step") from error
             raise EndedError(self.name, time) from error
 
-    def _set(self, variable: Variable, value: Value) -> None:
-        getattr(self.slave, f"set{CALLS[variable.type]}")([variable.reference], [as_stored(variable, value)])
+    def _set(self, variable: Variable, sample: Sample) -> None:
+        getattr(self.slave, f"set{CALLS[variable.type]}")([variable.reference], [as_stored(variable, sample)])
 
-    def _get(self, variable: Variable) -> Value:
-        (value,) = getattr(self.slave, f"get{CALLS[variable.type]}")([variable.reference])
-        return value.decode() if isinstance(value, bytes) else value
+    def _get(self, variable: Variable) -> Sample:
+        (sample,) = getattr(self.slave, f"get{CALLS[variable.type]}")([variable.reference])
+        return sample.decode() if isinstance(sample, bytes) else sample

@@ -9,7 +9,7 @@ from fmpy.fmi3 import FMU3Slave
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable
 from ..system.fmu import Fmu
-from .component import Component, Value, Values
+from .component import Component, Sample, Samples
 from .exchange import arrays_of
 from .numbers import as_stored
 from .parameters import Start, solver_tolerance
@@ -22,7 +22,7 @@ class Fmi3Component(Component):
     def __init__(self, name: str, fmu: Fmu, slave: FMU3Slave, starts: Sequence[Start], *, uses_events: bool) -> None:
         self.name, self.fmu, self.slave, self.starts, self.uses_events = name, fmu, slave, starts, uses_events
         self.steps, self.time = False, 0.0  # whether initialisation mode has been left; time reached (s)
-        self.discrete: Values = {}  # as the FMU has them
+        self.discrete: Samples = {}  # as the FMU has them
 
     def initialise(self, start: float, stop: float) -> None:
         """See `Component.initialise`."""
@@ -35,7 +35,7 @@ class Fmi3Component(Component):
         self.slave.enterInitializationMode(solver_tolerance(self.fmu), start, stop)
         self._set_starts(each for each in self.starts if each.is_repeated)
 
-    def set(self, values: Mapping[str, Value]) -> None:
+    def set(self, values: Mapping[str, Sample]) -> None:
         """See `Component.set`; between steps what is not continuous is set in event mode, all of it if some changes."""
         arrays = arrays_of(self.fmu.variables[name] for name in values)
         events = [each for each in arrays if self.uses_events and each[0].variability != "continuous"]
@@ -47,10 +47,10 @@ class Fmi3Component(Component):
             self._set(events, values)
             enter_step_mode(self.name, self.slave, self.time)
 
-    def get(self, names: Iterable[str]) -> Values:
+    def get(self, names: Iterable[str]) -> Samples:
         """See `Component.get`."""
         arrays = arrays_of(self.fmu.variables[name] for name in names)
-        return {each.name: value for array in arrays for each, value in zip(array, self._get(array), strict=True)}
+        return {each.name: got for array in arrays for each, got in zip(array, self._get(array), strict=True)}
 
     def settle(self) -> None:
         """See `Component.settle`."""
@@ -71,10 +71,10 @@ class Fmi3Component(Component):
         for each in starts:
             self._set([each.variables], each.values)
 
-    def _set(self, arrays: Iterable[Sequence[Variable]], values: Mapping[str, Value]) -> None:
+    def _set(self, arrays: Iterable[Sequence[Variable]], values: Mapping[str, Sample]) -> None:
         for array in arrays:
             stored = [as_stored(each, values[each.name]) for each in array]
             getattr(self.slave, f"set{array[0].representation.name}")([array[0].reference], stored)
 
-    def _get(self, array: Sequence[Variable]) -> list[Value]:
+    def _get(self, array: Sequence[Variable]) -> list[Sample]:
         return list(getattr(self.slave, f"get{array[0].representation.name}")([array[0].reference], len(array)))

@@ -8,20 +8,20 @@ import numpy as np
 
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable
-from .component import NonFiniteError, Value
+from .component import NonFiniteError, Sample
 
 
-def as_stored(variable: Variable, value: Value) -> Value:
+def as_stored(variable: Variable, sample: Sample) -> Sample:
     """Return a value as its variable's type has it. Raises NonFiniteError for a number that the type has not.
 
     A Float64 may have any, which is its FMU's affair; a Boolean is true if it is not 0.
     """
     stored = variable.representation
     if variable.type in TEXTS:
-        return value
+        return sample
     if variable.type == "Boolean":
-        return value != 0.0
-    number = value if isinstance(value, int) else float(value)
+        return sample != 0.0
+    number = sample if isinstance(sample, int) else float(sample)
     if stored.name == "Float32":
         number = float(np.float32(number))
     low, high = stored.limits

@@ -10,7 +10,7 @@ from ..fmi.variable import Variable
 from ..system.fmu import STRUCTURAL, Fmu
 from ..system.network import Network
 from ..system.passing.settings import Settings
-from .component import FailedError, Value, Values
+from .component import FailedError, Sample, Samples
 from .exchange import arrays_of
 
 LOSS = 1e-6  # of a Real: what an FMU may lose of it, single precision or a unit of its own
@@ -25,19 +25,19 @@ class Start:
     """
 
     variables: Sequence[Variable]
-    values: Values
+    values: Samples
     is_structural: bool
     is_repeated: bool
     is_read_back: bool
 
-    def check(self, component: str, actual: Sequence[Value]) -> None:
+    def check(self, component: str, actual: Sequence[Sample]) -> None:
         """Raise FailedError if an FMU has other values than it was set to."""
         for (name, requested), stored in zip(self.values.items(), actual, strict=True):
-            if not is_taken(requested, stored):
+            if not agrees(requested, stored):
                 raise FailedError(f"{component}.{name} was set to {requested!r}, and its FMU has {stored!r}")
 
 
-def is_taken(requested: Value, stored: Value) -> bool:
+def agrees(requested: Sample, stored: Sample) -> bool:
     """True of equal values, and of Reals that differ by `LOSS` at most or are NaN both."""
     if not isinstance(requested, float) or not isinstance(stored, float):
         return stored == requested
@@ -45,14 +45,14 @@ def is_taken(requested: Value, stored: Value) -> bool:
     return stored == requested or abs(stored - requested) <= LOSS * abs(requested) or both_nan
 
 
-def start_of(settings: Settings, component: str, variable: Variable) -> Value:
+def start_of(settings: Settings, component: str, variable: Variable) -> Sample:
     """Return what a variable is set to, else its FMU's start; whole numbers and texts as they are."""
-    value = settings.variables.get((component, variable.name), variable.start)
+    start = settings.variables.get((component, variable.name), variable.start)
     if variable.type == "Binary":
-        return bytes.fromhex(str(value or ""))
+        return bytes.fromhex(str(start or ""))
     if variable.type == "String":
-        return str(value or "")
-    number = {"true": 1, "false": 0}.get(str(value).lower(), value or 0)
+        return str(start or "")
+    number = {"true": 1, "false": 0}.get(str(start).lower(), start or 0)
     return float(number) if variable.type == "Real" else int(number)
 
 
