@@ -8,7 +8,9 @@ import numpy as np
 
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable
-from .component import NonFiniteError, Sample
+from .component import FailedError, NonFiniteError, Sample
+
+LONGEST = {"String": 4095, "Binary": 65536}  # bytes of a text that is passed on
 
 
 def as_stored(variable: Variable, sample: Sample) -> Sample:
@@ -28,3 +30,12 @@ def as_stored(variable: Variable, sample: Sample) -> Sample:
     if stored.name != "Float64" and not (math.isfinite(number) and low <= number <= high):
         raise NonFiniteError(f"{variable.name} is {number}, beyond the limits of {stored.name}")
     return float(number) if variable.type == "Real" else int(number)
+
+
+def check_output(variable: Variable, sample: Sample) -> None:
+    """Raise NonFiniteError for a Real that is not finite, FailedError for a text that is too long."""
+    if variable.type == "Real" and not math.isfinite(float(sample)):
+        raise NonFiniteError(f"{variable.name} is {sample!r}")
+    content = sample.encode() if isinstance(sample, str) else sample
+    if isinstance(content, bytes) and len(content) > LONGEST[variable.type]:
+        raise FailedError(f"{variable.name} has more than {LONGEST[variable.type]} bytes")

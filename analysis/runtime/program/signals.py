@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Iterable, Mapping
 
 from ..fmi.variable import Variable
@@ -10,10 +9,11 @@ from ..ssp.kinds import PARAMETERS
 from ..system.network import Link, Node
 from ..system.prepared import PreparedSystem
 from ..system.schedule import origin
-from .component import NonFiniteError, Sample, Samples
+from .component import Sample, Samples
 from .connection import carry
 from .exchange import Exchange
 from .faults import Faults
+from .numbers import check_output
 from .parameters import start_of
 
 
@@ -60,10 +60,9 @@ class Signals:
         return [each.name for each in (*roles.outputs, *(roles.recorded if settled else ()))]
 
     def take(self, component: str, values: Mapping[str, Sample]) -> None:
-        """Keep what was taken of a component. Raises NonFiniteError for an output."""
+        """Keep what was taken of a component. Raises NonFiniteError, FailedError for what cannot be passed on."""
         for each in self._exchange.roles[component].outputs:
-            if each.type == "Real" and not math.isfinite(float(values[each.name])):
-                raise NonFiniteError(f"{component}.{each.name} is {values[each.name]!r}")
+            check_output(each, values[each.name])
         for variable, sample in values.items():
             name = f"{component}.{variable}"
             self.values[name] = self._faults.apply(name, sample, self.time)
