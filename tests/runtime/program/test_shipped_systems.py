@@ -9,7 +9,7 @@ import pytest
 import perilune
 from perilune.analysis.runtime.ssp.archive import system_names
 from tests.support.flights.reference import assert_same, prepared_for, some_faults
-from tests.support.lengths import either
+from tests.support.lengths import LONG, either
 
 pytestmark = pytest.mark.usefixtures("fmus")
 ALGORITHMS = ("sequential", "jacobi")
@@ -34,12 +34,13 @@ def test_with_faults(name, algorithm):
 
 
 @pytest.mark.parametrize("algorithm", either(ALGORITHMS, ALGORITHMS[:1]))
-@pytest.mark.parametrize("name", either(system_names(), ["lunar_terminal_guidance", "robot_rendezvous"]))
+@pytest.mark.parametrize("name", either(system_names(), ["lunar_terminal_guidance"]))
 def test_fused(name, algorithm):
-    """Likewise with faults, where the steps are compiled with them."""
+    """Compiled for the system with its faults; what they do not change is in the rows before them."""
     prepared = prepared_for(name, STEPS, algorithm=algorithm, flavour="fused")
-    assert assert_same(prepared) in WELL
     assert_same(prepared, some_faults(prepared, name))
+    if LONG:
+        assert assert_same(prepared) in WELL
 
 
 @pytest.mark.parametrize("algorithm", ALGORITHMS)
@@ -63,5 +64,6 @@ def test_python_flavour(name):
 @pytest.mark.parametrize("name", either(system_names(), ["lunar_descent_2d"]))
 def test_whole_flights(name):
     """To the system's own end, which for a landing is that of its output `finished`."""
-    prepared = prepared_for(name)
-    assert assert_same(prepared, flights=1) in WELL
+    prepared = prepared_for(name, **either({}, {"step": 1.0}))
+    status = assert_same(prepared, flights=1)
+    assert status == ("finished" if "finished" in prepared.network.nodes else "stop_time")
