@@ -25,7 +25,12 @@ class Faults:
                 if fault.kind == "override":
                     sample = float(fault.value)
                 elif fault.kind == "bias":
-                    sample = float(sample) + float(fault.value)
+                    sample = add(sample, fault.value)
                 else:
                     sample = self._frozen.setdefault(number, sample)
         return sample
+
+
+def add(sample: Sample, bias: float) -> Sample:
+    """Return a number with a bias; of a whole number, whose bias is whole too, exactly."""
+    return sample + int(bias) if isinstance(sample, int) else float(sample) + float(bias)
