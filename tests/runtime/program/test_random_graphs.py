@@ -17,7 +17,7 @@ from tests.support.flights.reference import assert_same
 from tests.support.graphs.small_blocks import graphs
 from tests.support.lengths import either
 
-SLOPES = {"time": [0.0, 0.5, 0.5, 1.5], "ramp0.slope": [1.0, -2.0, 4.0, 0.1]}
+OVER_TIME = {"time": [0.0, 0.5, 0.5, 1.5], "ramp0.slope": [1.0, -2.0, 4.0, 0.1]}
 
 
 @settings(max_examples=either(5_000, 40), deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -25,7 +25,7 @@ SLOPES = {"time": [0.0, 0.5, 0.5, 1.5], "ramp0.slope": [1.0, -2.0, 4.0, 0.1]}
 def test_rows_and_status(tiny_folder, tmp_path_factory, graph, paces, is_driven):
     ssd, values, faults, wanted, algorithm = graph
     path = pack(tmp_path_factory.getbasetemp() / "reference.ssp", tiny_folder / "native", ssd)
-    series = read_series(SLOPES) if is_driven else None
+    series = read_series(OVER_TIME) if is_driven else None
     prepared = prepare_system(path, SystemOptions(set=values, algorithm=algorithm), series=series)
     periods = {name: pace for name, pace in zip(prepared.network.fmus, paces, strict=False) if pace > 1}
     assert_same(replace(prepared, periods=periods), faults, wanted)

@@ -8,11 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from perilune.analysis.runtime.flight.parameters import _set_once, _unreadable
 from perilune.analysis.runtime.flight.results import Flight
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.program.opening import fly_reference
 from perilune.analysis.runtime.program.rows import Rows
-from perilune.analysis.runtime.system.fault import KINDS, Fault
+from perilune.analysis.runtime.system.fault import Fault
 from perilune.analysis.runtime.system.options import FUSED, SystemOptions
 from perilune.analysis.runtime.system.prepared import PreparedSystem, prepare_system
 
@@ -44,7 +45,7 @@ def assert_same(
 
 
 def some_faults(prepared: PreparedSystem, seed: str) -> list[Fault]:
-    """Faults of all kinds on connected Reals and tunable parameters of a system, in the middle of its flight."""
+    """Biases and freezes of connected Reals and tunable parameters of a system, in a part of its flight."""
     network, generator = prepared.network, random.Random(seed)
     reals = [
         name
@@ -62,10 +63,26 @@ def some_faults(prepared: PreparedSystem, seed: str) -> list[Fault]:
     duration = prepared.steps * prepared.step
     faults = []
     for names in (reals, outputs, tunable):
-        for kind in KINDS if names else ():
+        for kind, size in {"bias": 1e-3, "freeze": 0.0}.items() if names else ():
             start = prepared.start + generator.choice((0.0, 0.2, 0.5)) * duration
-            value = 0.0 if kind == "freeze" else 1e-3 * generator.random() if kind == "bias" else None
-            name = generator.choice(names)
-            if value is not None:
-                faults.append(Fault(name, kind, value, start, start + 0.3 * duration))
+            bias = size * generator.random()
+            faults.append(Fault(generator.choice(names), kind, bias, start, start + 0.3 * duration))
     return faults
+
+
+def fly_again(simulation: Simulation, flight: Flight) -> bool:
+    """Compare a flight that has just begun and ended with the reference's, where that has the same calls.
+
+    False without a comparison: of an FMU that refused a call and is no longer asked, and of flights that ended for a
+    reason outside of them.
+    """
+    prepared, parameters = simulation.prepared, simulation.layout.parameters
+    learned = any(fmu.digest in _set_once or fmu.digest in _unreadable for fmu in prepared.network.fmus.values())
+    if learned or prepared.is_alone or flight.status == "interrupted":
+        return False
+    values = {key: parameters[key] for key in simulation.settings.variables if key in parameters}
+    varied = replace(prepared.settings, variables=prepared.settings.variables | values)
+    selection, faults = simulation._selection, [fault for fault in simulation._faults if fault is not None]
+    rows = fly_reference(replace(prepared, settings=varied), faults, selection.wanted)
+    compare(flight, rows)
+    return True
