@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Collection, Sequence
+
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import fmi2Error
 
 from ..instances.instance import Instance, instantiate
 from ..system.fault import Fault
@@ -27,26 +29,22 @@ def fly_reference(system: PreparedSystem, faults: Sequence[Fault] = (), wanted: 
     Raises InputError where an FMU cannot be instantiated.
     """
     exchange = Exchange(system, faults, wanted)
-    with _instances(system, exchange) as instances:
-        components = {name: _component(system, exchange, instance) for name, instance in instances.items()}
-        signals = Signals(system, exchange, Faults(faults, system.step))
-        status = LOOPS[system.algorithm](system, components, signals).fly()
-        if status not in ("failed", "nonfinite"):
-            for instance in instances.values():
-                instance.slave.terminate()
-    return Rows(signals.times, signals.rows, status)
-
-
-@contextmanager
-def _instances(system: PreparedSystem, exchange: Exchange) -> Iterator[Mapping[str, Instance]]:
     instances: dict[str, Instance] = {}
+    is_fatal = False
     try:
         for name, fmu in system.network.fmus.items():
             instances[name] = instantiate(fmu, name, uses_events=exchange.roles[name].uses_events)
-        yield instances
+        components = {name: _component(system, exchange, instance) for name, instance in instances.items()}
+        signals = Signals(system, exchange, Faults(faults, system.step))
+        loop = LOOPS[system.algorithm](system, components, signals)
+        status = loop.fly()
+        is_fatal = isinstance(loop.refusal, FMICallException) and loop.refusal.status > fmi2Error
+        for instance in instances.values() if loop.refusal is None else ():
+            instance.slave.terminate()
     finally:
         for instance in instances.values():
-            instance.free()
+            (instance.abandon if is_fatal else instance.free)()  # fmi2Fatal: not to be freed
+    return Rows(signals.times, signals.rows, status)
 
 
 def _component(system: PreparedSystem, exchange: Exchange, instance: Instance) -> Component:

@@ -1,7 +1,6 @@
 """A flight step by step, written to be read: every other executor has its rows, to the bit, and its status.
 
-As in libcosim and Ecos inputs are given, steps taken, outputs read: of the components ``ahead`` together, with inputs
-of the step's start, of those ``behind`` one by one, with inputs of its end.
+Components ``ahead`` step together, with inputs of the step's start, those ``behind`` in turn, with inputs of its end.
 """
 
 from __future__ import annotations
@@ -18,6 +17,7 @@ class ReferenceLoop:
 
     ahead: Sequence[str]
     behind: Sequence[str] = ()
+    refusal: Exception | None = None  # by which it has ended
 
     def __init__(self, system: PreparedSystem, components: Mapping[str, Component], signals: Signals) -> None:
         self.system, self.components, self.signals = system, components, signals
@@ -42,17 +42,17 @@ class ReferenceLoop:
             self.signals.record(carries=True)
             return "terminated"
         except REFUSALS as error:
+            self.refusal = error
             return "nonfinite" if isinstance(error, NonFiniteError) else "failed"
 
     def initialise(self) -> None:
         """Settle the start: each component behind those that it reads; inputs not ``known`` yet have start values."""
         for component in self.components.values():
             component.initialise(self.system.start, self.system.start + self.system.steps * self.system.step)
-        known: set[str] = set()
-        for name in self.system.schedule.initial_order:
-            self.set(name, known)
+        order = self.system.schedule.initial_order
+        for position, name in enumerate(order):
+            self.set(name, known=order[:position])
             self.get(name, settled=False)
-            known.add(name)
         for component in self.components.values():
             component.settle()
         for name in self.components:
