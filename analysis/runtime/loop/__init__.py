@@ -1,1 +1,1 @@
-"""The loop that simulates a system: its instructions, what it runs on, and its C."""
+"""The loop in C: its instructions, what it runs on, the library; elementary functions over arrays."""
