@@ -1,4 +1,4 @@
-"""How a flight ended: what the compiled loop leaves of it, as a status and words."""
+"""How a flight ended: what the loop leaves of it, as a status and words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From network, settings and schedule to the arrays that the compiled loop runs on."""
+"""From network, settings and schedule to the arrays that the loop runs on."""
 
 from __future__ import annotations
 

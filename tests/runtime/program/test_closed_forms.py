@@ -1,4 +1,4 @@
-"""The reference loop itself, where the compiled loop is not of its mind.
+"""The reference loop itself, where the loop in C is not of its mind.
 
 Truth: pencil and paper on the definitions of faults, of event mode and of the last row.
 """
