@@ -22,7 +22,7 @@ from .common.atomic import write_atomically
 from .compose.document import fmu_source
 from .compose.files import check_unedited
 from .compose.source import read_source
-from .runtime.program.library import FMI, build_loop
+from .runtime.loop.library import FMI, build_loop
 from .verbs.compose import compose_source
 
 
