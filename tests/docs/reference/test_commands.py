@@ -67,6 +67,7 @@ TAKES_LONG = {
     "--campaign derivative": "120 flights of 8000 s",
     "earth_pointing --campaign dispersed": "200 flights of six revolutions",
     "earth_pointing --report": "six revolutions and their page",
+    "earth_pointing --parameters moon.ssv": "four revolutions; tests/docs/test_lunar_orbiter.py flies them",
     "satellite_pointing --campaign dispersed": "1600 flights and their page",
     "satellite_pointing --campaign agile": "800 flights",
     "robot_rendezvous --campaign seeds --parameters best.ssv --compare": "24 flights of 5000 s",
