@@ -25,6 +25,7 @@ from tests.support.space.pointing_page import (
     knowledge,
     root_mean_square,
     row,
+    scientific,
     section,
 )
 
@@ -96,7 +97,7 @@ def test_the_page():
         "angle of the boresight": f"{np.quantile(flown['monitor.half_cone'][nadir], 0.99) / ARCSEC:.0f}",
         "its angle from the true nadir": f"{np.quantile(from_nadir(flown)[nadir], 0.99) / ARCSEC:.0f}",
         "wheels' momentum": f"{momentum.max():.4f}",
-        "momentum gained": f"{np.linalg.norm(gained(flown)[0]):.1e}".replace("e-0", "e-"),
+        "momentum gained": scientific(np.linalg.norm(gained(flown)[0])),
     }
     assert {title: row(title, HEADING)[0] for title in expected} == expected
     assert f"--stop-time {STOP:.0f}" in section(HEADING)
@@ -168,6 +169,6 @@ def test_the_degree_that_is_missing():
     turning = np.sum(np.cross(normal, np.gradient(normal, 0.25, axis=0)) * r, axis=1) / np.linalg.norm(r, axis=1)
     fastest = np.abs(turning[8:-8]).max()
     error = fastest * 2.0 * 0.9 / 0.1 / ARCSEC  # a steady error of the reference's rate through 2 z w0 and w0^2
-    text = f"by up to {fastest:.1e} rad/s, of which the guidance here knows nothing".replace("e-0", "e-")
+    text = f"by up to {scientific(fastest)} rad/s, of which the guidance here knows nothing"
     assert text in section(HEADING)
     assert f"is 0), {error:.1f} arcsec" in section(HEADING)

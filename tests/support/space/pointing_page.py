@@ -26,6 +26,11 @@ def row(title: str, heading: str = "Results") -> list[str]:
     return [cell.strip() for cell in line.strip("|").split("|")[1:]]
 
 
+def scientific(value: float) -> str:
+    """A number as the page writes it: 2.5e-4."""
+    return f"{value:.1e}".replace("e-0", "e-")
+
+
 def in_nadir(flight: Mapping[str, np.ndarray]) -> np.ndarray:
     """True for the samples from 600 s after the beginning of the nadir mode on."""
     return (flight["modes.mode"] == NADIR) & (flight["modes.time_in_mode"] > 600.0)
