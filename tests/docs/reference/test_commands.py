@@ -69,6 +69,7 @@ TAKES_LONG = {
     "--campaign derivative": "120 flights of 8000 s",
     "earth_pointing --campaign dispersed": "200 flights of six revolutions",
     "earth_pointing --report": "six revolutions and their page",
+    "earth_pointing --stop-time": "flights to nadir; tests/docs/test_earth_pointing_faults.py flies them",
     "earth_pointing --parameters moon.ssv": "four revolutions; tests/docs/test_lunar_orbiter.py flies them",
     "satellite_pointing --campaign dispersed": "1600 flights and their page",
     "satellite_pointing --campaign agile": "800 flights",
@@ -110,6 +111,7 @@ OUTPUT_TAKES_LONG = {
 # ... and of some all but the page.
 PAGE_TAKES_LONG = ("perilune run landing_mission --parameters ideal.ssv", "perilune run lunar_landing --report")
 FAILS = (  # exit status 1
+    "--fault 'torquers.dipole[1]=override:5@4000'",  # a fault that is not survived
     "lunar_descent_2d --parameters basic.ssv",  # the basic solution of a search
     "perilune stability orbital_attitude --use observer=orbital_observer_discrete",  # the derivative fed back
     "attitude_control.lead_time=",  # the thin and the unstable loop
