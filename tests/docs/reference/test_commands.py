@@ -83,6 +83,7 @@ TAKES_LONG = {
     "--campaign robustness_angle": "410 such flights",
     "landing_mission": "67 minutes of flight and a page with all of it",
     "perilune stability entry_attitude": "six operating points, in air",
+    "perilune stability earth_pointing": "two operating points of 650 states",
     "perilune stability orbital_attitude": "two operating points and their limit cycles",
     "robot_rendezvous --parameters paper.ssv --report": "nine channels and a sweep",
     "attitude --parameters paper.ssv --report good.html": "what first_flight.md does, too",
@@ -118,6 +119,7 @@ FAILS = (  # exit status 1
     "--fault 'pulses.pulse_lengths[2]=override:0@60'",  # limits at the end
     "perilune batch rendezvous --campaign dispersed --trials 1000 --set",  # a requirement that is not met
     "perilune batch earth_pointing --campaign dispersed",  # likewise
+    "perilune stability earth_pointing --set",  # an orbit, which no loop controls
     "perilune stability flexible_slew",  # one of its points is unstable
     "perilune replay results 7 --configuration network_operator_guidance",  # a limit of the system
     "--fault 'gyros.measured_angular_velocity[1]=bias:1e-4@100..200'",
