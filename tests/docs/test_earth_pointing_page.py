@@ -14,37 +14,31 @@ import pytest
 from scipy import stats
 
 import perilune
-from perilune.fmus_src.paths import ROOT, SYSTEMS
+from perilune.fmus_src.paths import SYSTEMS
 from tests.support.lengths import LONG
+from tests.support.space.pointing_page import (
+    ARCSEC,
+    FREQUENCY,
+    NADIR,
+    NOISE,
+    PAGE,
+    farrenkopf,
+    in_nadir,
+    knowledge,
+    root_mean_square,
+    row,
+)
 
 pytestmark = pytest.mark.usefixtures("fmus")
-PAGE = (ROOT / "docs" / "systems" / "earth_pointing.md").read_text(encoding="utf-8")
-ARCSEC = math.pi / 648000.0
-WALK, STAR, PERIOD, FREQUENCY, DAMPING = 4.4e-5, 10.0 * ARCSEC, 0.5, 0.1, 0.9
 TRIALS, PROBABILITY, CONFIDENCE = 200, 0.95, 0.9
-ACROSS = np.array([[1.0, 0.0, 0.0], [0.0, 0.5, math.sqrt(0.75)]])  # of the boresight (0, sqrt(3)/2, -1/2)
 REQUIREMENTS = re.findall(
     r"^\| `(\w+)`: .*? \| (\d+) \| (?:\*\*)?(met|not met)(?:\*\*)? \| ([\d.]*)", PAGE, re.MULTILINE
 )
 
 
-def row(title):
-    """The columns of a row after its title."""
-    line = next(line for line in PAGE.splitlines() if line.startswith(f"| {title}"))
-    return [cell.strip() for cell in line.strip("|").split("|")[1:]]
-
-
 @functools.cache
 def flight():
     return perilune.simulate("earth_pointing")
-
-
-def in_nadir():
-    return (flight()["modes.mode"] == 2) & (flight()["modes.time_in_mode"] > 600.0)
-
-
-def root_mean_square(values):
-    return math.sqrt(np.mean(np.square(values)))
 
 
 def test_what_the_flight_says_at_its_end():
@@ -56,13 +50,12 @@ def test_what_the_flight_says_at_its_end():
 
 
 def test_the_flight():
-    modes, nadir = flight()["modes.mode"], in_nadir()
-    knowledge = flight()["monitor.knowledge_error"][nadir] @ ACROSS.T / ARCSEC
+    modes, nadir = flight()["modes.mode"], in_nadir(flight())
     momentum = np.linalg.norm(flight()["satellite.wheel_momentum"][nadir], axis=1)
     expected = {
         "detumbled": f"{flight().time[np.argmax(modes > 0)]:.0f}",
-        "in nadir mode": f"{flight().time[np.argmax(modes == 2)]:.0f}",
-        "attitude known": f"{root_mean_square(knowledge):.1f}",
+        "in nadir mode": f"{flight().time[np.argmax(modes == NADIR)]:.0f}",
+        "attitude known": f"{knowledge(flight()):.1f}",
         "pointing error": f"{root_mean_square(flight()['monitor.attitude_error'][nadir] / ARCSEC):.0f}",
         "angle of the boresight": f"{np.quantile(flight()['monitor.half_cone'][nadir], 0.99) / ARCSEC:.0f}",
         "wheels' momentum": f"{momentum.max():.3g}",
@@ -71,19 +64,15 @@ def test_the_flight():
 
 
 def test_knowledge_is_that_of_farrenkopf_before_a_sample():
-    """Variance p before a sample of variance s: p = p s/(p + s) + N^2 T; Farrenkopf 1978, no drift of the bias."""
-    v = WALK * math.sqrt(PERIOD) / STAR
-    before = STAR * math.sqrt((v**2 + v * math.sqrt(v**2 + 4.0)) / 2.0)
-    p, s = before**2, STAR**2
-    assert p * s / (p + s) + WALK**2 * PERIOD == pytest.approx(p)
-    assert f"{before / ARCSEC:.1f}: Farrenkopf's" in row("attitude known")[1]
-    assert float(row("attitude known")[0]) == pytest.approx(before / ARCSEC, rel=0.05)
+    before = farrenkopf() / ARCSEC
+    assert f"{before:.1f}: Farrenkopf's" in row("attitude known")[1]
+    assert float(row("attitude known")[0]) == pytest.approx(before, rel=0.05)
 
 
 def test_pointing_is_noise_through_the_loop_and_disturbances():
-    """Rates of density N^2 through w0^2, 2 z w0: variance N^2 z/w0. The disturbances are T/(J w0^2)."""
-    noise = WALK * math.sqrt(DAMPING / FREQUENCY) / ARCSEC
-    torque = flight()["satellite.disturbance_torque"][in_nadir()]
+    """The disturbances are T/(J w0^2)."""
+    noise = NOISE / ARCSEC
+    torque = flight()["satellite.disturbance_torque"][in_nadir(flight())]
     offset = root_mean_square(torque / [4.2, 4.0, 3.0]) / FREQUENCY**2 / ARCSEC
     columns = re.findall(r"(\d+): gyro noise .* = (\d+), disturbances .* = (\d+)", row("pointing error")[1])
     assert columns == [(f"{math.hypot(noise, offset):.0f}", f"{noise:.0f}", f"{offset:.0f}")]

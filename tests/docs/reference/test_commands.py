@@ -44,6 +44,8 @@ ELSEWHERE = {
     "perilune run build/fmus/python/basilisk_orbiter.fmu": "likewise",
     "perilune run StateSpace.fmu": "tests/runtime/fmi3/test_systems.py, with the Reference-FMU",
     "LD_PRELOAD=": "of a host of the reader's own",
+    "perilune run earth_pointing --parameters ideal.ssv": "tests/docs/test_earth_pointing_steps.py flies both",
+    "perilune diff coarse.parquet fine.parquet": "likewise",
     "python -m tests.fuzz": "hours of random inputs; tests/fuzz/test_documents.py tries a thousand of each",
 }
 # Commands by what is in them, and why only `make long` carries them out.
@@ -67,6 +69,8 @@ TAKES_LONG = {
     "--campaign derivative": "120 flights of 8000 s",
     "earth_pointing --campaign dispersed": "200 flights of six revolutions",
     "earth_pointing --report": "six revolutions and their page",
+    "earth_pointing --stop-time": "flights to nadir; tests/docs/test_earth_pointing_faults.py flies them",
+    "earth_pointing --parameters moon.ssv": "four revolutions; tests/docs/test_lunar_orbiter.py flies them",
     "satellite_pointing --campaign dispersed": "1600 flights and their page",
     "satellite_pointing --campaign agile": "800 flights",
     "robot_rendezvous --campaign seeds --parameters best.ssv --compare": "24 flights of 5000 s",
@@ -79,6 +83,7 @@ TAKES_LONG = {
     "--campaign robustness_angle": "410 such flights",
     "landing_mission": "67 minutes of flight and a page with all of it",
     "perilune stability entry_attitude": "six operating points, in air",
+    "perilune stability earth_pointing": "two operating points of 650 states",
     "perilune stability orbital_attitude": "two operating points and their limit cycles",
     "robot_rendezvous --parameters paper.ssv --report": "nine channels and a sweep",
     "attitude --parameters paper.ssv --report good.html": "what first_flight.md does, too",
@@ -107,12 +112,14 @@ OUTPUT_TAKES_LONG = {
 # ... and of some all but the page.
 PAGE_TAKES_LONG = ("perilune run landing_mission --parameters ideal.ssv", "perilune run lunar_landing --report")
 FAILS = (  # exit status 1
+    "--fault 'torquers.dipole[1]=override:5@4000'",  # a fault that is not survived
     "lunar_descent_2d --parameters basic.ssv",  # the basic solution of a search
     "perilune stability orbital_attitude --use observer=orbital_observer_discrete",  # the derivative fed back
     "attitude_control.lead_time=",  # the thin and the unstable loop
     "--fault 'pulses.pulse_lengths[2]=override:0@60'",  # limits at the end
     "perilune batch rendezvous --campaign dispersed --trials 1000 --set",  # a requirement that is not met
     "perilune batch earth_pointing --campaign dispersed",  # likewise
+    "perilune stability earth_pointing --set",  # an orbit, which no loop controls
     "perilune stability flexible_slew",  # one of its points is unstable
     "perilune replay results 7 --configuration network_operator_guidance",  # a limit of the system
     "--fault 'gyros.measured_angular_velocity[1]=bias:1e-4@100..200'",

@@ -1,0 +1,1 @@
+"""What the plant `spacecraft` costs, alone and in a system."""
