@@ -57,17 +57,19 @@ class Filled:
 
     def _fill(self, memory: Any, source: Any, path: str) -> None:
         for member in memory.members:
-            value = getattr(source, member.source)
+            attribute = getattr(source, member.source)
             if member.axis is not None:
-                setattr(memory, member.name, value.shape[member.axis])
+                setattr(memory, member.name, attribute.shape[member.axis])
             elif member.dtype is None and not member.is_structure:
-                setattr(memory, member.name, value)
-            elif value is not None and value is not self._sources.get(path_of_member := f"{path}.{member.name}"):
+                setattr(memory, member.name, attribute)
+            elif attribute is not None and attribute is not self._sources.get(
+                path_of_member := f"{path}.{member.name}"
+            ):
                 if member.is_structure:
-                    self._fill(getattr(memory, member.name), value, path_of_member)
+                    self._fill(getattr(memory, member.name), attribute, path_of_member)
                 else:
-                    setattr(memory, member.name, _address(value, member.dtype, path_of_member))
-                self._sources[path_of_member] = value
+                    setattr(memory, member.name, _address(attribute, member.dtype, path_of_member))
+                self._sources[path_of_member] = attribute
 
 
 def _address(array: np.ndarray, dtype: Any, path: str) -> int:

@@ -29,17 +29,17 @@ def _members(source: Any, structure: Any, path: str, lines: list[str]) -> str:
     kinds = dict(structure._fields_)
     values = []
     for member in structure.members:
-        value = getattr(source, member.source)
+        attribute = getattr(source, member.source)
         name = f"{path}_{member.name}"
         if member.axis is not None:
-            text = str(value.shape[member.axis])
+            text = str(attribute.shape[member.axis])
         elif member.is_structure:
-            text = _members(value, kinds[member.name], name, lines)
+            text = _members(attribute, kinds[member.name], name, lines)
         elif member.dtype is not None:
             text = name
-            lines.append(f"static uint64_t {name}[] = {{{_words(value)}}};")
+            lines.append(f"static uint64_t {name}[] = {{{_words(attribute)}}};")
         else:
-            text = f"{float(value).hex()}" if isinstance(value, float) else str(int(value))
+            text = f"{float(attribute).hex()}" if isinstance(attribute, float) else str(int(attribute))
             text = "INFINITY" if text == "inf" else text
         values.append(f".{member.name} = {f'(void *){text}' if text == name else text}")
     return "{" + ", ".join(values) + "}"
