@@ -40,7 +40,7 @@ def assert_same(
     with Simulation(prepared, faults=faults, wanted=wanted) as simulation:
         for _ in range(flights):
             compare(simulation.fly(), rows)
-        assert (simulation.loops.fused is not None) == (prepared.options.flavour == FUSED)
+        assert (simulation.fused_steps != 0) == (prepared.options.flavour == FUSED)
     return rows.status
 
 
