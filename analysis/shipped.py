@@ -8,13 +8,21 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..fmus_src.export.build import build_fmus
-from ..fmus_src.export.compilers import CompilationFailed, CompilerMissing, compiled_here, platforms_of
+from ..fmus_src.export.compilers import (
+    CompilationFailed,
+    CompilerMissing,
+    available_platforms,
+    compiled_here,
+    local_platform,
+    platforms_of,
+)
 from ..fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE, pack_system
 from ..fmus_src.paths import BUILD, FLAVOURS, SYSTEMS
 from .common.atomic import write_atomically
 from .compose.document import fmu_source
 from .compose.files import check_unedited
 from .compose.source import read_source
+from .runtime.loop.library import FMI, build_loop
 from .verbs.compose import compose_source
 
 
@@ -39,6 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if not flavours:
             return 1
     try:
+        build_loop(options.output, _loop_platforms(options.portable), portable=options.portable)
         counts = {flavour: build_fmus(flavour, options.output, platforms, options.portable) for flavour in flavours}
         print(
             ", ".join(f"{count} {flavour} FMUs" for flavour, count in counts.items()), f"in {options.output / 'fmus'}"
@@ -54,6 +63,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"build_fmus.py: {error}", file=sys.stderr)
         return 1
     return 0
+
+
+def _loop_platforms(portable: bool) -> list[str]:
+    """The platforms that the loop is built for: all that a ``portable`` build serves, else this machine's."""
+    return available_platforms(FMI) if portable else [name for name in [local_platform(FMI)] if name is not None]
 
 
 def compose_shipped(path: Path, fmus: Sequence[Path]) -> Path:

@@ -11,7 +11,8 @@ from random import Random
 
 import numpy as np
 
-from perilune.analysis.common.elementary import FUNCTIONS, elementary
+from perilune.analysis.runtime.loop.elementary import elementary
+from perilune.analysis.runtime.loop.write_elementary import FUNCTIONS
 from perilune.fmus_src.export.compilers import PLATFORMS, build_library, local_platform
 from perilune.fmus_src.export.judge.subset_table import ELEMENTARY_FUNCTIONS
 from perilune.fmus_src.export.native_fmu import native_sources
@@ -64,7 +65,7 @@ def call_each(function: Callable[..., float], rows: list[tuple[float, ...]]) -> 
 
 
 def row(dll: ctypes.CDLL, name: str, random: Random) -> str:
-    """One function's times: C and numba in ns, Python in us."""
+    """One function's times: C and arrays in ns, Python in us."""
     draw = [[random.uniform(*RANGES.get(name, USUAL)) for _ in range(COUNT)] for _ in range(2)]
     x, y, z = np.array(draw[0]), np.array(draw[1]), np.empty(COUNT)
     pointers = [ctypes.c_void_p(array.ctypes.data) for array in (x, y, z)]
@@ -75,14 +76,14 @@ def row(dll: ctypes.CDLL, name: str, random: Random) -> str:
         shortest(partial(call_each, function, few)) / len(few) * 1e6
         for function in (getattr(functions, name), getattr(math, name))
     ]
-    in_numba = shortest(partial(elementary(name), *(x, y)[: 1 + two])) / COUNT * 1e9
-    return f"| {name} | {in_c[0]:.1f} | {in_c[1]:.1f} | {in_numba:.1f} | {in_python[0]:.2f} | {in_python[1]:.2f} |"
+    over_array = shortest(partial(elementary(name), *(x, y)[: 1 + two])) / COUNT * 1e9
+    return f"| {name} | {in_c[0]:.1f} | {in_c[1]:.1f} | {over_array:.1f} | {in_python[0]:.2f} | {in_python[1]:.2f} |"
 
 
 def main() -> None:
     """Print the table."""
     dll, random = library(), Random(1)
-    print("| function | C, ns | C library, ns | numba, ns | Python, us | `math`, us |")
+    print("| function | C, ns | C library, ns | arrays, ns | Python, us | `math`, us |")
     print("| --- | --- | --- | --- | --- | --- |")
     for name in ELEMENTARY_FUNCTIONS:
         print(row(dll, name, random))

@@ -143,7 +143,7 @@ def _fly_in_turn(
     return {name: each for name, each in times.items() if name not in unavailable}
 
 
-PACKAGES = ("perilune", "fmpy", "pythonfmu", "libcosimpy", "fmu-manipulation-toolbox", "numba", "numpy")
+PACKAGES = ("perilune", "fmpy", "pythonfmu", "libcosimpy", "fmu-manipulation-toolbox", "numpy")
 
 
 def machine() -> dict[str, str | int]:

@@ -11,8 +11,8 @@ import numpy as np
 
 from ..campaigns.spec.plan import BatchPlan
 from ..campaigns.tables import align_columns, assumption_lines
-from ..common.elementary import elementary
 from ..common.errors import InputError
+from ..runtime.loop.elementary import elementary
 from .draw_space import DrawSpace
 from .flights import SampleFlights
 from .flown import Flown, StudyResult, strict

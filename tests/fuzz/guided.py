@@ -10,10 +10,6 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from perilune.fmus_src.paths import ROOT
-
-# numba compiles functions of these folders, and none that atheris has instrumented.
-COMPILED = ("analysis/runtime/flight/compiled", "fmus_src")
 END = ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_void_p)(lambda status, _: os._exit(status))
 SEEDS, LONGEST = 20, 4096  # inputs to begin with, bytes
 LIMITS = ["-timeout=20", "-rss_limit_mb=2500", "-len_control=0", f"-max_len={LONGEST}"]  # s for one input, memory
@@ -23,7 +19,7 @@ def fuzz(name: str, folder: Path, runs: int) -> None:
     """So many inputs of a target of `targets`; ends the process: status 0 where all went well."""
     import atheris  # not among the packages of development: `make fuzz` installs it
 
-    with atheris.instrument_imports(include=["perilune"], exclude=_compiled()):
+    with atheris.instrument_imports(include=["perilune"]):
         from tests.fuzz.targets import TARGETS
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
@@ -42,9 +38,3 @@ def fuzz(name: str, folder: Path, runs: int) -> None:
     # libFuzzer ends its runs by exit(), in which destructors of pyarrow may wait for its threads for ever
     ctypes.CDLL(None).on_exit(END, None)
     atheris.Fuzz()
-
-
-def _compiled() -> list[str]:
-    """The names of modules that stay as they are."""
-    paths = [path.relative_to(ROOT).with_suffix("") for folder in COMPILED for path in (ROOT / folder).rglob("*.py")]
-    return [".".join(("perilune", *path.parts)).removesuffix(".__init__") for path in paths]

@@ -11,11 +11,11 @@ import sys
 import pytest
 
 HEAVY = {
-    "IPython", "asyncio", "casadi", "control", "elftools", "fmpy", "jinja2", "loky", "matplotlib", "mpmath", "numba",
+    "IPython", "asyncio", "casadi", "control", "elftools", "fmpy", "jinja2", "loky", "matplotlib", "mpmath",
     "numpy", "pandas", "py_mini_racer", "pyarrow", "scipy.linalg", "scipy.optimize", "scipy.stats", "starlette", "tqdm",
 }  # fmt: skip
 READING = {"numpy", "fmpy"}
-FLYING = READING | {"numba", "scipy.linalg"}  # numba imports scipy.linalg
+FLYING = READING
 CAMPAIGN = FLYING | {"asyncio", "loky", "pyarrow", "tqdm"}  # asyncio by tqdm
 SYSTEM = "lunar_terminal_guidance"
 CODE = "import sys; from perilune.analysis.cli import main; main(sys.argv[1:]); print(*sys.modules, file=sys.stderr)"

@@ -166,7 +166,7 @@ def test_every_verb_in_another_folder(installed, perform, tmp_path):
     perform("benchmark", "--steps", "10", "--repeats", "1")
     assert installed.files() == before, "site-packages were written to"
     assert {path.name for path in installed.site.iterdir()} == {"perilune", "perilune-0.1.0.dist-info", "shared.pth"}
-    assert (installed.home / ".cache" / "perilune" / "numba").is_dir()
+    assert not (installed.home / ".cache" / "perilune" / "loop").exists(), "the loop in the wheel was not used"
 
 
 def test_its_documentation(installed, perform):

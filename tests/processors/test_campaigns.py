@@ -1,6 +1,6 @@
 """Campaigns leave the same bytes on a processor without fused operations and wide vectors.
 
-Truth: the folder of the same campaign on this processor. The C library, numpy, OpenBLAS and numba are set to use
+Truth: the folder of the same campaign on this processor. The C library, numpy and OpenBLAS are set to use
 less of it. `make processors` flies whole campaigns.
 """
 

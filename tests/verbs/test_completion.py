@@ -18,7 +18,7 @@ from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.paths import LAWS, SYSTEMS
 
 pytestmark = pytest.mark.usefixtures("fmus")
-HEAVY = ("numba", "matplotlib", "scipy", "pyarrow", "control")
+HEAVY = ("matplotlib", "scipy", "pyarrow", "control")
 SYSTEM_NAMES = {path.parent.name for path in SYSTEMS.glob("*/system.toml")}
 RUN = "perilune run lunar_terminal_guidance"
 

@@ -17,7 +17,7 @@ from docs.reference.verbs import verb_parser
 from perilune.analysis.verbs.options.option import options_of
 from perilune.analysis.verbs.options.verbs import GROUPS, PURPOSES, RENAMED, VERBS
 
-HEAVY = {"numpy", "numba", "matplotlib", "scipy", "pyarrow", "lxml", "fmpy", "control", "pandas", "jinja2"}
+HEAVY = {"numpy", "matplotlib", "scipy", "pyarrow", "lxml", "fmpy", "control", "pandas", "jinja2"}
 ONLY_COMMANDS = {"docs"}  # which Python has no use for
 ALL = pytest.mark.parametrize("name", VERBS)
 

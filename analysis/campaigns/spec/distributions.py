@@ -11,8 +11,8 @@ import numpy as np
 import scipy
 
 from ...common.bounds import GRID_POINTS
-from ...common.elementary import elementary
 from ...common.errors import InputError
+from ...runtime.loop.elementary import elementary
 from ..draws.declared import Columns, Continuous, Design, Distribution, Draw, Independent
 from ..draws.generators import generator
 from .normals import CorrelatedNormal, Normal

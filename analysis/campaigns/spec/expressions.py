@@ -21,8 +21,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...common.bounds import EXPRESSION_CHARACTERS
-from ...common.elementary import elementary
 from ...common.errors import InputError, suggestion
+from ...runtime.loop.elementary import elementary
 
 Where = tuple[str, str]  # file and element, as in InputError
 

@@ -12,12 +12,12 @@ from pathlib import PurePath
 from ....fmus_src.export.native_fmu import read_wrapper
 from ....fmus_src.export.write.names import RESERVED
 from ...common.errors import InputError
-from ...runtime.flight.compiled import arrays, codes
 from ...runtime.flight.instructions import InstructionList
 from ...runtime.flight.orders.injections import Injection
 from ...runtime.flight.orders.rows import Unloaded
 from ...runtime.flight.program import Layout, build_program
 from ...runtime.flight.selection import find_variables
+from ...runtime.loop import arrays, codes
 from ...runtime.system.checks import changeable
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.network import Network

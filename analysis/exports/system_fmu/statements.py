@@ -1,6 +1,6 @@
 """C statements for the instructions of a system's steps, on the blocks inside its struct.
 
-They do what `flight.compiled.loop` does with FMUs, in the same order of operations, so that results have the same bits.
+They do what `loop/c/loop.c` does with FMUs, in the same order of operations, so that results have the same bits.
 `self` is the system, `s` its signals; a failure leaves its words in `fault` and returns.
 """
 
@@ -14,10 +14,10 @@ import numpy as np
 
 from ....fmus_src.export.write.layout import NO_BREAK
 from ....fmus_src.export.write.names import literal
-from ...runtime.flight.compiled import codes
 from ...runtime.flight.orders.fmi2 import FUNCTION
 from ...runtime.fmi.variable import Variable
 from ...runtime.fused.statements import Instruction, table_entries
+from ...runtime.loop import codes
 from .model import Candidate, ChoiceProgram
 
 GET_REAL = FUNCTION["GetReal"]

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Unpack
 
 from ..flight.base_simulation import BaseSimulation, Choices
+from ..flight.simulation import Simulation
 from ..fused.refusals import check_fused
 from ..system.prepared import PreparedSystem
 from .simulation import ApartSimulation
@@ -22,11 +23,5 @@ def open_simulation(prepared: PreparedSystem, *, apart: bool = False, **choices:
     """A simulation, in a child where it may not be here or is to be ``apart``; see `Choices`. Raises InputError."""
     apart = apart or not flies_here(prepared)
     check_fused(prepared, apart=apart)
-    kind = ApartSimulation if apart else _simulation_here()
+    kind = ApartSimulation if apart else Simulation
     return kind(prepared, **choices)
-
-
-def _simulation_here() -> type[BaseSimulation]:
-    from ..flight.simulation import Simulation  # imports numba, a third of a second that flights elsewhere do without
-
-    return Simulation

@@ -32,14 +32,10 @@ _numbers = itertools.count(1)
 
 @dataclass(frozen=True)
 class Subject:
-    """What a child works on, as it is sent, and as it is here: the server has it as long as it is.
-
-    ``locked``: the loop is to keep Python's lock.
-    """
+    """What a child works on, as it is sent, and as it is here: the server has it as long as it is."""
 
     owner: object
     content: PreparedSystem | Fmu
-    locked: bool = False
 
 
 @dataclass(frozen=True)
@@ -124,7 +120,7 @@ class ServerProcess:
         if identity not in self._keys:
             key = self._keys[identity] = next(_numbers)
             content = pack(subject.content)
-            send_request(self._control, Learn(key, content, subject.locked))
+            send_request(self._control, Learn(key, content))
             weakref.finalize(subject.owner, self._forget, identity).atexit = False
         while self._forgotten:
             send_request(self._control, Forget(self._forgotten.popleft()))
@@ -163,7 +159,7 @@ def begin_child(subject: Subject, task: Any, *, folder: str, limits: Limits, fil
     Where the operating system cannot fork, a process that is started anew.
     """
     if not CAN_FORK:
-        return StartedChild(subject.content, task, folder, limits.memory, files, locked=subject.locked)
+        return StartedChild(subject.content, task, folder, limits.memory, files)
     try:
         return start_server().fork(subject, task, folder=folder, limits=limits, files=files)
     except OSError:

@@ -99,7 +99,7 @@ class ApartSimulation(BaseSimulation):
         level = None if self._log is None else self._log.level
         with closing(recorder):
             child = begin_child(
-                Subject(prepared, prepared.of_flights(), locked=not prepared.is_native),
+                Subject(prepared, prepared.of_flights()),
                 messages.SystemFlights(
                     self._selection, level, self._formats, len(self.signal_names), recorder.times.size, recorder.name
                 ),
@@ -277,9 +277,6 @@ class ApartSimulation(BaseSimulation):
         self._resets.give_up(why)
         self._connection.give_up(why)
         return True
-
-    def unlock(self) -> None:
-        """Nothing: a child holds nobody's lock."""
 
     def memory(self) -> ApartMemory:
         """What the FMUs remember. Raises InputError where one does not tell how it serialises it."""

@@ -32,7 +32,7 @@ class StartedChild:
     """Its process, and this end of its channel; as `servers.Child`. ``memory`` (bytes) is what it may take."""
 
     def __init__(
-        self, content: PreparedSystem | Fmu, task: Any, folder: str, memory: int, files: Sequence[int], *, locked: bool
+        self, content: PreparedSystem | Fmu, task: Any, folder: str, memory: int, files: Sequence[int]
     ) -> None:
         self.channel, theirs = socket.socketpair()
         self._scratch, self._memory, self._reason = make_folder(), memory, ""
@@ -50,7 +50,7 @@ class StartedChild:
             channel: int | bytes = theirs.fileno()
             if sys.platform == "win32":
                 channel = theirs.share(self._process.pid)
-            order = Single(os.getpid(), channel, list(files), task, pack(content), locked)
+            order = Single(os.getpid(), channel, list(files), task, pack(content))
             assert self._process.stdin is not None
             with suppress(OSError), self._process.stdin as standard_input:  # it may have ended
                 standard_input.write(pickle.dumps(order, pickle.HIGHEST_PROTOCOL))

@@ -1,1 +1,1 @@
-"""What flies a system: instances of FMUs, the compiled loop, memory, faults, results."""
+"""What flies a system: instances of FMUs, instructions, memory, faults, results."""

@@ -140,10 +140,6 @@ class BaseSimulation(ABC):
         """End a flight in another thread that reaches no communication point; returns whether that can be done."""
 
     @abstractmethod
-    def unlock(self) -> None:
-        """Let other threads of the interpreter run during a flight, whatever its FMUs do."""
-
-    @abstractmethod
     def memory(self) -> BaseMemory[Any]:
         """What the FMUs remember. Raises InputError where one does not tell how it serialises it."""
 

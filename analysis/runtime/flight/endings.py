@@ -1,4 +1,4 @@
-"""How a flight ended: what the compiled loop leaves of it, as a status and words."""
+"""How a flight ended: what the loop leaves of it, as a status and words."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from fmpy import fmi2
 
 from ..instances.instance import Instance, status_word
 from ..instances.library import FUNCTION_NAMES
+from ..loop import arrays, codes
+from ..loop.library import load_library
 from ..ssp.names import split_name
-from .compiled import arrays, codes
-from .compiled.rounding import allowance
 from .program import Layout
 
 TERMINATED = "terminated"  # an FMU asked for the end
@@ -168,7 +168,7 @@ def ended_in_words(
 
     It has failed where the time is not in that step.
     """
-    allowed = allowance(begin, end)
+    allowed = load_library().perilune_time_allowance(begin, end)
     if not begin - allowed <= time <= end + allowed:  # NaN is not, either
         words = "fmi2DoStep asked for the end by discard"
         return STATUS[codes.OUTSIDE_STEP], _outside_words(words, time, begin, end, subject, instances)

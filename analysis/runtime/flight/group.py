@@ -8,8 +8,8 @@ from typing import Self
 
 import numpy as np
 
+from ..loop import arrays
 from ..system.passing.flight_table import FlightTable
-from .compiled import arrays
 from .orders.injections import NEVER
 from .parameters import Key, Parameters
 from .results import Flight

@@ -7,8 +7,8 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
+from ..loop import codes
 from ..system.schedule import Schedule
-from .compiled import codes
 from .orders.connections import Term
 from .orders.fmi2 import Fmi2Orders
 from .orders.fmi3 import Fmi3Orders

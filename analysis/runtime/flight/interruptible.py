@@ -49,10 +49,9 @@ def nothing_flown(simulation: BaseSimulation, message: str) -> Flight:
 
 
 def _within(simulation: BaseSimulation, timeout: float | None, work: Callable[[], Flown]) -> Flown:
-    """A flight with so many seconds; what it takes to compile the loop is not among them."""
+    """A flight with so many seconds."""
     if timeout is None:
         return work()
-    simulation.unlock()
     future = _start(work)
     try:
         return future.result(timeout=timeout)

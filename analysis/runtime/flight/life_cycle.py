@@ -11,7 +11,7 @@ from fmpy.fmi1 import FMICallException
 from ..instances.instance import Instance
 from ..instances.renewal import Renewal, ResetVerdict, store_verdict, verdict_in_cache
 from ..instances.reset_check import reset_verdict
-from .compiled import arrays, codes
+from ..loop import arrays, codes
 from .endings import Outcome, check_initialisation
 from .instructions import InstructionList
 

@@ -14,11 +14,11 @@ from ...common.errors import InputError
 from ..fmi.variable import Variable
 from ..instances.instance import Instance
 from ..instances.slaves import Fmi3Slave
+from ..loop import arrays
 from ..ssp.fmu_description import find_annotation
 from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem
 from .base_memory import BaseMemory, Cell
-from .compiled import arrays
 from .program import Layout
 
 HEADER_WORDS = 6

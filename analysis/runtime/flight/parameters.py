@@ -10,11 +10,11 @@ import numpy as np
 
 from ...common.errors import InputError
 from ..fmi.variable import Variable
+from ..loop import arrays
 from ..ssp.given_values import ParameterValue, parse_value
 from ..system.fmu import STRUCTURAL, Fmu
 from ..system.network import Network
 from ..system.passing.settings import Settings
-from .compiled import arrays
 from .orders.transfers import ComponentTransfers, TransferTable, whole
 
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2, "String": 3}

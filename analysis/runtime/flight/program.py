@@ -1,4 +1,4 @@
-"""From network, settings and schedule to the arrays that the compiled loop runs on."""
+"""From network, settings and schedule to the arrays that the loop runs on."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable
+from ..loop import arrays
 from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
 from ..system.checks import changeable
@@ -17,7 +18,6 @@ from ..system.inputs import Drive
 from ..system.network import Network
 from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
-from .compiled import arrays
 from .instructions import InstructionList, Orders, write_instructions
 from .orders.connections import Connections
 from .orders.exchanged import Exchanged

@@ -8,9 +8,9 @@ from enum import IntEnum
 import numpy as np
 
 from ...common.machine.room import check_room
+from ..loop import codes
 
-POINT, SUBJECT = 4, 1  # of an outcome, in flight: the communication point under way, the component stepped last
-OUTCOME_WORDS = 6
+OUTCOME_WORDS = codes.INSTRUCTION + 1
 
 
 class Phase(IntEnum):
@@ -57,12 +57,12 @@ class FlightRecorder:
     @property
     def point(self) -> int:
         """The communication point that is being computed, or the last one."""
-        return int(self.outcome[POINT])
+        return int(self.outcome[codes.POINT_REACHED])
 
     @property
     def subject(self) -> int:
         """The number of the component that was the last to step."""
-        return int(self.outcome[SUBJECT])
+        return int(self.outcome[codes.SUBJECT])
 
 
 def rows_between(first: int, last: int, every: int = 1) -> int:

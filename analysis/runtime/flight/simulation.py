@@ -13,6 +13,8 @@ from ...common.collection import no_collection
 from ..fused.fuse import fuse, is_compilable
 from ..fused.refusals import can_fuse, check_fused
 from ..instances.instance import Instance, instantiate
+from ..loop import arrays, codes
+from ..loop.loop import Loop
 from ..ssp.given_values import ParameterValue
 from ..system.fault import Fault
 from ..system.namesakes.namesakes import note_loaded
@@ -20,12 +22,10 @@ from ..system.options import FUSED
 from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem
 from .base_simulation import NOTHING, BaseSimulation, Choices
-from .compiled import arrays, codes
 from .endings import STATUS, TERMINATED, Outcome, end_request, ended_in_words, in_words
 from .group import FlightGroup, flights_in_group, group_of
 from .instructions import write_ending
 from .life_cycle import LifeCycle
-from .loops import Loops
 from .memory import Memory
 from .orders.injections import NEVER, of_fault
 from .orders.transfers import needs_events
@@ -77,37 +77,33 @@ class Simulation(BaseSimulation):
             outcome=self.recorder.outcome,
             halt=self.recorder.halt,
         )
-        self.loops = self._make_loops(self.prepared)
+        self.loop = Loop(self_contained=prepared.is_self_contained)
+        self.fused_steps = self._fuse(prepared)
         self.life_cycle = LifeCycle(self.instances, self.program, self.fmi3, self._instructions, self._note_subject)
         self.recorder.enter(Phase.IDLE)
 
-    def _make_loops(self, prepared: PreparedSystem) -> Loops:
-        fused = None
-        if prepared.options.flavour == FUSED:
-            check_fused(prepared)
-            fused = fuse(self.instances, self.program, self._recorded.tolist(), self._is_wanted)
-        return Loops(
-            locked=not prepared.is_native,
-            with_fmi3=prepared.has_fmi3,
-            fused=fused,
-            self_contained=prepared.is_self_contained,
-        )
+    def _fuse(self, prepared: PreparedSystem) -> int:
+        """The address of the steps compiled for the system, 0 where its options do not ask for them."""
+        if prepared.options.flavour != FUSED:
+            return 0
+        check_fused(prepared)
+        return fuse(self.instances, self.program, self._recorded.tolist(), self._is_wanted)
 
     def _is_wanted(self) -> bool:
         return not self.recorder.halt[0]
 
     def fuse(self) -> None:
         """See `BaseSimulation.fuse`. Raises InputError where the compiler refuses the steps, or changes results."""
-        if self.loops.fused is None and can_fuse(self.prepared) and is_compilable(self.program):
+        if not self.fused_steps and can_fuse(self.prepared) and is_compilable(self.program):
             fused = replace(self.prepared, options=replace(self.prepared.options, flavour=FUSED))
-            with self.loops.under_way:  # the instances are looked at: who closes this leaves them alone
-                loops = self._make_loops(fused)
-            self.prepared, self.loops = fused, loops
+            with self.loop.under_way:  # the instances are looked at: who closes this leaves them alone
+                self.fused_steps = self._fuse(fused)
+            self.prepared = fused
 
     def ignore_finished(self) -> None:
         """Let the flights that follow go on behind the system's own end."""
         self.program = self.program._replace(finished_slot=-1)
-        self.loops = self._make_loops(self.prepared)
+        self.fused_steps = self._fuse(self.prepared)
 
     def announce(self, _values: Mapping[str, ParameterValue], _faults: Sequence[Fault | None]) -> None:
         """Nothing: a flight here takes the thread that looks at the last one."""
@@ -115,14 +111,6 @@ class Simulation(BaseSimulation):
     def give_up(self, _why: str) -> bool:
         """False: a thread cannot be ended."""
         return False
-
-    def unlock(self) -> None:
-        """Have the loop compiled, and flying without the interpreter lock, which Python FMUs take themselves.
-
-        So that other threads run whatever a step does, and a clock measures flights alone.
-        """
-        span, recording, excitation = self._request(-1, 0, 1, False, NOTHING)
-        self.loops.unlock(self._arguments(self.program, span, recording, excitation))
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
         """See `BaseSimulation.set`; an element of an array that is partly connected is given with each step, too, and
@@ -177,8 +165,7 @@ class Simulation(BaseSimulation):
         recorder.enter(Phase.FLIGHT)
         for instance in self.instances.values():
             instance.said.clear()
-        request = self._request(first, last, every, reset, excitation)
-        count = self.loops.fly(self._arguments(self.program, *request))
+        count = self.loop.fly(self._run(first, last, every, reset, excitation))
         outcome = Outcome(*self.buffers.outcome.tolist())
         if self._has_learned(outcome):
             self._replace_instances()
@@ -207,8 +194,7 @@ class Simulation(BaseSimulation):
         for instance in self.instances.values():
             instance.said.clear()  # what comes to its end says nothing
         group = group_of(table, self._varied, self.layout.parameters, TIME_MARGIN * prepared.step)
-        arguments = self._arguments(self.program, *self._request(-1, prepared.steps, 1, reset, NOTHING))
-        flown = self.loops.fly_group(arguments, group)
+        flown = self.loop.fly_group(self._run(-1, prepared.steps, 1, reset, NOTHING), group)
         ends = group.ends[:flown]
         start = int(ends[-2]) if flown > 1 else 0
         last = self._conclude(Outcome(*self.buffers.outcome.tolist()), start, int(ends[-1]))
@@ -255,10 +241,8 @@ class Simulation(BaseSimulation):
             self._replace_instances(list(self.instances.values())[outcome.subject].fmu.digest)
         return flight
 
-    def _request(
-        self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray
-    ) -> tuple[arrays.Span, arrays.Recording, np.ndarray]:
-        """What the loop is to fly, to keep and to add."""
+    def _run(self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray) -> arrays.Run:
+        """What the loop is to simulate, to record and to add."""
         prepared = self.prepared
         span = arrays.Span(
             reset=reset,
@@ -268,8 +252,16 @@ class Simulation(BaseSimulation):
             first=first,
             last=last,
         )
-        recording = arrays.Recording(self._recorded, every, self.recorder.record, self.recorder.times, 0)
-        return span, recording, excitation if excitation.size else np.zeros((0, len(self._selection.excited)))
+        return arrays.Run(
+            program=self.program,
+            buffers=self.buffers,
+            settings=self.layout.parameters.values,
+            span=span,
+            recording=arrays.Recording(self._recorded, every, self.recorder.record, self.recorder.times, 0),
+            excitation=excitation,
+            fmi3=self.fmi3,
+            fused_steps=self.fused_steps,
+        )
 
     def _has_learned(self, outcome: Outcome) -> bool:
         """Whether an FMU has shown what not to ask of it, so that the flight is to begin anew."""
@@ -287,24 +279,19 @@ class Simulation(BaseSimulation):
             return False
         return True
 
-    def _arguments(
-        self, program: arrays.Program, span: arrays.Span, recording: arrays.Recording, excitation: np.ndarray
-    ) -> tuple[object, ...]:
-        fmi3 = () if self.fmi3 is None else self.fmi3
-        return program, self.buffers, self.layout.parameters.values, span, recording, excitation, fmi3
-
     def _fly_last_row(self, component: int, end: float, row: int) -> None:
         """Record what there is at the time ``end`` (s) at which a component has ended the simulation."""
         instructions = write_ending(self._instructions, component)
         whole = np.array([0, len(instructions)], dtype=np.int64)
-        program = self.program._replace(instructions=instructions, phases=whole)
-        span = arrays.Span(reset=False, start=end, step=0.0, stop=end, first=0, last=1)
-        recording = arrays.Recording(
-            self._recorded, 1, np.empty((self._recorded.size, 1)), self.recorder.times[row:], 0
+        record = np.empty((self._recorded.size, 1))
+        run = self._run(0, 1, 1, False, NOTHING)._replace(
+            program=self.program._replace(instructions=instructions, phases=whole),
+            span=arrays.Span(reset=False, start=end, step=0.0, stop=end, first=0, last=1),
+            recording=arrays.Recording(self._recorded, 1, record, self.recorder.times[row:], 0),
+            fused_steps=0,
         )
-        excitation = np.zeros((0, len(self._selection.excited)))
-        self.loops.interpret(self._arguments(program, span, recording, excitation))
-        self.recorder.record[:, row] = recording.record[:, 0]
+        self.loop.fly(run)
+        self.recorder.record[:, row] = record[:, 0]
 
     def _replace_instances(self, fatal: str | None = None) -> None:
         """Everything instantiated anew, with the values that parameters have; ``fatal`` as in `LifeCycle.close`."""
@@ -321,10 +308,10 @@ class Simulation(BaseSimulation):
 
     def close(self) -> None:
         """Free the instances; those of a flight that still goes on in a thread, given up, end with the process."""
-        if self.loops.under_way.acquire(blocking=False):
+        if self.loop.under_way.acquire(blocking=False):
             self.recorder.enter(Phase.END)
             if self._log is not None:
                 self._log.close()
             self.life_cycle.close()
             self.instances = {}
-            self.loops.under_way.release()
+            self.loop.under_way.release()

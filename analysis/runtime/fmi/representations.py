@@ -40,7 +40,7 @@ def _whole(name: str) -> Representation:
     return Representation(name, "Integer", dtype, (int(limits.min), int(limits.max)))
 
 
-# In the order in which the compiled loop numbers them, `compiled.codes`.
+# In the order of the loop's numbers, `loop.codes`.
 REPRESENTATIONS = {
     each.name: each
     for each in (

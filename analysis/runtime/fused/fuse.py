@@ -16,9 +16,8 @@ from ....fmus_src.export.libraries import library_files
 from ....fmus_src.paths import CACHE
 from ...common.errors import InputError
 from ...common.machine.os_errors import reason_of, remedy_of
-from ..flight.compiled import arrays
-from ..flight.compiled.frame import REALS, WORDS
 from ..instances.instance import PLACED, Instance
+from ..loop import arrays
 from ..system.fmu import Fmu
 from ..system.options import FUSED
 from .component_code import ComponentCode, component_code
@@ -42,8 +41,8 @@ def fuse(
     program: arrays.Program,
     recorded: Iterable[int],
     is_wanted: Callable[[], bool] = lambda: True,
-) -> arrays.Fused:
-    """The steps of a ``program`` of which these slots are recorded, as a function of a library.
+) -> int:
+    """The address of the steps of a ``program`` of which these slots are recorded, compiled as one function.
 
     The C is that inside the native FMUs of the ``instances``; other FMUs are called as ever. The library is kept in
     the cache folder by its content. The compiler is ended as soon as the function is not ``is_wanted`` any more. Raises
@@ -61,8 +60,7 @@ def fuse(
     for number, instance in enumerate(instances.values()):
         if number in components:
             _check_layout(library, components[number], instance)
-    address = ctypes.cast(getattr(library, ENTRY), ctypes.c_void_p).value or 0
-    return arrays.Fused(address, np.zeros(len(WORDS), dtype=np.int64), np.zeros(len(REALS)))
+    return ctypes.cast(getattr(library, ENTRY), ctypes.c_void_p).value or 0
 
 
 def _component_codes(instances: Mapping[str, Instance]) -> dict[int, ComponentCode]:

@@ -1,8 +1,40 @@
-/* How the statements of fused steps do what needs more than a line, and how they end a flight.
+/* What the statements of fused steps use, as text around them: the parts of the run, and how a flight ends.
  *
- * They stand in `perilune_fly`, whose variables they use. A failure leaves in `outcome` what the compiled loop leaves
- * there: code; component, slot or text; function; fmi2Status; communication point; instruction.
+ * A failure leaves in `outcome` what the loop leaves there.
  */
+#define PARTS_OF(run) \
+    const uint64_t *const instructions = (run)->program.instructions; \
+    const uint32_t *const reference = (run)->program.reference; \
+    const double *const fault_window = (run)->program.fault_window; \
+    const double *const fault_value = (run)->program.fault_value; \
+    const double *const drive_table = (run)->program.drive_table; \
+    const int64_t drive_rows = (run)->program.drive_table_rows; \
+    const int64_t drive_columns = (run)->program.drive_table_columns; \
+    double *const values = (run)->buffers.values; \
+    int32_t *const whole = (run)->buffers.whole; \
+    double *const frozen = (run)->buffers.frozen; \
+    int64_t *const outcome = (run)->buffers.outcome; \
+    const volatile int64_t *const halt = (run)->buffers.halt; \
+    const uint32_t *const text_reference = (run)->buffers.texts.reference; \
+    char *const *const text_address = (char *const *)(run)->buffers.texts.address; \
+    const char **const text_given = (const char **)(run)->buffers.texts.given; \
+    const int64_t text_size = (run)->buffers.texts.rows_columns; \
+    const double *const excitation = (run)->excitation; \
+    const int64_t excitation_rows = (run)->excitation_rows; \
+    const int64_t excitation_columns = (run)->excitation_columns; \
+    double *const record = (run)->recording.record; \
+    double *const times = (run)->recording.times; \
+    const int64_t capacity = (run)->recording.record_columns; \
+    const int64_t stride = (run)->recording.stride; \
+    const int64_t first_point = (run)->span.first; \
+    const int64_t last_point = (run)->span.last; \
+    const double start = (run)->span.start; \
+    const double step = (run)->span.step; \
+    (void)instructions, (void)reference, (void)fault_window, (void)fault_value, (void)drive_table, (void)drive_rows; \
+    (void)drive_columns, (void)whole, (void)frozen, (void)text_reference, (void)text_address, (void)text_given; \
+    (void)text_size, (void)excitation, (void)excitation_rows, (void)excitation_columns, (void)first_point; \
+    (void)record, (void)capacity
+
 #define END(code, subject, number) \
     do { \
         outcome[0] = code; \
@@ -45,31 +77,6 @@
             strncpy(text_address[text], text_given[text], (size_t)text_size); \
         if (text_address[text][text_size - 1] != '\0') END(TOO_LONG, text, number); \
     } while (0)
-
-/* The default floating-point environment, where an FMU has left another one: MXCSR and the x87 control word, or FPCR,
- * as compiled/floats.py has them. */
-#if defined(__x86_64__)
-#define RESTORE_FLOATS() \
-    do { \
-        uint32_t mxcsr; \
-        uint16_t control; \
-        __asm__ volatile("stmxcsr %0\n\tfnstcw %1" : "=m"(mxcsr), "=m"(control) : : "memory"); \
-        if ((mxcsr & 0xffc0u) != 0x1f80u || (control & 0x0f3fu) != 0x033fu) { \
-            mxcsr = 0x1f80u; \
-            control = 0x037fu; \
-            __asm__ volatile("ldmxcsr %0\n\tfldcw %1" : : "m"(mxcsr), "m"(control) : "memory"); \
-        } \
-    } while (0)
-#elif defined(__aarch64__)
-#define RESTORE_FLOATS() \
-    do { \
-        uint64_t fpcr; \
-        __asm__ volatile("mrs %0, fpcr" : "=r"(fpcr) : : "memory"); \
-        if (fpcr != 0) __asm__ volatile("msr fpcr, %0" : : "r"((uint64_t)0) : "memory"); \
-    } while (0)
-#else
-#define RESTORE_FLOATS() (void)0
-#endif
 
 /* Faults on slots, each in its window [from, until) s. */
 #define DURING(fault, statement) \

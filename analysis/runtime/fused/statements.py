@@ -1,6 +1,6 @@
 """C statements that do what the loop's instructions say.
 
-Every code has the effect that `flight.compiled.loop` gives it, in the same order of operations, and leaves the same
+Every code has the effect that `loop/c/loop.c` gives it, in the same order of operations, and leaves the same
 outcome where it fails: a flight has the bits of the interpreted instructions.
 """
 
@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....fmus_src.export.write.names import literal
-from ..flight.compiled import arrays, codes
+from ..loop import arrays, codes
 
 INJECTIONS = {codes.OVERRIDE: "OVERRIDE", codes.BIAS: "BIAS", codes.FREEZE: "FREEZE", codes.EXCITE: "EXCITE"}
 INSTANCE_POINTER = "c{}"  # of a component whose C is in the unit
@@ -206,7 +206,7 @@ def _get_text(to: Statements, row: Instruction) -> list[str]:
 
 
 def _restore_floats(_: Statements, __: Instruction) -> list[str]:
-    return ["RESTORE_FLOATS();"]
+    return ["restore_default_floats();"]
 
 
 Writer = Callable[[Statements, Instruction], list[str]]

@@ -6,14 +6,13 @@ import itertools
 from collections.abc import Iterable, Mapping
 from importlib.resources import files
 
-from ..flight.compiled import arrays, codes
-from ..flight.compiled.frame import COUNTS, POINTERS, REALS, WORDS
+from ..loop import arrays, codes
+from ..loop.structures import read_header
 from .component_code import ComponentCode
 from .statements import INSTANCE_POINTER, Instruction, Statements
 
-ENTRY = "perilune_fly"
+ENTRY = "perilune_fly_steps"
 SELF_TEST = "perilune_check_arithmetic"
-OUTCOMES = ("FAILED", "NONFINITE", "UNMAPPED", "TOO_LONG", "FMI_WARNING", "STOP_TIME", "FINISHED", "INTERRUPTED")
 EXPORT = """\
 #if defined(_WIN32)
 #define _UNIT_EXPORT __declspec(dllexport)
@@ -30,9 +29,9 @@ _UNIT_EXPORT const char *{name}(void)
 """
 FLY = """\
 /* Fly from communication point to communication point; returns the number of rows in the record. */
-_UNIT_EXPORT int64_t {entry}(const int64_t *frame, const double *reals)
+_UNIT_EXPORT int64_t {entry}(const Run *run, int64_t point, int64_t rows, int64_t to_record)
 {{
-{unpack}
+    PARTS_OF(run);
 {instances}
     int status = 0;
     for (;;) {{
@@ -78,7 +77,6 @@ def write_unit(program: arrays.Program, recorded: Iterable[int], components: Map
         )
     fly = FLY.format(
         entry=ENTRY,
-        unpack="\n".join(_unpack()),
         instances="\n".join(_instances(program, components)),
         phases=len(phases) - 1,
         cases="\n".join(cases),
@@ -87,30 +85,18 @@ def write_unit(program: arrays.Program, recorded: Iterable[int], components: Map
             f"            record[{column} * capacity + rows] = values[{slot}];" for column, slot in enumerate(recorded)
         ),
     )
-    numbers = [f"#define {name} {getattr(codes, name)}" for name in OUTCOMES]
     return "\n".join(
         [
             *(f"#include {header}" for header in sorted(headers)),
             EXPORT,
             *(kind.text for kind in kinds.values()),
-            *numbers,
+            read_header("run.h"),
+            read_header("floats.h"),
             files(__package__).joinpath("outcomes.h").read_text(),
             CHECK.format(name=SELF_TEST, prefix=next(iter(kinds))),
             fly,
         ]
     )
-
-
-def _unpack() -> list[str]:
-    """Declarations that take the words of a frame apart."""
-    words = {name: f"frame[{index}]" for index, name in enumerate(WORDS)}
-    names = [*POINTERS, *COUNTS, *REALS]
-    return [
-        *(f"    {kind} *const {name} = ({kind} *)(uintptr_t){words[name]};" for name, kind in POINTERS.items()),
-        *(f"    int64_t {name} = {words[name]};" for name in COUNTS),
-        *(f"    const double {name} = reals[{index}];" for index, name in enumerate(REALS)),
-        *(f"    (void){name};" for name in names),
-    ]
 
 
 def _instances(program: arrays.Program, components: Mapping[int, ComponentCode]) -> list[str]:

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..fmi.representations import REPRESENTATIONS
+from ..loop.library import load_library
 from ..system.fmu import Fmu
 from .slaves import Fmi3Slave, FMU2WatchedSlave, Slave
 
@@ -51,7 +52,7 @@ class Library:
     """What the instances of one unpacked FMU share, since fmpy takes milliseconds to load it for each."""
 
     def __init__(self, fmu: Fmu) -> None:
-        self._restore = _nothing if fmu.is_self_contained else _float_restorer()
+        self._restore = _nothing if fmu.is_self_contained else load_library().perilune_restore_floats
         with contextlib.chdir(Path.cwd()):  # back also when loading fails
             try:
                 self._slave: Slave = (FMU2WatchedSlave if fmu.version == 2 else Fmi3Slave)(
@@ -80,12 +81,6 @@ class Library:
     def unload(self) -> None:
         self._slave.freeLibrary()
         self._restore()
-
-
-def _float_restorer() -> Callable[[], None]:
-    from ..flight.compiled.floats import float_restorer  # imports numba, which verbs that simulate nothing do without
-
-    return float_restorer()
 
 
 def _nothing() -> None:

@@ -9,6 +9,8 @@ from typing import Any
 
 from fmpy import fmi2, fmi3
 
+from ..loop.library import load_library
+
 
 class CallWatch:
     """Mixin that calls ``after_call`` after every function of the FMU, also one that fails."""
@@ -34,10 +36,9 @@ class Fmi3Slave(CallWatch, fmi3.FMU3Slave):  # type: ignore[misc]  # FMPy has no
 
     def begin(self, environment: int, log: Any, *, uses_events: bool) -> None:
         """Instantiate; ``log`` is a fmi3LogMessageCallback. Raises bare Exception where there is no instance."""
-        from .intermediate import ignore_address  # imports numba, which verbs that fly nothing do without
-
         self.environment, self.logMessage = environment, log
-        self.intermediateUpdate = ctypes.cast(ignore_address(), fmi3.fmi3IntermediateUpdateCallback)
+        idle = load_library().perilune_ignore_update
+        self.intermediateUpdate = ctypes.cast(idle, fmi3.fmi3IntermediateUpdateCallback)
         resources = os.path.join(self.unzipDirectory, "resources", "")
         self.component = self.fmi3InstantiateCoSimulation(
             self.instanceName.encode(),

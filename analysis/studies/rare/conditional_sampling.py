@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...campaigns.draws.generators import standard_normals
-from ...common.elementary import elementary
+from ...runtime.loop.elementary import elementary
 
 
 @dataclass(frozen=True, eq=False)

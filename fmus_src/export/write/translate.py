@@ -62,6 +62,18 @@ def translate(block_class: type[Block], guid: str, fmi: int = 2) -> str:
     return "\n".join((header, *kernel, tables, entry_points, FOOTER.format(fmi=fmi)))
 
 
+def translate_functions(block_class: type[Block]) -> tuple[str, dict[str, str]]:
+    """The C of the functions that a block calls, without the block, and their names in it by those in Python.
+
+    Functions have the name of their Python file in front. Raises `SubsetError` as `translate`.
+    """
+    kernel = analyse_kernel(block_class)
+    names = names_of(kernel)
+    kernel.functions = [function for function in kernel.functions if not function.takes_block]
+    text = "\n".join([*_constants(names), *_several(kernel), *_functions(kernel, names, "")])
+    return text, {function.name: names.functions[function] for function in kernel.functions}
+
+
 @cache  # an FMU is translated twice, without its GUID, which is a hash of that, and with it
 def _around_tables(block_class: type[Block]) -> tuple[list[str], str]:
     """The kernel and its entry points, before and after the tables, in which the GUID is."""

@@ -80,7 +80,10 @@ def normal_quantile(p: float) -> float:
     q = p - 0.5
     if abs(q) <= 0.425:
         return q * central_quantile(0.180625 - q * q)
-    r = math.sqrt(-log(min(p, 1.0 - p)))
+    tail = p
+    if 1.0 - p < p:
+        tail = 1.0 - p
+    r = math.sqrt(-log(tail))
     if r <= 5.0:
         return math.copysign(tail_quantile(r - 1.6), q)
     return math.copysign(far_quantile(r - 5.0), q)

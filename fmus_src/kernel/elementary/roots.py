@@ -41,8 +41,12 @@ def cbrt(x: float) -> float:
 
 def hypot(x: float, y: float) -> float:
     """sqrt(x^2 + y^2), without overflow on the way."""
-    a = max(abs(x), abs(y))
-    b = min(abs(x), abs(y))
+    a = abs(x)
+    b = abs(x)
+    if abs(y) > abs(x):
+        a = abs(y)
+    if abs(y) < abs(x):
+        b = abs(y)
     if a == math.inf or b == math.inf:
         return math.inf
     if x != x or y != y:

@@ -23,7 +23,7 @@ def fused(monkeypatch):
 
     def note(simulation):
         original(simulation)
-        systems.append(simulation.loops.fused is not None)
+        systems.append(simulation.fused_steps != 0)
 
     monkeypatch.setattr(Simulation, "fuse", note)
     return systems

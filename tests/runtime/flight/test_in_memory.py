@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.runtime.flight.compiled import codes
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.instances.instance import Instance
+from perilune.analysis.runtime.loop import codes
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 

@@ -16,7 +16,6 @@ from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.runtime.flight.compiled import loop
 from perilune.analysis.runtime.flight.interruptible import StuckError, fly, run
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions, Watch
@@ -69,8 +68,6 @@ def test_the_next_flight_of_a_simulation_is_whole(hanging):
     with Simulation(prepared, varied=["Hanging.pause"]) as simulation:
         assert run(simulation, {"Hanging.pause": 0.8}, 0.5).status == "timed_out"
         assert run(simulation, {"Hanging.pause": 0.0}, 60.0).status == "stop_time"
-    compiled = loop.function(locked=False, with_fmi3=False, with_fused=False)
-    assert len(compiled.signatures) == 1  # ahead, for the types that fly
 
 
 def test_a_flight_that_ends_late_does_not_end_the_next(hanging):

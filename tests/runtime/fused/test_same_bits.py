@@ -29,7 +29,7 @@ def flown(path, flavour, values, faults=(), wanted=None, **options):
             flight = simulation.fly()
             signals = {name: rows.tobytes() for name, rows in flight.signals.items()}
             ends.append((flight.time.tobytes(), signals, flight.status, flight.message))
-        assert (simulation.loops.fused is not None) == (flavour == "fused")
+        assert (simulation.fused_steps != 0) == (flavour == "fused")
     return ends
 
 

@@ -21,7 +21,6 @@ class Learn:
 
     key: int
     content: bytes
-    locked: bool  # whether the loop is to keep Python's lock
 
 
 @dataclass(frozen=True)
@@ -58,7 +57,6 @@ class Single:
     files: list[int]
     task: Any  # one of `messages`
     content: bytes  # what it works on, pickled
-    locked: bool  # as in `Learn`
 
 
 @dataclass(frozen=True)

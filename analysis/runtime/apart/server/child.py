@@ -21,12 +21,9 @@ import numpy.random
 from ....common.errors import InputError
 from ....common.machine.os_errors import reason_of
 from ...flight.base_simulation import NOTHING
-from ...flight.compiled import loop
-from ...flight.compiled.floats import float_restorer
 from ...flight.memory import Memory, Snapshot
 from ...flight.simulation import Simulation
 from ...instances.instance import Log, leave_messages_unformatted
-from ...instances.intermediate import ignore_address
 from ...instances.renewal import store_verdict
 from ...instances.reset_check import try_renewals
 from ...system.fmu import Fmu
@@ -99,15 +96,6 @@ def _copy_files(fmu: Fmu) -> Path:
         reason = error.args[0][0][2] if isinstance(error, shutil.Error) else reason_of(error)  # of the first file
         problem, remedy = f"its files cannot be copied to it: {reason}", "free some space there, or set TMPDIR"
         raise InputError(fmu.label, str(folder), problem, remedy) from error
-
-
-def load(subject: object, *, locked: bool) -> None:
-    """Have all compiled that flights of a system, or the trial of an FMU, will call: a child cannot write the cache."""
-    with_fmi3 = subject.has_fmi3 if isinstance(subject, PreparedSystem) else False
-    loop.load(locked=locked, with_fmi3=with_fmi3)
-    float_restorer()()
-    if with_fmi3 or (isinstance(subject, Fmu) and subject.version == 3):
-        ignore_address()
 
 
 class _Pilot:

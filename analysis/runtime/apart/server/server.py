@@ -9,18 +9,15 @@ import gc
 import itertools
 import os
 import resource
-import select
 import selectors
 import shutil
 import signal
 import socket
 import sys
 import tempfile
-import threading
 import time
 import traceback
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NoReturn
@@ -28,7 +25,7 @@ from typing import Any, NoReturn
 from ....common.family.ending import end_with_parent
 from ....common.process import leave
 from ....common.scratch import make_folder
-from ...flight.compiled import loop
+from ...loop.library import load_library
 from ..protocol.orders import CHANNEL_CLOSED, NEAR_MEMORY_LIMIT, OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
 from ..protocol.requests import receive_request, send_request, unpack
 from ..system.restriction import Restriction, restrict
@@ -80,34 +77,9 @@ class FlightServer:
                 self._do(request, descriptors)
             self._watch()
 
-    @contextmanager
-    def while_loading(self) -> Iterator[None]:
-        """End the server where the control socket is closed in the block, which may take a minute: it compiles."""
-        mine, theirs = socket.socketpair()
-        watch = threading.Thread(target=self._end_with_control, args=(theirs,), daemon=True)
-        watch.start()
-        try:
-            yield
-        finally:
-            mine.close()
-            watch.join()  # a process that forks has one thread
-
-    def _end_with_control(self, finished: socket.socket) -> None:
-        """Wait until either socket is closed at its other end."""
-        both = select.poll()
-        with finished:
-            for each in (self._control, finished):
-                both.register(each, 0)  # which is of hang-ups alone
-            closed = {descriptor for descriptor, _ in both.poll()}
-            if finished.fileno() not in closed:
-                self.close()
-                leave(0)
-
     def _do(self, request: Learn | Forget | Begin | Look | End, descriptors: list[int]) -> None:
         if isinstance(request, Learn):
-            with self.while_loading():
-                self._subjects[request.key] = unpack(request.content)
-                child.load(self._subjects[request.key], locked=request.locked)
+            self._subjects[request.key] = unpack(request.content)
             gc.collect()
             gc.freeze()
         elif isinstance(request, Begin):
@@ -241,8 +213,7 @@ def main(control: int) -> None:
     adopt_orphans()
     server = FlightServer(socket.socket(fileno=control))
     try:
-        with server.while_loading():
-            loop.load(locked=False)
+        load_library()  # which children, that write no cache, use
         server.serve()
     finally:
         server.close()

@@ -8,6 +8,7 @@ import sys
 
 from ....common.family.ending import end_after
 from ....common.process import leave
+from ...loop.library import load_library
 from ..protocol.messages import Done, send_answer
 from ..protocol.orders import Single
 from ..protocol.requests import unpack
@@ -25,6 +26,6 @@ def main() -> None:
         assert isinstance(order.channel, int)
         channel = socket.socket(fileno=order.channel)
     subject = unpack(order.content)
-    child.load(subject, locked=order.locked)
+    load_library()  # before limits on calls of FMUs hold
     send_answer(channel, Done())
     leave(child.work(order.task, subject, channel, order.files))

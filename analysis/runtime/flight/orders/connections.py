@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...loop import codes
 from ...ssp.conversions import IDENTITY
 from ...system.network import Link, Network
 from ...system.passing.parameters import numbers
 from ...system.schedule import origin
-from ..compiled import codes
 from .exchanged import Exchanged
 from .slots import Slots
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...instances.library import FUNCTION_NAMES
-from ..compiled import codes
+from ...loop import codes
 from .in_memory import Run, runs_in_memory, with_moves
 from .rows import Callee, Rows, Stretch
 

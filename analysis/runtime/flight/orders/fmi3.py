@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ...instances.library import FUNCTION_NAMES
-from ..compiled import codes
+from ...loop import codes
 from .rows import Rows
 from .transfers import ComponentTransfers, TransferTable
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import codes
+from ...loop import codes
 from .rows import Callee
 
 REAL_SIZE = 8  # bytes

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from ...loop import codes
 from ...system.fault import Fault
-from ..compiled import codes
 
 KIND_NUMBERS = {"override": codes.OVERRIDE, "bias": codes.BIAS, "freeze": codes.FREEZE}
 NEVER = (math.inf, math.inf)  # the window of a fault that does not fly

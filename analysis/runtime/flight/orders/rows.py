@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from ...instances.library import FUNCTION_NAMES
-from ..compiled import codes
+from ...loop import codes
 
 Stretch = tuple[int, int]  # first, and how many
 

@@ -9,10 +9,10 @@ import numpy as np
 
 from ....common.errors import InputError
 from ...fmi.variable import Variable
+from ...loop import arrays
 from ...system.network import Network
 from ...system.passing.settings import Settings
 from ...system.schedule import origin
-from ..compiled import arrays
 from .transfers import whole
 
 LONGEST = {"String": 4096, "Binary": 65536}  # bytes of one, of a String with its end

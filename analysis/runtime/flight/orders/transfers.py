@@ -10,8 +10,8 @@ import numpy as np
 from ...fmi.representations import REPRESENTATIONS
 from ...fmi.variable import Variable
 from ...instances.library import FUNCTION_NAMES
+from ...loop import codes
 from ...system.network import Network
-from ..compiled import codes
 
 KINDS = {name: number for number, name in enumerate(REPRESENTATIONS)}
 NUMBERS = {
@@ -21,7 +21,7 @@ NUMBERS = {
     "EnterEventMode": codes.ENTER_EVENT_MODE,
     "UpdateDiscreteStates": codes.UPDATE_DISCRETE_STATES,
     "EnterStepMode": codes.ENTER_STEP_MODE,
-}  # that the compiled loop has for functions, as it imports nothing of those who load them
+}  # that the loop has for functions, as it imports nothing of those who load them
 assert all(FUNCTION_NAMES[number] == f"fmi3{name}" for name, number in NUMBERS.items())
 
 

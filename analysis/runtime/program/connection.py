@@ -1,0 +1,37 @@
+"""The value of a connection's target from its sources."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..ssp.conversions import IDENTITY
+from ..system.network import Link, Network, Node
+from ..system.passing.parameters import numbers
+from .component import FailedError, Sample
+
+
+def carry(network: Network, link: Link, sample_of: Callable[[Node], Sample]) -> Sample:
+    """Return what a connection, with those that are added to it, brings its target. Raises FailedError.
+
+    ``sample_of`` gives the values of sources.
+    """
+    total = transform(network, link, sample_of(link.source))
+    for term in link.added:
+        change = term.transformation
+        total = float(total) + (float(sample_of(term.source)) * change.factor + change.offset)
+    return total
+
+
+def transform(network: Network, link: Link, sample: Sample) -> Sample:
+    """Return a value behind a connection's unit conversion and transformation. Raises FailedError."""
+    change = link.transformation
+    if change == IDENTITY:
+        return sample  # as it is: texts, and whole numbers that no float64 is
+    if not change.table:
+        return float(sample) * change.factor + change.offset
+    for source, target in numbers(network, link):
+        if source == sample:
+            return target
+    if change.is_partial:
+        return sample
+    raise FailedError(f"{link.where}: its mapping has no entry for {sample!r}")

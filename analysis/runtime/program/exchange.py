@@ -1,0 +1,104 @@
+"""What is exchanged and recorded of a system, by the names of variables and connectors."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
+
+from ..fmi.representations import TEXTS
+from ..fmi.variable import Variable
+from ..ssp.kinds import PARAMETERS
+from ..system.fault import Fault
+from ..system.prepared import PreparedSystem
+from ..system.schedule import origin
+
+
+@dataclass(frozen=True)
+class Roles:
+    """What is done with the variables of a component; arrays of FMI 3.0 have all elements in one of these.
+
+    ``given`` are inputs, and parameters that change in flight; ``outputs`` also what is connected like one;
+    ``recorded`` what else is read. ``uses_events``: FMI 3.0's event mode, of an FMU that has it and a discrete input.
+    """
+
+    given: Sequence[Variable]
+    outputs: Sequence[Variable]
+    recorded: Sequence[Variable]
+    uses_events: bool
+
+
+class Exchange:
+    """``roles`` by component, system ``connectors`` that have values, and the names of signals ``recorded``.
+
+    These are ``wanted`` ones, or where None all that is exchanged. Outputs that nothing needs are not read.
+    """
+
+    def __init__(
+        self, system: PreparedSystem, faults: Sequence[Fault] = (), wanted: Collection[str] | None = None
+    ) -> None:
+        self._network = network = system.network
+        self._wanted = set(wanted or ())
+        links = list(network.links())
+        signals = [link.source for link in links if not link.is_parameter]
+        self._fetched = None if wanted is None else self._wanted | {link.source.name for link in links}
+        if self._fetched is not None:
+            self._fetched |= {fault.name for fault in faults}
+        self._changing = {*network.driver, *network.driven}
+        self._tuned = {*network.driven, *(fault.name for fault in faults)}
+        self._unusual = {node.name for node in signals if node.component is not None and node.kind != "output"}
+        self._texts = {
+            origin(network, link).name
+            for link in links
+            if link.target.type_name in TEXTS and link.target.component is not None and not link.is_parameter
+        }
+        read = {node.name for node in signals}
+        self.connectors = [
+            node.name
+            for node in network.nodes.values()
+            if node.component is None and node.type_name not in TEXTS
+            if node.name in self._changing or node.name in system.settings.nodes
+            if node.kind not in PARAMETERS or node.name in read
+        ]
+        self.roles = {component: self._find_roles(component) for component in network.fmus}
+        exchanged = [
+            f"{component}.{each.name}"
+            for component, roles in self.roles.items()
+            for each in (*roles.given, *roles.outputs)
+            if each.type not in TEXTS and (each in roles.outputs or self._is_changing(component, each))
+        ]
+        self.recorded = [*exchanged, *self.connectors] if wanted is None else list(wanted)
+
+    def _find_roles(self, component: str) -> Roles:
+        fmu = self._network.fmus[component]
+        given: list[Variable] = []
+        outputs: list[Variable] = []
+        recorded: list[Variable] = []
+        for array in arrays_of(fmu.variables.values()):
+            first, names = array[0], {f"{component}.{each.name}" for each in array}
+            is_output = first.causality == "output" or bool(names & self._unusual)
+            is_input = first.causality == "input" and bool(names & self._changing)
+            if (is_input and not is_output) or (first.is_tunable and names & self._tuned):
+                given += array
+            elif is_output and self._is_fetched(first, names):
+                outputs += array
+            elif names & self._wanted:
+                recorded += array
+        discrete = any(each.causality == "input" and each.variability == "discrete" for each in given)
+        has_events = fmu.version == 3 and bool(fmu.description.coSimulation.hasEventMode)
+        return Roles(given, outputs, recorded, has_events and discrete)
+
+    def _is_changing(self, component: str, variable: Variable) -> bool:
+        """True of what changes by itself, and not as an element of an array that is given as a whole."""
+        return f"{component}.{variable.name}" in (self._tuned if variable.is_tunable else self._changing)
+
+    def _is_fetched(self, variable: Variable, names: Collection[str]) -> bool:
+        selected = self._texts if variable.type in TEXTS else self._fetched
+        return selected is None or not selected.isdisjoint(names)
+
+
+def arrays_of(variables: Iterable[Variable]) -> list[list[Variable]]:
+    """Return variables with the elements of each array together; of FMI 2.0 each variable is one."""
+    arrays: dict[str, list[Variable]] = {}
+    for each in variables:
+        arrays.setdefault(each.array or each.name, []).append(each)
+    return list(arrays.values())

@@ -1,0 +1,36 @@
+"""Faults as the reference loop applies them to values, by the names of connectors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..system.fault import Fault
+from .component import Sample
+
+MARGIN = 1e-6  # of a step: the times of communication points, start + n step, carry rounding
+
+
+class Faults:
+    """Faults of one flight, in order; ``margin`` (s) is how much earlier than declared each begins and ends."""
+
+    def __init__(self, faults: Sequence[Fault], step: float) -> None:
+        self._faults = faults
+        self._margin = MARGIN * step
+        self._frozen: dict[int, Sample] = {}  # by the number of a freeze, from when it began
+
+    def apply(self, name: str, sample: Sample, time: float) -> Sample:
+        """Return what a connector has at a time (s) instead of its value, each fault behind those before it."""
+        for number, fault in enumerate(self._faults):
+            if fault.name == name and fault.start - self._margin <= time < fault.stop - self._margin:
+                if fault.kind == "override":
+                    sample = float(fault.value)
+                elif fault.kind == "bias":
+                    sample = add(sample, fault.value)
+                else:
+                    sample = self._frozen.setdefault(number, sample)
+        return sample
+
+
+def add(sample: Sample, bias: float) -> Sample:
+    """Return a number with a bias; of a whole number, whose bias is whole too, exactly."""
+    return sample + int(bias) if isinstance(sample, int) else float(sample) + float(bias)

@@ -1,0 +1,80 @@
+"""A component of FMI 3.0, called by way of FMPy, one variable at a time: an array is one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from fmpy.fmi3 import FMU3Slave
+
+from ..fmi.representations import TEXTS
+from ..fmi.variable import Variable
+from ..system.fmu import Fmu
+from .component import Component, Sample, Samples
+from .exchange import arrays_of
+from .numbers import as_stored
+from .parameters import Start, solver_tolerance
+from .stepping import enter_step_mode, step_to
+
+
+class Fmi3Component(Component):
+    """``slave`` is an instance, with event mode if it ``uses_events``; ``starts`` are what it is set to at first."""
+
+    def __init__(self, name: str, fmu: Fmu, slave: FMU3Slave, starts: Sequence[Start], *, uses_events: bool) -> None:
+        self.name, self.fmu, self.slave, self.starts, self.uses_events = name, fmu, slave, starts, uses_events
+        self.steps, self.time = False, 0.0  # whether initialisation mode has been left; time reached (s)
+        self.discrete: Samples = {}  # as the FMU has them
+
+    def initialise(self, start: float, stop: float) -> None:
+        """See `Component.initialise`."""
+        self.time = start
+        if any(each.is_structural for each in self.starts):
+            self.slave.enterConfigurationMode()
+            self._set_starts(each for each in self.starts if each.is_structural)
+            self.slave.exitConfigurationMode()
+        self._set_starts(each for each in self.starts if not each.is_structural)
+        self.slave.enterInitializationMode(solver_tolerance(self.fmu), start, stop)
+        self._set_starts(each for each in self.starts if each.is_repeated)
+
+    def set(self, values: Mapping[str, Sample]) -> None:
+        """See `Component.set`; between steps what is not continuous is set in event mode, all of it if some changes."""
+        arrays = arrays_of(self.fmu.variables[name] for name in values)
+        events = [each for each in arrays if self.uses_events and each[0].variability != "continuous"]
+        self._set(arrays if not self.steps else [each for each in arrays if each not in events], values)
+        before, self.discrete = self.discrete, {e.name: as_stored(e, values[e.name]) for each in events for e in each}
+        has_texts = any(array[0].type in TEXTS for array in events)  # which count as changed
+        if self.steps and (has_texts or self.discrete != before):
+            self.slave.enterEventMode()
+            self._set(events, values)
+            enter_step_mode(self.name, self.slave, self.time)
+
+    def get(self, names: Iterable[str]) -> Samples:
+        """See `Component.get`."""
+        arrays = arrays_of(self.fmu.variables[name] for name in names)
+        return {each.name: got for array in arrays for each, got in zip(array, self._get(array), strict=True)}
+
+    def settle(self) -> None:
+        """See `Component.settle`."""
+        self.slave.exitInitializationMode()
+        if self.uses_events:
+            enter_step_mode(self.name, self.slave, self.time)
+        self.steps = True
+        for each in self.starts:
+            if each.is_read_back:
+                each.check(self.name, self._get(each.variables))
+
+    def step(self, begin: float, size: float, end: float) -> None:
+        """See `Component.step`."""
+        step_to(self.name, self.slave, begin, size, end, uses_events=self.uses_events)
+        self.time = end
+
+    def _set_starts(self, starts: Iterable[Start]) -> None:
+        for each in starts:
+            self._set([each.variables], each.values)
+
+    def _set(self, arrays: Iterable[Sequence[Variable]], values: Mapping[str, Sample]) -> None:
+        for array in arrays:
+            stored = [as_stored(each, values[each.name]) for each in array]
+            getattr(self.slave, f"set{array[0].representation.name}")([array[0].reference], stored)
+
+    def _get(self, array: Sequence[Variable]) -> list[Sample]:
+        return list(getattr(self.slave, f"get{array[0].representation.name}")([array[0].reference], len(array)))

@@ -1,0 +1,100 @@
+"""A flight step by step, written to be read: every other executor has its rows, to the bit, and its status.
+
+Components ``ahead`` step together, with inputs of the step's start, those ``behind`` in turn, with inputs of its end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+from ..system.prepared import PreparedSystem
+from .component import REFUSALS, Component, EndedError, NonFiniteError
+from .signals import Signals
+
+
+class ReferenceLoop:
+    """One flight of ``components``, by name; ``signals`` carries their values and has the rows."""
+
+    ahead: Sequence[str]
+    behind: Sequence[str] = ()
+    refusal: Exception | None = None  # by which it has ended
+
+    def __init__(self, system: PreparedSystem, components: Mapping[str, Component], signals: Signals) -> None:
+        self.system, self.components, self.signals = system, components, signals
+
+    def fly(self) -> str:
+        """Fly from the start to the stop time, or to what ends the flight before it; return the status."""
+        try:
+            self.initialise()
+            for point in range(self.system.steps + 1):
+                self.signals.move_to(point)
+                if point > 0:
+                    self.advance(point)
+                for name in self.due(self.ahead, point):
+                    self.set(name)  # for its next step
+                self.signals.record()
+                if self.signals.is_finished:
+                    return "finished"
+            return "stop_time"
+        except EndedError as end:
+            self.signals.time = end.time
+            self.get(end.component)
+            self.signals.record(carries=True)
+            return "terminated"
+        except REFUSALS as error:
+            self.refusal = error
+            return "nonfinite" if isinstance(error, NonFiniteError) else "failed"
+
+    def initialise(self) -> None:
+        """Settle the start: each component behind those that it reads; inputs not ``known`` yet have start values."""
+        for component in self.components.values():
+            component.initialise(self.system.start, self.system.start + self.system.steps * self.system.step)
+        order = self.system.schedule.initial_order
+        for position, name in enumerate(order):
+            self.set(name, known=order[:position])
+            self.get(name, settled=False)
+        for component in self.components.values():
+            component.settle()
+        for name in self.components:
+            self.get(name)  # again: there are FMUs that compute outputs only when they leave initialisation mode
+
+    def advance(self, point: int) -> None:
+        """Step to a communication point."""
+        for name in self.due(self.ahead, point):
+            self.step(name, point)
+        for name in self.due(self.ahead, point):
+            self.get(name)
+        for name in self.due(self.behind, point):
+            self.set(name)
+            self.step(name, point)
+            self.get(name)
+
+    def due(self, names: Sequence[str], point: int) -> list[str]:
+        """Return the components whose step, of one or more communication steps, ends at a point."""
+        return [name for name in names if point % self.system.periods.get(name, 1) == 0]
+
+    def step(self, name: str, point: int) -> None:
+        start, period, step = self.system.start, self.system.periods.get(name, 1), self.system.step
+        self.components[name].step(start + (point - period) * step, period * step, start + point * step)
+
+    def set(self, name: str, known: Collection[str] | None = None) -> None:
+        self.components[name].set(self.signals.inputs(name, known))
+
+    def get(self, name: str, *, settled: bool = True) -> None:
+        self.signals.take(name, self.components[name].get(self.signals.outputs(name, settled=settled)))
+
+
+class Sequential(ReferenceLoop):
+    """FMUs without direct feedthrough are ahead; the others follow, each behind those that it reads."""
+
+    def __init__(self, system: PreparedSystem, components: Mapping[str, Component], signals: Signals) -> None:
+        super().__init__(system, components, signals)
+        self.ahead, self.behind = system.schedule.sources_first, system.schedule.followers
+
+
+class Jacobi(ReferenceLoop):
+    """All FMUs are ahead: each reads the others' outputs of the step's start."""
+
+    def __init__(self, system: PreparedSystem, components: Mapping[str, Component], signals: Signals) -> None:
+        super().__init__(system, components, signals)
+        self.ahead = list(components)

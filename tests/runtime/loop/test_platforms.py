@@ -1,0 +1,87 @@
+"""The loop without Python, on another processor: one FMU of FMI 3.0 on aarch64 Linux under qemu.
+
+Truth: the record of the same run by this machine's library. `make emulator` installs qemu and the C library of aarch64.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from perilune.analysis.runtime.flight.base_simulation import NOTHING
+from perilune.analysis.runtime.flight.recorder import rows_between
+from perilune.analysis.runtime.flight.simulation import Simulation
+from perilune.analysis.runtime.instances.library import FUNCTION_NAMES
+from perilune.analysis.runtime.loop import library
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.compilers import PLATFORMS, local_platform
+from perilune.fmus_src.export.native_fmu import build_native_fmu
+from tests.export.fmi3.test_platforms import LIBRARIES
+from tests.support.kernels.programs import NO_QEMU, QEMU, ZIG
+from tests.support.lengths import either
+from tests.support.native.frozen_run import freeze_run
+
+NAME = "spacecraft"
+STEPS = either(2000, 100)
+RUNNERS = {"x86_64-linux": [], "aarch64-linux": [QEMU or "qemu-aarch64-static", "-L", str(LIBRARIES)]}
+FROZEN = Path(freeze_run.__code__.co_filename).with_name("fly_frozen_run.c")
+pytestmark = [
+    pytest.mark.skipif(importlib.util.find_spec("ziglang") is None, reason="ziglang is not installed"),
+    pytest.mark.skipif(local_platform(3) != "x86_64-linux", reason="compared with x86_64-linux"),
+]
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("fmu") / f"{NAME}.fmu"
+    return build_native_fmu(catalogue()[NAME], path, platforms=list(RUNNERS), portable=True, fmi=3)
+
+
+@pytest.fixture(scope="module")
+def case(fmu: Path) -> tuple[str, str, str]:
+    """C data of the run, the token of the FMU, and what the program is to print."""
+    prepared = prepare_system(fmu, SystemOptions())
+    with Simulation(prepared, open_end=True) as simulation:
+        simulation.recorder.reserve(len(simulation.signal_names), rows_between(-1, STEPS), prepared.step)
+        run = simulation._run(-1, STEPS, 1, False, NOTHING)
+        frozen = freeze_run(run, simulation.instances[NAME].function_addresses())
+        size = f"#define INSTRUCTIONS {len(run.program.instructions)}\n"
+        functions = ", ".join(f"(uintptr_t){each}" if each[:4] == "fmi3" else "0" for each in FUNCTION_NAMES)
+        flight = simulation.advance(-1, STEPS)
+        assert (flight.status, flight.time.size) == ("stop_time", STEPS + 1)
+        values = np.array([flight.signals[name] for name in simulation.signal_names])
+        assert np.ptp(values, axis=1).max() > 0.0
+        record = " ".join(format(bits, "x") for bits in values.view(np.uint64).ravel().tolist())
+        token = prepared.network.fmus[NAME].description.guid
+    return f"#define FUNCTIONS {functions}\n{size}{frozen}", token, f"0 {record}\n"
+
+
+@pytest.mark.parametrize("platform", RUNNERS)
+def test_a_program_in_c_has_the_bits_of_this_machine(fmu, case, platform, tmp_path):
+    if platform == "aarch64-linux" and (QEMU is None or not LIBRARIES.is_dir()):
+        pytest.skip(NO_QEMU)
+    frozen, token, expected = case
+    for name, content in {**library.sources(), "frozen_run.h": frozen.encode()}.items():
+        (tmp_path / name).write_bytes(content)
+    with zipfile.ZipFile(fmu) as archive:
+        for name in archive.namelist():
+            if name.startswith((f"binaries/{platform}/", "sources/fmi3")):
+                (tmp_path / Path(name).name).write_bytes(archive.read(name))
+    (target,) = PLATFORMS[platform].zig_targets
+    options = [*library.FLAGS, "-Wl,-rpath,$ORIGIN", "-I", "."]
+    flags = [flag for flag in options if flag not in ("-shared", "-fPIC")]
+    command = [*ZIG, "-target", target, *flags, "-o", "program", str(FROZEN), f"{NAME}.so", "-lm"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    done = subprocess.run(
+        [*RUNNERS[platform], str(tmp_path / "program"), token], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == expected
