@@ -137,7 +137,7 @@ $(BASILISK)/ready: .venv/ready
 # The C of every block under the address and undefined-behaviour sanitizers, 10000 steps each, fused steps of all
 # systems, and their FMUs, in threads.
 sanitize: build
-	PERILUNE_LONG=1 PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py tests/export/fmi3/test_sanitizers.py tests/runtime/fused/test_sanitizers.py tests/export/system_fmu/test_sanitizers.py
+	PERILUNE_LONG=1 PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py tests/export/fmi3/test_sanitizers.py tests/runtime/fused/test_sanitizers.py tests/runtime/loop/test_sanitizers.py tests/export/system_fmu/test_sanitizers.py
 
 # What others may hand in, changed at random under atheris and libFuzzer (Debian's clang, installed as root): manifests,
 # shards, documents, tables, archives, and calls of native FMUs. It takes hours; FUZZ="--runs N" takes N of each,

@@ -22,6 +22,7 @@ RUNS = {
     **dict.fromkeys(("systems_with_arrays", "parameter_sets_with_arrays"), 500_000),
     **dict.fromkeys(("descriptions", "fmi3_descriptions"), 500_000),
     **dict.fromkeys(("mappings", "inputs", "draws", "expressions", "archives"), 500_000),
+    "flights": 50_000,
     **dict.fromkeys(("fmi2", "fmi3"), 2_000_000),
 }
 VERSIONS = {"fmi2": 2, "fmi3": 3}  # of FMI, by the names of targets in C
