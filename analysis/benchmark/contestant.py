@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from ..runtime.ssp.conversions import IDENTITY
 from ..runtime.ssp.given_values import ParameterValue
 from ..runtime.system.network import Link

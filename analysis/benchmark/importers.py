@@ -9,7 +9,7 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import Parameter, ParameterSet
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from ..runtime.flight.simulation import Simulation
 from ..runtime.system.fmu import Fmu
 from ..runtime.system.options import FUSED

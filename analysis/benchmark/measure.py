@@ -13,11 +13,11 @@ from typing import Any
 
 from loky import cpu_count
 
+from ...common.errors import InputError, suggestion
+from ...common.paths import SYSTEMS, shipped_fmu
+from ...common.progress import progress_bar
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.ssp_package import list_fmus, pack_system
-from ...fmus_src.paths import SYSTEMS, shipped_fmu
-from ..common.errors import InputError, suggestion
-from ..common.progress import progress_bar
 from ..runtime.ssp.archive import system_names
 from .contestant import Contestant, Course, Unavailable, Values
 from .importers import MODULE, OURS

@@ -12,8 +12,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from ..common.errors import InputError
-from ..common.process import leave
+from ...common.errors import InputError
+from ...common.process import leave
 from .contestant import Course, Fly, Unavailable
 from .worker import fly_batch
 

@@ -14,9 +14,9 @@ import time
 from pathlib import Path
 from typing import Any
 
+from ...common.family.ending import end_with_parent
 from ..campaigns.fly.runner import run_batch
 from ..campaigns.spec.plan import read_plan
-from ..common.family.ending import end_with_parent
 from ..runtime.system.options import SystemOptions
 from .contestant import Unavailable
 from .importers import MODULE

@@ -13,7 +13,7 @@ from perilune.analysis import cli
 from perilune.analysis.benchmark import importers, worker
 from perilune.analysis.benchmark.measure import run_benchmark
 from perilune.analysis.benchmark.table import benchmark_text
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.lengths import either
 
 PROMISED_TIMES = {

@@ -1,4 +1,4 @@
-"""perilune.analysis.common.percent, and that nothing else prints fractions in a format that runs into powers of ten.
+"""perilune.common.percent, and that nothing else prints fractions in a format that runs into powers of ten.
 
 Truth: decimal arithmetic, and the sources.
 """
@@ -10,8 +10,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from perilune.analysis.common.percent import percent, short_percent
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
+from perilune.common.percent import percent, short_percent
 
 
 @given(st.floats(0.0, 1.0), st.integers(0, 6))

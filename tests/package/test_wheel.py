@@ -26,8 +26,8 @@ from macholib.SymbolTable import SymbolTable
 
 import perilune
 from docs.reference.links import broken_links
+from perilune.common.paths import ROOT
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.paths import ROOT
 from release.archives import build_sdist, require_same_bytes
 from release.state import Release
 from tests.support.installed import build_wheel, copy_of_checkout

@@ -16,7 +16,7 @@ import pytest
 
 from perilune.analysis.cli import main
 from perilune.analysis.verbs.options.verbs import VERBS
-from perilune.fmus_src.paths import ROOT, SYSTEMS, shipped_fmu
+from perilune.common.paths import ROOT, SYSTEMS, shipped_fmu
 from tests.support.builders import write_zip
 from tests.support.loops.exact_systems import late_double_integrator
 

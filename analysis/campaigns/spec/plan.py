@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive, open_system
 from ...runtime.system.fault import Fault
 from ...runtime.system.options import UNWATCHED, SystemOptions, Watch

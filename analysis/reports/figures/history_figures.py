@@ -9,7 +9,7 @@ import scipy
 from markupsafe import Markup
 from matplotlib.axes import Axes
 
-from ...common.percent import short_percent
+from ....common.percent import short_percent
 from ...runtime.flight.results import Result
 from ..common.lines import plot_quantity
 from ..common.page import data, exact

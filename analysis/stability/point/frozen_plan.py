@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ...runtime.system.prepared import PreparedSystem
 from ..request.declaration import Point
 from .bench import Bench

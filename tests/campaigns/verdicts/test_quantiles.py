@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from perilune.analysis.campaigns.verdicts.order_statistics import column_quantiles, quantile_rank, quantiles
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 VALUES = st.floats(allow_nan=True, allow_infinity=True)
 OTHERS = {"percentile", "quantile", "nanpercentile", "nanquantile", "median", "nanmedian", "mquantiles"}

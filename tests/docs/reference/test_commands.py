@@ -18,7 +18,7 @@ import pytest
 
 from perilune.analysis.cli import main
 from perilune.analysis.verbs.options.verbs import VERBS
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.documented import documented, first_difference, page_text, printed_by, saved_files
 from tests.support.lengths import LONG
 from tests.support.pages.system_page import write_system

@@ -17,7 +17,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
 from tests.support.lengths import either
 

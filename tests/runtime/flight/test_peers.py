@@ -29,8 +29,8 @@ from pathlib import Path
 import pytest
 
 from perilune.analysis.benchmark.worker import Worker
+from perilune.common.paths import SYSTEMS
 from perilune.fmus_src.export.ssp_package import pack_system
-from perilune.fmus_src.paths import SYSTEMS
 from tests.support.lengths import either
 
 SYSTEM = "lunar_terminal_guidance"
