@@ -17,7 +17,7 @@ from ..common.targets import check_encoding
 from .verbs.help import Parser, group_help, overview, verb_help
 from .verbs.options.parsing import add_verb, flags_of, read_parsed
 from .verbs.options.verb import Verb
-from .verbs.options.verbs import GROUPS, RENAMED, VERBS
+from .verbs.options.verbs import FORMER, GROUPS, VERBS
 
 HELP_ALL = "--help-all"
 COMPLETES = "_ARGCOMPLETE"  # set where a shell asks for completions; argcomplete is slow to import
@@ -37,9 +37,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _carry_out(given: Sequence[str]) -> int:
-    for renamed in (" ".join(given[:2]), *given[:1]):
-        if renamed in RENAMED:
-            print(f"perilune: {renamed}: renamed; write perilune {RENAMED[renamed]}", file=sys.stderr)
+    for former in (" ".join(given[:2]), *given[:1]):
+        if former in FORMER:
+            print(f"perilune: {former}: {FORMER[former]}", file=sys.stderr)
             return ExitStatus.REFUSED
     parser = parser_of(given)
     if COMPLETES in os.environ:

@@ -15,7 +15,6 @@ from .analysis.runtime.system.fault import Fault as Fault
 from .analysis.stability.point.bench import StudyError as StudyError
 from .analysis.verbs.batch import BatchResult as BatchResult
 from .analysis.verbs.batch import batch as batch
-from .analysis.verbs.benchmark import benchmark as benchmark
 from .analysis.verbs.bounds import TrialBounds as TrialBounds
 from .analysis.verbs.bounds import bound_trials as bound_trials
 from .analysis.verbs.compare import Comparison as Comparison

@@ -74,7 +74,6 @@ ARGUMENTS = {
     "design bound": [],
     "design bounds": ["lunar_landing", "--campaign", "laws_approach", "--trials", "1", "--workers", "1"],
     "stability": ["robot_rendezvous"],
-    "benchmark": [],
     "docs": [],
     "new block": ["mine"],
     "new system": ["mine"],

@@ -129,11 +129,10 @@ def test_describe_loads_nothing(tmp_path):
     assert done.returncode == 0, done.stderr
 
 
-# Who may load FMUs: a child; this process through the door, where they are Perilune's own; and who times our own.
+# Who may load FMUs: a child; this process through the door, where they are Perilune's own.
 LOADERS = {
     "analysis/runtime/apart/server/child.py",
     "analysis/runtime/apart/opening.py",
-    "analysis/benchmark/importers.py",
     "analysis/runtime/flight/simulation.py",
     "analysis/runtime/instances/reset_check.py",
 }
