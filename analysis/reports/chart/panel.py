@@ -11,6 +11,7 @@ from ..common.svg import Drawing
 from ..interactive.charts import Chart, Curve
 from ..interactive.columns import Coarse, has_enough_digits
 from ..interactive.envelope import envelope
+from .quantity import ordinates
 from .write_svg import lay_out, write_svg
 
 POINTS = 72.0  # in an inch
@@ -24,15 +25,16 @@ def chart_panel(
     height: float = PANEL_HEIGHT,
     width: float = PANEL_WIDTH,
     *,
+    kind: str = "",
     reduced: bool = False,
 ) -> Panel:
     """Return the panel of a ``chart``, sizes in inches; ``name`` must differ between the figures of a page.
 
-    ``reduced``: the page has only envelopes of its curves. A chart whose numbers a page cannot tell apart remains a
-    picture.
+    ``kind`` is a class more, for the style; ``reduced``: the page has only envelopes of its curves. A chart whose
+    numbers a page cannot tell apart remains a picture.
     """
     placed = lay_out(chart, POINTS * width, POINTS * height)
-    svg = write_svg(placed, name, description, POINTS * width, POINTS * height)
+    svg = write_svg(placed, name, description, POINTS * width, POINTS * height, kind=kind)
     if not all(_is_exact(placed, curve) for curve in placed.curves):
         stated = replace(placed, picture=True, curves=[], dots=[], areas=[], rules=[], notes=[])
         return Panel(label, Drawing(svg, [stated]))
@@ -41,8 +43,7 @@ def chart_panel(
 
 
 def _is_exact(chart: Chart, curve: Curve) -> bool:
-    assert isinstance(curve.y, np.ndarray)
-    return has_enough_digits(chart.x.ends, curve.x) and has_enough_digits(chart.y.ends, curve.factor * curve.y)
+    return has_enough_digits(chart.x.ends, curve.x) and has_enough_digits(chart.y.ends, ordinates(curve))
 
 
 def _reduce(curve: Curve) -> Curve:

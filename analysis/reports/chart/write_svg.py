@@ -9,16 +9,19 @@ import numpy as np
 from markupsafe import Markup, escape
 
 from ..common.colours import FAINT, GRID, INK
-from ..interactive.charts import Axis, Chart, Curve, Note
+from ..interactive.charts import Area, Axis, Chart, Curve, Note, Rule
 from .polyline import path_of
+from .quantity import ordinates
 from .text import text_width
 
 MARGIN = 3.0  # pt, around everything
 STROKE, GAP = 3.5, 3.5  # pt: of a tick, from there to its text
 LABEL_GAP = 4.0  # pt, from the texts of ticks to the label of the axis
-LABEL_SIZE = 9.0  # pt
+LABEL_SIZE = 9.0  # pt, of labels and titles
+TITLE_GAP = 4.0  # pt, from the title to the axes
 ASCENT, DESCENT = 0.928, 0.236  # of DejaVu Sans, of its size
 MIDDLE = 0.365  # of its size, from the base line to the middle of digits
+MOST_SPANS = 1e6  # of the outline of an area, which is no line over the abscissa
 STILL = "still"  # the class of what remains where a script draws lines
 ANCHORS = {"left": "start", "center": "middle", "right": "end"}
 RISES = {"top": ASCENT, "center": MIDDLE, "bottom": -DESCENT, "baseline": 0.0}
@@ -30,7 +33,7 @@ def lay_out(chart: Chart, width: float, height: float) -> Chart:
     left = MARGIN + max((text_width(text, y.size) for _, text in y.ticks), default=0.0) + GAP + STROKE
     bottom = MARGIN + STROKE + GAP + (ASCENT + DESCENT) * x.size
     bottom += LABEL_GAP + (ASCENT + DESCENT) * LABEL_SIZE if x.label else 0.0
-    top = MARGIN + MIDDLE * y.size
+    top = MARGIN + (TITLE_GAP + (ASCENT + DESCENT) * LABEL_SIZE if chart.title else MIDDLE * y.size)
     right = MARGIN
     if x.ticks:
         at, text = x.ticks[-1]
@@ -41,10 +44,11 @@ def lay_out(chart: Chart, width: float, height: float) -> Chart:
     return replace(chart, box=[round(each, 5) for each in box])
 
 
-def write_svg(chart: Chart, name: str, description: str, width: float, height: float) -> Markup:
+def write_svg(chart: Chart, name: str, description: str, width: float, height: float, *, kind: str = "") -> Markup:
     """Return the <svg> element of a chart that has its box, in a figure of this size (pt).
 
-    ``name`` must differ between the figures of a page; ``description`` is what a screen reader says.
+    ``name`` must differ between the figures of a page; ``description`` is what a screen reader says; ``kind`` is
+    a class more.
     """
     left, top, wide, high = (
         fraction * size for fraction, size in zip(chart.box, (width, height, width, height), strict=True)
@@ -56,14 +60,17 @@ def write_svg(chart: Chart, name: str, description: str, width: float, height: f
         f'<rect x="{left:.2f}" y="{top:.2f}" width="{wide:.2f}" height="{high:.2f}"/></clipPath>',
         *place.axes(),
         f'<g clip-path="url(#{name}-clip)" fill="none">',
+        *(place.area(area) for area in chart.areas),
+        *(place.rule(rule) for rule in chart.rules),
         *(place.curve(curve) for curve in chart.curves),
         "</g>",
         *(place.note(note) for note in chart.notes),
-        *place.label(height),
+        *place.labels(height),
     ]
+    classes = f"figure {kind}".rstrip()
     element = (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" role="img" '
-        f'aria-label="{escape(description)}" class="figure" font-family="DejaVu Sans, sans-serif">'
+        f'aria-label="{escape(description)}" class="{classes}" font-family="DejaVu Sans, sans-serif">'
     )
     return Markup("".join([element, *parts, "</svg>"]))
 
@@ -112,16 +119,11 @@ class _Place:
 
     def curve(self, curve: Curve) -> str:
         """A line, or the dot of a lone sample."""
-        assert isinstance(curve.y, np.ndarray)
-        x, y = self._x_of(curve.x), self._y_of(curve.factor * curve.y)
-        dashes = (
-            f' stroke-dasharray="{" ".join(f"{curve.width * each:g}" for each in curve.dashes)}"'
-            if curve.dashes
-            else ""
-        )
+        x, y = self._x_of(curve.x), self._y_of(ordinates(curve))
         path = path_of(x, y, steps=curve.steps, width=self._wide)
         line = (
-            f'<path d="{path}" stroke="{curve.colour}" stroke-width="{curve.width:g}" stroke-linejoin="round"{dashes}/>'
+            f'<path d="{path}" stroke="{curve.colour}" stroke-width="{curve.width:g}" stroke-linejoin="round"'
+            f"{_dashed(curve.width, curve.dashes)}/>"
         )
         if curve.marker is None:
             return line
@@ -154,11 +156,40 @@ class _Place:
             f'fill="{note.colour}"{bold}>{escape(note.text)}</text>'
         )
 
-    def label(self, height: float) -> Iterator[str]:
-        """The label of the abscissa, which remains where a script draws the chart."""
-        if self._chart.x.label:
-            yield (
-                f'<g class="{STILL}"><text x="{self._left + self._wide / 2.0:.2f}" '
-                f'y="{height - MARGIN - DESCENT * LABEL_SIZE:.2f}" font-size="{LABEL_SIZE:g}" text-anchor="middle" '
-                f'fill="{INK}">{escape(self._chart.x.label)}</text></g>'
-            )
+    def area(self, area: Area) -> str:
+        """A filled polygon."""
+        x = self._left + area.x * self._wide if area.of_axes[0] else self._x_of(area.x)
+        y = self._top + (1.0 - area.y) * self._high if area.of_axes[1] else self._y_of(area.y)
+        path = path_of(x, y, steps=False, width=MOST_SPANS)
+        return f'<path d="{path}z" fill="{area.colour}" fill-opacity="{area.opacity:g}"/>'
+
+    def rule(self, rule: Rule) -> str:
+        """A straight line across the axes."""
+        low, high = (self._chart.x if rule.upright else self._chart.y).ends
+        if not min(low, high) <= rule.at <= max(low, high):
+            return ""
+        path = (
+            f"M{self._x(rule.at):.2f} {self._top:.2f}v{self._high:.2f}"
+            if rule.upright
+            else f"M{self._left:.2f} {self._y(rule.at):.2f}h{self._wide:.2f}"
+        )
+        return (
+            f'<path d="{path}" stroke="{rule.colour}" stroke-width="{rule.width:g}"{_dashed(rule.width, rule.dashes)}/>'
+        )
+
+    def labels(self, height: float) -> Iterator[str]:
+        """The label of the abscissa and the title, which remain where a script draws the chart."""
+        middle = self._left + self._wide / 2.0
+        for text, x, y, anchor in (
+            (self._chart.x.label, middle, height - MARGIN - DESCENT * LABEL_SIZE, "middle"),
+            (self._chart.title, self._left, self._top - TITLE_GAP - DESCENT * LABEL_SIZE, "start"),
+        ):
+            if text:
+                yield (
+                    f'<g class="{STILL}"><text x="{x:.2f}" y="{y:.2f}" font-size="{LABEL_SIZE:g}" '
+                    f'text-anchor="{anchor}" fill="{INK}">{escape(text)}</text></g>'
+                )
+
+
+def _dashed(width: float, dashes: list[float]) -> str:
+    return f' stroke-dasharray="{" ".join(f"{width * each:g}" for each in dashes)}"' if dashes else ""
