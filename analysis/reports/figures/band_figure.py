@@ -65,7 +65,7 @@ def band_section(band: Band, result: Result, name: str) -> Section:
         for index, (element, line) in enumerate(zip(band.line_names, band.values(result), strict=True))
     ]
     limits = [limit for limit in (low, high) if limit is not None]
-    whole = axis_ends(np.concatenate([displayed(lines), limits]))
+    whole = _ends(displayed(lines), limits)
     green = across(whole[0] if low is None else low, whole[1] if high is None else high, GREEN, 0.16)
     grey = [during(begin, end, FAINT, 0.35) for begin, end in _spans(band, result)]
     rules = [level(limit, FAINT, 0.8) for limit in limits]
@@ -87,6 +87,15 @@ def band_section(band: Band, result: Result, name: str) -> Section:
         findings=[_findings(band, time, within)],
         notes=[_caption(band, unit, row), *band.notes],
     )
+
+
+def _ends(values: np.ndarray, limits: list[float]) -> tuple[float, float]:
+    """The ends of the ordinate: those of the values, or of both where a limit is beyond them."""
+    ends = axis_ends(values)
+    for count, limit in enumerate(limits, 1):
+        if not ends[0] <= limit <= ends[1]:
+            ends = axis_ends(np.concatenate([values, limits[:count]]))
+    return ends
 
 
 def _spans(band: Band, result: Result) -> list[tuple[float, float]]:
