@@ -16,8 +16,8 @@ DOT = 3.0  # pt, the diameter of a lone sample
 def ordinates(curve: Curve) -> np.ndarray:
     """Return the ordinates of a curve as displayed, [rows]."""
     assert isinstance(curve.y, np.ndarray)
-    shown: np.ndarray = curve.factor * curve.y
-    return shown
+    displayed: np.ndarray = curve.factor * curve.y
+    return displayed
 
 
 def quantity_curve(

@@ -53,26 +53,26 @@ def write_svg(chart: Chart, name: str, description: str, width: float, height: f
     left, top, wide, high = (
         fraction * size for fraction, size in zip(chart.box, (width, height, width, height), strict=True)
     )
-    place = _Place(chart, left, top, wide, high)
-    parts = [
+    frame = _Frame(chart, left, top, wide, high)
+    elements = [
         f'<rect width="{width:g}" height="{height:g}" fill="#fff"/>',
         f'<clipPath id="{name}-clip">',
         f'<rect x="{left:.2f}" y="{top:.2f}" width="{wide:.2f}" height="{high:.2f}"/></clipPath>',
-        *place.axes(),
+        *frame.axes(),
         f'<g clip-path="url(#{name}-clip)" fill="none">',
-        *(place.area(area) for area in chart.areas),
-        *(place.rule(rule) for rule in chart.rules),
-        *(place.curve(curve) for curve in chart.curves),
+        *(frame.area(area) for area in chart.areas),
+        *(frame.rule(rule) for rule in chart.rules),
+        *(frame.curve(curve) for curve in chart.curves),
         "</g>",
-        *(place.note(note) for note in chart.notes),
-        *place.labels(height),
+        *(frame.note(note) for note in chart.notes),
+        *frame.labels(height),
     ]
     classes = f"figure {kind}".rstrip()
     element = (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" role="img" '
         f'aria-label="{escape(description)}" class="{classes}" font-family="DejaVu Sans, sans-serif">'
     )
-    return Markup("".join([element, *parts, "</svg>"]))
+    return Markup("".join([element, *elements, "</svg>"]))
 
 
 def _fraction(axis: Axis, at: float) -> float:
@@ -81,7 +81,7 @@ def _fraction(axis: Axis, at: float) -> float:
     return (at - low) / (high - low)
 
 
-class _Place:
+class _Frame:
     """The axes of a chart at their place (pt) in the figure."""
 
     def __init__(self, chart: Chart, left: float, top: float, wide: float, high: float) -> None:
@@ -136,13 +136,13 @@ class _Place:
 
     def _x_of(self, numbers: np.ndarray) -> np.ndarray:
         low, high = self._chart.x.ends
-        placed: np.ndarray = self._left + (numbers - low) / (high - low) * self._wide
-        return placed
+        position: np.ndarray = self._left + (numbers - low) / (high - low) * self._wide
+        return position
 
     def _y_of(self, numbers: np.ndarray) -> np.ndarray:
         low, high = self._chart.y.ends
-        placed: np.ndarray = self._top + (high - numbers) / (high - low) * self._high
-        return placed
+        position: np.ndarray = self._top + (high - numbers) / (high - low) * self._high
+        return position
 
     def note(self, note: Note) -> str:
         """A text at a point of the data or of the axes."""

@@ -30,15 +30,15 @@ SYSTEMS = ("landing_mission", "satellite_pointing", "robot_rendezvous")
 FLOATS = re.compile(r"-?(?:\d+\.?\d*|\.\d+)")
 
 
-def read_back(group, result, reduced):
+def read_back(group, run, reduced):
     """The chart of a panel that matplotlib draws."""
     with house_style():
         figure = new_figure(HEIGHT, PANEL_WIDTH)
         axes = figure.subplots()
-        values = group.values(result)
+        values = group.values(run)
         style = "default" if group.is_real else "steps-post"
         for index, (name, row) in enumerate(zip(group.names, values, strict=True)):
-            plot_quantity(axes, result.time, row, name, group.unit, index, drawstyle=style)
+            plot_quantity(axes, run.time, row, name, group.unit, index, drawstyle=style)
         axes.set_xlabel("time, s")
         plain_ticks(axes, x=5, y=4, whole_y=not group.is_real)
         if group.type == "Boolean":
@@ -63,8 +63,8 @@ def clip_spikes(axes, values):
     outside = np.any((values < low - margin) | (values > high + 3.0 * margin), axis=0)
     early = np.mean(np.flatnonzero(outside)) < values.shape[1] / 2
     text = f"clipped; full range {number(float(finite.min()), 3)} to {number(float(finite.max()), 3)}"
-    place = {"ha": "right" if early else "left", "va": "top", "fontsize": 8.0, "color": FAINT}
-    axes.text(0.98 if early else 0.02, 0.98, text, transform=axes.transAxes, **place)
+    style = {"ha": "right" if early else "left", "va": "top", "fontsize": 8.0, "color": FAINT}
+    axes.text(0.98 if early else 0.02, 0.98, text, transform=axes.transAxes, **style)
 
 
 def plain(node):
@@ -82,21 +82,21 @@ def plain(node):
     return node
 
 
-def charts_of(result, reduced=False):
-    for group in signal_groups(result):
-        if not _is_constant(group, result):
-            (chart,) = chart_panel("a", "a", "a", history_chart(group, result), HEIGHT, reduced=reduced).figure.charts
+def charts_of(run, reduced=False):
+    for group in signal_groups(run):
+        if not _is_constant(group, run):
+            (chart,) = chart_panel("a", "a", "a", history_chart(group, run), HEIGHT, reduced=reduced).figure.charts
             yield group, chart
 
 
 @pytest.mark.usefixtures("fmus")
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_constructed_equals_read_back(system):
-    result = perilune.simulate(system)
+    run = perilune.simulate(system)
     number_of_charts = 0
-    for group, chart in charts_of(result, reduced=True):
+    for group, chart in charts_of(run, reduced=True):
         if number_of_charts % 5 == 0:  # each takes a tenth of a second
-            assert plain(chart) == plain(read_back(group, result, reduced=True)), group.label
+            assert plain(chart) == plain(read_back(group, run, reduced=True)), group.label
         number_of_charts += 1
     assert number_of_charts > 20
 
@@ -104,9 +104,9 @@ def test_constructed_equals_read_back(system):
 @pytest.fixture(scope="module")
 def odd(fmus):
     """A run whose signals have spikes, gaps, lone samples and nothing finite."""
-    result = perilune.simulate("satellite_pointing", stop_time=20.0)
-    names = [name for name in result.signals if result.types[name] == "Real" and "[" not in name][:5]
-    size = result.time.size
+    run = perilune.simulate("satellite_pointing", stop_time=20.0)
+    names = [name for name in run.signals if run.types[name] == "Real" and "[" not in name][:5]
+    size = run.time.size
     rows = np.random.default_rng(20251).normal(size=(5, size))
     rows[0, 3] = 500.0
     rows[1, 20:40] = np.nan
@@ -114,24 +114,24 @@ def odd(fmus):
     rows[2, 7] = 1.0
     rows[3, :] = np.nan
     rows[4, size - 3] = np.inf
-    return replace(result, signals={**result.signals, **dict(zip(names, rows, strict=True))}), names
+    return replace(run, signals={**run.signals, **dict(zip(names, rows, strict=True))}), names
 
 
 def test_odd_signals(odd):
-    result, names = odd
-    seen = {group.names[0]: (group, chart) for group, chart in charts_of(result)}
+    run, names = odd
+    seen = {group.names[0]: (group, chart) for group, chart in charts_of(run)}
     for name in names:
         group, chart = seen[name]
-        assert plain(chart) == plain(read_back(group, result, reduced=False)), name
+        assert plain(chart) == plain(read_back(group, run, reduced=False)), name
     assert seen[names[3]][1].notes[0].text == "no finite value"
     assert seen[names[0]][1].notes[0].text.startswith("clipped; full range ")
     assert seen[names[2]][1].curves[0].marker is not None
 
 
 def test_the_picture_has_the_texts_and_points_of_the_chart(odd):
-    result, names = odd
-    (group,) = [group for group in signal_groups(result) if group.names == (names[1],)]
-    figure = chart_panel("a", "spike", "what it shows", history_chart(group, result), HEIGHT).figure
+    run, names = odd
+    (group,) = [group for group in signal_groups(run) if group.names == (names[1],)]
+    figure = chart_panel("a", "spike", "what it shows", history_chart(group, run), HEIGHT).figure
     (chart,) = figure.charts
     root = etree.fromstring(str(figure.svg))
     texts = root.xpath("//*[local-name()='text']/text()")
@@ -144,7 +144,7 @@ def test_the_picture_has_the_texts_and_points_of_the_chart(odd):
     assert len(strokes) == 2  # on either side of the gap
     numbers = [float(each) for each in FLOATS.findall(strokes[1].partition("l")[0])]
     left, top, wide, high = np.array(chart.box) * [width, height, width, height]
-    for axis, at, begin, size in ((chart.x, result.time[40], left, wide), (chart.y, result[names[1]][40], top, high)):
+    for axis, at, begin, size in ((chart.x, run.time[40], left, wide), (chart.y, run[names[1]][40], top, high)):
         part = (at - axis.ends[0]) / (axis.ends[1] - axis.ends[0])
         expected = begin + (part if axis is chart.x else 1.0 - part) * size
         assert numbers.pop(0) == pytest.approx(expected, abs=0.06)

@@ -41,39 +41,39 @@ def _read(unit: str, time: np.ndarray, draw: Callable[[Axes], None], width: floa
     return chart
 
 
-def error_charts(error: Error, result: Result) -> list[Chart]:
+def error_charts(error: Error, run: Result) -> list[Chart]:
     """The panels of an error, as `history_figures` orders them."""
-    chosen, rows = select_rows(error.rows, result)
-    time = result.time[rows]
-    values = np.where(chosen, error.estimate.values(result) - error.truth.values(result), np.nan)[:, rows]
-    stated = np.zeros_like(values) if error.sigma is None else error.sigma.values(result)[:, rows]
+    chosen, rows = select_rows(error.rows, run)
+    time = run.time[rows]
+    values = np.where(chosen, error.estimate.values(run) - error.truth.values(run), np.nan)[:, rows]
+    stated = np.zeros_like(values) if error.sigma is None else error.sigma.values(run)[:, rows]
     sigma = np.where(stated > 0.0, stated, np.nan)
     name, factor = error.estimate.unit_name, display_factor(error.estimate.unit_name)
     few = np.linspace(0, time.size - 1, min(time.size, history_figures.MOST_ROWS)).round().astype(int)
     charts = []
     for index, label in enumerate(error.labels):
 
-        def draw(axes: Axes, reach: float | None = None, index: int = index, label: str = label) -> None:
+        def draw(axes: Axes, bound: float | None = None, index: int = index, label: str = label) -> None:
             for times, shade in zip(history_figures.SIGMAS, (0.20, 0.40), strict=True):
                 half = factor * times * sigma[index][few]
                 axes.fill_between(time[few], -half, half, color=ORANGE, alpha=shade, linewidth=0.0)
             axes.axhline(0.0, color=FAINT, linewidth=0.8)
             plot_quantity(axes, time, values[index], label or error.title, name)
-            if reach is not None:
-                axes.set_ylim(-factor * reach, factor * reach)
+            if bound is not None:
+                axes.set_ylim(-factor * bound, factor * bound)
 
         charts.append(_read(display_unit(name), time, draw))
-        reach = history_figures._final_range(values[index], sigma[index])
-        if reach is not None:
-            charts.append(_read(display_unit(name), time, lambda axes, reach=reach, draw=draw: draw(axes, reach)))  # type: ignore[misc]
+        bound = history_figures._final_range(values[index], sigma[index])
+        if bound is not None:
+            charts.append(_read(display_unit(name), time, lambda axes, bound=bound, draw=draw: draw(axes, bound)))  # type: ignore[misc]
     return charts
 
 
-def curve_charts(curve: Curve, result: Result) -> list[Chart]:
+def curve_charts(curve: Curve, run: Result) -> list[Chart]:
     """The wide and the narrow plot of curves, or their panels."""
-    chosen, rows = select_rows(curve.rows, result)
-    time = result.time[rows]
-    values = [np.where(chosen, signal.values(result)[0], np.nan)[rows] for signal in curve.signals]
+    chosen, rows = select_rows(curve.rows, run)
+    time = run.time[rows]
+    values = [np.where(chosen, signal.values(run)[0], np.nan)[rows] for signal in curve.signals]
     name = curve.signals[0].unit_name
 
     def draw(axes: Axes, which: range) -> None:
@@ -92,16 +92,16 @@ def curve_charts(curve: Curve, result: Result) -> list[Chart]:
     ]
 
 
-def band_charts(band: Band, result: Result) -> list[Chart]:
+def band_charts(band: Band, run: Result) -> list[Chart]:
     """The whole history of a band and its zoom."""
-    time, name = result.time, band.signal.unit_name
+    time, name = run.time, band.signal.unit_name
     factor = display_factor(name)
-    row = band_figure.settling_row(np.logical_and.reduce(band_figure.inside(band, result)))
+    row = band_figure.settling_row(np.logical_and.reduce(band_figure.inside(band, run)))
     low, high = (None if limit is None else factor * limit for limit in (band.low, band.high))
-    zoom = None if low is None or high is None else band_figure._zoom_limits(band.plot_values(result), low, high)
+    zoom = None if low is None or high is None else band_figure._zoom_limits(band.plot_values(run), low, high)
 
     def draw(axes: Axes, limits: tuple[float, float] | None = None) -> None:
-        for index, (element, line) in enumerate(zip(band.line_names, band.values(result), strict=True)):
+        for index, (element, line) in enumerate(zip(band.line_names, band.values(run), strict=True)):
             plot_quantity(axes, time, line, element, name, index)
         for limit in (low, high):
             if limit is not None:
@@ -111,7 +111,7 @@ def band_charts(band: Band, result: Result) -> list[Chart]:
             bottom if low is None else low, top if high is None else high, color=GREEN, alpha=0.16, linewidth=0.0
         )
         axes.set_ylim(bottom, top)
-        for begin, end in band_figure._spans(band, result):
+        for begin, end in band_figure._spans(band, run):
             axes.axvspan(begin, end, color=FAINT, alpha=0.35, linewidth=0.0)
         if limits is not None:
             axes.set_ylim(limits)
