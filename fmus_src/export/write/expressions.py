@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ..judge.effects import makes_matrix, own_outcome
 from ..judge.kernel import (
@@ -26,54 +25,57 @@ from ..judge.kernel import (
     is_self_attribute,
     length_of,
 )
-from .names import C_TYPES, Names, c_type, identifier, literal
+from .names import C_TYPES, c_type, identifier, literal
+from .operators import (
+    AND,
+    ATOM,
+    CHECKED_INT,
+    CONDITIONAL,
+    EQUALITY,
+    OPERATORS,
+    OR,
+    SUM,
+    UNARY,
+    VECTOR_NAMES,
+    parenthesise,
+)
+from .writer import FunctionWriter
 
-if TYPE_CHECKING:
-    from .matrices import MatrixWriter
-
-OR, AND, EQUALITY, RELATION, SUM, PRODUCT, UNARY, ATOM = range(8)  # C's precedence; 0 binds least
-CONDITIONAL = -1
-OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
-    ast.Add: ("+", SUM),
-    ast.Sub: ("-", SUM),
-    ast.Mult: ("*", PRODUCT),
-    ast.Div: ("/", PRODUCT),
-    ast.Lt: ("<", RELATION),
-    ast.LtE: ("<=", RELATION),
-    ast.Gt: (">", RELATION),
-    ast.GtE: (">=", RELATION),
-    ast.Eq: ("==", EQUALITY),
-    ast.NotEq: ("!=", EQUALITY),
-}
-CHECKED_INT: dict[type[ast.AST], str] = {ast.Add: "py_add", ast.Sub: "py_subtract", ast.Mult: "py_multiply"}
-VECTOR_NAMES: dict[type[ast.AST], str] = {
-    ast.Add: "add",
-    ast.Sub: "subtract",
-    ast.Mult: "multiply",
-    ast.Div: "divide",
-}
 EXACT = {"ldexp": "exact_ldexp", "frexp": "exact_frexp"}
 WHOLE = {"floor": "whole_floor", "ceil": "whole_ceil", "int": "whole_trunc"}
 
 
-class ExpressionWriter:
-    """Writes one function's expressions; hoisted parts come out through ``hoist`` before the statement."""
+class MatrixText(Protocol):
+    """The writer of matrices, as the writer of expressions sees it."""
 
-    def __init__(self, function: Function, names: Names, hoist: Callable[[ast.expr, str], str]) -> None:
-        self.function = function
-        self.names = names
-        self.hoist = hoist
-        self.matrices: MatrixWriter
+    def write(self, node: ast.expr) -> tuple[str, int]:
+        """Return a matrix that is no variable, or a vector made by one, with its precedence."""
+
+    def write_part(self, node: ast.Subscript) -> str:
+        """Return ``p[i, j]`` or ``p[i, 0:3]``."""
+
+
+class ExpressionWriter:
+    """Writes one function's expressions; hoisted parts are statements of ``out`` before.
+
+    Whoever makes one sets ``matrices``, whose elements are expressions again.
+    """
+
+    matrices: MatrixText
+
+    def __init__(self, out: FunctionWriter) -> None:
+        self.function = out.function
+        self.names = out.names
+        self.hoist = out.hoist
 
     def write(self, node: ast.expr, outer: int = CONDITIONAL) -> str:
         """C text of an expression, in parentheses where the operator around it binds tighter."""
         if makes_matrix(self.function, node) and not isinstance(self.function.calls.get(node), KernelCall):  # type: ignore[call-overload]
-            text, precedence = self.matrices.write(node)
-            return f"({text})" if precedence < outer else text
+            return parenthesise(self.matrices.write(node), outer)
         text, precedence = getattr(self, f"write_{type(node).__name__.lower()}")(node)
         if node in self.function.hoisted:
             return self.hoist(node, text)
-        return f"({text})" if precedence < outer else text
+        return parenthesise((text, precedence), outer)
 
     def write_as_float(self, node: ast.expr, outer: int) -> str:
         """An operand that Python widens to float."""

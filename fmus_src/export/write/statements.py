@@ -5,9 +5,11 @@ from __future__ import annotations
 import ast
 
 from ..judge.effects import makes_matrix
-from ..judge.kernel import KernelCall, List, Matrix, Several
+from ..judge.kernel import Function, KernelCall, List, Matrix, Several
 from ..judge.statements import is_list_binding, range_step
-from .names import identifier
+from .expressions import ExpressionWriter
+from .matrices import MatrixWriter
+from .names import Names, identifier
 from .placement import list_assigned
 from .writer import ZERO, FunctionWriter
 
@@ -21,6 +23,11 @@ class StatementWriter(FunctionWriter):
     to an argument goes through a variable first, so that a fault leaves the same values as an
     exception does in Python.
     """
+
+    def __init__(self, function: Function, names: Names) -> None:
+        super().__init__(function, names)
+        self.expressions = ExpressionWriter(self)
+        self.matrices = self.expressions.matrices = MatrixWriter(self, self.expressions)
 
     def block(self, statements: list[ast.stmt]) -> None:
         """Statements in order, with the comments that stand before each."""
