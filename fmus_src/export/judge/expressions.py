@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import builtins
 import math
+from abc import abstractmethod
 from types import ModuleType
 from typing import Any
 
@@ -32,7 +33,6 @@ from .source import find_global, origin_of_constant
 from .subset_table import (
     COMPARISONS,
     ELEMENTARY_FUNCTIONS,
-    EXPRESSIONS,
     MATH_CONSTANTS,
     MATH_FUNCTIONS,
     OPERATORS,
@@ -62,13 +62,38 @@ class ExpressionTypes(MatrixTypes):
 
     def infer(self, node: ast.expr) -> Type | None:
         """The type of an expression; every part's type is kept in the function."""
-        if isinstance(node, EXPRESSIONS):
-            inferred = getattr(self, f"infer_{type(node).__name__.lower()}")(node)
-        else:
-            self.refuse_syntax(node)
-            inferred = None
-        self.function.types[node] = inferred
+        self.function.types[node] = inferred = self._infer_by_syntax(node)
         return inferred
+
+    def _infer_by_syntax(self, node: ast.expr) -> Type | None:
+        """Return the type of an expression of the language; report one that is outside."""
+        match node:
+            case ast.Constant():
+                return self.infer_constant(node)
+            case ast.Name():
+                return self.infer_name(node)
+            case ast.Attribute():
+                return self.infer_attribute(node)
+            case ast.Subscript():
+                return self.infer_subscript(node)
+            case ast.Call():
+                return self.infer_call(node)
+            case ast.BinOp():
+                return self.infer_binop(node)
+            case ast.UnaryOp():
+                return self.infer_unaryop(node)
+            case ast.BoolOp():
+                return self.infer_boolop(node)
+            case ast.Compare():
+                return self.infer_compare(node)
+            case ast.IfExp():
+                return self.infer_ifexp(node)
+        self.refuse_syntax(node)
+        return None
+
+    @abstractmethod
+    def infer_call(self, node: ast.Call) -> Type | None:
+        """Return the type of a call used as a value."""
 
     def static_size(self, node: ast.expr) -> int | None:
         """Value of an int literal, an int constant or a length, for the size of a list or a part of one."""

@@ -84,33 +84,6 @@ MATH_CONSTANTS: dict[str, float] = {"pi": math.pi, "tau": math.tau, "e": math.e,
 
 BUILTIN_FUNCTIONS = ("abs", "float", "int", "len")  # and range, in a for statement
 
-# Augmented assignment (x += y) is read as x = x + y.
-STATEMENTS: tuple[type[ast.stmt], ...] = (
-    ast.AnnAssign,
-    ast.Assign,
-    ast.Break,
-    ast.Continue,
-    ast.Expr,
-    ast.For,
-    ast.If,
-    ast.Pass,
-    ast.Return,
-    ast.While,
-)
-
-EXPRESSIONS: tuple[type[ast.expr], ...] = (
-    ast.Attribute,
-    ast.BinOp,
-    ast.BoolOp,
-    ast.Call,
-    ast.Compare,
-    ast.Constant,
-    ast.IfExp,
-    ast.Name,
-    ast.Subscript,
-    ast.UnaryOp,
-)
-
 OPERATORS: tuple[type[ast.operator], ...] = (
     *(ast.Add, ast.Sub, ast.Mult, ast.Div, ast.MatMult, ast.FloorDiv, ast.Mod),
 )
@@ -197,8 +170,6 @@ NotIn: `not in`
 """).items()
 }
 
-OTHER_SYNTAX = Rule("{name} is outside the subset", "use the statements and expressions of subset_table.py")
-
 REFUSED_FUNCTIONS: dict[str, str] = {
     "hypot": "write math.sqrt(x * x + y * y); CPython's own hypot has other bits than C's",
     "dist": "write math.sqrt of the sum of squares",
@@ -223,6 +194,7 @@ REFUSED_FUNCTIONS: dict[str, str] = {
 REFUSED_MATH = "write from perilune import {name}: that of the C library has other bits on other processors"
 
 LANGUAGE_PAGE = "What a kernel may use"  # of the documentation site, derived from this file
+OTHER_SYNTAX = Rule("{name} is outside the subset", f'write what the page "{LANGUAGE_PAGE}" lists')
 OTHER_FUNCTION = f'take one of the page "{LANGUAGE_PAGE}", write one in the file, or declare python_only = True'
 
 # What a kernel may not say although each word of it is allowed.
