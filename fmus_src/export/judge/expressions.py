@@ -147,7 +147,7 @@ class ExpressionTypes(MatrixTypes):
         if node.id in self.function.parameters:
             return self.function.parameters[node.id]
         if node.id in self.bound:
-            return self.function.locals.get(node.id)  # unknown: kernel_flow reports it as unbound
+            return self.function.locals.get(node.id)  # unknown: flow.py reports it as unbound
         module = origin_of_constant(self.function.source.function, node.id)
         return self._constant(node, module, node.id, find_global(self.function.source.function, node.id))
 
