@@ -14,6 +14,7 @@ from ..ssp.description import Component
 from ..ssp.names import split_name
 from .fault import Fault, number_text
 from .network import Network
+from .options import STEP_ROUNDING
 from .passing.settings import Settings
 
 MOST = 6  # FMUs that are named
@@ -85,7 +86,7 @@ def check_samples(network: Network, settings: Settings, step: float, periods: di
             continue
         period = float(settings.variables.get((component, "sample_period"), variable.start_text))
         own = step * periods.get(component, 1)
-        if 0.0 < period < own * (1.0 - 1e-9):
+        if 0.0 < period < own * (1.0 - STEP_ROUNDING):
             file = settings.origins.get((component, "sample_period"), network.file)
             problem = f"{period:g} s is shorter than the communication step of {own:g} s"
             remedy = f"give a `step` of {period:g} or an integer submultiple of it, or a longer period"
