@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NotRequired, Self, TypedDict
 
 import numpy as np
 
+from ....fmus_src.roles import STATUS
 from ...common.atomic import whole_file, write_atomically
 from ...common.errors import suggestion
 from ...common.percent import short_percent
@@ -192,7 +193,6 @@ class Result(Flight):
             write_atomically(path.with_name(f"{path.name}.json"), f"{text}\n".encode())
 
 
-STATUS = "status"  # output of components that say how they fare, 0 for good
 MEANING = re.compile(r"(?:^|[,:] )(-?\d+):? (.+?)(?=, -?\d+:? |$)")  # "0 good, 1 clamped, 2 ..."
 
 
