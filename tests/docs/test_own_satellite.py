@@ -81,8 +81,8 @@ def test_the_plane_turns_once_a_year(orbit_lines):
     assert f"stop_time = {3 * round(revolution)}/" in PAGE
     span = 15 * revolution
     track = solve_ivp(with_j2, (0.0, span), state, method="DOP853", rtol=1e-10, atol=1e-4, dense_output=True)
-    turned = node(track.sol(span)) - node(state)
-    assert turned == pytest.approx(2.0 * math.pi / YEAR * span / 86400.0, rel=0.01)
+    angle = node(track.sol(span)) - node(state)
+    assert angle == pytest.approx(2.0 * math.pi / YEAR * span / 86400.0, rel=0.01)
     heights = np.linalg.norm(track.sol(np.linspace(0.0, span, 5000))[:3], axis=0) - RADIUS
     assert "7.5 km less" in PAGE
     assert heights.max() - heights.min() == pytest.approx(7.5e3, abs=0.25e3)
