@@ -74,6 +74,14 @@ def node(state):
     return math.atan2(normal[0], -normal[1])
 
 
+def test_there_is_what_the_page_replaces(folder):
+    lines = [line for line in PAGE.splitlines() if line.startswith("sed ") and "annotations.xml" in line]
+    replaced = [text for line in lines for text in re.findall(r"s/([^/]+)/", line)]
+    assert len(replaced) == 5
+    annotations = (folder / "annotations.xml").read_text(encoding="utf-8")
+    assert all(text in annotations for text in replaced)
+
+
 def test_the_plane_turns_once_a_year(orbit_lines):
     start = tomllib.loads(orbit_lines)
     state = np.array(start["satellite.initial_position"] + start["satellite.initial_velocity"])
@@ -121,6 +129,13 @@ def test_the_worst_flight_is_off_by_its_torque(folder):
     across = math.degrees(np.linalg.norm(offset[:, :2], axis=1).max())
     assert f"{across:.3f} deg of the {flight.metrics['error']:.3f}" in PAGE
     assert flight.metrics["error"] == pytest.approx(across, rel=0.15)
+    fast, integral = (
+        perilune.replay(folder, WORST, campaign="dispersed", set={f"control.{name}": number}).metrics["error"]
+        for name, number in (("natural_frequency", 2.0 * FREQUENCY), ("integral_time", 100.0))
+    )
+    assert f"leaves {fast:.3f} deg of it" in PAGE
+    assert f"of 100 s {integral:.3f} deg" in PAGE
+    assert max(fast, integral) < 0.5 * across
 
 
 def test_the_risk_is_binomial():
