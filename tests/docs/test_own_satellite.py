@@ -129,13 +129,18 @@ def test_the_worst_flight_is_off_by_its_torque(folder):
     across = math.degrees(np.linalg.norm(offset[:, :2], axis=1).max())
     assert f"{across:.3f} deg of the {flight.metrics['error']:.3f}" in PAGE
     assert flight.metrics["error"] == pytest.approx(across, rel=0.15)
+
+
+@pytest.mark.skipif(not LONG, reason="two further flights")
+def test_what_reduces_the_error(folder):
+    """A loop of twice the frequency to a quarter, but for noise and friction; an integral more."""
     fast, integral = (
         perilune.replay(folder, WORST, campaign="dispersed", set={f"control.{name}": number}).metrics["error"]
         for name, number in (("natural_frequency", 2.0 * FREQUENCY), ("integral_time", 100.0))
     )
     assert f"leaves {fast:.3f} deg of it" in PAGE
     assert f"of 100 s {integral:.3f} deg" in PAGE
-    assert max(fast, integral) < 0.5 * across
+    assert integral < fast < 0.18 / 2.0
 
 
 def test_the_risk_is_binomial():
