@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from typing import Any, ClassVar
 
 from .bundles import Connectors, Inputs, Outputs
-from .data_files import DataFiles, data_problem
-from .external_state import ExternalState, HasExternalState
+from .external_state import DataFiles, ExternalState, HasExternalState, data_problem
+from .roles import LIFE_CYCLE
 from .variables import DeclarationError, Input, Output, Parameter, State, Variable
 
 # What the file of a block takes from here.
@@ -32,10 +32,8 @@ class Block(DataFiles, HasExternalState):
     parameters and inputs; total: the declared starts alone must not fail) and `step` (outputs
     valid at t + h). Both are kernels: the subset of Python in `fmus_src.export.judge.subset`.
 
-    A parameter ``sample_period`` makes the block sampled: `step` is called at start + k *
-    sample_period only; 0 means at every communication point. An output is ``direct`` where it
-    answers for t + h from inputs of t + h; a plant has none and is given inputs of t. A state
-    ``start_time`` is set to the time of the start (s) before `initialize` runs.
+    An output is ``direct`` where it answers for t + h from inputs of t + h; a plant has none and is given inputs of t.
+    Variables that are found by their names, such as a parameter ``sample_period``, are those of `roles.ROLES`.
 
     ``class Name(Block, interface=True)`` declares connectors only and builds no FMU; ``to_write`` names the methods
     that its blocks write, without which a class is refused.
@@ -65,6 +63,7 @@ class Block(DataFiles, HasExternalState):
             cls.bundles |= _bundles_of(base)
             for name, variable in _variables_of(base):
                 cls._check_redeclared(name, variable)
+                cls._check_role(name, variable)
                 cls.variables[name] = variable
         for name, bundle in cls.bundles.items():
             if inspect.getattr_static(cls, name) is not bundle:
@@ -87,6 +86,14 @@ class Block(DataFiles, HasExternalState):
         if before is not None and before.causality != value.causality:
             kinds = f"a {value.causality} here, of causality {before.causality} in what {cls.__name__} derives from"
             raise DeclarationError(f"{cls.__name__}.{name}: {kinds}; give it another name")
+
+    @classmethod
+    def _check_role(cls, name: str, variable: Variable) -> None:
+        """Refuse what the life cycle cannot compute with."""
+        role = LIFE_CYCLE.get(name)
+        if role is not None and (variable.size != 1 or variable.record or variable.type_name == "Boolean"):
+            problem = f"is no number ({role.declared}: {role.effect})"
+            raise DeclarationError(f"{cls.__name__}.{name}: {problem}; make it one number, or give it another name")
 
     @classmethod
     def _check_written(cls) -> None:

@@ -13,13 +13,13 @@ from .block import Block, Input, Output, Parameter, State
 from .kernel.matrix_types import Matrix
 from .kernel.records import Record
 from .kernel.vector_types import vector
+from .roles import INTEGRATION_STEPS, SAMPLE_PERIOD, START_TIME
 from .start_values import StartError, TuningError, describe_violation, start_range
 
 # How far a communication point may miss a sample instant: importers round t0 + n h, or add up h.
 SAMPLE_TOLERANCE = 1e-6  # of a sample period
 TIME_TOLERANCE = 1e-15  # of the time
 STEP_LIMIT = 1_000_000  # samples, and steps of a block's own integration, in a communication step
-INTEGRATION_STEPS = ("longest_step", "internal_step")  # names of the longest of them (s): the first that a block has
 POINT_TOLERANCE = 1e-3  # of a step: communication points carry the rounding of whoever adds them up
 
 SCALAR, VECTOR, LIST, RECORD, MATRIX = -1, -2, -3, -4, -5  # in place of an element's number: all of a variable
@@ -55,7 +55,7 @@ class Component:
 
     def __init__(self, block_class: type[Block], tunable: Iterable[str] = ()) -> None:
         self.block: Any = block_class()
-        self.sampled = "sample_period" in block_class.variables
+        self.sampled = SAMPLE_PERIOD in block_class.variables
         self.integration_step = integration_step(block_class)
         self.initialising = True
         self.unsettled = True
@@ -199,7 +199,7 @@ class Component:
         self.check_start_values()
         self.block.drop_external()  # before others are made: two simulations at once would take twice the memory
         self.tick = 0
-        if "start_time" in self.block.variables:
+        if START_TIME in self.block.variables:
             self.block.start_time = self.start_time
         self.block.initialize()
         self.unsettled = False

@@ -78,6 +78,10 @@ def test_circles_hide_neither_below_type_checking_nor_in_functions():
     assert structure.circles(files) == ("1", ["analysis/a.py <-> analysis/b.py <-> analysis/c.py"])
 
 
+def test_no_files_import_each_other_in_a_circle():
+    assert structure.circles(Checkout()) == ("0", [])
+
+
 def test_a_run_of_like_lines_is_one_pair():
     lines = "\n\n".join(f"v{k} = w{k} + {{}}  # {{}}" for k in range(8))
     like = Files(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from ...common.atomic import write_atomically
@@ -14,6 +14,7 @@ from ...common.errors import InputError
 from ...common.regular import read_input
 from ...fmus_src.export.ssp_package import SYSTEM_FILE
 from ..runtime.ssp.archive import SystemArchive, open_system
+from ..runtime.system.options import Layer
 from .document import fmu_source, set_source
 from .source import ANNOTATIONS_FILE, SystemSource, read_source
 from .text import write_toml
@@ -80,8 +81,10 @@ def report_changed_source(system: str | Path) -> list[str]:
     return [f"{path}: has changed since {archive.description} was composed of it; perilune compose {path}"]
 
 
-def write_source(source: SystemSource, archive: SystemArchive, path: Path) -> list[Path]:
+def write_source(source: SystemSource, archive: SystemArchive, path: Path, layers: Iterable[Layer] = ()) -> list[Path]:
     """Write the `system.toml` of a system, its annotations next to it, and in another folder the files that it names.
+
+    ``layers`` are those of its annotations, whose parameter sets and FMUs it names, too.
 
     Returns the paths. Nothing is written over other content. Raises InputError and OSError.
     """
@@ -89,7 +92,7 @@ def write_source(source: SystemSource, archive: SystemArchive, path: Path) -> li
     if source.annotations:
         contents[path.with_name(ANNOTATIONS_FILE)] = source.annotations
     if path.parent.resolve() != archive.path:
-        contents |= {path.parent / name: content for name, content in _named_files(source, archive).items()}
+        contents |= {path.parent / name: content for name, content in _named_files(source, archive, layers).items()}
     write_new(contents, "`output`")
     return list(contents)
 
@@ -105,9 +108,12 @@ def write_new(contents: Mapping[Path, bytes], option: str = "") -> None:
         write_atomically(path, content)
 
 
-def _named_files(source: SystemSource, archive: SystemArchive) -> dict[str, bytes]:
+def _named_files(source: SystemSource, archive: SystemArchive, layers: Iterable[Layer]) -> dict[str, bytes]:
     """Parameter sets and FMUs of a system's own folder or archive, by path."""
-    inside = [each for each in source.components.values() if archive.is_own_file(fmu_source(each.fmu))]
-    sources = {fmu_source(each.fmu): fmu_source(each.fmu) for each in inside}
+    layers = list(layers)
+    fmus = [each.fmu for each in source.components.values()] + [fmu for each in layers for fmu in each.use.values()]
+    sources = {path: path for path in map(fmu_source, fmus) if archive.is_own_file(path)}
     sources |= {name: set_source(name) for name in source.parameter_sets}
+    further = {name: set_source(name) for each in layers for name in each.parameters}
+    sources |= {name: path for name, path in further.items() if archive.is_own_file(path)}
     return {path: archive.read(name, name) for path, name in sources.items()}

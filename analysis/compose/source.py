@@ -34,7 +34,8 @@ TOP = (
     "set",
     "units",
 )
-SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
+# Of a variable, of all elements of a vector or matrix, or of a matrix by rows.
+SetValue = ParameterValue | Sequence[ParameterValue] | Sequence[Sequence[ParameterValue]]
 COMPONENT_NAME = re.compile(r"[^\s.,\[\]>]+")
 
 
@@ -183,11 +184,11 @@ def _connectors(table: Table) -> dict[str, str]:
 
 def _set(table: Table) -> Iterator[tuple[str, SetValue]]:
     for name, setting in table.flat():
-        for each in setting if isinstance(setting, list) else [setting]:
+        rows = setting if isinstance(setting, list) else [setting]
+        for each in (each for row in rows for each in (row if isinstance(row, list) else [row])):
             if not isinstance(each, int | float):
-                raise table.error(
-                    name, f"{each!r} is neither a number nor true or false", "write one, or a list of them"
-                )
+                problem = f"{each!r} is neither a number nor true or false"
+                raise table.error(name, problem, "write one, a list of them, or a list of rows")
         yield name, setting  # type: ignore[misc]
 
 

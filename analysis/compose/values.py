@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from ...common.errors import InputError, SeveralProblemsError, suggestion
 from ...fmus_src.evidence.parameter_set import write_parameter_set
-from ..runtime.ssp.dimensions import array_shapes, element_names
+from ..runtime.ssp.dimensions import Shape, array_shapes, element_names
 from ..runtime.ssp.given_values import ParameterValue
 from ..runtime.ssp.names import elements, split_name
 from ..runtime.ssp.parameter_sets import Assignment
@@ -64,7 +64,7 @@ def _types(source: SystemSource, name: str, fmus: Mapping[str, Fmu], wiring: Wir
 def _typed(
     source: SystemSource, name: str, setting: SetValue, types: Mapping[str, str]
 ) -> Iterator[tuple[str, float | int | bool]]:
-    values = setting if isinstance(setting, Sequence) and not isinstance(setting, str) else (setting,)
+    values = _flatten(source, name, setting, array_shapes(types))
     if len(values) != len(types):
         problem = f"{len(values)} value{'s' if len(values) > 1 else ''} for {len(types)}"
         raise source.problem(f"set.{name}", problem, "give one for each element")
@@ -74,6 +74,22 @@ def _typed(
             problem = f"{each!r} is not of type {type_name}"
             raise source.problem(f"set.{name}", problem, "give another, or use a parameter set (.ssv)")
         yield element, ACCEPTED[type_name][0](each)
+
+
+def _flatten(
+    source: SystemSource, name: str, setting: SetValue, shapes: Mapping[str, Shape]
+) -> Sequence[ParameterValue]:
+    """The elements of a value row by row; rows are to be those of the matrix that the name is of."""
+    if isinstance(setting, str) or not isinstance(setting, Sequence):
+        return (setting,)
+    rows = [each for each in setting if isinstance(each, Sequence) and not isinstance(each, str)]
+    if not rows:
+        return setting  # type: ignore[return-value]
+    shape = next(iter(shapes.values()), ())
+    if len(shape) != 2 or [len(row) for row in rows] != [shape[1]] * shape[0] or len(rows) != len(setting):
+        problem = f"not {shape[0]} rows of {shape[1]}" if len(shape) == 2 else "rows, for what is no matrix"
+        raise source.problem(f"set.{name}", problem, "give one number for each element, row by row")
+    return [each for row in rows for each in row]
 
 
 def read_values(assignments: Sequence[Assignment]) -> dict[str, SetValue]:

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...fmus_src.roles import STATUS
 from ..runtime.flight.results import Result
 from ..runtime.ssp.types import WHOLE
 from .common.page import write_page
@@ -119,7 +120,7 @@ def key_values(result: Result) -> list[KeyValue]:
             rows.append(KeyValue(group.label, "", values, group.unit))
             if len(values) > 1:
                 rows.append(KeyValue(group.label, "magnitude", [float(np.linalg.norm(values))], group.unit))
-        elif group.variable == "status" and group.type in WHOLE:
+        elif group.variable == STATUS and group.type in WHOLE:
             rows.append(KeyValue(group.label, "maximum over run", [int(group.values(result).max())], group.unit))
     others = [group for group in groups if originals[group] == group]
     if not rows and len(others) <= MOST_KEYS:

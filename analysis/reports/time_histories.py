@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..campaigns.verdicts.order_statistics import quantiles
 from ..runtime.flight.results import Result
 from ..runtime.ssp.names import elements
-from .common.lines import plot_quantity
-from .common.panels import Panel, panel, swatch
+from .chart.axes import linear_axis, named_axis
+from .chart.panel import chart_panel
+from .chart.quantity import quantity_curve
+from .chart.ticks import axis_ends
+from .common.panels import Panel, swatch
 from .common.quantities import display_factor, label_with_unit, number
 from .common.signals import SignalGroup, distinct, signal_groups, states_and_commands
 from .common.style import FAINT, house_style, look, new_figure, plain_ticks
+from .interactive.charts import Chart, Note
 
 HEIGHT = 1.9  # in, of a panel on the page
 PLOT_HEIGHT, PLOT_WIDTH = 2.0, 6.8  # in, of a panel in a figure of its own
@@ -117,11 +119,11 @@ def _panels(groups: list[SignalGroup], result: Result, name: str, *, reduced: bo
     first = {kind: index for index, kind in reversed(list(enumerate(kinds)))}
     ranked = sorted(groups, key=lambda group: (not group.is_real, first[not group.is_real, group.unit]))
     return [
-        panel(
+        chart_panel(
             label_with_unit(group.variable, group.unit),
             f"{name}-{index}",
             f"{group.label} over time",
-            partial(draw_history, group=group, result=result),
+            history_chart(group, result),
             HEIGHT,
             reduced=reduced,
         )
@@ -135,40 +137,41 @@ def _legend(groups: list[SignalGroup]) -> list[tuple[Markup, str]]:
     return [(swatch(look(position)), f"[{index}]") for position, index in enumerate(elements)]
 
 
-def draw_history(axes: Axes, group: SignalGroup, result: Result) -> None:
-    """One panel: a scalar or a vector over time; Integers and Booleans as steps."""
-    values = group.values(result)
-    style = "default" if group.is_real else "steps-post"
-    for index, (name, row) in enumerate(zip(group.names, values, strict=True)):
-        plot_quantity(axes, result.time, row, name, group.unit, index, drawstyle=style)
-    axes.set_xlabel("time, s")
-    plain_ticks(axes, x=5, y=4, whole_y=not group.is_real)
+def history_chart(group: SignalGroup, result: Result) -> Chart:
+    """Return the chart of a scalar or a vector over time; Integers and Booleans as steps."""
+    values, factor = group.values(result), display_factor(group.unit)
+    curves = [
+        quantity_curve(result.time, row, name, group.unit, index, steps=not group.is_real)
+        for index, (name, row) in enumerate(zip(group.names, values, strict=True))
+    ]
+    seen = result.time[np.isfinite(values).any(axis=0)]
+    abscissa = linear_axis(axis_ends(seen), 5, label="time, s")
     if group.type == "Boolean":
-        axes.set_yticks([0, 1], ["false", "true"])
-        axes.set_ylim(-0.15, 1.15)
-    elif group.is_real:
-        _clip_spikes(axes, display_factor(group.unit) * values)
+        ordinate = named_axis((-0.15, 1.15), [(0.0, "false"), (1.0, "true")])
+        return Chart([], abscissa, ordinate, False, curves, [], [], [], [])
+    ends, notes = _ends(factor * values) if group.is_real else (axis_ends(values), [])
+    return Chart([], abscissa, linear_axis(ends, 4, integer=not group.is_real), False, curves, [], [], [], notes)
 
 
-def _clip_spikes(axes: Axes, values: np.ndarray) -> None:
-    """Clip the ordinate where a few extreme values would flatten the rest; a note gives the full range."""
+def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[Note]]:
+    """Ends of the ordinate, clipped where a few extreme values would flatten the others; a note has the full range."""
     finite = values[np.isfinite(values)]
     if not finite.size:
-        axes.text(0.5, 0.5, "no finite value", transform=axes.transAxes, ha="center", va="center", color=FAINT)
-        return
+        return axis_ends(finite), [_note("no finite value", (0.5, 0.5), ("center", "center"), 9.0)]
     low, high = quantiles(finite, [0.01, 0.99])
     minimum, maximum = float(finite.min()), float(finite.max())
     if not (high > low and maximum - minimum > SPIKE * (high - low)):
-        return
+        return axis_ends(finite), []
     margin = 0.15 * (high - low)
-    axes.set_ylim(low - margin, high + 3.0 * margin)  # room for the note
-    outside = np.flatnonzero(np.any((values < low - margin) | (values > high + 3.0 * margin), axis=0))
+    ends = (low - margin, high + 3.0 * margin)  # room for the note
+    outside = np.flatnonzero(np.any((values < ends[0]) | (values > ends[1]), axis=0))
     early = float(np.mean(outside)) < values.shape[1] / 2
-    axes.text(
-        0.98 if early else 0.02, 0.98, f"clipped; full range {number(minimum, 3)} to {number(maximum, 3)}",
-        transform=axes.transAxes,
-        ha="right" if early else "left", va="top", fontsize=8.0, color=FAINT,
-    )  # fmt: skip
+    text = f"clipped; full range {number(minimum, 3)} to {number(maximum, 3)}"
+    return ends, [_note(text, (0.98 if early else 0.02, 0.98), ("right" if early else "left", "top"), 8.0)]
+
+
+def _note(text: str, at: tuple[float, float], align: tuple[str, str], size: float) -> Note:
+    return Note(text, at, (True, True), (0.0, 0.0), align, FAINT, size, bold=False, backing=None)
 
 
 def signal_plot(result: Result, names: Sequence[str]) -> Figure:

@@ -22,7 +22,7 @@ from ..campaigns.trials import whole_column
 from ..runtime.flight.results import require_pandas
 from ..studies.sobol import rank_correlations
 from ..traceability.campaign_task import write_task
-from .common.campaign_text import campaign_problems, campaign_requirements, status_meanings
+from .common.campaign_text import campaign_problems, campaign_requirements, status_meanings, worst_lines
 from .common.campaigns import name_foreign, read_campaign, resume_hint
 from .options.campaigns import BATCH, BatchOptions
 from .options.option import FilePath
@@ -56,7 +56,7 @@ class BatchResult(results.BatchResult):
 
     def lines(self) -> list[str]:
         """What `perilune batch` prints."""
-        return [self.text(self.displayed), *status_meanings(self.plan, self)]
+        return [self.text(self.displayed), *worst_lines(self), *status_meanings(self.plan, self)]
 
     def problems(self) -> list[str]:
         """Failed simulations, requirements of the campaign and of ``require`` that are not met."""

@@ -19,6 +19,7 @@ from ..compose.text import write_toml
 from ..compose.way_back import source_of
 from ..reports.figures.reading import read_figures
 from ..runtime.ssp.archive import open_system
+from ..runtime.ssp.reading import read_description
 from ..runtime.system.options import SystemOptions
 from ..runtime.system.prepared import prepare_system
 from ..runtime.system.times import MissingStopTimeError
@@ -64,7 +65,10 @@ def compose(what: FilePath, **options: Unpack[ComposeOptions]) -> Composition:
         archive = open_system(path)
         source = source_of(archive)
         check_file("`output`", None if output is None else Path(output), (".toml",))
-        return Composition(source, () if output is None else tuple(write_source(source, archive, Path(output))))
+        if output is None:
+            return Composition(source, ())
+        layers = read_declaration(read_description(archive)).layers
+        return Composition(source, tuple(write_source(source, archive, Path(output), layers)))
     if output is not None:
         problem = f"an SSD is written next to its file, as {DESCRIPTION}"
         raise InputError("`output`", os.fspath(output), problem, "leave it out")

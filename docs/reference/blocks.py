@@ -7,6 +7,7 @@ from pathlib import Path
 from perilune.analysis.authoring.fits import Demand, blocks_of_slot, connectors_of, slots
 from perilune.fmus_src.block import Block, Output, Parameter
 from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.roles import SAMPLE_PERIOD
 
 from .markdown import prose, table
 from .unread import explain_unread
@@ -69,7 +70,7 @@ def _facts(block: type[Block]) -> list[list[str]]:
 
 
 def _rate(block: type[Block]) -> str:
-    period = block.variables.get("sample_period")
+    period = block.variables.get(SAMPLE_PERIOD)
     if not isinstance(period, Parameter):
         return "at every communication point"
     value = period.elements[0]

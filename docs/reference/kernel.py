@@ -58,8 +58,8 @@ def kernel_page() -> str:
         f"`float`, `int` of 64 bits and `bool`, with {operators}, and the functions "
         f"{', '.join(f'`{name}`' for name in BUILTIN_FUNCTIONS)}. Two to four floats are a vector: `vector(x, y, z)`, "
         "`v.x`, `v[0]`, `v[0:2]`, with `+` `-` `*` `/`. More are a list of a fixed size: `[0.0] * n`.",
-        "A matrix of fixed size is made by `matrix([a, b], [c, d])`, `zeros(2, 3)` or `identity(3)`, with `+` `-` `@`, "
-        "`*` and `/` by numbers, and `p.T`; `p[i, j]` is an element, `p[POSITION, VELOCITY]` a block, with "
+        "A matrix of fixed size is made by `matrix([a, b], [c, d])`, `zeros(2, N + 2)` or `identity(3)`, with `+` `-` "
+        "`@`, `*` and `/` by numbers, and `p.T`; `p[i, j]` is an element, `p[POSITION, VELOCITY]` a block, with "
         "`POSITION = block(0, 3)` at the top of the file.",
         'Values with names are a record: `class Motion(Record)` with fields `speed = Field(unit="m/s")`; write '
         "`Motion(speed=v)`, `replace(s, speed=v)`, `s.speed`.",

@@ -7,8 +7,6 @@ from ..kernel.enumerations import Enumeration, member
 from ..mathlib.actuators.jets import JETS, JetStrength, Wrench, jet_strength, jet_wrench
 from ..mathlib.attitude.quaternion import is_attitude, normalise, to_body
 
-ROUNDING = 1e-9  # s, allowed for in times of communication points
-
 
 class JetAllocationStatus(Enumeration):
     """What became of the newest command."""
@@ -98,7 +96,7 @@ class JetAllocation(Block, interface=True):
 
     def put_out(self, time: float) -> None:
         """Put the waiting thrusts out if they are due at ``time`` (s)."""
-        if self.waiting and time >= self.due_time - ROUNDING:
+        if self.waiting and time >= self.due_time - sampling.TIME_ROUNDING:
             self.waiting = False
             wrench = jet_wrench(self.strength, self.new_thrust)
             for p in range(JETS):

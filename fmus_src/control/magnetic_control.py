@@ -7,7 +7,6 @@ from ..kernel.enumerations import Enumeration, member
 from ..mathlib.vectors import Vector3, cross, dot, is_finite, vector
 
 WEAKEST_FIELD = 1e-6  # T
-ROUNDING = 1e-9  # s, of times of communication points
 
 
 class MagneticControlStatus(Enumeration):
@@ -99,7 +98,7 @@ class MagneticControl(Block):
             self.take_sample(t)
         self.dipole = vector(0.0, 0.0, 0.0)
         self.feedforward_torque = vector(0.0, 0.0, 0.0)
-        if self.mode != MagneticMode.OFF and t < self.active_until - ROUNDING:
+        if self.mode != MagneticMode.OFF and t < self.active_until - sampling.TIME_ROUNDING:
             self.dipole = self.planned_dipole
             if self.mode == MagneticMode.UNLOAD:
                 self.feedforward_torque = -cross(self.dipole, self.previous_field)

@@ -12,7 +12,6 @@ from ..mathlib.vectors import across, clip, dot, limit_length, norm, vector
 from ..units import deg
 from .hover_plan import HoverPlan
 
-ROUNDING = 1e-9  # s, allowed for in times of communication points
 CYCLE_TOLERANCE = 1e-3  # of a cycle, by which communication points may miss sample instants
 USUAL_CYCLE = 0.1  # s, of the first command, before the communication step is known
 LEAST_THRUST = 0.02  # m/s2; less is not commanded, for the direction's sake
@@ -212,7 +211,7 @@ class HoverGuidance(HoverPlan):
     def follow(self, time: float) -> None:
         """The command at ``time`` (s)."""
         t = time - self.plan_start
-        if self.duration - t < ROUNDING and t < self.duration:
+        if self.duration - t < sampling.TIME_ROUNDING and t < self.duration:
             t = self.duration
         self.plan_time = t
         self.time_to_go = clip(self.duration - t, 0.0, self.duration)

@@ -5,13 +5,11 @@ import math
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, inertial, robot
 from ..kernel.enumerations import Enumeration, member
-from ..kernel.integrators import Translation
+from ..kernel.integrators import STEP_ROUNDING, Translation
 from ..mathlib.attitude.quaternion import from_rotation_vector
 from ..mathlib.attitude.rotation import rotation_between
 from ..mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
 from ..mathlib.vectors import norm, vector
-
-ROUNDING = 1e-9  # of a period, allowed for in times of communication points
 
 
 class RendezvousStatus(Enumeration):
@@ -182,7 +180,7 @@ class RendezvousGuidance(Block):
         ratio = math.floor(self.slow_period / self.fast_period + 0.5)
         if ratio < 1:
             ratio = 1
-        change = math.ceil(self.turn_end / self.fast_period - ROUNDING)
+        change = math.ceil(self.turn_end / self.fast_period - STEP_ROUNDING)
         self.translation_period = self.fast_period
         following = self.next_tick + 1
         if self.next_tick < change:
@@ -222,6 +220,6 @@ class RendezvousGuidance(Block):
 
     def step(self, t: float, h: float) -> None:
         time = t + h - self.start_time
-        if time >= (float(self.next_tick) - ROUNDING) * self.fast_period:
+        if time >= (float(self.next_tick) - STEP_ROUNDING) * self.fast_period:
             self.tick(float(self.next_tick) * self.fast_period)
         self.publish(time)

@@ -15,8 +15,6 @@ from ..mathlib.attitude.quaternion import (
 )
 from ..mathlib.vectors import norm, vector
 
-ROUNDING = 1e-9  # s, allowed for in times of communication points
-
 
 class SlewPhase(Enumeration):
     """What the reference does."""
@@ -76,9 +74,9 @@ class SlewGuidance(Block, interface=True):
     def proceed(self, time: float) -> None:
         """Set progress for a time (s) of the flight, whatever the phase."""
         elapsed = time - self.start_time - self.slew_start
-        if elapsed <= ROUNDING:
+        if elapsed <= sampling.TIME_ROUNDING:
             self.progress = SlewProgress(angle=0.0, rate=0.0)
-        elif elapsed >= self.duration - ROUNDING:
+        elif elapsed >= self.duration - sampling.TIME_ROUNDING:
             self.progress = SlewProgress(angle=self.slew_angle, rate=0.0)
         else:
             self.follow(elapsed)
@@ -87,9 +85,9 @@ class SlewGuidance(Block, interface=True):
         """Set the phase of a time (s)."""
         elapsed = time - self.start_time - self.slew_start
         self.phase = SlewPhase.SLEWING
-        if elapsed < -ROUNDING:
+        if elapsed < -sampling.TIME_ROUNDING:
             self.phase = SlewPhase.WAITING
-        elif elapsed >= self.duration - ROUNDING:
+        elif elapsed >= self.duration - sampling.TIME_ROUNDING:
             self.phase = SlewPhase.HOLDING
 
     def set_attitude(self, time: float) -> None:

@@ -1,12 +1,13 @@
 """Slew of least time within limits of rate, acceleration and jerk, between attitudes and angular velocities."""
 
 from ..block import Output, Parameter, State
+from ..interfaces.ports import sampling
 from ..kernel.enumerations import Enumeration, member
 from ..kernel.records import Field, Record, replace
 from ..mathlib.attitude.quaternion import difference, from_rotation_vector, multiply, normalise, to_rotation_vector
 from ..mathlib.jerk_limited import JerkLimits, RateProfile, follow_profile, plan_axis, plan_ramp, plan_turn
 from ..mathlib.vectors import Vector3, Vector4, across, dot, norm, vector
-from .slew_guidance import ROUNDING, SlewGuidance, SlewProgress
+from .slew_guidance import SlewGuidance, SlewProgress
 
 ALIGNED = 1e-9  # rad of a turn that has no axis; of rate_limit, what a rate may have across the axis
 
@@ -127,9 +128,9 @@ class SlewJerkLimited(SlewGuidance):
         elapsed = time - self.start_time - self.slew_start
         if self.status != SlewStatus.GOOD:
             self.coast(self.first_quaternion, vector(0.0, 0.0, 0.0), 0.0)
-        elif elapsed <= ROUNDING:
+        elif elapsed <= sampling.TIME_ROUNDING:
             self.coast(self.first_quaternion, self.start_angular_velocity, time - self.start_time)
-        elif elapsed >= self.duration - ROUNDING:
+        elif elapsed >= self.duration - sampling.TIME_ROUNDING:
             self.coast(self.last_quaternion, self.end_angular_velocity, elapsed - self.duration)
         else:
             self.follow(elapsed)

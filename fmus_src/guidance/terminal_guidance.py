@@ -4,10 +4,10 @@ from ..block import Block, Input, Output, Outputs, Parameter, State
 from ..interfaces.ports import landing, sampling
 from ..interfaces.ports.landing import UNLIMITED, TerminalStatus, ThrustCommand
 from ..kernel.enumerations import Enumeration, member
+from ..kernel.integrators import STEP_ROUNDING
 from ..mathlib.lunar.gravity import central_gravity
 from ..mathlib.vectors import Vector3, vector
 
-ROUNDING = 1e-9  # of a cycle, allowed for in times of communication points
 # Cycles; a last burn is never a sliver of one, in which small misses would ask for a large thrust.
 LAST_BURN = 1.5
 # Solves at the start at most, until time-to-go and the gravity corrected over it agree to SETTLED of it.
@@ -219,7 +219,7 @@ class TerminalGuidance(Block, interface=True):
                 or burn_left > self.hold_time() - self.cycle
             ):
                 self.follow(t + h)
-            elif burn_left > self.cycle * ROUNDING:
+            elif burn_left > self.cycle * STEP_ROUNDING:
                 self.time_to_go = burn_left
             else:
                 self.finish(t + h)

@@ -4,11 +4,11 @@ import math
 
 from .functions import exp, log
 from .matrix_types import Matrix, add_product, block, identity, matrix, zeros
-from .vector_types import Vector
+from .vector_types import Vector, Vector3
 
 __all__ = [
-    "Matrix", "add_product", "block", "diagonal", "exponential", "identity", "inverse", "inverse_quadratic_form",
-    "is_positive_definite", "largest_eigenvalue", "matrix", "mirror", "outer", "zeros",
+    "Matrix", "add_product", "block", "cross_matrix", "diagonal", "exponential", "identity", "inverse",
+    "inverse_quadratic_form", "is_positive_definite", "largest_eigenvalue", "matrix", "mirror", "outer", "zeros",
 ]  # fmt: skip
 
 SQUARINGS = 30  # of a matrix, for its largest eigenvalue to 1e-9
@@ -157,3 +157,8 @@ def exponential(a: Matrix, t: float) -> Matrix:
     for _ in range(squarings):
         e = e @ e
     return e
+
+
+def cross_matrix(v: Vector3) -> Matrix:
+    """Return the 3 x 3 matrix of u -> v x u."""
+    return matrix([0.0, -v.z, v.y], [v.z, 0.0, -v.x], [-v.y, v.x, 0.0])

@@ -5,14 +5,15 @@ component; the scalar product is `vectors.dot`. `v[k]`, `v.x` (w, x, y, z of fou
 first), `v[1:4]` and `x, y, z = v` read components; to change one, make a new vector. In C a vector is a struct
 that is passed and returned by value, with the same operations in kernel_vectors.h.
 
-Every operator is written out for each size, and what it makes is filled slot by slot: in the Python FMUs that
-takes 1.5 times as long as loops over lists, a subclass of tuple 2.2 times, a class of any size 2.6 times.
+Every operator is written out for each size (`operations.py`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+from .operations import add_method, add_operators, fill
 
 
 class Vector:
@@ -23,20 +24,13 @@ class Vector:
 
     def __init_subclass__(cls) -> None:
         cls.names = "".join(cls.__slots__)
-
-    def elements(self) -> tuple[float, ...]:
-        """The components as a tuple."""
-        raise NotImplementedError
+        _write_methods(cls)
 
     def __len__(self) -> int:
         return len(self.names)
 
     def __iter__(self) -> Iterator[float]:
         return iter(self.elements())
-
-    def __getitem__(self, key: Any) -> Any:
-        part = self.elements()[key]
-        return vector(*part) if isinstance(part, tuple) else part
 
     def __eq__(self, other: object) -> bool:
         return self.elements() == tuple(other) if isinstance(other, Vector | list | tuple) else NotImplemented
@@ -60,230 +54,44 @@ class Vector:
     def __reduce__(self) -> tuple:
         return vector, self.elements()
 
+    if TYPE_CHECKING:  # written for each size
 
-class Vector2(Vector):
-    """Two floats."""
+        def elements(self) -> tuple[float, ...]:
+            """The components as a tuple."""
 
-    __slots__ = ("x", "y")
-    x: float
-    y: float
+        def __getitem__(self, key: Any) -> Any: ...
 
-    def elements(self) -> tuple[float, float]:
-        return self.x, self.y
+        def __add__(self, other: Self) -> Self: ...
 
-    def __getitem__(self, k: Any) -> Any:
-        part = (self.x, self.y)[k]
-        return vector(*part) if part.__class__ is tuple else part  # type: ignore[misc]
+        def __sub__(self, other: Self) -> Self: ...
 
-    def __add__(self, other: Vector2) -> Vector2:
-        if other.__class__ is not Vector2:
-            return NotImplemented
-        made = Vector2()
-        made.x = self.x + other.x
-        made.y = self.y + other.y
-        return made
+        def __neg__(self) -> Self: ...
 
-    def __sub__(self, other: Vector2) -> Vector2:
-        if other.__class__ is not Vector2:
-            return NotImplemented
-        made = Vector2()
-        made.x = self.x - other.x
-        made.y = self.y - other.y
-        return made
+        def __rmul__(self, factor: float) -> Self: ...
 
-    def __neg__(self) -> Vector2:
-        made = Vector2()
-        made.x = -self.x
-        made.y = -self.y
-        return made
+        def __mul__(self, factor: float | Self) -> Self: ...
 
-    def __rmul__(self, factor: float) -> Vector2:
-        made = Vector2()
-        made.x = factor * self.x
-        made.y = factor * self.y
-        return made
-
-    def __mul__(self, factor: float | Vector2) -> Vector2:
-        made = Vector2()
-        if factor.__class__ is Vector2:
-            made.x = self.x * factor.x  # type: ignore[union-attr]
-            made.y = self.y * factor.y  # type: ignore[union-attr]
-        elif isinstance(factor, Vector):
-            raise TypeError(f"a vector of 2 times one of {len(factor)}")
-        else:
-            made.x = self.x * factor  # type: ignore[assignment, operator]
-            made.y = self.y * factor  # type: ignore[assignment, operator]
-        return made
-
-    def __truediv__(self, divisor: float | Vector2) -> Vector2:
-        made = Vector2()
-        if divisor.__class__ is Vector2:
-            made.x = self.x / divisor.x  # type: ignore[union-attr]
-            made.y = self.y / divisor.y  # type: ignore[union-attr]
-        else:
-            made.x = self.x / divisor  # type: ignore[assignment, operator]
-            made.y = self.y / divisor  # type: ignore[assignment, operator]
-        return made
+        def __truediv__(self, divisor: float | Self) -> Self: ...
 
 
-class Vector3(Vector):
-    """Three floats."""
-
-    __slots__ = ("x", "y", "z")
-    x: float
-    y: float
-    z: float
-
-    def elements(self) -> tuple[float, float, float]:
-        return self.x, self.y, self.z
-
-    def __getitem__(self, k: Any) -> Any:
-        part = (self.x, self.y, self.z)[k]
-        return vector(*part) if part.__class__ is tuple else part  # type: ignore[misc]
-
-    def __add__(self, other: Vector3) -> Vector3:
-        if other.__class__ is not Vector3:
-            return NotImplemented
-        made = Vector3()
-        made.x = self.x + other.x
-        made.y = self.y + other.y
-        made.z = self.z + other.z
-        return made
-
-    def __sub__(self, other: Vector3) -> Vector3:
-        if other.__class__ is not Vector3:
-            return NotImplemented
-        made = Vector3()
-        made.x = self.x - other.x
-        made.y = self.y - other.y
-        made.z = self.z - other.z
-        return made
-
-    def __neg__(self) -> Vector3:
-        made = Vector3()
-        made.x = -self.x
-        made.y = -self.y
-        made.z = -self.z
-        return made
-
-    def __rmul__(self, factor: float) -> Vector3:
-        made = Vector3()
-        made.x = factor * self.x
-        made.y = factor * self.y
-        made.z = factor * self.z
-        return made
-
-    def __mul__(self, factor: float | Vector3) -> Vector3:
-        made = Vector3()
-        if factor.__class__ is Vector3:
-            made.x = self.x * factor.x  # type: ignore[union-attr]
-            made.y = self.y * factor.y  # type: ignore[union-attr]
-            made.z = self.z * factor.z  # type: ignore[union-attr]
-        elif isinstance(factor, Vector):
-            raise TypeError(f"a vector of 3 times one of {len(factor)}")
-        else:
-            made.x = self.x * factor  # type: ignore[assignment, operator]
-            made.y = self.y * factor  # type: ignore[assignment, operator]
-            made.z = self.z * factor  # type: ignore[assignment, operator]
-        return made
-
-    def __truediv__(self, divisor: float | Vector3) -> Vector3:
-        made = Vector3()
-        if divisor.__class__ is Vector3:
-            made.x = self.x / divisor.x  # type: ignore[union-attr]
-            made.y = self.y / divisor.y  # type: ignore[union-attr]
-            made.z = self.z / divisor.z  # type: ignore[union-attr]
-        else:
-            made.x = self.x / divisor  # type: ignore[assignment, operator]
-            made.y = self.y / divisor  # type: ignore[assignment, operator]
-            made.z = self.z / divisor  # type: ignore[assignment, operator]
-        return made
-
-
-class Vector4(Vector):
-    """Four floats: a quaternion, scalar first, or what else there are four of."""
-
-    __slots__ = ("w", "x", "y", "z")
-    w: float
-    x: float
-    y: float
-    z: float
-
-    def elements(self) -> tuple[float, float, float, float]:
-        return self.w, self.x, self.y, self.z
-
-    def __getitem__(self, k: Any) -> Any:
-        part = (self.w, self.x, self.y, self.z)[k]
-        return vector(*part) if part.__class__ is tuple else part  # type: ignore[misc]
-
-    def __add__(self, other: Vector4) -> Vector4:
-        if other.__class__ is not Vector4:
-            return NotImplemented
-        made = Vector4()
-        made.w = self.w + other.w
-        made.x = self.x + other.x
-        made.y = self.y + other.y
-        made.z = self.z + other.z
-        return made
-
-    def __sub__(self, other: Vector4) -> Vector4:
-        if other.__class__ is not Vector4:
-            return NotImplemented
-        made = Vector4()
-        made.w = self.w - other.w
-        made.x = self.x - other.x
-        made.y = self.y - other.y
-        made.z = self.z - other.z
-        return made
-
-    def __neg__(self) -> Vector4:
-        made = Vector4()
-        made.w = -self.w
-        made.x = -self.x
-        made.y = -self.y
-        made.z = -self.z
-        return made
-
-    def __rmul__(self, factor: float) -> Vector4:
-        made = Vector4()
-        made.w = factor * self.w
-        made.x = factor * self.x
-        made.y = factor * self.y
-        made.z = factor * self.z
-        return made
-
-    def __mul__(self, factor: float | Vector4) -> Vector4:
-        made = Vector4()
-        if factor.__class__ is Vector4:
-            made.w = self.w * factor.w  # type: ignore[union-attr]
-            made.x = self.x * factor.x  # type: ignore[union-attr]
-            made.y = self.y * factor.y  # type: ignore[union-attr]
-            made.z = self.z * factor.z  # type: ignore[union-attr]
-        elif isinstance(factor, Vector):
-            raise TypeError(f"a vector of 4 times one of {len(factor)}")
-        else:
-            made.w = self.w * factor  # type: ignore[assignment, operator]
-            made.x = self.x * factor  # type: ignore[assignment, operator]
-            made.y = self.y * factor  # type: ignore[assignment, operator]
-            made.z = self.z * factor  # type: ignore[assignment, operator]
-        return made
-
-    def __truediv__(self, divisor: float | Vector4) -> Vector4:
-        made = Vector4()
-        if divisor.__class__ is Vector4:
-            made.w = self.w / divisor.w  # type: ignore[union-attr]
-            made.x = self.x / divisor.x  # type: ignore[union-attr]
-            made.y = self.y / divisor.y  # type: ignore[union-attr]
-            made.z = self.z / divisor.z  # type: ignore[union-attr]
-        else:
-            made.w = self.w / divisor  # type: ignore[assignment, operator]
-            made.x = self.x / divisor  # type: ignore[assignment, operator]
-            made.y = self.y / divisor  # type: ignore[assignment, operator]
-            made.z = self.z / divisor  # type: ignore[assignment, operator]
-        return made
-
-
-VECTORS: dict[int, type[Vector]] = {2: Vector2, 3: Vector3, 4: Vector4}  # by size
+def _write_methods(kind: type[Vector]) -> None:
+    """Give a size of vectors its operators and what reads its components."""
+    names = tuple(kind.names)
+    components = ", ".join(f"self.{name}" for name in names)
+    known = {"Vector": Vector, "vector": vector}
+    add_method(kind, "elements", "self", [f"return {components}"])
+    part = [f"part = ({components})[k]", "return vector(*part) if part.__class__ is tuple else part"]
+    add_method(kind, "__getitem__", "self, k", part, known)
+    add_operators(kind, names, "Own()")
+    refusal = [
+        "elif isinstance(factor, Vector):",
+        f"    raise TypeError(f'a vector of {len(names)} times one of {{len(factor)}}')",
+    ]  # a number of the other's would be multiplied with all of this one
+    for name, sign, refused in (("__mul__", "*", refusal), ("__truediv__", "/", [])):
+        by_component = [f"    {line}" for line in fill(names, f"self.{{0}} {sign} factor.{{0}}")]
+        by_number = [f"    {line}" for line in fill(names, f"self.{{0}} {sign} factor")]
+        cases = ["if factor.__class__ is Own:", *by_component, *refused, "else:", *by_number]
+        add_method(kind, name, "self, factor", ["made = Own()", *cases, "return made"], known)
 
 
 def vector(first: float, second: float, third: float | None = None, fourth: float | None = None) -> Any:
@@ -305,3 +113,33 @@ def vector(first: float, second: float, third: float | None = None, fourth: floa
     four.y = third
     four.z = fourth
     return four
+
+
+class Vector2(Vector):
+    """Two floats."""
+
+    __slots__ = ("x", "y")
+    x: float
+    y: float
+
+
+class Vector3(Vector):
+    """Three floats."""
+
+    __slots__ = ("x", "y", "z")
+    x: float
+    y: float
+    z: float
+
+
+class Vector4(Vector):
+    """Four floats: a quaternion, scalar first, or what else there are four of."""
+
+    __slots__ = ("w", "x", "y", "z")
+    w: float
+    x: float
+    y: float
+    z: float
+
+
+VECTORS: dict[int, type[Vector]] = {2: Vector2, 3: Vector3, 4: Vector4}  # by size

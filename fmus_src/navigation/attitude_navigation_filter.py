@@ -3,6 +3,7 @@
 import math
 
 from ..block import Output, State
+from ..interfaces.ports import sampling
 from ..kernel.matrices import Matrix, identity, zeros
 from ..mathlib.attitude.quaternion import (
     difference,
@@ -23,7 +24,6 @@ STAR, SUN, FIELD = 0, 1, 2  # sensors that the gate counts apart
 TURNS = 8  # cycles by which a star sample may be late
 COARSE = 30.0  # s without a star sample
 TRIAD_SINE = 0.17  # of the smallest angle between two directions that make an attitude
-ROUNDING = 1e-9  # s, of times of samples
 
 
 class AttitudeNavigationFilter(MultiplicativeFilter):
@@ -81,9 +81,9 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
             return q
         for i in range(TURNS):
             k = TURNS - 1 - i
-            if self.turn_ends[k] > self.star_time + ROUNDING:
+            if self.turn_ends[k] > self.star_time + sampling.TIME_ROUNDING:
                 fraction = 1.0
-                if self.turn_starts[k] < self.star_time - ROUNDING:
+                if self.turn_starts[k] < self.star_time - sampling.TIME_ROUNDING:
                     fraction = (self.turn_ends[k] - self.star_time) / (self.turn_ends[k] - self.turn_starts[k])
                 q = multiply(q, from_rotation_vector(fraction * self.turns[k, 0:3]))
         return normalise(q)
@@ -122,7 +122,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         if not is_attitude(self.measured_quaternion):
             self.status = AttitudeNavigationStatus.NO_ATTITUDE
             return
-        if self.star_time >= 0.0 and self.star_time < self.turn_starts[TURNS - 1] - ROUNDING:
+        if self.star_time >= 0.0 and self.star_time < self.turn_starts[TURNS - 1] - sampling.TIME_ROUNDING:
             self.status = AttitudeNavigationStatus.TOO_LATE
             return
         measured = self.turned_on(normalise(self.measured_quaternion))

@@ -116,10 +116,16 @@ class NoisyNavigation(Navigation):
         if self.position_sigma > 0.0 or self.velocity_sigma > 0.0:
             self.move(h)
             elapsed = t + h - self.start_time
-            if self.position_sigma > 0.0 and elapsed > (self.position_fixes + 1) * self.position_period - 1e-9:
+            if (
+                self.position_sigma > 0.0
+                and elapsed > (self.position_fixes + 1) * self.position_period - sampling.TIME_ROUNDING
+            ):
                 self.position_fixes = self.position_fixes + 1
                 self.fix(0, self.position, self.position_sigma)
-            if self.velocity_sigma > 0.0 and elapsed > (self.velocity_fixes + 1) * self.velocity_period - 1e-9:
+            if (
+                self.velocity_sigma > 0.0
+                and elapsed > (self.velocity_fixes + 1) * self.velocity_period - sampling.TIME_ROUNDING
+            ):
                 self.velocity_fixes = self.velocity_fixes + 1
                 self.fix(3, self.velocity, self.velocity_sigma)
             self.publish()

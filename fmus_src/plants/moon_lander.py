@@ -1,7 +1,5 @@
 """What landers over the Moon with one engine along their thrust axis have in common."""
 
-import math
-
 from ..block import Block, Output, State
 from ..interfaces.ports import landing, sampling
 from ..kernel.functions import log1p
@@ -88,7 +86,7 @@ class MoonLander(Block, interface=True):
             shortest = self.thrust_lag
         parts = 100.0
         if shortest > 0.01 * self.internal_step:
-            parts = float(math.ceil(self.internal_step / shortest - 1e-9))
+            parts = float(count_steps(self.internal_step, shortest))
         self.longest_step = self.internal_step / parts
 
     def height(self, position: Vector3) -> float:

@@ -4,6 +4,7 @@ import math
 
 from ..block import Block, Parameter, State
 from ..interfaces.ports import landing, sampling
+from ..mathlib.estimation.sensor_errors import add_cross
 from ..mathlib.rng import normals, seed_streams
 from ..mathlib.vectors import vector
 
@@ -62,13 +63,8 @@ class InertialSensor(Block):
     def step(self, t: float, h: float) -> None:
         elapsed = t + h - self.last_time
         walk = self.velocity_random_walk * math.sqrt(abs(elapsed))
-        m = self.misalignment
         s = (vector(1.0, 1.0, 1.0) + self.scale_factor) * (self.sensed_velocity - self.last_sensed)
-        turned = vector(
-            s.x + m.y * s.z - m.z * s.y,
-            s.y + m.z * s.x - m.x * s.z,
-            s.z + m.x * s.y - m.y * s.x,
-        )
+        turned = add_cross(s, self.misalignment, s)
         error = normals(self.generator)
         self.velocity_increment = turned + elapsed * self.bias + walk * error
         self.last_sensed = self.sensed_velocity

@@ -6,8 +6,6 @@ from ..mathlib.lunar.gravity import altitude_of
 from ..mathlib.lunar.landing_site import above_site, redesignate, site_below
 from ..mathlib.vectors import vector
 
-ROUNDING = 1e-9  # s, allowed for in times of communication points
-
 
 class SiteDivert(Block):
     """Target of a terminal guidance, moved by an offset at divert_time: divert_count goes from 0 to 1 then.
@@ -31,7 +29,7 @@ class SiteDivert(Block):
 
     def move_site(self, time: float) -> None:
         """Move the site where ``time`` (s) has reached divert_time."""
-        if self.divert_time > 0.0 and not self.diverted and time >= self.divert_time - ROUNDING:
+        if self.divert_time > 0.0 and not self.diverted and time >= self.divert_time - sampling.TIME_ROUNDING:
             self.diverted = True
             self.divert_count = 1
             altitude = altitude_of(self.target_position, self.moon_radius)

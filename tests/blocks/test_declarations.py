@@ -51,6 +51,25 @@ def test_a_record_with_a_field_that_is_no_float_is_refused(kind):
     assert "the field exists of its record is no float" in refusal(crossing=State(Crossing))
 
 
+@pytest.mark.parametrize("name", ["sample_period", "start_time", "internal_step", "longest_step"])
+@pytest.mark.parametrize("start", [[0.0, 1.0], False])
+def test_what_the_life_cycle_computes_with_is_one_number(name, start):
+    message = refusal(**{name: State(start, description="of another meaning")})
+    assert f"Refused.{name}: is no number" in message
+    assert message.endswith("make it one number, or give it another name")
+
+
+def test_other_names_with_a_role_stay_free():
+    class Free(Block, interface=True):
+        """A block as one may have written it."""
+
+        seed = Input([0.0, 0.0], description="no random numbers")
+        status = State(False, description="no report")
+        stream = Parameter(0.5, unit="m3/s", description="of water")
+
+    assert list(Free.variables) == ["seed", "status", "stream"]
+
+
 def test_columns_of_a_scalar_are_refused():
     assert "rows" in refusal(matrix=Parameter(0, columns=1, description="no matrix"))
 

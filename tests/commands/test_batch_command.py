@@ -51,6 +51,42 @@ confidence = "90 %"
 """
 
 
+def test_the_worst_trial_has_its_command(capsys, tmp_path):
+    """Of an upper bound the largest, of a lower one the smallest, nan before all; by variant, of a stored campaign."""
+    metrics = """
+[metric.late]
+expression = "time"
+reduction = "first"
+condition = "plant.initial_position[2] > 0"
+"""
+    text = (SYSTEMS / SYSTEM / "campaigns" / "paper.toml").read_text() + metrics
+    for name, metric, bound in (
+        ("near", "position_error", "upper"),
+        ("far", "position_error", "lower"),
+        ("in_time", "late", "upper"),
+    ):
+        text += REQUIRED.format(limit=1e6, share=50).replace(".near]", f".{name}]")
+        text += f'metric = "{metric}"\nbound = "{bound}"\n'
+    (tmp_path / "c.toml").write_text(text)
+    requested = ["batch", SYSTEM, "--campaign", str(tmp_path / "c.toml"), "--trials", "10", "--workers", "1"]
+    assert main(requested) == 0
+    assert "perilune replay" not in capsys.readouterr().out
+    folder = tmp_path / "stored"
+    assert main([*requested, "--output", str(folder)]) == 0
+    lines = [line for line in capsys.readouterr().out.splitlines() if "perilune replay" in line]
+    rows = perilune.open_results(folder).to_pandas(["variant", "trial", "metric.position_error", "metric.late"])
+    expected = []
+    for variant, trials in rows.groupby("variant", sort=False):
+        errors, command = trials["metric.position_error"], f"perilune replay {folder} {{}} --configuration {variant}"
+        for row in (errors.idxmax(), errors.idxmin()):
+            head = f"{variant}: worst position_error, {errors[row]:.4g} m"
+            expected.append(f"{head}: {command.format(trials['trial'][row])}")
+        never = trials["metric.late"].isna()
+        assert 0 < never.sum() < 10
+        expected.append(f"{variant}: worst late, none: {command.format(trials['trial'][never.idxmax()])}")
+    assert lines == expected
+
+
 @pytest.mark.parametrize(
     ("limit", "share", "status", "words"),
     [

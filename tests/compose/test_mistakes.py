@@ -106,6 +106,17 @@ MISTAKES = {
     "a value of another size": (SET, SET.replace("0.99, ", ""), "3 values for 4; give one for each element"),
     "a value of another type": (SET, SET.replace("0.99", "true"), "True is not of type Real; give another, or use"),
     "a value of no kind": (SET, SET.replace("0.99", '"x"'), "'x' is neither a number nor true or false"),
+    "rows of another matrix": (
+        SET,
+        f'{SET}\n"satellite.wheel_axes" = [[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]]',
+        "set.satellite.wheel_axes: not 4 rows of 3; give one number for each element, row by row",
+    ),
+    "rows of a vector": (SET, SET.replace("0.99, 0.1, 0, 0.1", "[0.99, 0.1], [0, 0.1]"), "rows, for what is no matrix"),
+    "rows and numbers": (
+        SET,
+        f'{SET}\n"satellite.wheel_axes" = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], 2]',
+        "not 4 rows of 3",
+    ),
     "a step that is none": ("step = 0.125", "step = 0", "step: 0 is not a positive number of seconds; give more"),
     "a step that its FMUs refuse": ("step = 0.125", "step = 0.3", "are not a whole number of steps of 0.3 s"),
 }  # fmt: skip

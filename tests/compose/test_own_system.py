@@ -107,3 +107,15 @@ def test_inputs_of_the_system_are_driven_over_time(here):
     expected = flight.time[:, None] * [0.1, 0.2, 0.3]
     assert abs(flight["gyros.angular_velocity"] - expected).max() < 1e-15
     assert flight.prepared.network.unit_of("rate[1]").name == "rad/s"
+
+
+def test_a_matrix_by_rows_is_that_of_its_elements(here):
+    toml = here / SHORT
+    text, written = toml.read_text(encoding="utf-8"), []
+    for axes in ("[1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1]", "[[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]]"):
+        toml.write_text(f'{text}"satellite.wheel_axes" = {axes}\n', encoding="utf-8")
+        assert main(["compose", SHORT]) == 0
+        written.append((here / NAME / SSD).read_bytes().partition(b"-->")[2])
+    assert written[0] == written[1]
+    assert b'name="satellite.wheel_axes[4,1]"' in written[0]
+    assert perilune.compose(toml).toml

@@ -90,6 +90,19 @@ def test_there_and_back(copied, name):
         assert values.tobytes() == flights[1][signal].tobytes(), signal
 
 
+@pytest.mark.parametrize("name", system_names())
+def test_in_another_folder_are_the_sets_that_its_annotations_name(name, tmp_path):
+    toml = tmp_path / name / TOML
+    perilune.compose(name, output=toml)
+    sets = set(re.findall(r'<ParameterSet source="([^"]+)"', (SYSTEMS / name / NOTES).read_text(encoding="utf-8")))
+    for each in sets:
+        assert toml.with_name(each).read_bytes() == (SYSTEMS / name / each).read_bytes()
+    if name == "earth_pointing":
+        assert sets == {"ideal.ssv"}
+        perilune.compose(toml)
+        assert main(["validate", str(toml.parent)]) == 0
+
+
 def test_what_changed_since_is_reported(copied, monkeypatch, capsys):
     """One line on standard error, with the command that mends it, for the system.toml and for its annotations."""
     name = "lunar_descent_2d"

@@ -9,7 +9,7 @@ from tests.fuzz import documents, tables
 from tests.fuzz.documents import Target
 from tests.fuzz.folders import any_manifest, any_shard, make_folder
 from tests.support.builders import build_tiny_fmus
-from tests.support.flights.random_systems import any_flight
+from tests.support.graphs.random_systems import any_flight
 
 
 def _of_document(make: Callable[[Path, Path], Target]) -> Callable[[Path], Target]:

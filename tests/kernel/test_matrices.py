@@ -13,6 +13,7 @@ from perilune.fmus_src.kernel.matrices import (
     Matrix,
     add_product,
     block,
+    cross_matrix,
     diagonal,
     exponential,
     identity,
@@ -36,6 +37,12 @@ def random_matrices(seed, n, count=1):
 
 def ours(a):
     return Matrix(a.tolist())
+
+
+@given(seeds)
+def test_the_cross_matrix_is_that_of_the_vector_product(seed):
+    v, u = np.random.default_rng(seed).normal(size=(2, 3))
+    assert np.asarray(cross_matrix(vector(*v))) @ u == pytest.approx(np.cross(v, u), rel=1e-14, abs=1e-15)
 
 
 @settings(max_examples=50)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ....common.errors import InputError
+from ....fmus_src.roles import SEED, STREAM
 from ...runtime.ssp.archive import SystemArchive, open_system
 from ...runtime.system.fault import Fault
 from ...runtime.system.options import UNWATCHED, SystemOptions, Watch
@@ -25,8 +26,6 @@ from .file import parse_campaign
 from .home import is_called
 from .source import CampaignSource, read_source
 from .sweeps import with_sweeps
-
-SEED, STREAM = "seed", "stream"  # Integer parameters of components that draw random numbers themselves
 
 
 @dataclass(frozen=True)

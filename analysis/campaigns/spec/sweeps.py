@@ -9,12 +9,10 @@ from dataclasses import replace
 from ....common.bounds import GRID_POINTS
 from ....common.errors import InputError
 from ...runtime.system.assignments import SINGLE
-from ...runtime.system.options import SystemOptions
+from ...runtime.system.options import STEP_ROUNDING, SystemOptions
 from ..draws.declared import Draw
 from .campaign import MAXIMUM_GROUPS, Campaign
 from .distributions import Grid
-
-ROUNDING = 1e-9  # of a step, within which the last value is the high end
 
 
 def part_sweeps(options: SystemOptions) -> tuple[SystemOptions, dict[str, str]]:
@@ -82,7 +80,7 @@ def _values(name: str, text: str) -> tuple[float, ...]:
     if not high > low:
         problem = f"high = {high:g} is not above low = {low:g}"
         raise InputError(SINGLE, place, problem, "write low:high:step with low < high, or one value")
-    steps = (high - low) / step + ROUNDING
+    steps = (high - low) / step + STEP_ROUNDING
     GRID_POINTS.check(steps, SINGLE, place)
     if steps < 1.0:
         raise InputError(SINGLE, place, f"the step {step:g} leaves low = {low:g} only", "give a shorter step")

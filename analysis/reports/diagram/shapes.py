@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from ....common.visible import on_one_line, visible
+from ..chart.text import shorten, text_width
 from ..common.quantities import declared_unit
 from .graph import Block, Edge, Port, PortKey, Side
-from .text import shorten, text_width
 
 NAME_SIZE, TEXT_SIZE, LIST_SIZE = 11.0, 9.0, 9.0
 LONGEST = 40  # characters of a label

@@ -8,13 +8,17 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 
 from ...runtime.flight.results import Result
+from ..chart.marks import across, during, instant, level
+from ..chart.quantity import quantity_curve
+from ..chart.ticks import axis_ends
 from ..common.lines import plot_quantity
 from ..common.page import exact
 from ..common.panels import HALF_WIDTH, Panel, panel
 from ..common.quantities import display_factor, display_unit
 from ..common.style import FAINT, GREEN, INK
+from ..interactive.charts import Chart
 from .declared import Band, Signal
-from .section import HEIGHT, Section, history_panel, legend_of
+from .section import HEIGHT, Section, displayed, history_panel, legend_of, time_chart
 from .words import range_text, seconds, sentence
 
 SETTLED = "settled"  # a band's name that a settling time needs not repeat
@@ -56,24 +60,24 @@ def band_section(band: Band, result: Result, name: str) -> Section:
     low, high = (None if limit is None else factor * limit for limit in (band.low, band.high))
     zoom = None if low is None or high is None else _zoom_limits(values, low, high)
 
-    def draw(axes: Axes, limits: tuple[float, float] | None = None) -> None:
-        for index, (element, line) in enumerate(zip(band.line_names, band.values(result), strict=True)):
-            plot_quantity(axes, time, line, element, band.signal.unit_name, index)
-        _shade(axes, low, high)
-        for begin, end in _spans(band, result):
-            axes.axvspan(begin, end, color=FAINT, alpha=0.35, linewidth=0.0)
-        if limits is not None:
-            axes.set_ylim(limits)
-        if row:
-            axes.axvline(time[row], color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
+    lines = [
+        quantity_curve(time, line, element, band.signal.unit_name, index)
+        for index, (element, line) in enumerate(zip(band.line_names, band.values(result), strict=True))
+    ]
+    limits = [limit for limit in (low, high) if limit is not None]
+    whole = _ends(displayed(lines), limits)
+    green = across(whole[0] if low is None else low, whole[1] if high is None else high, GREEN, 0.16)
+    grey = [during(begin, end, FAINT, 0.35) for begin, end in _spans(band, result)]
+    rules = [level(limit, FAINT, 0.8) for limit in limits]
+    rules += [instant(float(time[row]), INK, 0.9, (1.0, 2.0))] if row else []
+
+    def chart(ends: tuple[float, float]) -> Chart:
+        return time_chart(unit, time, lines, ends, areas=[green, *grey], rules=rules)
 
     description = f"{band.title}: {', '.join(band.signal.names)} over time with the tolerance band"
-    panels = [history_panel("Time history", f"{name}-whole", description, unit, time, draw)]
+    panels = [history_panel("Time history", f"{name}-whole", description, chart(whole))]
     if zoom is not None:
-        label = "Zoom on tolerance band"
-        panels.append(
-            history_panel(label, f"{name}-zoom", f"{description}, zoom", unit, time, lambda axes: draw(axes, zoom))
-        )
+        panels.append(history_panel("Zoom on tolerance band", f"{name}-zoom", f"{description}, zoom", chart(zoom)))
     for number, other in enumerate(band.against):
         panels.append(_against(band, result, other, f"{name}-against{number}", (low, high)))
     return Section(
@@ -83,6 +87,15 @@ def band_section(band: Band, result: Result, name: str) -> Section:
         findings=[_findings(band, time, within)],
         notes=[_caption(band, unit, row), *band.notes],
     )
+
+
+def _ends(values: np.ndarray, limits: list[float]) -> tuple[float, float]:
+    """The ends of the ordinate: those of the values, or of both where a limit is beyond them."""
+    ends = axis_ends(values)
+    for count, limit in enumerate(limits, 1):
+        if not ends[0] <= limit <= ends[1]:
+            ends = axis_ends(np.concatenate([values, limits[:count]]))
+    return ends
 
 
 def _spans(band: Band, result: Result) -> list[tuple[float, float]]:

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
-import scipy
 from markupsafe import Markup
-from matplotlib.axes import Axes
+from scipy.special import ndtr
 
 from ....common.percent import short_percent
 from ...runtime.flight.results import Result
-from ..common.lines import plot_quantity
+from ..chart.marks import band_areas, level
+from ..chart.quantity import quantity_curve
+from ..chart.ticks import axis_ends
 from ..common.page import data, exact
 from ..common.panels import Panel
 from ..common.quantities import display_factor, display_unit
 from ..common.style import FAINT, ORANGE
+from ..interactive.charts import Chart
 from .declared import Curve, Error
-from .section import Section, history_panel, legend_of, select_rows, wide_history
+from .section import Section, displayed, history_panel, legend_of, select_rows, time_chart, wide_history
 from .words import capital, condition_text, seconds, sentence
 
 SIGMAS = (3.0, 1.0)
@@ -56,21 +59,25 @@ def _panels(
     description = f"{error.title}: {label or error.estimate.label} over time"
     head = f"{label}, " if label else ""
 
-    def draw(axes: Axes, reach: float | None = None) -> None:
-        rows = np.linspace(0, time.size - 1, min(time.size, MOST_ROWS)).round().astype(int)
-        for times, shade in zip(SIGMAS, (0.20, 0.40), strict=True):
-            half = factor * times * sigma[rows]
-            axes.fill_between(time[rows], -half, half, color=ORANGE, alpha=shade, linewidth=0.0)
-        axes.axhline(0.0, color=FAINT, linewidth=0.8)
-        plot_quantity(axes, time, values, label or error.title, unit_name)
-        if reach is not None:
-            axes.set_ylim(-factor * reach, factor * reach)
+    line = quantity_curve(time, values, label or error.title, unit_name)
+    rows = np.linspace(0, time.size - 1, min(time.size, MOST_ROWS)).round().astype(int)
+    halves = [factor * times * sigma[rows] for times in SIGMAS]
+    areas = [
+        area
+        for half, shade in zip(halves, (0.20, 0.40), strict=True)
+        for area in band_areas(time[rows], -half, half, ORANGE, shade)
+    ]
 
-    panels = [history_panel(capital(f"{head}time history"), f"{name}-whole", description, unit, time, draw)]
+    def chart(ends: tuple[float, float]) -> Chart:
+        return time_chart(unit, time, [line], ends, areas=areas, rules=[level(0.0, FAINT, 0.8)])
+
+    everything = np.concatenate([displayed([line]), [0.0], *halves, *(-half for half in halves)])
+    whole = chart(axis_ends(everything))
+    panels = [history_panel(capital(f"{head}time history"), f"{name}-whole", description, whole)]
     reach = _final_range(values, sigma)
     if reach is not None:
         label, description = capital(f"{head}scaled to the last quarter"), f"{description}, scaled to the last quarter"
-        panels.append(history_panel(label, f"{name}-end", description, unit, time, lambda axes: draw(axes, reach)))
+        panels.append(history_panel(label, f"{name}-end", description, chart((-factor * reach, factor * reach))))
     return panels
 
 
@@ -109,7 +116,7 @@ def _findings(
 
 
 def _normal(times: float) -> float:
-    return float(2.0 * scipy.stats.norm.cdf(times) - 1.0)
+    return float(2.0 * ndtr(times) - 1.0)
 
 
 def _percent(fraction: float) -> Markup:
@@ -136,24 +143,25 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
     unit_name = curve.signals[0].unit_name
     unit = display_unit(unit_name)
 
-    def draw(axes: Axes, which: range) -> None:
-        for limit in (curve.low, curve.high):
-            if limit is not None:
-                axes.axhline(display_factor(unit_name) * limit, color=FAINT, linewidth=0.9, linestyle=(0, (5, 3)))
-        for index in which:
-            position = index if curve.together else 0
-            plot_quantity(axes, time, values[index], curve.signals[index].label, unit_name, position)
+    def chart(which: Sequence[int], intervals: int = 6) -> Chart:
+        lines = [
+            quantity_curve(time, values[index], curve.signals[index].label, unit_name, index if curve.together else 0)
+            for index in which
+        ]
+        limits = [display_factor(unit_name) * limit for limit in (curve.low, curve.high) if limit is not None]
+        ends = axis_ends(np.concatenate([displayed(lines), limits]))
+        rules = [level(limit, FAINT, 0.9, (5.0, 3.0)) for limit in limits]
+        return time_chart(unit, time, lines, ends, rules=rules, intervals=intervals)
 
     notes = [_curve_caption(curve, unit), *curve.notes]
     if len(values) == 1 or curve.together:
         names = ", ".join(signal.label for signal in curve.signals)
-        draw_all = partial(draw, which=range(len(values)))
-        plot = wide_history(name, f"{curve.title}: {names} over time", unit, time, draw_all)
+        plot = wide_history(name, f"{curve.title}: {names} over time", partial(chart, range(len(values))))
         return Section(title=curve.title, plot=plot, legend=legend_of(curve.labels), notes=notes)
     panels = []
     for index, (label, signal) in enumerate(zip(curve.labels, curve.signals, strict=True)):
-        description, plot_one = f"{curve.title}: {signal.label} over time", partial(draw, which=range(index, index + 1))
-        panels.append(history_panel(label, f"{name}-{index}", description, unit, time, plot_one))
+        description = f"{curve.title}: {signal.label} over time"
+        panels.append(history_panel(label, f"{name}-{index}", description, chart([index])))
     return Section(title=curve.title, panels=panels, notes=notes)
 
 

@@ -8,14 +8,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ...runtime.flight.results import Result
+from ..chart.axes import linear_axis
+from ..chart.panel import chart_panel
+from ..chart.quantity import ordinates
 from ..common.page import Table, data, exact
-from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel, swatch
+from ..common.panels import HALF_WIDTH, Panel, Widths, swatch
 from ..common.quantities import MINUS, in_shown_unit
-from ..common.style import look, plain_ticks
+from ..common.style import WIDTH, look
+from ..interactive.charts import Area, Chart, Curve, Rule
 from .declared import Rows
 
 HEIGHT = 2.6  # in
@@ -42,28 +44,51 @@ def legend_of(labels: tuple[str, ...]) -> list[tuple[Markup, str]]:
     return [(swatch(look(index)), label) for index, label in enumerate(labels)] if len(labels) > 1 else []
 
 
-def history_panel(
-    label: str, name: str, description: str, unit: str, time: np.ndarray, draw: Callable[[Axes], None]
-) -> Panel:
-    """A panel over time, half as wide as the page's column; ``draw`` plots the lines and sets the ordinate."""
-    return panel(label, name, description, lambda axes: _plot_history(axes, unit, time, draw, 6), HEIGHT, HALF_WIDTH)
+def time_chart(
+    unit: str,
+    time: np.ndarray,
+    curves: Sequence[Curve],
+    ends: tuple[float, float],
+    *,
+    areas: Sequence[Area] = (),
+    rules: Sequence[Rule] = (),
+    intervals: int = 6,
+) -> Chart:
+    """Return a chart over time with the ``unit`` above its axes; ``ends`` are those of the ordinate, as displayed."""
+    abscissa = (float(time[0]), float(time[-1] if time[-1] > time[0] else time[0] + 1.0))
+    return Chart(
+        [],
+        linear_axis(abscissa, intervals, label="time, s"),
+        linear_axis(ends, 5),
+        False,
+        list(curves),
+        [],
+        list(areas),
+        list(rules),
+        [],
+        unit,
+    )
 
 
-def wide_history(name: str, description: str, unit: str, time: np.ndarray, draw: Callable[[Axes], None]) -> Widths:
-    """A plot over time, as wide as the page's column."""
-
-    def dress(figure: Figure) -> None:
-        _plot_history(figure.subplots(), unit, time, draw, 6 if is_slim(figure) else 12)
-
-    return both_widths(name, description, dress, HEIGHT)
+def displayed(curves: Sequence[Curve]) -> np.ndarray:
+    """Return all ordinates of curves, as displayed."""
+    return np.concatenate([ordinates(curve) for curve in curves])
 
 
-def _plot_history(axes: Axes, unit: str, time: np.ndarray, draw: Callable[[Axes], None], intervals: int) -> None:
-    draw(axes)
-    axes.set_xlim(time[0], time[-1] if time[-1] > time[0] else time[0] + 1.0)
-    axes.set_xlabel("time, s")
-    axes.set_title(unit, loc="left", pad=4)
-    plain_ticks(axes, x=intervals, y=5)
+def history_panel(label: str, name: str, description: str, chart: Chart) -> Panel:
+    """Return a panel over time, half as wide as the page's column."""
+    return chart_panel(label, name, description, chart, HEIGHT, HALF_WIDTH)
+
+
+def wide_history(name: str, description: str, chart_of: Callable[[int], Chart]) -> Widths:
+    """Return a plot over time as wide as the page's column, and one for narrow screens.
+
+    ``chart_of`` makes the chart with at most so many intervals.
+    """
+    return Widths(
+        chart_panel("", name, description, chart_of(12), HEIGHT, WIDTH, kind="wide").figure,
+        chart_panel("", f"{name}-slim", description, chart_of(6), HEIGHT, HALF_WIDTH, kind="slim").figure,
+    )
 
 
 def select_rows(rows: Rows | None, result: Result) -> tuple[np.ndarray, slice]:

@@ -138,7 +138,8 @@ class Note:
 class Chart:
     """A pair of axes; ``box`` is left, top, width and height of their area as fractions of the figure.
 
-    A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it.
+    A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it. The
+    ``title`` above the axes remains the picture's.
     """
 
     box: list[float]
@@ -150,3 +151,4 @@ class Chart:
     areas: list[Area]
     rules: list[Rule]
     notes: list[Note]
+    title: str = ""

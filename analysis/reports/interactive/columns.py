@@ -19,6 +19,7 @@ LEVEL = 9  # of zlib
 STEPS = 65534  # of a range in 16 bits; the number above is nan
 DECADES = 1e3  # ratio of the greatest magnitude to the small ones from which a range has a knee
 SMALL = 0.05  # the fraction of magnitudes that are small
+ROUNDING = 5e-4  # of an axis, by which float32 may move a point
 
 
 class Coarse(NamedTuple):
@@ -53,6 +54,13 @@ class Columns:
         """What describes the columns, and those of float32 and of 16 bits as base64 of their deflated bytes."""
         packed = [base64.b64encode(zlib.compress(each, LEVEL)).decode("ascii") for each in self._bytes]
         return {"columns": self.encoded, "packed": packed}
+
+
+def has_enough_digits(ends: tuple[float, float], numbers: np.ndarray) -> bool:
+    """True if numbers between the ends of a linear axis keep their places once they are float32."""
+    inside = numbers[(numbers >= min(ends)) & (numbers <= max(ends))]
+    rounded = np.abs(inside - inside.astype(np.float32))
+    return not np.any(rounded > ROUNDING * abs(ends[1] - ends[0]))
 
 
 def _ordered(column: np.ndarray) -> np.ndarray:

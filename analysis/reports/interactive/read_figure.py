@@ -15,16 +15,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import StepPatch
 
 from .charts import Axis, Chart, UnstatedError
-from .columns import Coarse
+from .columns import Coarse, has_enough_digits
 from .lines import TrialDots
 from .read_marks import read_areas, read_collection, read_curve, read_dots, read_rule, read_steps
 from .read_notes import read_note
 from .read_ticks import read_axis
 
 STILL = "still"  # the gid of what remains the picture's, whatever is zoomed
-
-
-ROUNDING = 5e-4  # of an axis, by which float32 may move a point
 
 
 def still_artists(figure: Figure) -> Iterator[Artist]:
@@ -89,9 +86,7 @@ def _read_axes(axes: Axes, reduced: bool) -> Chart:
 
 def _check_digits(ends: tuple[float, float], scale: str, numbers: np.ndarray) -> None:
     """Refuse numbers whose places in the figure differ once they are float32, as poles very near to z = 1."""
-    inside = numbers[(numbers >= min(ends)) & (numbers <= max(ends))]
-    rounded = np.abs(inside - inside.astype(np.float32))
-    if scale == "linear" and np.any(rounded > ROUNDING * abs(ends[1] - ends[0])):
+    if scale == "linear" and not has_enough_digits(ends, numbers):
         raise UnstatedError("numbers of more digits than a page has")
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ....fmus_src.roles import FINISHED
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable
 from ..loop import arrays
@@ -137,8 +138,8 @@ class _Builder:
     ) -> tuple[arrays.Program, InstructionList]:
         driven, drives = self._drives()
         connections = Connections(self.network, self.exchanged, self.signals)
-        finished = self.network.nodes.get("finished")
-        has_finish = finished is not None and finished.kind == "output" and "finished" in self.slots
+        finished = self.network.nodes.get(FINISHED)
+        has_finish = finished is not None and finished.kind == "output" and FINISHED in self.slots
         fault_slots = [self._fault_slot(injection) for injection in self.injections]
         collected = InstructionList(
             [instances[name] for name in self.names],
@@ -164,7 +165,7 @@ class _Builder:
             parameter_reference=np.array(self.parameters.references, dtype=np.uint32),
             tolerance=np.array([_tolerance(self.network.fmus[name]) for name in self.names], dtype=np.float64),
             **connections.arrays(),
-            finished_slot=self.slots["finished"] if has_finish else -1,
+            finished_slot=self.slots[FINISHED] if has_finish else -1,
             fault_slot=np.array(fault_slots, dtype=np.int64),
             fault_kind=np.array([injection.kind for injection in self.injections], dtype=np.int64),
             fault_window=np.array([injection.window for injection in self.injections], dtype=np.float64).reshape(-1, 2),

@@ -17,6 +17,7 @@ from ....common.atomic import whole_file, write_atomically
 from ....common.errors import suggestion
 from ....common.percent import short_percent
 from ....common.visible import quote_formula
+from ....fmus_src.roles import STATUS
 from ..ssp.given_values import ParameterValue
 from ..ssp.names import elements, split_name, vectors
 from ..ssp.types import WHOLE
@@ -192,7 +193,6 @@ class Result(Flight):
             write_atomically(path.with_name(f"{path.name}.json"), f"{text}\n".encode())
 
 
-STATUS = "status"  # output of components that say how they fare, 0 for good
 MEANING = re.compile(r"(?:^|[,:] )(-?\d+):? (.+?)(?=, -?\d+:? |$)")  # "0 good, 1 clamped, 2 ..."
 
 

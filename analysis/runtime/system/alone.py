@@ -12,11 +12,10 @@ from ..fmi.proposals import proposed_step
 from ..fmi.representations import TEXTS
 from ..ssp.description import Component, Connector, Description, System
 from .fmu import Fmu
-from .options import SystemOptions
+from .options import STEP_ROUNDING, SystemOptions
 
 CONNECTED = ("input", "output", "parameter")
 DURATION = 1.0  # s, where the FMU proposes no end; FMPy's, too
-WHOLE = 1e-9  # what a number of steps may lack of a whole one
 
 
 def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[str]]:
@@ -66,8 +65,8 @@ def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[
         step = float(auto_interval(duration if duration > 0.0 else DURATION))
         remarks.append(f"the FMU proposes no step: {step:g} s taken")
     ratio = (stop - start) / step if step else math.nan  # 0 is refused with the times of all systems
-    steps = math.floor(ratio + WHOLE) if 0.0 < ratio < math.inf else 0
-    if options.stop_time is None and steps and ratio - steps > WHOLE:
+    steps = math.floor(ratio + STEP_ROUNDING) if 0.0 < ratio < math.inf else 0
+    if options.stop_time is None and steps and ratio - steps > STEP_ROUNDING:
         whole = start + steps * step
         remarks.append(f"{stop - start:g} s are not whole steps of {step:g} s: the end is {whole:g} s")
         stop = whole

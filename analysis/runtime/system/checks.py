@@ -8,12 +8,14 @@ from fmpy import read_model_description
 
 from ....common.errors import InputError, suggestion
 from ....fmus_src.export.available import fmu_flavours
+from ....fmus_src.roles import SAMPLE_PERIOD
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable, variables_of
 from ..ssp.description import Component
 from ..ssp.names import split_name
 from .fault import Fault, number_text
 from .network import Network
+from .options import STEP_ROUNDING
 from .passing.settings import Settings
 
 MOST = 6  # FMUs that are named
@@ -80,16 +82,16 @@ def check_samples(network: Network, settings: Settings, step: float, periods: di
     The FMU would take several samples in a step, of which others see the last one. Raises InputError.
     """
     for component, fmu in network.fmus.items():
-        variable = fmu.variables.get("sample_period")
+        variable = fmu.variables.get(SAMPLE_PERIOD)
         if variable is None or not fmu.is_own:
             continue
-        period = float(settings.variables.get((component, "sample_period"), variable.start_text))
+        period = float(settings.variables.get((component, SAMPLE_PERIOD), variable.start_text))
         own = step * periods.get(component, 1)
-        if 0.0 < period < own * (1.0 - 1e-9):
-            file = settings.origins.get((component, "sample_period"), network.file)
+        if 0.0 < period < own * (1.0 - STEP_ROUNDING):
+            file = settings.origins.get((component, SAMPLE_PERIOD), network.file)
             problem = f"{period:g} s is shorter than the communication step of {own:g} s"
             remedy = f"give a `step` of {period:g} or an integer submultiple of it, or a longer period"
-            raise InputError(file, f"{component}.sample_period", problem, remedy)
+            raise InputError(file, f"{component}.{SAMPLE_PERIOD}", problem, remedy)
 
 
 def refuse_fixed(network: Network, name: str, where: tuple[str, str]) -> None:

@@ -14,6 +14,7 @@ from ..ssp.parameter_sets import SetValue
 ALGORITHMS = ("sequential", "jacobi")
 FUSED = "fused"  # a flavour of flights, of native FMUs
 OPEN_INPUTS = ("refuse", "start")
+STEP_ROUNDING = 1e-9  # of a step, by which a time, a period or a range may miss whole steps
 
 
 # Who may ask something of a system, from the lowest to the highest: what a later one says wins. Below all of them

@@ -8,7 +8,7 @@ from ....common.errors import InputError
 from ..fmi.proposals import step_of_experiment
 from ..ssp.archive import OSP_SUFFIX
 from .network import Network
-from .options import SystemOptions
+from .options import STEP_ROUNDING, SystemOptions
 
 LONGEST_PERIOD = 10_000  # communication steps of a component's step
 
@@ -55,11 +55,11 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
         requested = step_option if options.step is not None else stop_option
         raise InputError(*requested, problem, "give a longer `step` or earlier times")
     steps = round(duration / step) if duration / step < float("inf") else -1
-    if 0.0 < duration * (1.0 + 1e-9) < step and (options.step is not None or options.stop_time is None):
+    if 0.0 < duration * (1.0 + STEP_ROUNDING) < step and (options.step is not None or options.stop_time is None):
         problem = f"longer than the simulation of {duration:g} s"
         requested = step_option if options.step is not None else (network.file, f"step {step:g}")
         raise InputError(*requested, problem, "give a shorter `step`")
-    if steps < 0 or abs(steps * step - duration) > 1e-9 * max(min(step, duration), abs(stop)):
+    if steps < 0 or abs(steps * step - duration) > STEP_ROUNDING * max(min(step, duration), abs(stop)):
         problem = f"{duration:g} s from the start are not a whole number of steps of {step:g} s"
         remedy = f"for instance `stop_time` {start + max(1, steps) * step:.12g}"
         raise InputError(*stop_option, problem, remedy)
@@ -77,11 +77,11 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
         own = component.step
         if own is None and options.step is None:
             own = _step_of_system(network, name)
-        period = 1 if own is None else max(1, int(own / step * (1.0 + 1e-9)))
+        period = 1 if own is None else max(1, int(own / step * (1.0 + STEP_ROUNDING)))
         if period > LONGEST_PERIOD:
             problem = f"its step of {own:g} s takes more than {LONGEST_PERIOD} communication steps of {step:g} s"
             raise InputError(network.file, f"{name} (line {component.line})", problem, "give a longer `step`")
-        if own is not None and abs(own - period * step) > 1e-9 * own:
+        if own is not None and abs(own - period * step) > STEP_ROUNDING * own:
             network.notes.append(f"{name}: steps by {period * step:g} s, not by {own:g} s as it asks")
         if period > 1:
             periods[name] = period

@@ -10,6 +10,7 @@ from fractions import Fraction
 import numpy as np
 
 from ....common.errors import InputError, suggestion
+from ....fmus_src.roles import SAMPLE_PERIOD
 from ...runtime.apart.opening import open_simulation
 from ...runtime.flight.base_memory import Cell
 from ...runtime.flight.results import COMPLETE, NONFINITE
@@ -120,18 +121,16 @@ class Bench:
         step = self.prepared.step
         period = math.lcm(*(channel.period for channel in self.channels), *self.prepared.periods.values())
         for component, fmu in self.prepared.network.fmus.items():
-            variable = fmu.variables.get("sample_period")
+            variable = fmu.variables.get(SAMPLE_PERIOD)
             if variable is None:
                 continue
-            value = float(self.prepared.settings.variables.get((component, "sample_period"), variable.start_text))
+            value = float(self.prepared.settings.variables.get((component, SAMPLE_PERIOD), variable.start_text))
             if value > 0.0:
                 ratio = Fraction(value / step).limit_denominator(1000)
                 period = math.lcm(period, max(1, ratio.numerator))
         if period > LONGEST:
             problem = f"the sample periods fit together only every {period * step:g} s"
-            raise InputError(
-                self.prepared.network.file, "sample_period", problem, "give periods with a common multiple"
-            )
+            raise InputError(self.prepared.network.file, SAMPLE_PERIOD, problem, "give periods with a common multiple")
         return period
 
     def _origin(self) -> int:

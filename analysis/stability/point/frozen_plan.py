@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ....common.errors import InputError
+from ....fmus_src.roles import FROZEN
 from ...runtime.system.prepared import PreparedSystem
 from ..request.declaration import Point
 from .bench import Bench
 
-PREFIX = "frozen_"
 SAME = 1e-6  # relative, of a value that is held
 
 
@@ -16,8 +16,8 @@ def frozen_outputs(prepared: PreparedSystem) -> dict[str, tuple[str, float]]:
     frozen: dict[str, tuple[str, float]] = {}
     for component, fmu in prepared.network.fmus.items():
         for name, variable in fmu.variables.items():
-            output = fmu.variables.get(name.removeprefix(PREFIX))
-            if not name.startswith(PREFIX) or output is None or output.causality != "output":
+            output = fmu.variables.get(name.removeprefix(FROZEN))
+            if not name.startswith(FROZEN) or output is None or output.causality != "output":
                 continue
             setting = float(prepared.settings.variables.get((component, name), variable.start_text) or 0.0)
             if setting > 0.0:

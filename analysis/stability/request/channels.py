@@ -10,6 +10,7 @@ import numpy as np
 from ....common.errors import InputError, suggestion
 from ...runtime.ssp.names import elements
 from ...runtime.system.network import Network
+from ...runtime.system.options import STEP_ROUNDING
 from .declaration import Loop
 
 AXES = ("x", "y", "z")
@@ -121,7 +122,7 @@ def _period(loop: Loop, network: Network, step: float, where: str) -> int:
     if loop.period is None:
         return 1
     period = round(loop.period / step)
-    if period < 1 or abs(period * step - loop.period) > 1e-9 * loop.period:
+    if period < 1 or abs(period * step - loop.period) > STEP_ROUNDING * loop.period:
         problem = f"period {loop.period:g} s is no whole number of communication steps of {step:g} s"
         raise InputError(network.file, where, problem, "give a period or a step that fits")
     return period

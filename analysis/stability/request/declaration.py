@@ -103,3 +103,9 @@ class Declaration:
     points: tuple[Point, ...] = ()
     loops: tuple[Loop, ...] = ()
     sweeps: tuple[Sweep, ...] = ()
+
+    @property
+    def layers(self) -> tuple[Layer, ...]:
+        """What operating points and elements change of the system's options."""
+        elements = (element.layer for loop in self.loops for element in loop.elements)
+        return (*(point.layer for point in self.points), *elements)

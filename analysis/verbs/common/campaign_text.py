@@ -19,7 +19,7 @@ from ...campaigns.spec.campaign import Metric
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.plan import BatchPlan
 from ...campaigns.summary import requirement_values, summarise
-from ...campaigns.tables import align_columns, unmet_lines
+from ...campaigns.tables import align_columns, short, unmet_lines
 from ...campaigns.trials import TrialColumns, TrialRows
 from ...runtime.flight.results import TIMED_OUT, with_meaning
 from .arguments import read_requirements, requirement_problems
@@ -68,6 +68,35 @@ def failure_lines(failures: Mapping[str, Failures], plan: BatchPlan, folder: Pat
         replay = "" if folder is None else f"; see it: {replay_of_folder(folder, variants, variant, trial)}"
         lines.append(f"{variant}: {flights} simulations failed; trial {trial}: {message}{replay}")
     return lines
+
+
+def worst_lines(batch: BatchResult) -> list[str]:
+    """Return a line for each metric that a requirement bounds: its worst trial, and the command that replays it.
+
+    Lines are those of a stored campaign, whose folder the command reads. The first of several equal trials is named.
+    """
+    lines: dict[str, None] = {}
+    if batch.folder is None:
+        return []
+    for variant, entry in batch.summary.items():
+        for bound in (each.bound for each in entry.requirements.values() if each.bound is not None):
+            trial, value = _worst(batch.rows[variant], bound.metric, -1.0 if bound.side == "lower" else 1.0)
+            unit = entry.metrics[bound.metric].unit
+            text = "none" if math.isnan(value) else f"{short(value)} {'' if unit == '1' else unit}".strip()
+            replay = replay_of_folder(batch.folder, batch.rows, variant, trial)
+            lines[f"{variant}: worst {bound.metric}, {text}: {replay}"] = None
+    return list(lines)
+
+
+def _worst(rows: TrialRows, metric: str, sign: float) -> tuple[int, float]:
+    """The first trial with the largest of a metric times ``sign``, and the metric there; nan is as bad as infinite."""
+    column, trial, value, largest = f"metric.{metric}", 0, -sign * np.inf, -np.inf
+    for part in rows.parts("trial", column):
+        signed = np.where(np.isfinite(part[column]), sign * part[column], np.inf)
+        row = int(np.argmax(signed))
+        if signed[row] > largest:
+            trial, value, largest = int(part["trial"][row]), float(part[column][row]), float(signed[row])
+    return trial, value
 
 
 def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Iterable[Metric]) -> list[str]:

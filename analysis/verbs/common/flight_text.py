@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from ....common.paths import SYSTEMS
+from ....fmus_src.roles import FINISHED
 from ...reports.figures.declared import Figure, Limits, Unavailable
 from ...reports.figures.limits import Verdict, evaluate, limit_lines
 from ...runtime.flight.results import Flight, Result, status_lines
@@ -19,7 +20,6 @@ REMEDIES = {
     "hung": "what was flown until then is in the files; see what the FMU logs with `log`",
     "out_of_memory": "what was flown until then is in the files; give it more with `memory`",
 }
-FINISHED = "finished"  # the root output that ends a run
 
 
 def flight_lines(prepared: PreparedSystem, figures: Sequence[Figure], result: Result) -> list[str]:

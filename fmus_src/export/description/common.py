@@ -10,6 +10,7 @@ from lxml import etree
 
 from ...block import Block
 from ...kernel.enumerations import Enumeration
+from ...roles import SAMPLE_PERIOD
 from ...units import UnitDefinition, unit_definition
 from ...variables import Output, Parameter, State, Variable
 from ..judge.tunable import NEVER_READ, find_fixed
@@ -99,7 +100,7 @@ def role(block_class: type[Block], variable: Variable) -> dict[str, str]:
     if isinstance(variable, Parameter):
         tunable = find_fixed(block_class)[variable.name] is None
         return attributes | {"variability": "tunable" if tunable else "fixed", "initial": "exact"}
-    sampled = "sample_period" in block_class.variables
+    sampled = SAMPLE_PERIOD in block_class.variables
     continuous = variable.type_name == "Real" and not (sampled and variable.causality != "input")
     attributes["variability"] = "continuous" if continuous else "discrete"
     return attributes | ({"initial": "calculated"} if isinstance(variable, Output | State) else {})

@@ -5,6 +5,9 @@ from __future__ import annotations
 import ast
 import builtins
 import math
+import operator
+from abc import abstractmethod
+from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
@@ -32,7 +35,6 @@ from .source import find_global, origin_of_constant
 from .subset_table import (
     COMPARISONS,
     ELEMENTARY_FUNCTIONS,
-    EXPRESSIONS,
     MATH_CONSTANTS,
     MATH_FUNCTIONS,
     OPERATORS,
@@ -43,6 +45,13 @@ from .subset_table import (
 
 SCALARS = {float: FLOAT, int: INT, bool: BOOL}
 INT64_MAX = 2**63 - 1
+SIZE_OPERATORS: dict[type[ast.operator], Callable[[int, int], int]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.FloorDiv: operator.floordiv,
+    ast.Mod: operator.mod,
+}
 
 
 class ExpressionTypes(MatrixTypes):
@@ -62,24 +71,62 @@ class ExpressionTypes(MatrixTypes):
 
     def infer(self, node: ast.expr) -> Type | None:
         """The type of an expression; every part's type is kept in the function."""
-        if isinstance(node, EXPRESSIONS):
-            inferred = getattr(self, f"infer_{type(node).__name__.lower()}")(node)
-        else:
-            self.refuse_syntax(node)
-            inferred = None
-        self.function.types[node] = inferred
+        self.function.types[node] = inferred = self._infer_by_syntax(node)
         return inferred
 
+    def _infer_by_syntax(self, node: ast.expr) -> Type | None:
+        """Return the type of an expression of the language; report one that is outside."""
+        match node:
+            case ast.Constant():
+                return self.infer_constant(node)
+            case ast.Name():
+                return self.infer_name(node)
+            case ast.Attribute():
+                return self.infer_attribute(node)
+            case ast.Subscript():
+                return self.infer_subscript(node)
+            case ast.Call():
+                return self.infer_call(node)
+            case ast.BinOp():
+                return self.infer_binop(node)
+            case ast.UnaryOp():
+                return self.infer_unaryop(node)
+            case ast.BoolOp():
+                return self.infer_boolop(node)
+            case ast.Compare():
+                return self.infer_compare(node)
+            case ast.IfExp():
+                return self.infer_ifexp(node)
+        self.refuse_syntax(node)
+        return None
+
+    @abstractmethod
+    def infer_call(self, node: ast.Call) -> Type | None:
+        """Return the type of a call used as a value."""
+
     def static_size(self, node: ast.expr) -> int | None:
-        """Value of an int literal, an int constant or a length, for the size of a list or a part of one."""
-        if self.infer(node) is not INT:
-            return None
-        if isinstance(node, ast.Constant):
-            return node.value if isinstance(node.value, int) else None
+        """Return the value of an int literal, an int constant, a length, or a sum, product or quotient of these.
+
+        It is the size of a list or a matrix, or a bound of a part of one; None where an int is not constant.
+        """
+        return self._fold(node) if self.infer(node) is INT else None
+
+    def _fold(self, node: ast.expr) -> int | None:
+        """Return the value of a typed int expression where it is constant."""
         if node in self.function.constants:
             return self.function.constants[node].value
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "len":
-            return length_of(self.function.types[node.args[0]])
+        match node:
+            case ast.Constant(value=int(number)):
+                return number
+            case ast.Call(func=ast.Name(id="len")):
+                return length_of(self.function.types[node.args[0]])
+            case ast.BinOp():
+                left, right = self._fold(node.left), self._fold(node.right)
+                operate = SIZE_OPERATORS.get(type(node.op))
+                divides = isinstance(node.op, ast.FloorDiv | ast.Mod)
+                if operate is None or left is None or right is None or (divides and right <= 0):
+                    return None
+                return operate(left, right)
         return None
 
     def infer_condition(self, node: ast.expr) -> None:
@@ -100,7 +147,7 @@ class ExpressionTypes(MatrixTypes):
         if node.id in self.function.parameters:
             return self.function.parameters[node.id]
         if node.id in self.bound:
-            return self.function.locals.get(node.id)  # unknown: kernel_flow reports it as unbound
+            return self.function.locals.get(node.id)  # unknown: flow.py reports it as unbound
         module = origin_of_constant(self.function.source.function, node.id)
         return self._constant(node, module, node.id, find_global(self.function.source.function, node.id))
 
@@ -206,24 +253,20 @@ class ExpressionTypes(MatrixTypes):
         if isinstance(node.left, ast.List) or isinstance(node.right, ast.List):
             self.refuse_syntax(node.left if isinstance(node.left, ast.List) else node.right)
             return None
-        return self.combine(node, node.op, node.left, node.right)
-
-    def combine(self, node: ast.AST, operator: ast.operator, left: ast.expr, right: ast.expr) -> Type | None:
-        """Type of ``left operator right``."""
-        kinds = self.infer(left), self.infer(right)
+        kinds = self.infer(node.left), self.infer(node.right)
         if kinds[0] is None or kinds[1] is None:
             return None
         if isinstance(kinds[0], RecordType) or isinstance(kinds[1], RecordType):
-            return self.operate_on_records(node, operator, kinds[0], kinds[1])
-        if isinstance(operator, ast.MatMult) or isinstance(kinds[0], Matrix) or isinstance(kinds[1], Matrix):
-            return self.operate_on_matrices(node, operator, kinds[0], kinds[1])
+            return self.operate_on_records(node, node.op, kinds[0], kinds[1])
+        if isinstance(node.op, ast.MatMult) or isinstance(kinds[0], Matrix) or isinstance(kinds[1], Matrix):
+            return self.operate_on_matrices(node, node.op, kinds[0], kinds[1])
         if isinstance(kinds[0], Vector) or isinstance(kinds[1], Vector):
-            return self.operate_on_vectors(node, operator, kinds[0], kinds[1])
-        for operand, kind in zip((left, right), kinds, strict=True):
+            return self.operate_on_vectors(node, node.op, kinds[0], kinds[1])
+        for operand, kind in zip((node.left, node.right), kinds, strict=True):
             if kind not in (FLOAT, INT):
-                self.report(operand, "number", name=f"operator {type(operator).__name__}", got=kind)
+                self.report(operand, "number", name=f"operator {type(node.op).__name__}", got=kind)
                 return None
-        if isinstance(operator, ast.Div) or FLOAT in kinds:
+        if isinstance(node.op, ast.Div) or FLOAT in kinds:
             return FLOAT
         return INT
 

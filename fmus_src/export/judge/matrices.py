@@ -111,16 +111,17 @@ class MatrixTypes(RecordTypes):
         if name is None:
             return self._copy(node)
         if name == "matrix":
-            kind = self._literal(node)
+            kind, rule = self._literal(node), "matrix rows"
         elif name == "add_product":
-            kind = self._sum(node)
+            kind, rule = self._sum(node), "matrix sum"
         else:
+            rule = "matrix size"
             sizes = [self.static_size(argument) for argument in node.args]
             wanted = 2 if name == "zeros" else 1
             good = len(sizes) == wanted and not node.keywords and all(size is not None and size > 0 for size in sizes)
             kind = Matrix(sizes[0], sizes[-1]) if good else None  # type: ignore[arg-type]
         if kind is None:
-            self.report(node, "matrix size", name=name)
+            self.report(node, rule, name=name)
             return None
         self.function.calls[node] = MakeMatrix(name)
         return kind

@@ -22,7 +22,6 @@ from .kernel import (
     Vector,
     is_self_attribute,
 )
-from .subset_table import STATEMENTS
 from .vectors import is_variable
 
 UNUSED = "_"  # a target for what is not wanted of several values
@@ -43,16 +42,29 @@ class StatementTypes(CallTypes):
 
     def block(self, statements: list[ast.stmt]) -> None:
         for statement in statements:
-            if isinstance(statement, STATEMENTS):
-                getattr(self, f"check_{type(statement).__name__.lower()}")(statement)
-            else:
+            self.check(statement)
+
+    def check(self, statement: ast.stmt) -> None:
+        """Check a statement of the language; report one that is outside."""
+        match statement:
+            case ast.Assign():
+                self.check_assign(statement)
+            case ast.AnnAssign():
+                self.check_annassign(statement)
+            case ast.Expr():
+                self.check_expr(statement)
+            case ast.If():
+                self.check_if(statement)
+            case ast.For():
+                self.check_for(statement)
+            case ast.While():
+                self.check_while(statement)
+            case ast.Return():
+                self.check_return(statement)
+            case ast.Pass() | ast.Break() | ast.Continue():
+                pass
+            case _:
                 self.refuse_syntax(statement)
-
-    def check_pass(self, node: ast.Pass) -> None:
-        """Nothing to check."""
-
-    check_break = check_pass
-    check_continue = check_pass
 
     def check_expr(self, node: ast.Expr) -> None:
         if isinstance(node.value, ast.Call):

@@ -1,4 +1,4 @@
-"""Checks that a block's kernel is written in the subset of Python that is listed in subset_table.py.
+"""Checks that a block's kernel is written in the subset of Python of subset_table.py.
 
 What the check accepts runs as plain Python and translates to C99 with the same bits.
 """

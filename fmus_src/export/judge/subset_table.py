@@ -84,33 +84,6 @@ MATH_CONSTANTS: dict[str, float] = {"pi": math.pi, "tau": math.tau, "e": math.e,
 
 BUILTIN_FUNCTIONS = ("abs", "float", "int", "len")  # and range, in a for statement
 
-# Augmented assignment (x += y) is read as x = x + y.
-STATEMENTS: tuple[type[ast.stmt], ...] = (
-    ast.AnnAssign,
-    ast.Assign,
-    ast.Break,
-    ast.Continue,
-    ast.Expr,
-    ast.For,
-    ast.If,
-    ast.Pass,
-    ast.Return,
-    ast.While,
-)
-
-EXPRESSIONS: tuple[type[ast.expr], ...] = (
-    ast.Attribute,
-    ast.BinOp,
-    ast.BoolOp,
-    ast.Call,
-    ast.Compare,
-    ast.Constant,
-    ast.IfExp,
-    ast.Name,
-    ast.Subscript,
-    ast.UnaryOp,
-)
-
 OPERATORS: tuple[type[ast.operator], ...] = (
     *(ast.Add, ast.Sub, ast.Mult, ast.Div, ast.MatMult, ast.FloorDiv, ast.Mod),
 )
@@ -197,8 +170,6 @@ NotIn: `not in`
 """).items()
 }
 
-OTHER_SYNTAX = Rule("{name} is outside the subset", "use the statements and expressions of subset_table.py")
-
 REFUSED_FUNCTIONS: dict[str, str] = {
     "hypot": "write math.sqrt(x * x + y * y); CPython's own hypot has other bits than C's",
     "dist": "write math.sqrt of the sum of squares",
@@ -223,6 +194,7 @@ REFUSED_FUNCTIONS: dict[str, str] = {
 REFUSED_MATH = "write from perilune import {name}: that of the C library has other bits on other processors"
 
 LANGUAGE_PAGE = "What a kernel may use"  # of the documentation site, derived from this file
+OTHER_SYNTAX = Rule("{name} is outside the subset", f'write what the page "{LANGUAGE_PAGE}" lists')
 OTHER_FUNCTION = f'take one of the page "{LANGUAGE_PAGE}", write one in the file, or declare python_only = True'
 
 # What a kernel may not say although each word of it is allowed.
@@ -262,7 +234,7 @@ list rebound: the list {name} is rebound
 list shared: a list is given a second name
     declare [0.0] * n and copy element by element
 list size: the list {name} has no fixed size here
-    write [0.0] * n with n an int constant
+    write [0.0] * n with n an int constant, or [0.0] * (n + 2)
 list literal: {detail}
     write a list of floats, of ints or of bools, or [0.0] * n
 list replaces itself: a new value of {name} reads the old one
@@ -317,8 +289,12 @@ matrix operator: operator {name} of {left} and {right}
     matrices take + - with their like, @ with matrices and vectors, * and / by numbers; dot(a, b) is of two vectors
 matrix sizes: a {left} with a {right}
     use matrices whose rows and columns fit
-matrix size: {name} without a constant size
-    write zeros(6, 6), identity(len(p)), matrix([a, b], [c, d]), or add_product(q, a, b) of sizes that fit
+matrix size: {name} of a size that is no constant int above 0
+    write zeros(6, N + 2) or identity(len(p)): of ints, int constants of the module, lengths, and + - * // % of these
+matrix rows: matrix of something else than rows of floats, all of one length
+    write matrix([a, b], [c, d])
+matrix sum: add_product of something else than three matrices whose sizes fit
+    write add_product(q, a, b) where q + a @ b has a value
 matrix index: {name} is a matrix and takes two indices
     write p[i, j], p[i, :] or p[POSITION, VELOCITY] with POSITION = block(0, 3) in the module
 matrix block: {part} is no int and no block inside the matrix

@@ -14,12 +14,13 @@ from collections.abc import Iterable, Mapping
 from weakref import WeakKeyDictionary
 
 from ...block import Block
+from ...roles import SAMPLE_PERIOD
 from ...variables import Output, Parameter, State
 from .kernel import Bound, Function, Kernel, KernelCall, List, Matrix, body_of, is_self_attribute, targets_of
 from .typed import typecheck
 
 SELF = "self."  # before the name of a variable of the block, among those of locals and arguments
-PERIOD, PERIOD_REASON = "sample_period", "the sample period"
+PERIOD_REASON = "the sample period"
 PYTHON_ONLY, OTHER_PYTHON = (
     "a block with Python only proves nothing",
     "a block outside the kernel language proves nothing",
@@ -54,7 +55,7 @@ def _find_reasons(block_class: type[Block]) -> Mapping[str, str | None]:
     else:
         reasons = _prove(kernel, parameters)
     reasons |= {name: each.fixed for name, each in parameters.items() if each.fixed}
-    return reasons | ({PERIOD: PERIOD_REASON} if PERIOD in parameters else {})
+    return reasons | ({SAMPLE_PERIOD: PERIOD_REASON} if SAMPLE_PERIOD in parameters else {})
 
 
 def _prove(kernel: Kernel, parameters: Iterable[str]) -> dict[str, str | None]:

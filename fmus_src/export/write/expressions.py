@@ -3,93 +3,90 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ..judge.effects import makes_matrix, own_outcome
 from ..judge.kernel import (
     FLOAT,
     INT,
-    Bound,
-    BuiltinCall,
-    Function,
     KernelCall,
     List,
-    MakeRecord,
-    MakeVector,
-    MathCall,
     Matrix,
     RecordType,
-    Scalar,
     Several,
     Vector,
     is_self_attribute,
-    length_of,
 )
-from .names import C_TYPES, Names, c_type, identifier, literal
-
-if TYPE_CHECKING:
-    from .matrices import MatrixWriter
-
-OR, AND, EQUALITY, RELATION, SUM, PRODUCT, UNARY, ATOM = range(8)  # C's precedence; 0 binds least
-CONDITIONAL = -1
-OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
-    ast.Add: ("+", SUM),
-    ast.Sub: ("-", SUM),
-    ast.Mult: ("*", PRODUCT),
-    ast.Div: ("/", PRODUCT),
-    ast.Lt: ("<", RELATION),
-    ast.LtE: ("<=", RELATION),
-    ast.Gt: (">", RELATION),
-    ast.GtE: (">=", RELATION),
-    ast.Eq: ("==", EQUALITY),
-    ast.NotEq: ("!=", EQUALITY),
-}
-CHECKED_INT: dict[type[ast.AST], str] = {ast.Add: "py_add", ast.Sub: "py_subtract", ast.Mult: "py_multiply"}
-VECTOR_NAMES: dict[type[ast.AST], str] = {
-    ast.Add: "add",
-    ast.Sub: "subtract",
-    ast.Mult: "multiply",
-    ast.Div: "divide",
-}
-EXACT = {"ldexp": "exact_ldexp", "frexp": "exact_frexp"}
-WHOLE = {"floor": "whole_floor", "ceil": "whole_ceil", "int": "whole_trunc"}
+from .calls import CallWriter
+from .names import c_type, identifier, literal
+from .operators import (
+    AND,
+    ATOM,
+    CHECKED_INT,
+    CONDITIONAL,
+    EQUALITY,
+    OPERATORS,
+    OR,
+    SUM,
+    UNARY,
+    VECTOR_NAMES,
+    parenthesise,
+)
 
 
-class ExpressionWriter:
-    """Writes one function's expressions; hoisted parts come out through ``hoist`` before the statement."""
+class MatrixText(Protocol):
+    """The writer of matrices, as the writer of expressions sees it."""
 
-    def __init__(self, function: Function, names: Names, hoist: Callable[[ast.expr, str], str]) -> None:
-        self.function = function
-        self.names = names
-        self.hoist = hoist
-        self.matrices: MatrixWriter
+    def write(self, node: ast.expr) -> tuple[str, int]:
+        """Return a matrix that is no variable, or a vector made by one, with its precedence."""
+
+    def write_part(self, node: ast.Subscript) -> str:
+        """Return ``p[i, j]`` or ``p[i, 0:3]``."""
+
+
+class ExpressionWriter(CallWriter):
+    """Writes one function's expressions.
+
+    The writer of statements sets ``matrices``, in whose elements are expressions again.
+    """
+
+    matrices: MatrixText
 
     def write(self, node: ast.expr, outer: int = CONDITIONAL) -> str:
         """C text of an expression, in parentheses where the operator around it binds tighter."""
         if makes_matrix(self.function, node) and not isinstance(self.function.calls.get(node), KernelCall):  # type: ignore[call-overload]
-            text, precedence = self.matrices.write(node)
-            return f"({text})" if precedence < outer else text
-        text, precedence = getattr(self, f"write_{type(node).__name__.lower()}")(node)
+            return parenthesise(self.matrices.write(node), outer)
+        text, precedence = self._write_by_syntax(node)
         if node in self.function.hoisted:
             return self.hoist(node, text)
-        return f"({text})" if precedence < outer else text
+        return parenthesise((text, precedence), outer)
 
-    def write_as_float(self, node: ast.expr, outer: int) -> str:
-        """An operand that Python widens to float."""
-        if self.function.types[node] is not INT:
-            return self.write(node, outer)
-        if isinstance(node, ast.Constant):
-            return literal(float(node.value))  # type: ignore[arg-type]
-        text = f"(double){self.write(node, UNARY)}"
-        return f"({text})" if outer > UNARY else text
-
-    def call(self, name: str, *arguments: str) -> str:
-        return f"{name}({', '.join(arguments)})"
-
-    def write_checked(self, node: ast.expr, name: str, *arguments: str) -> tuple[str, int]:
-        """A call of a function of kernel_math.h that can record a fault at the node's line."""
-        return self.call(name, f"AT({node.lineno})", *arguments), ATOM
+    def _write_by_syntax(self, node: ast.expr) -> tuple[str, int]:
+        """Return the text of an expression that the judge lets pass, with its precedence."""
+        match node:
+            case ast.Constant():
+                return self.write_constant(node)
+            case ast.Name():
+                return self.write_name(node)
+            case ast.Attribute():
+                return self.write_attribute(node)
+            case ast.Subscript():
+                return self.write_subscript(node)
+            case ast.Call():
+                return self.write_call(node)
+            case ast.BinOp():
+                return self.write_binop(node)
+            case ast.UnaryOp():
+                return self.write_unaryop(node)
+            case ast.BoolOp():
+                return self.write_boolop(node)
+            case ast.Compare():
+                return self.write_compare(node)
+            case ast.IfExp():
+                return self.write_ifexp(node)
+            case ast.Tuple():
+                return self.write_tuple(node)
+        raise TypeError(f"{type(node).__name__}, which no judged kernel has")
 
     def write_constant(self, node: ast.Constant) -> tuple[str, int]:
         return literal(node.value), ATOM  # type: ignore[arg-type]
@@ -120,16 +117,6 @@ class ExpressionWriter:
         """What follows a list or vector to mean one element."""
         member = ".x" if isinstance(self.function.types[node.value], Vector) else ""
         return f"{member}[{index or self.index(node)}]"
-
-    def elements(self, node: ast.expr) -> list[str]:
-        """The elements of a part, ``wrench[0:3]``, or of a whole list."""
-        holder = node.value if isinstance(node, ast.Subscript) else node
-        member = ".x" if isinstance(self.function.types[holder], Vector) else ""
-        return [f"{self.write(holder, ATOM)}{member}[{k}]" for k in self.function.parts[node]]
-
-    def vector(self, elements: list[str]) -> str:
-        """A vector of components; in parentheses for its commas, since isfinite and fabs are macros."""
-        return f"(({c_type(Vector(len(elements)))}){{{{{', '.join(elements)}}}}})"
 
     def write_tuple(self, node: ast.Tuple) -> tuple[str, int]:
         """Several return values."""
@@ -239,78 +226,3 @@ class ExpressionWriter:
     def write_ifexp(self, node: ast.IfExp) -> tuple[str, int]:
         parts = self.write(node.test, OR), self.write(node.body, OR), self.write(node.orelse, CONDITIONAL)
         return "{} ? {} : {}".format(*parts), CONDITIONAL
-
-    def write_call(self, node: ast.Call) -> tuple[str, int]:
-        call = self.function.calls[node]
-        if isinstance(call, KernelCall):
-            return self._kernel_call(node, call.callee), ATOM
-        if isinstance(call, MakeVector):
-            starred = node.args[0].value if isinstance(node.args[0], ast.Starred) else None
-            return self.vector(self.elements(starred) if starred else [self.write(part) for part in node.args]), ATOM
-        if isinstance(call, MakeRecord):
-            return self._make_record(node, call.kind), ATOM
-        if isinstance(call, MathCall):
-            if call.name in WHOLE:
-                return self._whole(node, call.name, "py_whole_int")
-            arguments = [
-                self.write_as_float(argument, CONDITIONAL) if takes == "float" else self.write(argument)
-                for argument, takes in zip(node.args, call.function.takes, strict=True)
-            ]
-            if own_outcome(self.function, node):
-                return self.write_checked(node, f"py_{call.name}", *arguments)
-            return self.call(EXACT.get(call.name, call.name), *arguments), ATOM
-        assert isinstance(call, BuiltinCall)
-        return self._builtin(node, call)
-
-    def _kernel_call(self, node: ast.Call, callee: Function) -> str:
-        arguments = ["self"] if callee.takes_block else []
-        if callee.can_fault:
-            arguments.append("fault")
-        passed = [each for each in node.args if not isinstance(self.function.types[each], Bound)]
-        return self.call(self.names.functions[callee], *arguments, *[self._argument(argument) for argument in passed])
-
-    def _argument(self, node: ast.expr) -> str:
-        """An argument; a matrix by its address."""
-        text = self.write(node)
-        if not isinstance(self.function.types[node], Matrix):
-            return text
-        if isinstance(self.function.calls.get(node), KernelCall) and not text.isidentifier():  # type: ignore[call-overload]
-            text = self.hoist(node, text)
-        return text[2:-1] if text.startswith("(*") else f"&{text}"
-
-    def _make_record(self, node: ast.Call, kind: RecordType) -> str:
-        """A record of all its fields, or one with some of another's."""
-        given = {keyword.arg: self.write(keyword.value) for keyword in node.keywords}
-        holder = self.write(node.args[0], ATOM) if node.args else ""
-        values = [given.get(name, f"{holder}.{identifier(name)}") for name in kind.record.fields]
-        return f"(({c_type(kind)}){{{', '.join(values)}}})"
-
-    def _builtin(self, node: ast.Call, call: BuiltinCall) -> tuple[str, int]:
-        argument = node.args[0]
-        kind = self.function.types[argument]
-        if call.name == "len":
-            return str(length_of(kind)), ATOM  # type: ignore[arg-type]
-        if call.name == "abs":
-            if kind is FLOAT:
-                return self.call("fabs", self.write(argument)), ATOM
-            if node in self.function.unproven:
-                return self.write_checked(node, "py_int_abs", self.write(argument))
-            return self.call("int_abs", self.write(argument)), ATOM
-        if call.name == "int" and kind is FLOAT:
-            return self._whole(node, "int", "py_whole_int")
-        if call.name == "float" and isinstance(argument, ast.Call) and argument not in self.function.hoisted:
-            inner = self.function.calls[argument]
-            whole = isinstance(inner, MathCall | BuiltinCall) and inner.name in WHOLE
-            if whole and self.function.types[argument.args[0]] is FLOAT:
-                return self._whole(argument, inner.name, "py_whole_float")  # type: ignore[union-attr]
-        target = Scalar(call.name)
-        if kind is target:
-            return self.write(argument, ATOM), ATOM
-        return f"({C_TYPES[target]}){self.write(argument, UNARY)}", UNARY
-
-    def _whole(self, node: ast.Call, name: str, checked: str) -> tuple[str, int]:
-        """math.floor, math.ceil or int of a float, as int or as float."""
-        if self.function.is_total:
-            cast = "(int64_t)" if checked == "py_whole_int" else ""
-            return f"{cast}{self.call(WHOLE[name], self.write(node.args[0]))}", UNARY
-        return self.write_checked(node, checked, self.call(WHOLE[name], self.write(node.args[0])))

@@ -9,9 +9,9 @@ import ast
 from collections.abc import Callable
 
 from ..judge.kernel import MakeMatrix, Matrix, Vector
-from .expressions import ATOM
 from .matrix_entries import Index, MatrixEntries, entry_of, times
 from .names import c_type, identifier
+from .operators import ATOM
 
 
 class MatrixWriter(MatrixEntries):
@@ -22,7 +22,7 @@ class MatrixWriter(MatrixEntries):
         kind = self.function.types[node]
         if isinstance(kind, Vector):
             entry = self.prepare(node)
-            return self.out.expressions.vector([entry(i, 0)[0] for i in range(kind.size)]), ATOM
+            return self.expressions.vector([entry(i, 0)[0] for i in range(kind.size)]), ATOM
         return self.materialise(node), ATOM
 
     def write_part(self, node: ast.Subscript) -> str:
@@ -32,7 +32,7 @@ class MatrixWriter(MatrixEntries):
             return f"{self.holder(node.value)}[{self.place(node)}]"
         entry = self.block(node)
         size = len(rows or columns or ())
-        return self.out.expressions.vector([entry(k, 0)[0] if rows else entry(0, k)[0] for k in range(size)])
+        return self.expressions.vector([entry(k, 0)[0] if rows else entry(0, k)[0] for k in range(size)])
 
     def assign(self, statement: ast.stmt, target: ast.expr, expression: ast.expr) -> None:
         """``target = expression``, of a matrix, or of a block, row or column."""
@@ -44,15 +44,15 @@ class MatrixWriter(MatrixEntries):
             self._fill(expression, self.out.declare(name), identifier(name), True)
         elif self.plan.is_disturbed(expression, ast.unparse(target), ast.unparse(target)):
             part = self.materialise(expression)
-            self.out.add(f"{self.out.expressions.write(target)} = {part};")
+            self.out.add(f"{self.expressions.write(target)} = {part};")
         else:
-            text = self.out.expressions.write(target)
+            text = self.expressions.write(target)
             self._fill(expression, text, text, False)
 
     def _assign_block(self, target: ast.Subscript, expression: ast.expr) -> None:
         kind = self.function.types[target]
         if isinstance(kind, Vector):
-            text = self.out.expressions.write(expression)
+            text = self.expressions.write(expression)
             text = text if text.isidentifier() else self.out.keep(expression, text, "part")
             rows, _ = self.function.blocks[target]
             entry = self.block(target)
@@ -83,7 +83,7 @@ class MatrixWriter(MatrixEntries):
         if self.plan.is_small(node):
             if isinstance(call, MakeMatrix) and call.name == "matrix":
                 elements = [each for row in node.args for each in row.elts]  # type: ignore[attr-defined]
-                texts = [self.out.expressions.write(each) for each in elements]
+                texts = [self.expressions.write(each) for each in elements]
             else:
                 entry = self.prepare(node)
                 texts = [entry(i, j)[0] for i in range(kind.rows) for j in range(kind.columns)]

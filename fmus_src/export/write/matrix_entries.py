@@ -7,17 +7,15 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from ..judge.effects import own_outcome
 from ..judge.kernel import KernelCall, MakeMatrix, Matrix, Vector
 from ..judge.ranges import indices_of
 from ..judge.vectors import is_variable
-from .expressions import ATOM, CONDITIONAL, PRODUCT, SUM, UNARY
+from .expressions import ExpressionWriter
 from .matrix_plan import MatrixPlan, is_matmul, terms_of
-
-if TYPE_CHECKING:
-    from .writer import FunctionWriter
+from .operators import ATOM, CONDITIONAL, PRODUCT, SUM, UNARY, parenthesise
+from .writer import FunctionWriter
 
 Index = int | str
 Entry = Callable[[Index, Index], tuple[str, int]]  # of row and column: text and precedence
@@ -26,8 +24,9 @@ Entry = Callable[[Index, Index], tuple[str, int]]  # of row and column: text and
 class MatrixEntries:
     """Writes the elements of the matrices of one function."""
 
-    def __init__(self, out: FunctionWriter) -> None:
+    def __init__(self, out: FunctionWriter, expressions: ExpressionWriter) -> None:
         self.out = out
+        self.expressions = expressions
         self.function = out.function
         self.plan = MatrixPlan(out.function)
 
@@ -39,7 +38,7 @@ class MatrixEntries:
         """The elements of a matrix, or of a vector as its column, after the statements that they need."""
         kind = self.function.types[node]
         if isinstance(kind, Vector) and not is_matmul(node):
-            text = self.out.expressions.write(node)
+            text = self.expressions.write(node)
             text = text if text.isidentifier() else self.out.keep(node, text, "part")
             return lambda i, j: (f"{text}.x[{i}]", ATOM)
         if is_variable(node):
@@ -50,7 +49,7 @@ class MatrixEntries:
             return lambda i, j: inner(j, i)
         if isinstance(node, ast.UnaryOp):
             operand = self.prepare(node.operand)
-            return lambda i, j: (f"-{paren(operand(i, j), ATOM)}", UNARY)
+            return lambda i, j: (f"-{parenthesise(operand(i, j), ATOM)}", UNARY)
         if isinstance(node, ast.Subscript):
             return self.block(node)
         if isinstance(node, ast.Call):
@@ -60,7 +59,7 @@ class MatrixEntries:
 
     def holder(self, node: ast.expr) -> str:
         """What is indexed to mean an element: ``p->x``, ``self->covariance.x``."""
-        text = self.out.expressions.write(node, ATOM)
+        text = self.expressions.write(node, ATOM)
         return f"{text[2:-1]}->x" if text.startswith("(*") else f"{text}.x"
 
     def place(self, node: ast.Subscript) -> str:
@@ -72,9 +71,9 @@ class MatrixEntries:
 
     def _index(self, node: ast.Subscript, index: ast.expr, size: int) -> Index:
         """An index, checked where it was not proven."""
-        text = self.out.expressions.write(index, SUM)
+        text = self.expressions.write(index, SUM)
         if index in self.function.unproven_indices:
-            return self.out.expressions.write_checked(node, "py_index", text, str(size))[0]
+            return self.expressions.write_checked(node, "py_index", text, str(size))[0]
         return int(text) if text.isdigit() else text
 
     def block(self, node: ast.Subscript) -> Entry:
@@ -96,7 +95,7 @@ class MatrixEntries:
     def _call(self, node: ast.Call) -> Entry:
         kind, call = self.function.types[node], self.function.calls[node]
         assert isinstance(kind, Matrix)
-        write = self.out.expressions.write
+        write = self.expressions.write
         if isinstance(call, KernelCall):
             text = write(node)
             name = text if text.isidentifier() else self.out.keep(node, text, "part")
@@ -122,23 +121,23 @@ class MatrixEntries:
         if isinstance(node.op, ast.Add | ast.Sub):
             left, right = self.prepare(node.left), self.prepare(node.right)
             sign = "+" if isinstance(node.op, ast.Add) else "-"
-            return lambda i, j: (f"{paren(left(i, j), SUM)} {sign} {paren(right(i, j), SUM + 1)}", SUM)
+            return lambda i, j: (f"{parenthesise(left(i, j), SUM)} {sign} {parenthesise(right(i, j), SUM + 1)}", SUM)
         if isinstance(node.op, ast.Div):
             left, divisor = self.prepare(node.left), self._scalar(node.right, node)
-            return lambda i, j: (f"{paren(left(i, j), PRODUCT)} / {divisor}", PRODUCT)
+            return lambda i, j: (f"{parenthesise(left(i, j), PRODUCT)} / {divisor}", PRODUCT)
         number, holder = node.left, node.right
         if isinstance(self.function.types[number], Matrix):
             holder, number = number, holder
             entry, factor = self.prepare(holder), self._scalar(number)
         else:
             factor, entry = self._scalar(number), self.prepare(holder)
-        return lambda i, j: (f"{factor} * {paren(entry(i, j), PRODUCT + 1)}", PRODUCT)
+        return lambda i, j: (f"{factor} * {parenthesise(entry(i, j), PRODUCT + 1)}", PRODUCT)
 
     def _scalar(self, node: ast.expr, division: ast.BinOp | None = None) -> str:
         """A number that all elements are multiplied with, or divided by."""
-        text = self.out.expressions.write_as_float(node, ATOM)
+        text = self.expressions.write_as_float(node, ATOM)
         if division is not None and own_outcome(self.function, division):
-            text = self.out.expressions.write_checked(division, "py_divisor", text)[0]
+            text = self.expressions.write_checked(division, "py_divisor", text)[0]
         elif text.isidentifier() or isinstance(node, ast.Constant):
             return text
         name = self.out.fresh("divisor" if division else "factor")
@@ -158,7 +157,7 @@ class MatrixEntries:
 
         def entry(i: Index, j: Index) -> tuple[str, int]:
             terms = [times(row(i, k), column(k, j)) for k in range(inner)]
-            terms = [paren(start(i, j), SUM), *terms] if start else terms
+            terms = [parenthesise(start(i, j), SUM), *terms] if start else terms
             return " + ".join(terms), SUM if len(terms) > 1 else PRODUCT
 
         return entry
@@ -203,11 +202,5 @@ def plus(a: Index, b: Index) -> Index:
     return b if a == 0 else a if b == 0 else f"{a} + {b}"
 
 
-def paren(entry: tuple[str, int], outer: int) -> str:
-    """The text of an element, in parentheses where the operator around it binds tighter."""
-    text, precedence = entry
-    return f"({text})" if precedence < outer else text
-
-
 def times(a: tuple[str, int], b: tuple[str, int]) -> str:
-    return f"{paren(a, PRODUCT)} * {paren(b, PRODUCT + 1)}"
+    return f"{parenthesise(a, PRODUCT)} * {parenthesise(b, PRODUCT + 1)}"

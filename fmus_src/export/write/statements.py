@@ -5,9 +5,11 @@ from __future__ import annotations
 import ast
 
 from ..judge.effects import makes_matrix
-from ..judge.kernel import KernelCall, List, Matrix, Several
+from ..judge.kernel import Function, KernelCall, List, Matrix, Several
 from ..judge.statements import is_list_binding, range_step
-from .names import identifier
+from .expressions import ExpressionWriter
+from .matrices import MatrixWriter
+from .names import Names, identifier
 from .placement import list_assigned
 from .writer import ZERO, FunctionWriter
 
@@ -22,6 +24,11 @@ class StatementWriter(FunctionWriter):
     exception does in Python.
     """
 
+    def __init__(self, function: Function, names: Names) -> None:
+        super().__init__(function, names)
+        self.expressions = ExpressionWriter(self)
+        self.matrices = self.expressions.matrices = MatrixWriter(self, self.expressions)
+
     def block(self, statements: list[ast.stmt]) -> None:
         """Statements in order, with the comments that stand before each."""
         outer_names = set(self.used)
@@ -30,18 +37,35 @@ class StatementWriter(FunctionWriter):
             self.line = statement.lineno
             for name in self.placement.before.get(statement, []):
                 self.lines.add(f"{self.declare(name)};")
-            getattr(self, f"write_{type(statement).__name__.lower()}")(statement)
+            self.write(statement)
             self.last_line = max(self.last_line, statement.end_lineno or 0)
         self.used = outer_names  # C forgets a block's variables at its end
 
-    def write_pass(self, node: ast.Pass) -> None:
-        """Nothing to do in C either."""
-
-    def write_break(self, node: ast.Break) -> None:
-        self.add("break;")
-
-    def write_continue(self, node: ast.Continue) -> None:
-        self.add("continue;")
+    def write(self, statement: ast.stmt) -> None:
+        """Write a statement that the judge lets pass."""
+        match statement:
+            case ast.Assign():
+                self.write_assign(statement)
+            case ast.AnnAssign():
+                self.write_annassign(statement)
+            case ast.Expr():
+                self.write_expr(statement)
+            case ast.If():
+                self.write_if(statement)
+            case ast.For():
+                self.write_for(statement)
+            case ast.While():
+                self.write_while(statement)
+            case ast.Return():
+                self.write_return(statement)
+            case ast.Pass():
+                pass
+            case ast.Break():
+                self.add("break;")
+            case ast.Continue():
+                self.add("continue;")
+            case _:
+                raise TypeError(f"{type(statement).__name__}, which no judged kernel has")
 
     def write_expr(self, node: ast.Expr) -> None:
         text = self.expressions.write(node.value)

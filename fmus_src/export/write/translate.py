@@ -9,6 +9,7 @@ from pathlib import Path
 from ...block import Block
 from ...kernel import vector_types
 from ...kernel.functions import DOMAIN_ERROR, EITHER_ERROR, FAULTS, RANGE_ERROR
+from ...roles import SAMPLE_PERIOD, START_TIME
 from ...runtime import integration_step
 from ...variables import Variable
 from ..judge.expressions import SCALARS, type_of_variable
@@ -213,12 +214,12 @@ def _entry_points(kernel: Kernel, names: Names) -> str:
         lines.add(f"{names.functions[function]}({', '.join(passed)});")
         lines.close("}")
         lines.text.append("")
-    sampled = "sample_period" in kernel.block_class.variables
+    sampled = SAMPLE_PERIOD in kernel.block_class.variables
     lines.comment("Time between samples (s); 0 where the block steps at every communication point.")
     lines.open("static double model_sample_period(const Block *self)\n{")
     if not sampled:
         lines.add("(void)self;")
-    lines.add(f"return {'self->sample_period' if sampled else '0.0'};")
+    lines.add(f"return {f'self->{SAMPLE_PERIOD}' if sampled else '0.0'};")
     lines.close("}")
     lines.text.append("")
     name = integration_step(kernel.block_class)
@@ -231,8 +232,8 @@ def _entry_points(kernel: Kernel, names: Names) -> str:
     lines.text.append("")
     lines.comment("Tell a block that has a state start_time when it starts (s).")
     lines.open("static void model_set_start_time(Block *self, double start_time)\n{")
-    if "start_time" in kernel.block_class.variables:
-        lines.add("self->start_time = start_time;")
+    if START_TIME in kernel.block_class.variables:
+        lines.add(f"self->{START_TIME} = start_time;")
     else:
         lines.add("(void)self, (void)start_time;")
     lines.close("}")

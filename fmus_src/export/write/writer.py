@@ -7,9 +7,7 @@ import ast
 from ..judge.effects import own_outcome
 from ..judge.kernel import BOOL, FLOAT, INT, Function, List, Matrix, Scalar, Several, Value, Vector
 from ..judge.source import comments_of
-from .expressions import ExpressionWriter
 from .layout import Lines
-from .matrices import MatrixWriter
 from .names import C_TYPES, Names, c_type, identifier
 from .placement import Placement
 
@@ -22,8 +20,6 @@ class FunctionWriter:
     def __init__(self, function: Function, names: Names) -> None:
         self.function = function
         self.names = names
-        self.expressions = ExpressionWriter(function, names, self.hoist)
-        self.matrices = self.expressions.matrices = MatrixWriter(self)
         self.placement = Placement(function)
         self.lines = Lines()
         self.comments = comments_of(function.source.path)

@@ -8,6 +8,7 @@ INNOVATION_SQUARE = Port(
     0.0, unit="1", description="normalised innovation squared of the last sample, three components"
 )
 INTERNAL_STEP = Port(0.1, unit="s", minimum=1e-4, description="longest integration step")
+TIME_ROUNDING = 1e-9  # s, by which times of communication points and samples may miss: importers round or add them up
 SAMPLES_TAKEN = Port(0, description="samples taken in")
 SAMPLE_COUNT = Port(0, description="samples taken; tells a new one from a held one")
 SAMPLE_PERIOD = Port(0.2, unit="s", minimum=0.0, description="between samples; 0: every communication point")

@@ -11,6 +11,7 @@ Derivations: docs/systems/robot_rendezvous.md. Source: Somov 2013; Somov, Platon
 import math
 
 from ...kernel.functions import acos, atan2, cos, sin
+from ...kernel.matrices import Matrix, add_product, diagonal, identity, matrix, zeros
 from ..vectors import Vector2, Vector3, Vector4, vector
 
 ISOTROPIC_RHO = 0.9797958971132712  # 2 sqrt(6)/5: the three axes are alike where the momentum is 0
@@ -29,15 +30,14 @@ def cluster_momentum(angles: Vector4) -> Vector3:
     )
 
 
-def cluster_jacobian(angles: Vector4, jacobian: list) -> None:
-    """jacobian[3 x 4] = derivative of the momentum by the gimbal angles, row order."""
-    for i in range(4):
-        jacobian[i] = -sin(angles[i])
-    for i in range(2):
-        jacobian[4 + i] = cos(angles[i])
-        jacobian[6 + i] = 0.0
-        jacobian[8 + i] = 0.0
-        jacobian[10 + i] = cos(angles[2 + i])
+def cluster_jacobian(angles: Vector4) -> Matrix:
+    """Return the derivative of the momentum by the gimbal angles, 3 x 4."""
+    first, second, third, fourth = angles
+    return matrix(
+        [-sin(first), -sin(second), -sin(third), -sin(fourth)],
+        [cos(first), cos(second), 0.0, 0.0],
+        [0.0, 0.0, cos(third), cos(fourth)],
+    )
 
 
 def nearest_turn(angle: float, reference: float) -> float:
@@ -128,43 +128,29 @@ def distribute_rates(
 
 def singularity_measure(angles: Vector4) -> float:
     """Square root of det(A A') of the jacobian A: 0 in a singular state, 8/sqrt(27) = 1.54 at the isotropic angles."""
-    jacobian = [0.0] * 12
-    gram = [0.0] * 6
-    cluster_jacobian(angles, jacobian)
-    gram_of(jacobian, 0.0, gram)
-    determinant = determinant_of(gram)
+    determinant = determinant_of(gram_of(cluster_jacobian(angles), 0.0))
     if not determinant > 0.0:
         return 0.0
     return math.sqrt(determinant)
 
 
-def weight_of(rotor: int, bias: float) -> float:
-    """1 + bias for the first rotor of a pair, 1 - bias for the second."""
-    if rotor % 2 == 0:
-        return 1.0 + bias
-    return 1.0 - bias
+def rotor_weights(bias: float) -> Vector4:
+    """Return 1 + bias for the first rotor of each pair, 1 - bias for the second."""
+    return vector(1.0 + bias, 1.0 - bias, 1.0 + bias, 1.0 - bias)
 
 
-def gram_of(jacobian: list, bias: float, gram: list) -> None:
-    """gram[6] = A W A' of a 3 x 4 matrix: 11, 22, 33, 23, 13, 12; W is diagonal, of weight_of."""
-    for i in range(6):
-        gram[i] = 0.0
-    for j in range(4):
-        x = jacobian[j]
-        y = jacobian[4 + j]
-        z = jacobian[8 + j]
-        weight = weight_of(j, bias)
-        gram[0] = gram[0] + weight * x * x
-        gram[1] = gram[1] + weight * y * y
-        gram[2] = gram[2] + weight * z * z
-        gram[3] = gram[3] + weight * y * z
-        gram[4] = gram[4] + weight * x * z
-        gram[5] = gram[5] + weight * x * y
+def gram_of(jacobian: Matrix, bias: float) -> Matrix:
+    """Return A W A' (3 x 3) of a 3 x 4 matrix A; W has rotor_weights on its diagonal."""
+    return add_product(zeros(3, 3), jacobian @ diagonal(rotor_weights(bias)), jacobian.T)
 
 
-def determinant_of(m: list) -> float:
-    """Determinant of a symmetric matrix, stored as 11, 22, 33, 23, 13, 12."""
-    return m[0] * (m[1] * m[2] - m[3] * m[3]) - m[5] * (m[5] * m[2] - m[3] * m[4]) + m[4] * (m[5] * m[3] - m[1] * m[4])
+def determinant_of(m: Matrix) -> float:
+    """Return the determinant of a symmetric 3 x 3 matrix, whose upper triangle is read."""
+    return (
+        m[0, 0] * (m[1, 1] * m[2, 2] - m[1, 2] * m[1, 2])
+        - m[0, 1] * (m[0, 1] * m[2, 2] - m[1, 2] * m[0, 2])
+        + m[0, 2] * (m[0, 1] * m[1, 2] - m[1, 1] * m[0, 2])
+    )
 
 
 def robust_rates(
@@ -179,9 +165,7 @@ def robust_rates(
     the first rotor of each pair and 1 - swing lack for the second, without which rotors side by side
     would stay so. A swing below 0.5 keeps both positive definite.
     """
-    jacobian = [0.0] * 12
-    gram = [0.0] * 6
-    cluster_jacobian(angles, jacobian)
+    jacobian = cluster_jacobian(angles)
     measure = singularity_measure(angles)
     bias = 0.0
     k = 0.0
@@ -189,24 +173,22 @@ def robust_rates(
         lack = 1.0 - measure / threshold
         bias = swing * lack
         k = damping * lack * lack
-    gram_of(jacobian, bias, gram)
+    gram = gram_of(jacobian, bias)
     if k > 0.0:
-        for i in range(3):
-            gram[i] = gram[i] + k
-            gram[3 + i] = gram[3 + i] + k * swing * sin(0.5 * math.pi * (time + float(i)))
+        gram = gram + k * identity(3)
+        gram[1, 2] += k * swing * sin(0.5 * math.pi * time)
+        gram[0, 2] += k * swing * sin(0.5 * math.pi * (time + 1.0))
+        gram[0, 1] += k * swing * sin(0.5 * math.pi * (time + 2.0))
     determinant = determinant_of(gram)
     if not determinant > 0.0:
         return vector(0.0, 0.0, 0.0, 0.0), measure
-    first = gram[1] * gram[2] - gram[3] * gram[3]
-    second = gram[0] * gram[2] - gram[4] * gram[4]
-    third = gram[0] * gram[1] - gram[5] * gram[5]
-    c23 = gram[4] * gram[5] - gram[0] * gram[3]
-    c13 = gram[5] * gram[3] - gram[1] * gram[4]
-    c12 = gram[3] * gram[4] - gram[2] * gram[5]
-    x = (first * momentum_rate.x + c12 * momentum_rate.y + c13 * momentum_rate.z) / determinant
-    y = (c12 * momentum_rate.x + second * momentum_rate.y + c23 * momentum_rate.z) / determinant
-    z = (c13 * momentum_rate.x + c23 * momentum_rate.y + third * momentum_rate.z) / determinant
-    rates = [0.0] * 4
-    for j in range(4):
-        rates[j] = weight_of(j, bias) * (jacobian[j] * x + jacobian[4 + j] * y + jacobian[8 + j] * z)
-    return vector(*rates), measure
+    c23 = gram[0, 2] * gram[0, 1] - gram[0, 0] * gram[1, 2]
+    c13 = gram[0, 1] * gram[1, 2] - gram[1, 1] * gram[0, 2]
+    c12 = gram[1, 2] * gram[0, 2] - gram[2, 2] * gram[0, 1]
+    cofactors = matrix(
+        [gram[1, 1] * gram[2, 2] - gram[1, 2] * gram[1, 2], c12, c13],
+        [c12, gram[0, 0] * gram[2, 2] - gram[0, 2] * gram[0, 2], c23],
+        [c13, c23, gram[0, 0] * gram[1, 1] - gram[0, 1] * gram[0, 1]],
+    )
+    solution = cofactors @ momentum_rate / determinant
+    return rotor_weights(bias) * (jacobian.T @ solution), measure

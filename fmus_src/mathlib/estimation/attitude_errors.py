@@ -7,7 +7,7 @@ Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 
 import math
 
 from ...kernel.functions import sin
-from ...kernel.matrices import Matrix, block, identity, matrix, zeros
+from ...kernel.matrices import Matrix, block, cross_matrix, identity, zeros
 from ..attitude.quaternion import from_rotation_vector, to_body
 from ..vectors import Vector3, norm, vector
 from .kalman import predict
@@ -15,11 +15,6 @@ from .kalman import predict
 ROTATION = block(0, 3)
 BIAS = block(3, 3)
 SMALL = 1e-6  # rad, below which the factors of [turn] are those of no turn
-
-
-def cross_matrix(v: Vector3) -> Matrix:
-    """[v], the matrix of v x."""
-    return matrix([0.0, -v.z, v.y], [v.z, 0.0, -v.x], [-v.y, v.x, 0.0])
 
 
 def transition(turn: Vector3, h: float) -> Matrix:

@@ -4,10 +4,10 @@ States as in `attitude_errors`: the small rotation is in body axes, on the right
 Source: Markley and Crassidis 2014, sections 5.1 and 6.2.
 """
 
-from ...kernel.matrices import Matrix, inverse_quadratic_form, zeros
+from ...kernel.matrices import Matrix, cross_matrix, inverse_quadratic_form, zeros
 from ..attitude.quaternion import to_body
 from ..vectors import Vector3, Vector4, norm
-from .attitude_errors import ROTATION, cross_matrix
+from .attitude_errors import ROTATION
 from .kalman import update
 
 

@@ -6,6 +6,7 @@ Frame: landing site (z up); the Moon's centre is ``radius`` below the origin.
 from ...kernel.matrices import Matrix, block, identity, mirror, zeros
 from ..lunar.gravity import central_gravity, gravity_difference
 from ..vectors import Vector3, vector
+from .sensor_errors import add_cross
 
 # The states of a covariance: errors of position and velocity, and of the inertial sensor.
 STATES = 15
@@ -36,11 +37,7 @@ def dead_reckon(
 
 def sensor_addition(bias: Vector3, scale_factor: Vector3, rotation: Vector3, f: Vector3) -> Vector3:
     """b + diag(k) f + w x f, with bias b (m/s2), scale factors k and rotation w (rad)."""
-    return vector(
-        bias.x + scale_factor.x * f.x + rotation.y * f.z - rotation.z * f.y,
-        bias.y + scale_factor.y * f.y + rotation.z * f.x - rotation.x * f.z,
-        bias.z + scale_factor.z * f.z + rotation.x * f.y - rotation.y * f.x,
-    )
+    return add_cross(bias + scale_factor * f, rotation, f)
 
 
 def propagate(

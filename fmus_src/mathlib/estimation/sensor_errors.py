@@ -41,3 +41,12 @@ def make_room(samples: Matrix, columns: int) -> None:
         row = LATEST - i
         for k in range(columns):
             samples[row, k] = samples[row - 1, k]
+
+
+def add_cross(a: Vector3, rotation: Vector3, f: Vector3) -> Vector3:
+    """Return a + rotation x f, summed in this order: what a small rotation (rad) of the axes adds to a measured f."""
+    return vector(
+        a.x + rotation.y * f.z - rotation.z * f.y,
+        a.y + rotation.z * f.x - rotation.x * f.z,
+        a.z + rotation.x * f.y - rotation.y * f.x,
+    )

@@ -85,6 +85,19 @@ def lengthen(p: HoverProgramme, end: float) -> HoverProgramme:
     return replace(p, t5=p.t5 + end - p.t7, t7=end)
 
 
+def solve_farther(
+    kind: int, growth: float, distance: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme
+) -> tuple[HoverSolution, float]:
+    """Return the programme ``growth`` times as far aside as p, which ends at ``distance`` (m), and where it ends (m).
+
+    x (m) is the farthest; ``kind`` is one of PlanKind.
+    """
+    goal = growth * distance
+    if goal > x:
+        goal = x
+    return solve(kind, widen(p, math.sqrt(goal / distance)), vehicle, goal, y), goal
+
+
 def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> ReachedProgramme:
     """From the vertical programme p to the one without first burn to x, or as near as there is."""
     place = x
@@ -99,10 +112,7 @@ def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> Reach
     growth = GROWTH
     for _ in range(LARGEST_PATH):
         if place < x and growth > LEAST_GROWTH:
-            goal = growth * place
-            if goal > x:
-                goal = x
-            trial = solve(PlanKind.WITHOUT_FIRST_BURN, widen(p, math.sqrt(goal / place)), vehicle, goal, y)
+            trial, goal = solve_farther(PlanKind.WITHOUT_FIRST_BURN, growth, place, x, y, vehicle, p)
             if trial.is_feasible:
                 p = trial.programme
                 place = goal
@@ -159,10 +169,7 @@ def further(reached: ReachedProgramme, x: float, y: float, vehicle: HoverVehicle
     growth = GROWTH_WITH_FIRST_BURN
     for _ in range(LARGEST_PATH):
         if distance < x and growth > LEAST_GROWTH:
-            goal = growth * distance
-            if goal > x:
-                goal = x
-            trial = solve(PlanKind.WITH_FIRST_BURN, widen(p, math.sqrt(goal / distance)), vehicle, goal, y)
+            trial, goal = solve_farther(PlanKind.WITH_FIRST_BURN, growth, distance, x, y, vehicle, p)
             if trial.is_feasible:
                 p = trial.programme
                 distance = goal

@@ -7,7 +7,7 @@ Source: Lapin, thesis, chapter 1.1.
 """
 
 from ...kernel.functions import cos, sin, tan
-from ...kernel.matrices import Matrix, block, identity, matrix, zeros
+from ...kernel.matrices import Matrix, block, cross_matrix, identity, matrix, zeros
 from ...kernel.records import Field, Record
 from ..vectors import Vector3, cross, vector
 
@@ -101,11 +101,6 @@ def angular_acceleration(
     """
     j = radial_direction(a)
     return inverse_inertia @ (3.0 * w0 * w0 * cross(j, inertia @ j) + cross(inertia @ w, w) + torque)
-
-
-def cross_matrix(v: Vector3) -> Matrix:
-    """The 3 x 3 matrix of u -> v x u."""
-    return matrix([0.0, -v.z, v.y], [v.z, 0.0, -v.x], [-v.y, v.x, 0.0])
 
 
 def gyric_matrix(inertia: Matrix, inverse_inertia: Matrix, v: Vector3) -> Matrix:

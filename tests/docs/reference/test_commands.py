@@ -71,6 +71,9 @@ TAKES_LONG = {
     "earth_pointing --report": "six revolutions and their page",
     "earth_pointing --stop-time": "flights to nadir; tests/docs/test_earth_pointing_faults.py flies them",
     "earth_pointing --parameters moon.ssv": "four revolutions; tests/docs/test_lunar_orbiter.py flies them",
+    "cubesat --campaign dispersed": "100 flights of three revolutions",
+    "perilune run cubesat --report": "a flight and its page",
+    "perilune stability cubesat": "two operating points of 650 states",
     "satellite_pointing --campaign dispersed": "1600 flights and their page",
     "satellite_pointing --campaign agile": "800 flights",
     "robot_rendezvous --campaign seeds --parameters best.ssv --compare": "24 flights of 5000 s",
@@ -109,7 +112,11 @@ OUTPUT_TAKES_LONG = {
     "lunar_terminal_guidance.fmu": "the FMU of the former",
 }
 # ... and of some all but the page.
-PAGE_TAKES_LONG = ("perilune run landing_mission --parameters ideal.ssv", "perilune run lunar_landing --report")
+PAGE_TAKES_LONG = (
+    "perilune run landing_mission --parameters ideal.ssv",
+    "perilune run lunar_landing --report",
+    "perilune run cubesat --report",
+)
 FAILS = (  # exit status 1
     "--fault 'torquers.dipole[1]=override:5@4000'",  # a fault that is not survived
     "lunar_descent_2d --parameters basic.ssv",  # the basic solution of a search

@@ -21,7 +21,7 @@ TEMPLATE = '''import math
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
 from perilune.fmus_src.bundles import Bundle, Inputs, Outputs
 from perilune.fmus_src.kernel.integrators import runge_kutta_4
-from perilune.fmus_src.kernel.matrices import Matrix, zeros
+from perilune.fmus_src.kernel.matrices import Matrix, add_product, matrix, zeros
 from perilune.fmus_src.kernel.records import Field, Record, replace
 from perilune.fmus_src.mathlib.vectors import Vector3, vector
 from perilune.fmus_src.ports import Port
@@ -140,7 +140,7 @@ def test_rule_refuses_statement(rule: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("rule", "step"), bad_kernels.OTHERS)
-def test_rule_refuses_what_else_vectors_cannot_do(rule: str, step: str, tmp_path: Path) -> None:
+def test_rule_refuses_other_statements(rule: str, step: str, tmp_path: Path) -> None:
     refusal(tmp_path, RULES[rule], step)
 
 

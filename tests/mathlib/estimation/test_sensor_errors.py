@@ -12,7 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.fmus_src.kernel.matrices import zeros
-from perilune.fmus_src.mathlib.estimation.sensor_errors import LATEST, make_room, next_markov, quantise, saturate
+from perilune.fmus_src.mathlib.estimation.sensor_errors import (
+    LATEST,
+    add_cross,
+    make_room,
+    next_markov,
+    quantise,
+    saturate,
+)
 from perilune.fmus_src.mathlib.vectors import vector
 
 numbers = st.floats(-1e3, 1e3)
@@ -54,6 +61,13 @@ def test_without_a_quantum_a_vector_stays():
 @given(st.lists(numbers, min_size=3, max_size=3), st.floats(0.0, 1e3))
 def test_limits(values, largest):
     assert [*saturate(vector(*values), largest)] == np.clip(values, -largest, largest).tolist()
+
+
+@given(st.lists(numbers, min_size=9, max_size=9))
+def test_a_small_rotation_adds_its_vector_product(values):
+    a, rotation, f = np.reshape(values, (3, 3))
+    actual = add_cross(vector(*a), vector(*rotation), vector(*f))
+    assert [*actual] == pytest.approx(a + np.cross(rotation, f), rel=1e-14, abs=1e-9)
 
 
 def test_samples_move_down():

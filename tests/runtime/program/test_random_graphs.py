@@ -2,7 +2,7 @@
 
 from hypothesis import HealthCheck, settings
 
-from tests.support.flights.random_systems import any_flight
+from tests.support.graphs.random_systems import any_flight
 from tests.support.lengths import either
 
 

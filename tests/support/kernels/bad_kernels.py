@@ -42,6 +42,8 @@ STEPS = {
     "matrix operator": "self.m = self.m + 1.0  # here",
     "matrix sizes": "self.m = self.m + self.m.T  # here",
     "matrix size": "a = zeros(self.k, 2)  # here",
+    "matrix rows": "a = matrix([self.x, 1.0], [2.0])  # here",
+    "matrix sum": "a = add_product(self.m, self.m, self.m)  # here",
     "matrix index": "self.y = self.m[0]  # here",
     "matrix block": "self.w = self.m[0 : self.k, 0]  # here",
     "matrix shared": "a = self.m  # here",
@@ -120,6 +122,10 @@ SYNTAX = {
 
 # More that is refused, by rule and in other words than above.
 OTHERS = [
+    ("matrix size", "a = zeros(3 // (len(self.v) - 5), 2)  # here"),
+    ("matrix size", "a = zeros(len(self.v) - 5, 2)  # here"),
+    ("matrix size", "n = 2\na = zeros(n + 1, 2)  # here"),
+    ("list size", "w = [0.0] * (2 * self.k)  # here"),
     ("record", "m = Motion(count=1, height=1.0)  # here"),
     ("record", "m = Motion(1.0, 2)  # here"),
     ("record operator", "m = still(1.0, 2)\nm = 2.0 * m  # here"),

@@ -11,7 +11,7 @@ from random import Random
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.export.judge.source import label
-from perilune.fmus_src.kernel import functions, matrix_types, records, vector_types
+from perilune.fmus_src.kernel import functions, matrix_types, operations
 from perilune.fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
 from perilune.fmus_src.runtime import Component, StepError
 from perilune.fmus_src.start_values import StartError
@@ -25,7 +25,7 @@ STUCK = 3  # equal rows in a row after which the flight counts as latched
 SPREAD = {"m": 2e4, "m/s": 500.0, "m/s2": 5.0, "s": 20.0, "N": 2000.0, "rad/s": 0.1, "N.m": 10.0, "kg": 500.0}
 WILD = [0.0, -0.0, 1.0, -1.0, 1e-300, 1e200, -1e308, float("inf"), float("-inf"), float("nan")]
 # Operators and functions, called at a kernel's line.
-LANGUAGE_FILES = (vector_types.__file__, matrix_types.__file__, functions.__file__, records.__file__)
+LANGUAGE_FILES = (operations.__file__, matrix_types.__file__, functions.__file__)
 FAULT = re.compile(r'File "(?P<file>[^"]+)", line (?P<line>\d+): (?P<error>\w+):')
 
 

@@ -22,6 +22,7 @@ from perilune.fmus_src.mathlib.vectors import dot, vector
 
 FIRST, SECOND = block(0, 3), block(3, 3)
 PAIR = block(1, 2)
+AXES = 3
 
 
 def trace(a: Matrix) -> float:
@@ -104,11 +105,13 @@ class MatrixLanguage(Block):
         f = identity(6)
         f[FIRST, SECOND] = h * identity(3)
         f[SECOND, 0] = 0.01 * vector(self.x, 1.0, -self.x) / (1.0 + abs(self.x))
-        q = zeros(6, 6)
-        q[SECOND, SECOND] += 0.01 * h * diagonal(self.u * self.u) / (1.0 + dot(self.u, self.u))
+        q = zeros(AXES + 3, 2 * AXES)
+        q[SECOND, AXES : len(q) * AXES // 3] += 0.01 * h * diagonal(self.u * self.u) / (1.0 + dot(self.u, self.u))
         self.estimate = f @ self.estimate
         self.p = predict(self.p, f, q)
-        row = zeros(1, 6)
+        row = zeros(AXES % 2, len(q) - 0)
+        weights = [0.0] * (AXES * AXES - 7)
+        weights[AXES // 2] = row[0, 0]
         row[0, self.k] = 1.0
         self.estimate, self.p, square = update(self.estimate, self.p, row, 1.0 + self.x * self.x, self.u.x)
         self.y[4] = square

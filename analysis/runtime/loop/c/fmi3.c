@@ -23,7 +23,7 @@ static int exchange_in_step(const Run *run, const uint64_t *row, double time, in
     outcome[FUNCTION_CALLED] = (int64_t)row[FUNCTION];
     if (code == SET_TRANSFER) {
         const int64_t *const transfer = transfer_of(run, first);
-        if (transfer[KIND] != FLOAT64) {
+        if (transfer[KIND] != FLOAT64 || point < 0) { /* the first event compares with the initialisation */
             to_stored(transfer[KIND], transfer[FIRST_VALUE], transfer[VALUES], values, stored, outcome);
             if (outcome[ENDING] != 0) return 0;
         }

@@ -34,6 +34,7 @@ static void prepare_memory(const Run *run)
         const Fmi3 *const fmi3 = &run->fmi3;
         reset_texts(&fmi3->binaries);
         memcpy(fmi3->sizes, fmi3->initial_sizes, (size_t)fmi3->sizes_rows * sizeof(uint64_t));
+        memset(fmi3->stored.sent, 0, (size_t)buffers->values_rows * sizeof(uint64_t));
         memcpy(fmi3->stored.exact, fmi3->start, (size_t)buffers->values_rows * sizeof(uint64_t));
     }
 }

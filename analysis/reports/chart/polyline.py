@@ -1,0 +1,64 @@
+"""A line of many samples as an SVG path of few letters."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..interactive.envelope import envelope
+
+SPANS_PER_POINT = 2  # of an envelope, along the abscissa
+TOLERANCE = 0.05  # pt, by which a point that is left out may lie aside
+PASSES = 8
+
+
+def path_of(x: np.ndarray, y: np.ndarray, *, steps: bool, width: float) -> str:
+    """Return the path through points (pt), [rows]; it is interrupted where an ordinate is not finite.
+
+    ``steps``: an ordinate holds until the next row. A line of more rows than can be told apart over ``width`` (pt) is
+    its envelope.
+    """
+    if steps:
+        changes = np.flatnonzero(np.append(True, ~((y[1:] == y[:-1]) | (np.isnan(y[1:]) & np.isnan(y[:-1])))))
+        rows = np.union1d(changes, [y.size - 1])
+        x, y = np.repeat(x[rows], 2)[1:], np.repeat(y[rows], 2)[:-1]
+    x, y = envelope(x, y, int(SPANS_PER_POINT * width))
+    points = np.stack([x, y])
+    return "".join(_stroke(_thin(points[:, rows])) for rows in _finite_runs(np.isfinite(y)))
+
+
+def _finite_runs(finite: np.ndarray) -> list[slice]:
+    """The rows between those that are not finite."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], finite, [False]]).astype(np.int8)))
+    return [slice(int(first), int(end)) for first, end in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _thin(points: np.ndarray) -> np.ndarray:
+    """Points [2, rows] without those that lie on the chord of their neighbours."""
+    for _ in range(PASSES):
+        before, here, after = points[:, :-2:2], points[:, 1:-1:2], points[:, 2::2]
+        size = min(here.shape[1], after.shape[1])
+        chord, aside = (after - before[:, :size])[:, :size], (here - before)[:, :size]
+        length = np.hypot(*chord)
+        distance = np.abs(chord[0] * aside[1] - chord[1] * aside[0]) / np.maximum(length, TOLERANCE)
+        between = np.sum(chord * aside, axis=0)
+        on_chord = (distance < TOLERANCE) & (between >= 0.0) & (between <= length * length)
+        if not on_chord.any():
+            break
+        points = np.delete(points, 1 + 2 * np.flatnonzero(on_chord), axis=1)
+    return points
+
+
+def _stroke(points: np.ndarray) -> str:
+    """Where a stroke begins, then each point relative to the one before; the same point is left out."""
+    tenths = np.rint(10.0 * points).astype(np.int64)
+    moves = np.diff(tenths, axis=1).T
+    moves = moves[np.any(moves != 0, axis=1)]
+    start = f"M{_number(int(tenths[0, 0])).strip()}{_number(int(tenths[1, 0]))}"
+    return start + (f"l{''.join(map(_number, moves.ravel().tolist())).strip()}" if moves.size else "h0")
+
+
+def _number(tenths: int) -> str:
+    """Tenths in decimals; a minus is its own separator."""
+    whole, tenth = divmod(abs(tenths), 10)
+    text = f"{whole or ''}.{tenth}" if tenth else f"{whole}"
+    return f"-{text}" if tenths < 0 else f" {text}"

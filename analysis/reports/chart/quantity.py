@@ -1,0 +1,50 @@
+"""Curves of quantities, known to the page by name, unit and exact SI numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..common.colours import COLOURS
+from ..common.quantities import display_factor, display_unit
+from ..interactive.charts import Curve, Marker
+
+DASHES: tuple[tuple[float, ...], ...] = ((), (5.0, 1.6), (1.2, 1.2), (6.0, 1.6, 1.2, 1.6), (9.0, 2.0))  # line widths
+WIDTH = 1.3  # pt
+DOT = 3.0  # pt, the diameter of a lone sample
+
+
+def ordinates(curve: Curve) -> np.ndarray:
+    """Return the ordinates of a curve as displayed, [rows]."""
+    assert isinstance(curve.y, np.ndarray)
+    displayed: np.ndarray = curve.factor * curve.y
+    return displayed
+
+
+def quantity_curve(
+    x: np.ndarray, quantity: np.ndarray, name: str, unit: str | None, index: int = 0, *, steps: bool = False
+) -> Curve:
+    """Return a curve over ``x`` in the look of the index-th series; a lone sample as a dot.
+
+    ``quantity`` in ``unit``, [rows]; what is not finite is left out. ``steps``: it holds until the next row.
+    """
+    finite = np.where(np.isfinite(quantity), quantity, np.nan)
+    colour = COLOURS[index % len(COLOURS)].lower()
+    is_lone = np.count_nonzero(np.isfinite(finite)) == 1
+    return Curve(
+        x=x,
+        y=finite,
+        factor=display_factor(unit),
+        time=None,
+        name=name,
+        unit=display_unit(unit),
+        colour=colour,
+        opacity=1.0,
+        width=WIDTH,
+        dashes=list(DASHES[index % len(DASHES)]),
+        steps=steps,
+        joined=True,
+        marker=Marker(DOT, [], colour, colour, 1.0) if is_lone else None,
+        beyond=False,
+        reduced=False,
+        metric="",
+    )

@@ -1,0 +1,78 @@
+"""The ends of an axis and its ticks at round numbers, as matplotlib chooses them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+MARGIN = 0.05  # of the range of the data, at either end
+STEPS = np.array([0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 2.5, 5.0, 10.0, 20.0])  # of ticks, times a power of ten
+FEWEST = 2  # ticks
+FAR = 100.0  # from 0, in ranges: ticks then count from a round number near by
+TINY = 1e-15  # relative width of a range that is none
+SMALLEST = 1e21 * np.finfo(float).tiny  # magnitudes that count as 0
+ROUNDING = 1e-10  # of a step
+
+
+def axis_ends(numbers: np.ndarray) -> tuple[float, float]:
+    """Return the ends of an axis of these numbers; those that are not finite are left out."""
+    finite = numbers[np.isfinite(numbers)]
+    low, high = _widen(float(finite.min()), float(finite.max())) if finite.size else (-MARGIN, MARGIN)
+    margin = (high - low) * MARGIN
+    return low - margin, high + margin
+
+
+def _widen(low: float, high: float) -> tuple[float, float]:
+    """A range of some width around one that has none."""
+    size = max(abs(low), abs(high))
+    if size < SMALLEST:
+        return -MARGIN, MARGIN
+    if high - low <= size * TINY:
+        return low - MARGIN * abs(low), high + MARGIN * abs(high)
+    return low, high
+
+
+def axis_ticks(low: float, high: float, intervals: int, *, integer: bool = False) -> list[float]:
+    """Return the ticks between two ends: at most so many ``intervals``, at integers where asked.
+
+    The steps are 1, 2, 2.5 or 5 times a power of ten; ends between which there are less than two ticks get smaller
+    steps.
+    """
+    width, centre = high - low, (high + low) / 2.0
+    offset = 0.0
+    if abs(centre) / width >= FAR:
+        offset = math.copysign(10.0 ** (math.log10(abs(centre)) // 1), centre)
+    low, high = low - offset, high - offset
+    steps = STEPS * 10.0 ** (math.log10(width / intervals) // 1)
+    if integer:
+        steps = steps[(steps < 1.0) | (np.abs(steps - np.round(steps)) < 0.001)]
+    first = int(np.flatnonzero(steps >= (high - low) / intervals)[0])
+    ticks = np.empty(0)
+    for step in steps[first::-1]:
+        if integer and math.floor(high) - math.ceil(low) >= FEWEST - 1:
+            step = max(1.0, step)
+        origin = (low // step) * step
+        ticks = np.arange(_floor(low - origin, step, offset), _ceil(high - origin, step, offset) + 1) * step + origin
+        if np.count_nonzero((ticks >= low) & (ticks <= high)) >= FEWEST:
+            break
+    edge = 1e-9 * width  # by which a tick at an end may lie beyond
+    return [float(tick + offset) for tick in ticks if low - edge <= tick <= high + edge]
+
+
+def _floor(number: float, step: float, offset: float) -> float:
+    """The number of steps in a number, rounded down but for rounding errors."""
+    quotient, remainder = divmod(number, step)
+    return quotient + 1 if _is_close(remainder / step, 1.0, step, offset) else quotient
+
+
+def _ceil(number: float, step: float, offset: float) -> float:
+    quotient, remainder = divmod(number, step)
+    return quotient if _is_close(remainder / step, 0.0, step, offset) else quotient + 1
+
+
+def _is_close(ratio: float, edge: float, step: float, offset: float) -> bool:
+    tolerance = ROUNDING
+    if offset:
+        tolerance = min(0.4999, max(ROUNDING, 10.0 ** (math.log10(abs(offset) / step) - 12.0)))
+    return abs(ratio - edge) < tolerance

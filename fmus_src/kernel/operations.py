@@ -1,0 +1,47 @@
+"""Operators of vectors and records, written out component by component and compiled once per class.
+
+For vectors in the Python FMUs that takes 1.5 times as long as loops over plain lists, a subclass of tuple 2.2 times,
+a class of any size 2.6 times; for records it takes half the time of a loop over fields.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+OPERATIONS = (  # name, arguments, expression of a component
+    ("add", "self, other", "self.{0} + other.{0}"),
+    ("sub", "self, other", "self.{0} - other.{0}"),
+    ("neg", "self", "-self.{0}"),
+    ("rmul", "self, factor", "factor * self.{0}"),
+    ("mul", "self, factor", "self.{0} * factor"),
+    ("truediv", "self, factor", "self.{0} / factor"),
+)
+
+
+def add_operators(owner: type, components: Sequence[str], make: str) -> None:
+    """Give a class ``+`` and ``-`` with its own kind, ``*`` and ``/`` with a number.
+
+    ``make`` is an expression for an empty instance of the class ``Own``.
+    """
+    for name, arguments, expression in OPERATIONS:
+        lines = ["if other.__class__ is not Own: return NotImplemented"] if "other" in arguments else []
+        lines += [f"made = {make}", *fill(components, expression), "return made"]
+        add_method(owner, f"__{name}__", arguments, lines)
+
+
+def fill(components: Sequence[str], expression: str) -> list[str]:
+    """Return statements that fill what is made: ``made.x = self.x * factor`` and so on."""
+    return [f"made.{component} = {expression.format(component)}" for component in components]
+
+
+def add_method(
+    owner: type, name: str, arguments: str, lines: Sequence[str], names: Mapping[str, Any] | None = None
+) -> None:
+    """Give a class a method with these statements, which see ``Own``, the class, ``new`` and other ``names``."""
+    namespace: dict[str, Any] = {"new": object.__new__, "Own": owner, **(names or {})}
+    text = "\n    ".join([f"def {name}({arguments}):", *lines])
+    exec(compile(text, __file__, "exec"), namespace)
+    method = namespace[name]
+    method.__qualname__ = f"{owner.__qualname__}.{name}"  # which messages about missing fields name
+    setattr(owner, name, method)

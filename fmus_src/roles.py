@@ -1,0 +1,43 @@
+"""Variables that are found by their names: what each does in the life cycle of an FMU, a flight, a campaign or a study.
+
+A block declares them as any others, under these names; the names of FMI are these, too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+SAMPLE_PERIOD = "sample_period"
+START_TIME = "start_time"
+INTEGRATION_STEPS = ("longest_step", "internal_step")  # the first that a block has
+SEED, STREAM = "seed", "stream"
+STATUS = "status"
+FINISHED = "finished"
+FROZEN = "frozen_"  # before the name of an output
+
+
+@dataclass(frozen=True)
+class Role:
+    """What a variable of this name is declared as, and what follows from it.
+
+    ``is_in_life_cycle``: the life cycle of every FMU computes with it, so that it is one number.
+    """
+
+    name: str
+    declared: str
+    effect: str
+    is_in_life_cycle: bool = False
+
+
+ROLES = (
+    Role(SAMPLE_PERIOD, "Parameter, s", "the block steps at start + k periods; 0: at every communication point", True),
+    Role(START_TIME, "State, s", "set to the start of the simulation before `initialize` runs", True),
+    Role(INTEGRATION_STEPS[1], "Parameter, s", "a communication step holds 10^6 of them at most", True),
+    Role(INTEGRATION_STEPS[0], "State, s", "the same, instead of `internal_step`", True),
+    Role(SEED, "Parameter, Integer", "a campaign sets it, with `stream`, to its own seed"),
+    Role(STREAM, "Parameter, Integer", "another one for each trial and component"),
+    Role(STATUS, "Output, Integer or Enumeration", "0 is good; the worst of a flight is printed and reported"),
+    Role(FINISHED, "Output of the system, Boolean", "ends the simulation where it is true"),
+    Role(f"{FROZEN}NAME", "Parameter", "above 0 it is what the output NAME is held at, for stability studies"),
+)
+LIFE_CYCLE = {role.name: role for role in ROLES if role.is_in_life_cycle}
