@@ -129,12 +129,14 @@ def test_describe_loads_nothing(tmp_path):
     assert done.returncode == 0, done.stderr
 
 
-# Who may load FMUs: a child; this process through the door, where they are Perilune's own.
+# Who may load FMUs: a child; this process through the door, where they are Perilune's own;
+# the reference loop, which tests alone open.
 LOADERS = {
     "analysis/runtime/apart/server/child.py",
     "analysis/runtime/apart/opening.py",
     "analysis/runtime/flight/simulation.py",
     "analysis/runtime/instances/reset_check.py",
+    "analysis/runtime/program/opening.py",
 }
 
 
