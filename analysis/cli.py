@@ -10,14 +10,14 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from .common.errors import EndedError, ExitStatus, InputError, UnwrittenError, call_by_flags, warn_in_one_line
-from .common.machine.os_errors import line_of, reason_of
-from .common.process import leave, open_closed_streams, steady_streams
-from .common.targets import check_encoding
+from ..common.errors import EndedError, ExitStatus, InputError, UnwrittenError, call_by_flags, warn_in_one_line
+from ..common.machine.os_errors import line_of, reason_of
+from ..common.process import leave, open_closed_streams, steady_streams
+from ..common.targets import check_encoding
 from .verbs.help import Parser, group_help, overview, verb_help
 from .verbs.options.parsing import add_verb, flags_of, read_parsed
 from .verbs.options.verb import Verb
-from .verbs.options.verbs import GROUPS, RENAMED, VERBS
+from .verbs.options.verbs import FORMER, GROUPS, VERBS
 
 HELP_ALL = "--help-all"
 COMPLETES = "_ARGCOMPLETE"  # set where a shell asks for completions; argcomplete is slow to import
@@ -37,9 +37,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _carry_out(given: Sequence[str]) -> int:
-    for renamed in (" ".join(given[:2]), *given[:1]):
-        if renamed in RENAMED:
-            print(f"perilune: {renamed}: renamed; write perilune {RENAMED[renamed]}", file=sys.stderr)
+    for former in (" ".join(given[:2]), *given[:1]):
+        if former in FORMER:
+            print(f"perilune: {former}: {FORMER[former]}", file=sys.stderr)
             return ExitStatus.REFUSED
     parser = parser_of(given)
     if COMPLETES in os.environ:
@@ -87,7 +87,7 @@ class _Version(argparse.Action):
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         metadata = importlib.import_module("importlib.metadata")
-        commit = importlib.import_module(".common.machine.commit", __package__).known_commit()
+        commit = importlib.import_module("..common.machine.commit", __package__).known_commit()
         print(f"perilune {metadata.version('perilune')}{f' (commit {commit})' if commit else ''}")
         parser.exit()
 

@@ -7,6 +7,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..common.atomic import write_atomically
+from ..common.paths import BUILD, FLAVOURS, SYSTEMS
 from ..fmus_src.export.build import build_fmus
 from ..fmus_src.export.compilers import (
     CompilationFailed,
@@ -17,8 +19,6 @@ from ..fmus_src.export.compilers import (
     platforms_of,
 )
 from ..fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE, pack_system
-from ..fmus_src.paths import BUILD, FLAVOURS, SYSTEMS
-from .common.atomic import write_atomically
 from .compose.document import fmu_source
 from .compose.files import check_unedited
 from .compose.source import read_source

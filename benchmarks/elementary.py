@@ -13,11 +13,11 @@ import numpy as np
 
 from perilune.analysis.runtime.loop.elementary import elementary
 from perilune.analysis.runtime.loop.write_elementary import FUNCTIONS
+from perilune.common.paths import BUILD
 from perilune.fmus_src.export.compilers import PLATFORMS, build_library, local_platform
 from perilune.fmus_src.export.judge.subset_table import ELEMENTARY_FUNCTIONS
 from perilune.fmus_src.export.native_fmu import native_sources
 from perilune.fmus_src.kernel import functions
-from perilune.fmus_src.paths import BUILD
 from tests.support.kernels.elementary_block import ElementaryFunctions
 
 COUNT = 100_000

@@ -22,8 +22,8 @@ from pathlib import Path
 from statistics import median
 
 import perilune
-from perilune.analysis.common.errors import InputError
-from perilune.fmus_src.paths import BUILD, SYSTEMS
+from perilune.common.errors import InputError
+from perilune.common.paths import BUILD, SYSTEMS
 
 CAMPAIGN = SYSTEMS / "lunar_landing" / "campaigns" / "laws_terminal.toml"  # which compares them all
 SECONDS = 10.0

@@ -18,11 +18,11 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.fmi3 import FMU3Slave
 
+from perilune.common.paths import CACHE, shipped_fmu
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
-from perilune.fmus_src.paths import CACHE, shipped_fmu
 
 STEPS = (0.001, 0.01, 0.1, 1.0, 10.0, 60.0)  # s
 COUNT = 20

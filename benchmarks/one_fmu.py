@@ -22,9 +22,9 @@ from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.ssp.archive import open_system, system_names
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import PreparedSystem, prepare_system
+from perilune.common.paths import BUILD, SYSTEMS
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.ssp_package import pack_system
-from perilune.fmus_src.paths import BUILD, SYSTEMS
 
 STEPS = 2000
 REPEATS = 7

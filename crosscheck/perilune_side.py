@@ -7,7 +7,7 @@ import numpy as np
 
 import perilune
 from crosscheck.table import Table
-from perilune.fmus_src.paths import shipped_fmu
+from perilune.common.paths import shipped_fmu
 
 
 def fly(

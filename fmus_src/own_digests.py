@@ -13,13 +13,13 @@ from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
-from ..analysis.common.atomic import write_atomically
-from ..analysis.common.bounds import ARCHIVE_BYTES, INPUT_BYTES
-from ..analysis.common.errors import InputError
-from ..analysis.common.machine.cached import warn_once, warn_unusable
-from ..analysis.common.regular import read_input
-from ..analysis.common.zips import ZippedFiles
-from .paths import CACHE, FLAVOURS, names_fmu, shipped_fmu
+from ..common.atomic import write_atomically
+from ..common.bounds import ARCHIVE_BYTES, INPUT_BYTES
+from ..common.errors import InputError
+from ..common.machine.cached import warn_once, warn_unusable
+from ..common.paths import CACHE, FLAVOURS, names_fmu, shipped_fmu
+from ..common.regular import read_input
+from ..common.zips import ZippedFiles
 
 SUMS = "SHA256SUMS"
 NOTED = CACHE / SUMS

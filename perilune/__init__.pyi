@@ -3,7 +3,6 @@ editors and `perilune/__init__.py`.
 """
 
 from . import modal as modal
-from .analysis.common.errors import InputError as InputError
 from .analysis.design.orbits.starts import epoch as epoch
 from .analysis.design.orbits.starts import orbit as orbit
 from .analysis.design.synthesis.outcome import SynthesisResult as SynthesisResult
@@ -16,7 +15,6 @@ from .analysis.runtime.system.fault import Fault as Fault
 from .analysis.stability.point.bench import StudyError as StudyError
 from .analysis.verbs.batch import BatchResult as BatchResult
 from .analysis.verbs.batch import batch as batch
-from .analysis.verbs.benchmark import benchmark as benchmark
 from .analysis.verbs.bounds import TrialBounds as TrialBounds
 from .analysis.verbs.bounds import bound_trials as bound_trials
 from .analysis.verbs.compare import Comparison as Comparison
@@ -64,6 +62,7 @@ from .analysis.verbs.verify import Verifications as Verifications
 from .analysis.verbs.verify import verify as verify
 from .analysis.verbs.worst import WorstResult as WorstResult
 from .analysis.verbs.worst import worst as worst
+from .common.errors import InputError as InputError
 from .fmus_src.actuators.gyro_steering import GyroSteering as GyroSteering
 from .fmus_src.actuators.jet_allocation import JetAllocation as JetAllocation
 from .fmus_src.block import (

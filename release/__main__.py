@@ -13,8 +13,8 @@ import tarfile
 from datetime import UTC, date, datetime
 from pathlib import Path
 
-from perilune.analysis.common.errors import ExitStatus, InputError
-from perilune.fmus_src.paths import ROOT
+from perilune.common.errors import ExitStatus, InputError
+from perilune.common.paths import ROOT
 
 from .archives import build_sdist, build_wheel, check_wheel, require_same_bytes
 from .state import Release, git, read_release, written_files

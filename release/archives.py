@@ -14,7 +14,7 @@ from lxml import html
 from packaging.metadata import Metadata
 from readme_renderer import markdown
 
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 
 from .state import Release
 

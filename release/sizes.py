@@ -20,7 +20,7 @@ import venv
 from importlib.metadata import distributions, version
 from pathlib import Path
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 STORED = Path(__file__).with_suffix(".json")
 LARGEST = 12  # packages that are listed

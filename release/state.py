@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from datetime import UTC, date, datetime, time
 from pathlib import Path
 
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 
 HEADING = re.compile(r"^## (.+)$", re.MULTILINE)
 UNRELEASED = "Unreleased"

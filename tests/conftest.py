@@ -14,11 +14,11 @@ from typing import Any
 import hypothesis
 import pytest
 
-from perilune.analysis.common import progress
 from perilune.analysis.shipped import main as build_fmus
+from perilune.common import progress
+from perilune.common.paths import BUILD, shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.closure import closure_of
-from perilune.fmus_src.paths import BUILD, shipped_fmu
 from tests.support.built import native_are_current, systems_are_current
 from tests.support.kernels.programs import NO_QEMU
 from tests.support.lengths import LONG, either

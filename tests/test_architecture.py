@@ -15,10 +15,11 @@ from pathlib import Path
 
 import pytest
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
-OURS = {"perilune", "analysis", "fmus_src"}
-EVERYWHERE = {"analysis/common", "fmus_src/paths"}
+TOPS = ("analysis", "fmus_src", "common")
+OURS = {"perilune", *TOPS}
+EVERYWHERE = {"common"}
 KINDS = (
     "plants",
     "environment",
@@ -64,11 +65,9 @@ def imports(file: Path) -> Iterator[str]:
     package = list(relative.parts[:-1])
     for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
-            assert not any(alias.name.split(".")[0] in ("perilune", "analysis", "fmus_src") for alias in node.names), (
-                file
-            )
+            assert not any(alias.name.split(".")[0] in OURS for alias in node.names), file
         if isinstance(node, ast.ImportFrom):
-            assert node.level or (node.module or "").split(".")[0] not in ("perilune", "analysis", "fmus_src"), file
+            assert node.level or (node.module or "").split(".")[0] not in OURS, file
             if node.level:
                 base = [*package[: len(package) - (node.level - 1)], *(node.module or "").split(".")]
                 base = [part for part in base if part]
@@ -79,9 +78,7 @@ def imports(file: Path) -> Iterator[str]:
                     yield ".".join([*base, alias.name] if is_module else base)
 
 
-FILES = sorted(
-    path for top in ("analysis", "fmus_src") for path in (ROOT / top).rglob("*.py") if path.name != "__init__.py"
-)
+FILES = sorted(path for top in TOPS for path in (ROOT / top).rglob("*.py") if path.name != "__init__.py")
 
 
 @pytest.fixture(scope="module")
@@ -134,7 +131,36 @@ def test_no_room_is_crowded():
     assert crowded == {}
 
 
-@pytest.mark.parametrize("room", ["analysis", "fmus_src"])
+IMPORT_ALL = """
+import importlib, pkgutil, sys
+import perilune.{room} as room
+for module in pkgutil.walk_packages(room.__path__, room.__name__ + "."):
+    importlib.import_module(module.name)
+print(*sys.modules)
+"""
+
+
+@pytest.mark.parametrize(("room", "below"), [("fmus_src", {"common"}), ("common", set())])
+def test_a_floor_imports_what_is_below_it_only(room, below, arrows):
+    """Within functions, too."""
+    targets = {
+        target.split("/")[0] for here, pairs in arrows.items() if here.split("/")[0] == room for target, _ in pairs
+    }
+    assert targets - {room} == below
+
+
+@pytest.mark.parametrize(("room", "modules"), [("fmus_src", 250), ("common", 20)])
+def test_a_floor_brings_no_analysis(room, modules):
+    """What a process has that has imported every module of it."""
+    done = subprocess.run(
+        [sys.executable, "-c", IMPORT_ALL.format(room=room)], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    imported = done.stdout.split()
+    assert sum(name.startswith(f"perilune.{room}.") for name in imported) > modules
+    assert not [name for name in imported if name.startswith("perilune.analysis")]
+
+
+@pytest.mark.parametrize("room", TOPS)
 def test_a_room_is_no_package_of_its_own(room):
     """A second copy of InputError would not be caught."""
     done = subprocess.run(

@@ -8,10 +8,10 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from ...common.atomic import write_atomically
+from ...common.errors import InputError, suggestion
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.ssp_package import DESCRIPTION
-from ..common.atomic import write_atomically
-from ..common.errors import InputError, suggestion
 from ..runtime.ssp.archive import open_system, system_names
 from ..runtime.ssp.description import Component
 from ..runtime.ssp.reading import read_description

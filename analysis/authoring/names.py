@@ -7,10 +7,10 @@ import re
 import sys
 from pathlib import Path
 
+from ...common.errors import InputError
+from ...common.paths import FLAVOURS, own_fmu
 from ...fmus_src.block import snake_case
 from ...fmus_src.catalogue import catalogue
-from ...fmus_src.paths import FLAVOURS, own_fmu
-from ..common.errors import InputError
 from ..runtime.ssp.archive import system_names
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from ..common.to_json import optional, to_json
+from ...common.to_json import optional, to_json
 from .requirement_verdicts import RequirementVerdict, requirement_verdict
 from .spec.campaign import Group, Metric
 from .spec.requirements import Requirement

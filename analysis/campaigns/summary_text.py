@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from ..common.errors import InputError, suggestion
-from ..common.percent import percent
+from ...common.errors import InputError, suggestion
+from ...common.percent import percent
 from .statistics import STATISTICS
 from .summary import CONFIDENCE, Summary, SummaryRow, summary_rows
 from .tables import align_columns, requirement_lines, short, who_cells, who_heads

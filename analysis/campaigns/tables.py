@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..common.percent import percent
+from ...common.percent import percent
 from .requirement_verdicts import RequirementVerdict
 from .summary import Summary, SummaryRow
 from .verdicts.acceptance import Verdict

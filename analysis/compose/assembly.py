@@ -6,11 +6,11 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from ...common.errors import InputError, SeveralProblemsError, suggestion
+from ...common.paths import names_fmu
 from ...fmus_src.block import snake_case
 from ...fmus_src.export.available import fmu_flavours
 from ...fmus_src.export.ssp_package import DESCRIPTION, system_files
-from ...fmus_src.paths import names_fmu
-from ..common.errors import InputError, SeveralProblemsError, suggestion
 from ..runtime.ssp.archive import HOW_TO_BUILD, SystemArchive
 from ..runtime.system.fmu import Fmu, load_fmu
 from .document import fmu_source, set_source, write_document

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from xml.sax.saxutils import quoteattr
 
-from ...fmus_src.paths import names_fmu
+from ...common.paths import names_fmu
 from ...fmus_src.units import BASE_UNITS
 from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.documents import NAMESPACES

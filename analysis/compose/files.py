@@ -8,11 +8,11 @@ import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from ...common.atomic import write_atomically
+from ...common.bounds import ARCHIVE_BYTES, XML_BYTES
+from ...common.errors import InputError
+from ...common.regular import read_input
 from ...fmus_src.export.ssp_package import SYSTEM_FILE
-from ..common.atomic import write_atomically
-from ..common.bounds import ARCHIVE_BYTES, XML_BYTES
-from ..common.errors import InputError
-from ..common.regular import read_input
 from ..runtime.ssp.archive import SystemArchive, open_system
 from ..runtime.system.options import Layer
 from .document import fmu_source, set_source

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ...common.bounds import CAMPAIGN_BYTES, XML_BYTES
+from ...common.errors import InputError
+from ...common.regular import read_input
 from ...fmus_src.export.ssp_package import SYSTEM_FILE
 from ...fmus_src.units import BASE_UNITS
 from ..campaigns.spec.source import key_lines, parse_toml
 from ..campaigns.spec.table import Table, integer, names, number, text
-from ..common.bounds import CAMPAIGN_BYTES, XML_BYTES
-from ..common.errors import InputError
-from ..common.regular import read_input
 from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.given_values import ParameterValue
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..common.errors import InputError, SeveralProblemsError
+from ...common.errors import InputError, SeveralProblemsError
 from ..runtime.ssp.conversions import Unit, unit_by_name
 from ..runtime.ssp.documents import NAMESPACES, parse_xml
 from .source import SystemSource

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from ...common.errors import InputError, SeveralProblemsError, suggestion
 from ...fmus_src.evidence.parameter_set import write_parameter_set
-from ..common.errors import InputError, SeveralProblemsError, suggestion
 from ..runtime.ssp.dimensions import Shape, array_shapes, element_names
 from ..runtime.ssp.given_values import ParameterValue
 from ..runtime.ssp.names import elements, split_name

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from ..runtime.ssp.archive import OSP_SUFFIX, SystemArchive
 from ..runtime.ssp.description import Binding, Component, Description, Element
 from ..runtime.ssp.dimensions import Shape, array_shapes, element_names

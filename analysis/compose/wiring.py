@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 
-from ..common.errors import NEAR, InputError, SeveralProblemsError, suggestion
+from ...common.errors import NEAR, InputError, SeveralProblemsError, suggestion
 from ..runtime.fmi.variable import Variable
 from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.dimensions import array_shapes, text_of

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from ..runtime.ssp.conversions import unit_by_name
 from .recorded_run import RecordedRun
 

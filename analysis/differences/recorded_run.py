@@ -14,10 +14,10 @@ import pyarrow
 import pyarrow.csv
 import pyarrow.parquet
 
-from ..common.bounds import INPUT_BYTES
-from ..common.errors import InputError
-from ..common.regular import read_input
-from ..common.visible import unquote_formula
+from ...common.bounds import INPUT_BYTES
+from ...common.errors import InputError
+from ...common.regular import read_input
+from ...common.visible import unquote_formula
 
 TIME = "time"
 FORM = "give a .parquet or .csv of signals over time, as `perilune run` writes it"

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 
 from lxml import etree
 
+from ...common.errors import InputError
 from ...fmus_src.evidence.check import Tolerances
 from ...fmus_src.evidence.experiments import TOLERANCES
 from ...fmus_src.evidence.manifest import CSV, EXPERIMENTS, MANIFEST, PARAMETERS
-from ..common.errors import InputError
 from ..runtime.ssp.documents import parse_xml
 from .manifest import Manifest, file_of
 

@@ -11,8 +11,8 @@ from urllib.parse import unquote, urlsplit
 
 from lxml import etree
 
+from ...common.errors import InputError
 from ...fmus_src.evidence.manifest import CHECKSUM, MANIFEST, NAMESPACE, STANDARD, STUDY
-from ..common.errors import InputError
 from ..runtime.ssp.documents import parse_xml
 
 ROOT = "fmiReferences"

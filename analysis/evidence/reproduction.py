@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 from lxml import etree
 
-from ..common.errors import InputError
-from ..common.machine.room import check_room
-from ..common.visible import first_ones
+from ...common.errors import InputError
+from ...common.machine.room import check_room
+from ...common.visible import first_ones
 from ..runtime.apart.opening import open_simulation
 from ..runtime.flight.interruptible import fly
 from ..runtime.fmi.proposals import proposed_step

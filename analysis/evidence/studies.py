@@ -10,13 +10,13 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from ...common.errors import InputError
+from ...common.visible import first_ones
 from ...fmus_src.evidence.manifest import STABILITY
 from ..campaigns.fly.campaign import open_campaign
 from ..campaigns.fly.results import BatchResult
 from ..campaigns.fly.runner import fly_campaign
 from ..campaigns.spec.plan import read_plan
-from ..common.errors import InputError
-from ..common.visible import first_ones
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.ssp.reading import read_description
 from ..runtime.system.options import SystemOptions, Watch

@@ -5,8 +5,8 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 
+from ...common.errors import InputError
 from ...fmus_src.evidence.manifest import NOT_LISTED, SUMS
-from ..common.errors import InputError
 
 LENGTH = 64  # hexadecimal digits
 SEPARATORS = ("  ", " *")  # of text, and of binary mode

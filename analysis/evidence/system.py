@@ -9,6 +9,7 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
+from ...common.errors import InputError, suggestion
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.evidence.experiments import Experiment, write_experiments
 from ...fmus_src.evidence.manifest import (
@@ -24,7 +25,6 @@ from ...fmus_src.evidence.manifest import (
 from ...fmus_src.evidence.recorded import write_table
 from ...fmus_src.export.archive import read_zip
 from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
-from ..common.errors import InputError, suggestion
 from ..runtime.apart.opening import open_simulation
 from ..runtime.flight.interruptible import fly
 from ..runtime.flight.results import Flight

@@ -11,7 +11,7 @@ import numpy as np
 import pyarrow
 import pyarrow.csv
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from ..runtime.system.series import TIME, InputSeries
 
 FORM = "write comma-separated columns, time first"

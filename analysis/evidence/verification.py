@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..common.bounds import ARCHIVE_BYTES, ExcessError
-from ..common.errors import InputError
-from ..common.regular import read_input
-from ..common.visible import first_ones
-from ..common.zips import ZippedFiles
+from ...common.bounds import ARCHIVE_BYTES, ExcessError
+from ...common.errors import InputError
+from ...common.regular import read_input
+from ...common.visible import first_ones
+from ...common.zips import ZippedFiles
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.system.fmu import Fmu
 from ..runtime.system.options import SystemOptions

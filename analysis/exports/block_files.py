@@ -5,13 +5,13 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
+from ...common.atomic import write_atomically
+from ...common.errors import InputError, suggestion
+from ...common.paths import FLAVOURS, own_fmu
+from ...common.targets import check_file
 from ...fmus_src.catalogue import blocks_in_file, catalogue
 from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with, folder_of
 from ...fmus_src.export.sources import record_source, remove_outdated
-from ...fmus_src.paths import FLAVOURS, own_fmu
-from ..common.atomic import write_atomically
-from ..common.errors import InputError, suggestion
-from ..common.targets import check_file
 from ..runtime.ssp.archive import system_names
 from .fmus import needs_python, no_compiler, zig_is_here
 from .request import ExportRequest, Written

@@ -6,14 +6,14 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
+from ...common.errors import InputError
+from ...common.paths import IS_CHECKOUT, shipped_fmu
 from ...fmus_src.block import Block
 from ...fmus_src.evidence.block import add_evidence
 from ...fmus_src.export.archive import read_zip, write_zip
 from ...fmus_src.export.compilers import PLATFORMS, available_platforms
 from ...fmus_src.export.native_fmu import build_native_fmu
 from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
-from ...fmus_src.paths import IS_CHECKOUT, shipped_fmu
-from ..common.errors import InputError
 
 
 def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[str], fmi: int) -> None:

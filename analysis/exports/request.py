@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from ...common.errors import InputError
+from ...common.paths import IS_CHECKOUT
+from ...common.targets import check_file
 from ...fmus_src.export.compilers import PLATFORMS, available_platforms, platforms_of
-from ...fmus_src.paths import IS_CHECKOUT
-from ..common.errors import InputError
-from ..common.targets import check_file
 
 Flavour = Literal["native", "python"]
 

@@ -7,12 +7,12 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
+from ...common.errors import InputError
+from ...common.paths import own_fmus, shipped_fmu
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.archive import read_zip, write_zip
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.ssp_package import DESCRIPTION, SSD_NAMESPACE, pack_system
-from ...fmus_src.paths import own_fmus, shipped_fmu
-from ..common.errors import InputError
 from ..evidence.system import add_system_evidence, check_studies
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.ssp.documents import parse_xml

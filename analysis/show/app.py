@@ -19,7 +19,7 @@ from starlette.responses import HTMLResponse, PlainTextResponse, Response
 from starlette.routing import Route
 from starlette.types import ASGIApp
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from .campaign import OpenCampaign, StoppedError
 from .columns import MEMORY, BinnedColumns
 from .counts import Counter

@@ -12,6 +12,8 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
+from ...common.errors import InputError
+from ...common.regular import check_folder
 from ..campaigns.fly.shards.files import (
     FOLDER,
     IDENTITY,
@@ -27,8 +29,6 @@ from ..campaigns.fly.shards.files import (
 from ..campaigns.folder.columns import Column, describe_column
 from ..campaigns.folder.folder import ResultFolder, Shard, read_folder
 from ..campaigns.replay_command import replay_of_folder
-from ..common.errors import InputError
-from ..common.regular import check_folder
 
 ROW_LIMIT = 20_000_000  # of a campaign: a column of it is 40 MB
 NUMERIC = ("end_time",)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from ..reports.common.colours import COLOURS
 from ..reports.common.page import render_page
 from ..reports.common.quantities import display_factor, display_unit

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 import msgspec
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from .scale import BINS
 
 Index = Annotated[int, msgspec.Meta(ge=0, le=100_000)]

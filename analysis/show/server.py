@@ -12,7 +12,7 @@ from pathlib import Path
 import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from .app import Service, make_app
 from .campaign import open_campaign
 from .page import show_page

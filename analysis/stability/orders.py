@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from ..runtime.system.prepared import PreparedSystem
 from ..runtime.system.schedule import origin
 from .point.bench import StudyError

@@ -9,7 +9,7 @@ from threading import Thread
 
 from loky.backend import get_context
 
-from ..common.progress import progress_bar
+from ...common.progress import progress_bar
 
 Tell = Callable[[int, int], None]  # so many more steps are to be done, so many more are done
 

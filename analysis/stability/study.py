@@ -10,9 +10,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from ...common.errors import InputError
+from ...common.family.pools import process_pool
 from ..campaigns.fly.workers import worker_count
-from ..common.errors import InputError
-from ..common.family.pools import process_pool
 from ..runtime.system.options import Layer
 from ..runtime.system.prepared import PreparedSystem
 from .dispersion import disperse

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 from scipy.optimize import brentq
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from ..runtime.system.options import Layer
 from ..runtime.system.prepared import PreparedSystem
 from .loops.margin_values import Margins, Quantity

@@ -8,6 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...common.errors import InputError
+from ...common.progress import progress_bar
 from ..campaigns.draws.declared import Columns
 from ..campaigns.draws.given import ALL, GivenDraws, Streams
 from ..campaigns.fly.flyer import Flyer
@@ -19,8 +21,6 @@ from ..campaigns.spec.campaign import Record
 from ..campaigns.spec.checks import check_draws, check_plan
 from ..campaigns.spec.plan import BatchPlan
 from ..campaigns.trials import Trials, join_trials
-from ..common.errors import InputError
-from ..common.progress import progress_bar
 from ..runtime.system.prepared import PreparedSystem
 from .noise import make_samples, noise_of
 

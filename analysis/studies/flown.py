@@ -11,11 +11,11 @@ from typing import ClassVar, NamedTuple, TypedDict
 import numpy as np
 import pyarrow
 
+from ...common.atomic import write_atomically
 from ..campaigns.draws.declared import input_names
 from ..campaigns.draws.given import stream_component
 from ..campaigns.fly.shards.files import write_parquet
 from ..campaigns.lost_trials import lost_words
-from ..common.atomic import write_atomically
 from .draw_space import DrawSpace
 from .flights import StudyProvenance
 from .noise import Noise, conditions

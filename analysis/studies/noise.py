@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...common.errors import InputError
 from ..campaigns.draws.declared import Columns
 from ..campaigns.draws.given import ALL, GivenDraws, Streams
 from ..campaigns.spec.plan import with_streams
-from ..common.errors import InputError
 from ..runtime.system.prepared import PreparedSystem
 
 

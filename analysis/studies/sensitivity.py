@@ -9,9 +9,9 @@ from typing import TypedDict
 
 import numpy as np
 
+from ...common.errors import InputError
 from ..campaigns.spec.plan import BatchPlan
 from ..campaigns.tables import align_columns, assumption_lines
-from ..common.errors import InputError
 from ..runtime.loop.elementary import elementary
 from .draw_space import DrawSpace
 from .flights import SampleFlights

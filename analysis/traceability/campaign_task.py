@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from importlib.metadata import version
 from pathlib import Path
 
+from ...common.atomic import write_atomically
 from ...fmus_src.evidence.manifest import mime_type
 from ..campaigns.fly.manifest import CONTENTS, FILE, CampaignDocument, Manifest, SourceDocument, read_manifest
 from ..campaigns.fly.results import BatchResult
 from ..campaigns.fly.shards.files import DRAWS, FOLDER, SUMMARY
 from ..campaigns.replay_command import campaign_command
-from ..common.atomic import write_atomically
 from .elements import Task
 
 PARQUET, JSON = mime_type(DRAWS), mime_type(SUMMARY)

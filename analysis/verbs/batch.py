@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
+from ...common.errors import InputError, suggestion
+from ...common.percent import short_percent
+from ...common.targets import check_folder
 from ..campaigns.fly import results
 from ..campaigns.fly.campaign import open_campaign
 from ..campaigns.fly.cluster.connection import cluster
@@ -16,9 +19,6 @@ from ..campaigns.summary import CONFIDENCE, summary_rows
 from ..campaigns.summary_text import select_metrics
 from ..campaigns.tables import requirement_rows, who_cells, who_heads
 from ..campaigns.trials import whole_column
-from ..common.errors import InputError, suggestion
-from ..common.percent import short_percent
-from ..common.targets import check_folder
 from ..runtime.flight.results import require_pandas
 from ..studies.sobol import rank_correlations
 from ..traceability.campaign_task import write_task

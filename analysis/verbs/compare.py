@@ -7,12 +7,12 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
+from ...common.errors import InputError, suggestion
+from ...common.percent import short_percent
 from ..campaigns.compare import comparison
 from ..campaigns.compare.side_by_side import compare_folders
 from ..campaigns.summary import summary_rows
 from ..campaigns.tables import who_cells, who_heads
-from ..common.errors import InputError, suggestion
-from ..common.percent import short_percent
 from ..runtime.flight.results import require_pandas
 from .common.arguments import path_list
 from .options.campaigns import COMPARE, CompareOptions

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Unpack
 
+from ...common.atomic import write_atomically
+from ...common.errors import InputError
+from ...common.targets import check_file
 from ...fmus_src.export.ssp_package import DESCRIPTION
-from ..common.atomic import write_atomically
-from ..common.errors import InputError
-from ..common.targets import check_file
 from ..compose.assembly import compose_document, folder_archive
 from ..compose.files import add_mark, check_unedited, write_source
 from ..compose.source import SystemSource, read_source

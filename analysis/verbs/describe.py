@@ -8,14 +8,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Unpack
 
+from ...common.errors import InputError, suggestion
+from ...common.paths import names_fmu
+from ...common.visible import on_one_line
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
-from ...fmus_src.paths import names_fmu
 from ..authoring.campaign import describe_campaign
 from ..authoring.description import describe_system, variables_of
 from ..authoring.fits import blocks_of_slot, slots
-from ..common.errors import InputError, suggestion
-from ..common.visible import on_one_line
 from ..runtime.fmi.terminals import read_terminals
 from ..runtime.ssp.archive import system_names
 from ..runtime.system.alone import describe_alone

@@ -8,9 +8,9 @@ from typing import Unpack
 
 import numpy as np
 
+from ...common.errors import InputError
+from ...common.to_json import to_json
 from ..campaigns.tables import align_columns
-from ..common.errors import InputError
-from ..common.to_json import to_json
 from ..differences.differences import RunDifferences, compare_runs
 from ..differences.recorded_run import read_run
 from ..reports.common.quantities import number

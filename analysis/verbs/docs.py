@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Unpack
 
-from ...fmus_src.paths import BUILD, IS_CHECKOUT
-from ..common.errors import InputError
+from ...common.errors import InputError
+from ...common.paths import BUILD, IS_CHECKOUT
 from .common.browser import open_page
 from .options.library import DOCS, DocsOptions
 from .options.verb import verb

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Unpack
 
+from ...common.errors import InputError, SeveralProblemsError, suggestion
+from ...common.targets import check_file
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.compilers import CompilationFailed, CompilerMissing, available_platforms, platforms_of
 from ...fmus_src.export.judge.subset import SubsetError
 from ...fmus_src.export.own_blocks import defines
 from ...fmus_src.export.ssp_package import DESCRIPTION
-from ..common.errors import InputError, SeveralProblemsError, suggestion
-from ..common.targets import check_file
 from ..exports.block_files import check_there, export_file, find_block_file
 from ..exports.fmus import build_fmu, zig_is_here
 from ..exports.request import ExportRequest, Written

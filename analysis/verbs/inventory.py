@@ -8,11 +8,11 @@ from pathlib import Path
 
 from fmpy import read_model_description
 
+from ...common.errors import InputError
+from ...common.paths import LAWS, SEARCHES
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
-from ...fmus_src.paths import LAWS, SEARCHES
-from ..common.errors import InputError
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.reading import read_description
 from ..stability.request.reading import read_declaration

@@ -9,9 +9,9 @@ from typing import Unpack
 
 from matplotlib.figure import Figure as Plot
 
-from ..common.atomic import write_atomically
-from ..common.errors import InputError
-from ..common.targets import check_folder
+from ...common.atomic import write_atomically
+from ...common.errors import InputError
+from ...common.targets import check_folder
 from ..design.laws import law as laws
 from ..design.laws.formula import formula, formula_text
 from ..design.laws.graph import law_figure, law_svg

@@ -12,13 +12,13 @@ import numpy as np
 import pyarrow.compute
 from matplotlib.figure import Figure as Plot
 
+from ...common.errors import InputError, suggestion
 from ..campaigns.fly.results import BatchResult
 from ..campaigns.folder.folder import read_folder
 from ..campaigns.folder.opened import OpenedResults
 from ..campaigns.spec.campaign import Metric
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.trials import whole_column
-from ..common.errors import InputError, suggestion
 from ..reports.campaign.distributions import distribution_plot
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.common.style import look

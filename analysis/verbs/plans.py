@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Unpack
 
-from ..common.errors import InputError, UnwrittenError
+from ...common.errors import InputError, UnwrittenError
 from ..design.trajectories.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
 from ..design.trajectories.landing_study import LandingStudy, landing_study
 from ..design.trajectories.stored_bound import write_bound

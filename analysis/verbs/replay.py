@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Unpack
 
+from ...common.errors import InputError
 from ..campaigns.fly.replay import ReplayedTrial, replay_plan, replay_trial
 from ..campaigns.tables import faults_line
-from ..common.errors import InputError
 from ..reports.figures.reading import read_figures
 from ..runtime.flight.interruptible import StuckError
 from ..runtime.system.options import trust_of

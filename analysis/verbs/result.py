@@ -9,9 +9,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Protocol
 
-from ..common.atomic import write_atomically
-from ..common.errors import ExitStatus, InputError, call_by_flags
-from ..common.targets import Results, check_file, check_folder
+from ...common.atomic import write_atomically
+from ...common.errors import ExitStatus, InputError, call_by_flags
+from ...common.targets import Results, check_file, check_folder
 from ..compose.files import report_changed_source
 from ..runtime.system.options import system_options
 from ..runtime.system.stale import report_fmus

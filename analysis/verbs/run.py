@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
+from ...common.errors import InputError
+from ...common.visible import on_one_line
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.tables import faults_line
-from ..common.errors import InputError
-from ..common.visible import on_one_line
 from ..reports.figures.declared import Band, Figure, Limits
 from ..reports.figures.limits import limit_document, limit_rows
 from ..reports.figures.reading import read_figures

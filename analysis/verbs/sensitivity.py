@@ -10,7 +10,7 @@ from typing import Unpack
 
 from matplotlib.figure import Figure as Plot
 
-from ..common.errors import suggestion
+from ...common.errors import suggestion
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.studies.sensitivity_page import driver_table, rank_table, sensitivity_plot, write_sensitivity_page
 from ..studies import sensitivity as study

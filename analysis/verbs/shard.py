@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Unpack
 
+from ...common.errors import InputError
+from ...common.targets import check_folder
 from ..campaigns.fly.campaign import open_campaign, open_folder
 from ..campaigns.fly.cluster.connection import cluster
 from ..campaigns.fly.runner import fly_campaign, merge_rows
 from ..campaigns.fly.shards.numbering import numbers_of
 from ..campaigns.summary_text import select_metrics
-from ..common.errors import InputError
-from ..common.targets import check_folder
 from ..runtime.system.options import trust_of
 from .batch import BatchResult
 from .common.campaign_text import campaign_requirements, failure_lines, find_failed

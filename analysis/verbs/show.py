@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Unpack
 
-from ..common.errors import InputError
+from ...common.errors import InputError
 from ..show.server import CampaignServer
 from .common.arguments import path_list
 from .options.campaigns import SHOW, ShowOptions

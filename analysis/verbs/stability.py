@@ -9,7 +9,7 @@ from typing import Any, Unpack
 
 from matplotlib.figure import Figure as Plot
 
-from ..common.errors import suggestion
+from ...common.errors import suggestion
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.stability.figures import Diagram, loop_plot
 from ..reports.stability.orders import order_sentences

@@ -8,13 +8,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Unpack
 
+from ...common.atomic import write_atomically
+from ...common.bounds import ARCHIVE_BYTES
+from ...common.errors import InputError
+from ...common.paths import names_fmu
+from ...common.regular import read_input
+from ...common.scratch import make_folder
 from ...fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE
-from ...fmus_src.paths import names_fmu
-from ..common.atomic import write_atomically
-from ..common.bounds import ARCHIVE_BYTES
-from ..common.errors import InputError
-from ..common.regular import read_input
-from ..common.scratch import make_folder
 from ..compose.document import RESOURCES
 from ..compose.files import check_unedited, check_unedited_source, write_new
 from ..compose.source import ComponentSource, Entry, SetValue, SystemSource

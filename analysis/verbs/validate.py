@@ -12,17 +12,17 @@ from typing import ClassVar, Unpack, overload
 from attrs import evolve
 from fmpy.validation import validate_model_description
 
+from ...common.bounds import bound_of
+from ...common.errors import ExitStatus, InputError
+from ...common.paths import names_fmu
+from ...common.regular import read_input
+from ...common.visible import on_one_line
 from ...fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE
-from ...fmus_src.paths import names_fmu
 from ..campaigns.spec.checks import check_plan
 from ..campaigns.spec.file import SYNTHESIS, read_campaign
 from ..campaigns.spec.home import find_system
 from ..campaigns.spec.plan import read_plan
 from ..campaigns.spec.source import read_source
-from ..common.bounds import bound_of
-from ..common.errors import ExitStatus, InputError
-from ..common.regular import read_input
-from ..common.visible import on_one_line
 from ..compose.likeness import find_difference
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis

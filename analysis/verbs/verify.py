@@ -7,11 +7,11 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Unpack, overload
 
+from ...common.errors import InputError, suggestion
+from ...common.paths import FLAVOURS, names_fmu
+from ...common.to_json import to_json
+from ...common.visible import first_ones, on_one_line
 from ...fmus_src.export.available import find_fmu, fmu_flavours
-from ...fmus_src.paths import FLAVOURS, names_fmu
-from ..common.errors import InputError, suggestion
-from ..common.to_json import to_json
-from ..common.visible import first_ones, on_one_line
 from ..evidence.comparison import SignalCheck
 from ..evidence.reproduction import Reproduction
 from ..evidence.verification import Verification, verify_archive

@@ -9,8 +9,8 @@ from __future__ import annotations
 from perilune.analysis.runtime.ssp.parameter_sets import SetValue
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import PreparedSystem, prepare_system
+from perilune.common.paths import BUILD
 from perilune.fmus_src.interfaces.ports.space import Atmosphere
-from perilune.fmus_src.paths import BUILD
 
 from ..one_fmu import timed
 

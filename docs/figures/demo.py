@@ -10,14 +10,14 @@ from perilune import simulate
 from perilune.analysis.campaigns.fly.results import BatchResult
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import BatchPlan, read_plan
-from perilune.analysis.common.errors import InputError
-from perilune.analysis.common.process import leave
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.run_report import write_run_report
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.shipped import main as build
-from perilune.fmus_src.paths import BUILD
+from perilune.common.errors import InputError
+from perilune.common.paths import BUILD
+from perilune.common.process import leave
 
 from .landing import fly_landings
 from .page import write_demo_page

@@ -17,14 +17,14 @@ import math
 import numpy as np
 from scipy.optimize import fsolve
 
-from perilune.analysis.common.atomic import write_atomically
 from perilune.analysis.design.poles.zeroth_level import output_feedback_levels
+from perilune.common.atomic import write_atomically
+from perilune.common.paths import ROOT
 from perilune.fmus_src.evidence.parameter_set import write_parameter_set
 from perilune.fmus_src.kernel.records import replace
 from perilune.fmus_src.mathlib.entry.motion import body_axes, in_body
 from perilune.fmus_src.mathlib.entry.standard_atmosphere import Air, air
 from perilune.fmus_src.mathlib.vectors import cross, vector
-from perilune.fmus_src.paths import ROOT
 from perilune.fmus_src.plants.entry_capsule import EntryCapsule
 
 TRIM = math.radians(-20.0)

@@ -19,7 +19,7 @@ from perilune.analysis.design.poles.output_feedback import output_feedback
 from perilune.analysis.design.poles.place import place
 from perilune.analysis.design.poles.spectrum import Spectrum
 from perilune.analysis.reports.common.style import house_style
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 from .modal_figures import choices_figure, free_figure, spreads_figure
 from .pictures import write_picture

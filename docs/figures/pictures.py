@@ -9,7 +9,7 @@ from lxml import etree
 from matplotlib.figure import Figure
 
 from perilune.analysis.reports.common.svg import svg_bytes
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 IMAGES = ROOT / "docs" / "images"
 LARGEST = 100_000  # bytes of a picture in git

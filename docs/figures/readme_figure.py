@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from perilune.analysis.campaigns.spec.plan import read_plan
-from perilune.analysis.common.process import leave
 from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.common.process import leave
 
 from .landing import fly_landings, landing_figure
 from .pictures import IMAGES, write_picture

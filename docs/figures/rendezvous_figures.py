@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
-from perilune.analysis.common.process import leave
 from perilune.analysis.reports.common.style import (
     BLUE,
     FAINT,
@@ -24,6 +23,7 @@ from perilune.analysis.reports.common.style import (
 )
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.verbs.run import simulate
+from perilune.common.process import leave
 from perilune.fmus_src.guidance.rendezvous_guidance_jerk_limited import RendezvousGuidanceJerkLimited
 from perilune.fmus_src.interfaces.ports.robot import ROTOR_MOMENTUM
 

@@ -16,7 +16,7 @@ from selenium.webdriver.remote.webelement import WebElement
 from selenium.webdriver.support.ui import WebDriverWait
 
 from perilune.analysis.cli import main as perilune
-from perilune.analysis.common.process import leave
+from perilune.common.process import leave
 from tests.support.campaigns.showing import showing
 from tests.support.pages.driven import PATIENCE, driven, scroll_to_plot
 

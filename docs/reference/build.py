@@ -12,8 +12,8 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from perilune.analysis.common.errors import InputError
-from perilune.fmus_src.paths import BUILD, PACKAGE
+from perilune.common.errors import InputError
+from perilune.common.paths import BUILD, PACKAGE
 
 from .diagrams import add_diagrams
 from .formulas import typeset

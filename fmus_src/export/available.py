@@ -13,11 +13,11 @@ from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from ...analysis.common.machine.cached import cached_file
-from ...analysis.common.regular import names_file
+from ...common.machine.cached import cached_file
+from ...common.paths import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, SYSTEMS, own_fmu, own_fmus, shipped_fmu
+from ...common.regular import names_file
 from ..catalogue import catalogue
 from ..own_digests import note_own
-from ..paths import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, SYSTEMS, own_fmu, own_fmus, shipped_fmu
 from .pythonfmu_fmu import build_python_fmu
 
 

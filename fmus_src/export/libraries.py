@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 from pathlib import Path
 
-from ...analysis.common.family.programs import Ended, run_program
-from ...analysis.common.machine.cached import cached_file
+from ...common.family.programs import Ended, run_program
+from ...common.machine.cached import cached_file
 from .compilers import FLAGS, FOR_THIS_PROCESSOR, PLATFORMS, CompilationFailed, compilers_for
 from .fat_binary import fat_binary
 

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 
+from ...common.paths import CACHE
 from ..block import Block
 from ..catalogue import is_shipped
 from ..evidence.block import add_evidence
 from ..own_digests import note_own
-from ..paths import CACHE
 from .archive import content_guid, write_zip
 from .compilers import PLATFORMS, SOURCE_OPTIONS
 from .description import fmi2, fmi3

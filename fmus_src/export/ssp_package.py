@@ -7,7 +7,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from ..paths import names_fmu
+from ...common.paths import names_fmu
 from .archive import write_zip
 
 SSD_NAMESPACE = "http://ssp-standard.org/SSP1/SystemStructureDescription"

@@ -10,7 +10,7 @@ import pytest
 import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.verbs.inventory import KINDS
-from perilune.fmus_src.paths import LAWS, SYSTEMS
+from perilune.common.paths import LAWS, SYSTEMS
 
 pytestmark = pytest.mark.usefixtures("fmus")
 

@@ -9,7 +9,7 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
 FIRST = "flight_and_guidance"  # which `make test` runs; the others `make long`

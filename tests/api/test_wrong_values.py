@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.api.test_flights import SYSTEM
 
 WRONG = {

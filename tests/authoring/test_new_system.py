@@ -18,7 +18,7 @@ import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.reports.figures.scene.declared import Scene
 from perilune.analysis.reports.scene.poses import compute_poses
-from perilune.fmus_src.paths import FLAVOURS, ROOT
+from perilune.common.paths import FLAVOURS, ROOT
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.own_style import assert_in_style
 

@@ -15,10 +15,10 @@ import pytest
 from fmpy.util import read_csv
 from lxml import etree
 
+from perilune.common.paths import ROOT, shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.evidence.check import read_check
 from perilune.fmus_src.evidence.manifest import FOLDER
-from perilune.fmus_src.paths import ROOT, shipped_fmu
 from tests.support.checks.check import read_declarations
 from tests.support.checks.truths import TRUTHS
 

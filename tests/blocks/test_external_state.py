@@ -15,10 +15,10 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.apart.opening import open_simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from perilune.fmus_src.catalogue import blocks_in_file
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.runtime import Component, StateError

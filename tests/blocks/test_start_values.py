@@ -18,11 +18,11 @@ from fmpy.fmi3 import FMU3Slave
 
 from perilune.analysis.runtime.instances.instance import instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
+from perilune.common.paths import CACHE
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.paths import CACHE
 from perilune.fmus_src.runtime import Component, StepError
 from perilune.fmus_src.start_values import StartError
 from tests.support.kernels.native_instance import ERROR, OK, NativeInstance, library

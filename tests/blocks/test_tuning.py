@@ -17,6 +17,7 @@ from fmpy.fmi1 import FMICallException
 
 from perilune.analysis.runtime.instances.instance import instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
+from perilune.common.paths import CACHE, shipped_fmu
 from perilune.fmus_src.block import Block, Input
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.evidence.check import read_check
@@ -25,7 +26,6 @@ from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.judge.tunable import tunable_parameters
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.paths import CACHE, shipped_fmu
 from perilune.fmus_src.runtime import Component
 from perilune.fmus_src.start_values import TuningError
 from tests.support.kernels.comparison import another, bits

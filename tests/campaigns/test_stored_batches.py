@@ -15,7 +15,7 @@ import pytest
 
 from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.campaigns.folder.stored import read_batch
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.campaigns.folders import flip_bit
 from tests.support.pages.comparison_samples import CAMPAIGN, sample_batch, write_sample
 

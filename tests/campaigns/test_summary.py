@@ -12,7 +12,7 @@ from perilune.analysis.campaigns.spec.campaign import Group, Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.summary import requirement_values, success_interval, summarise
 from perilune.analysis.campaigns.trials import TrialColumns
-from perilune.analysis.common.to_json import to_json
+from perilune.common.to_json import to_json
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
 GOOD = TrialColumns(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})

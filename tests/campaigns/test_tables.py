@@ -13,7 +13,7 @@ from perilune.analysis.campaigns.statistics import STATISTICS
 from perilune.analysis.campaigns.summary import summarise
 from perilune.analysis.campaigns.summary_text import WIDTH, rate_lines, select_metrics, summary_text
 from perilune.analysis.campaigns.trials import TrialColumns
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
 GOOD = TrialColumns(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})

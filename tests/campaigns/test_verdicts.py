@@ -27,7 +27,7 @@ from perilune.analysis.campaigns.summary_text import summary_text
 from perilune.analysis.campaigns.tables import ordinal, unmet_lines
 from perilune.analysis.campaigns.trials import TrialColumns
 from perilune.analysis.campaigns.verdicts.stopping import stopping_rule
-from perilune.analysis.common.to_json import to_json
+from perilune.common.to_json import to_json
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m"), Metric("mass", Expression("p.m"), "final", unit="kg")]
 NEAR = Requirement("near", Expression("miss < 1"), 0.9987, 0.9, "miss", "upper")

@@ -12,7 +12,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.paths import SYSTEMS
 
 SYSTEM = "lunar_terminal_guidance"
 OVERFLOW = ("--fault", "guidance.thrust_acceleration=override:1e308@1")  # a flight that breaks off

@@ -12,7 +12,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.paths import SYSTEMS
 
 SYSTEM = "lunar_terminal_guidance"
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -59,7 +59,7 @@ def test_json_to_a_file_and_talk_to_the_terminal(tmp_path, capsys):
 
 
 def test_packed_and_unpacked_fly_alike(tmp_path):
-    from perilune.fmus_src.paths import BUILD
+    from perilune.common.paths import BUILD
 
     finals = []
     for system in (SYSTEM, BUILD / "ssp" / f"{SYSTEM}.ssp"):

@@ -12,10 +12,10 @@ import zipfile
 
 import pytest
 
-from perilune.analysis.common.bounds import ARCHIVE_ENTRIES, BOUNDS
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.ssp.archive import open_system
-from perilune.fmus_src.paths import ROOT
+from perilune.common.bounds import ARCHIVE_ENTRIES, BOUNDS
+from perilune.common.errors import InputError
+from perilune.common.paths import ROOT
 
 
 def test_the_table_of_the_docs():
@@ -26,7 +26,7 @@ def test_the_table_of_the_docs():
 # In a process of its own: other threads' memory is counted, too.
 OPENED = """
 import sys, tracemalloc
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from perilune.analysis.runtime.ssp.archive import open_system
 tracemalloc.start()
 try:

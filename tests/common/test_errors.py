@@ -1,11 +1,11 @@
-"""perilune.analysis.common.errors"""
+"""perilune.common.errors"""
 
 import pickle
 import warnings
 
 import pytest
 
-from perilune.analysis.common.errors import InputError, suggestion, warn_in_one_line
+from perilune.common.errors import InputError, suggestion, warn_in_one_line
 
 
 def test_is_one_line_with_place_problem_and_remedy():

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as some
 
 import perilune
-from perilune.analysis.common.visible import quote_formula, unquote_formula
+from perilune.common.visible import quote_formula, unquote_formula
 from tests.support.builders import component, connection, document, pack, system
 from tests.support.foreign.odd_fmu import odd_fmu
 

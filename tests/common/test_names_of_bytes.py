@@ -12,9 +12,9 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
-from perilune.analysis.common.process import Stream
-from perilune.fmus_src.paths import shipped_fmu
+from perilune.common.errors import InputError
+from perilune.common.paths import shipped_fmu
+from perilune.common.process import Stream
 
 NAME = os.fsdecode(b"n\xff")
 SYSTEM = "lunar_terminal_guidance"

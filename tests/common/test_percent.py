@@ -1,4 +1,4 @@
-"""perilune.analysis.common.percent, and that nothing else prints fractions in a format that runs into powers of ten.
+"""perilune.common.percent, and that nothing else prints fractions in a format that runs into powers of ten.
 
 Truth: decimal arithmetic, and the sources.
 """
@@ -10,8 +10,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from perilune.analysis.common.percent import percent, short_percent
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
+from perilune.common.percent import percent, short_percent
 
 
 @given(st.floats(0.0, 1.0), st.integers(0, 6))
@@ -42,6 +42,6 @@ def test_in_texts_without_zeros_at_the_end(fraction, text):
 
 def test_no_percentage_is_printed_with_few_significant_digits():
     """``{100 * share:.2g} %`` of 0.996 is ``1e+02 %``."""
-    sources = [file for file in (ROOT / "analysis").rglob("*.py") if "benchmark" not in file.parts]
+    sources = [*(ROOT / "analysis").rglob("*.py"), *(ROOT / "common").rglob("*.py")]
     few = re.compile(r"\{100(\.0)? ?\* ?[^}]*:\.[1-6]g\}")
     assert [str(file) for file in sources if few.search(file.read_text(encoding="utf-8"))] == []

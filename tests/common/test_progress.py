@@ -1,4 +1,4 @@
-"""perilune.analysis.common.progress: lines of a log where standard error is no terminal.
+"""perilune.common.progress: lines of a log where standard error is no terminal.
 
 Truth: the steps that the test itself does.
 """
@@ -9,8 +9,8 @@ import math
 
 import pytest
 
-from perilune.analysis.common import progress
-from perilune.analysis.common.progress import progress_bar
+from perilune.common import progress
+from perilune.common.progress import progress_bar
 
 
 def work(steps: int, **options: object) -> None:

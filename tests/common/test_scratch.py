@@ -12,7 +12,7 @@ import time
 
 MAKES = """
 import os, signal, sys
-from perilune.analysis.common.scratch import make_folder
+from perilune.common.scratch import make_folder
 print(make_folder(), flush=True)
 sys.stdin.readline()
 """

@@ -18,7 +18,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.compose.likeness import find_difference
 from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.analysis.runtime.ssp.documents import check_schema
-from perilune.fmus_src.paths import BUILD, SYSTEMS
+from perilune.common.paths import BUILD, SYSTEMS
 from tests.support.lengths import either
 
 pytestmark = pytest.mark.usefixtures("fmus")

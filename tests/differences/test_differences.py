@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.differences.differences import compare_runs
 from perilune.analysis.differences.recorded_run import RecordedRun
+from perilune.common.errors import InputError
 from tests.support.pages.checks import assert_self_contained, parse, text_of
 
 TIME = np.linspace(0.0, 10.0, 101)

@@ -10,8 +10,8 @@ import pyarrow
 import pyarrow.parquet
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.differences.recorded_run import read_run
+from perilune.common.errors import InputError
 from tests.support.pages.samples import run_result
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.lengths import LONG
 
 PAGE = (ROOT / "docs" / "systems" / "descent_laws.md").read_text(encoding="utf-8")

@@ -13,7 +13,7 @@ import perilune
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.stability.point.point_study import PointStudy
 from perilune.analysis.stability.request.request import Subject, read_request
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.lengths import LONG
 from tests.support.loops.exact_lunar import HoverLoop
 from tests.support.loops.exact_margins import crossings

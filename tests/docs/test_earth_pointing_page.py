@@ -14,7 +14,7 @@ import pytest
 from scipy import stats
 
 import perilune
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.paths import SYSTEMS
 from tests.support.lengths import LONG
 from tests.support.space.pointing_page import (
     ARCSEC,

@@ -12,7 +12,7 @@ from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_
 from perilune.analysis.design.transfers.free_fall import find_free_fall
 from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.design.transfers.programme import find_programme
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 PAGE = (ROOT / "docs" / "papers" / "huang.md").read_text(encoding="utf-8")
 DISTANCES = (50, 100, 200, 300, 500, 700, 1000, 1600, 2000, 3000)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.lengths import LONG
 
 PAGE = (ROOT / "docs" / "systems" / "landing_mission.md").read_text(encoding="utf-8")

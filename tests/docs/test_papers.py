@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.documented import documented
 
 HEADER = "| Where | What | Status | Here |"

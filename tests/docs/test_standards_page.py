@@ -9,7 +9,7 @@ import pytest
 from lxml import etree
 
 from perilune.analysis.runtime.ssp.archive import system_names
-from perilune.fmus_src.paths import ROOT, SYSTEMS
+from perilune.common.paths import ROOT, SYSTEMS
 
 pytestmark = pytest.mark.usefixtures("fmus")
 INDEX = re.compile(r"\[[\d,]+\]$")

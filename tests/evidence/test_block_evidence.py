@@ -14,11 +14,11 @@ from lxml import etree
 
 from perilune.analysis.cli import main
 from perilune.analysis.evidence.manifest import read_manifest
+from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.catalogue import blocks_in_file
 from perilune.fmus_src.evidence.check import CheckError, read_check
 from perilune.fmus_src.evidence.manifest import FOLDER, MANIFEST, SUMS
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.paths import shipped_fmu
 from tests.support.pages.narrow import measure
 
 ADDER = '''

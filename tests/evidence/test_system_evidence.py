@@ -13,8 +13,8 @@ import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.evidence.manifest import read_manifest
 from perilune.analysis.evidence.trajectory import read_trajectory
+from perilune.common.paths import SYSTEMS
 from perilune.fmus_src.evidence.manifest import FOLDER, SUMS
-from perilune.fmus_src.paths import SYSTEMS
 from tests.support.builders import component, connection, document, system, write_zip
 
 FEW = """

@@ -13,9 +13,9 @@ import fmpy
 import pytest
 
 from perilune.analysis.cli import main
+from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.evidence.manifest import FOLDER, MANIFEST, SUMS
-from perilune.fmus_src.paths import shipped_fmu
 from tests.support.builders import write_zip
 from tests.support.lengths import either
 

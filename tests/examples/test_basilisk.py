@@ -8,7 +8,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.documented import saved_files
 
 pytest.importorskip("Basilisk", reason="`make basilisk` installs it")

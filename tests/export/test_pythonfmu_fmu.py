@@ -17,10 +17,10 @@ from fmpy.fmi1 import FMICallException
 
 from perilune.analysis.runtime.instances.instance import instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
+from perilune.common.paths import ROOT, shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.own_blocks import build_own_blocks
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.paths import ROOT, shipped_fmu
 from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
 from perilune.fmus_src.runtime import Component
 from tests.support.builders import component, document, fly, pack, system
@@ -74,7 +74,8 @@ def changed_sources(folder):
     package = folder / "perilune"
     shutil.copytree(ROOT / "fmus_src", package / "fmus_src", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "perilune" / "__init__.py", package)
-    (package / "analysis").symlink_to(ROOT / "analysis")
+    for room in ("analysis", "common"):
+        (package / room).symlink_to(ROOT / room)
     plant = package / "fmus_src" / "plants" / "flat_moon_lander.py"
     text = plant.read_text()
     changed = text.replace("scale = self.thrust / self.mass / length", "scale = 2.0 * self.thrust / self.mass / length")
@@ -127,7 +128,7 @@ AWAY = """
 import sys, os
 assert "" not in sys.path, sys.path
 import fmpy
-for name in ("fmus_src", "analysis", "perilune"):
+for name in ("fmus_src", "analysis", "common", "perilune"):
     try:
         __import__(name)
     except ImportError:

@@ -7,8 +7,8 @@ import zipfile
 
 import pytest
 
+from perilune.common.paths import BUILD, SYSTEMS
 from perilune.fmus_src.export.ssp_package import pack_system, system_files
-from perilune.fmus_src.paths import BUILD, SYSTEMS
 from tests.support.builders import component, document, fly, parameter_set, system
 
 

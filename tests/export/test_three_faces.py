@@ -14,11 +14,11 @@ import pytest
 
 from perilune.analysis.runtime.instances.instance import Instance, instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
+from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.block import Block, Input, Parameter
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.paths import shipped_fmu
 from perilune.fmus_src.runtime import Component
 from tests.support import lengths
 from tests.support.kernels.comparison import LONGEST_FLIGHT, bits, draw, elements, only_switches

@@ -10,8 +10,8 @@ import subprocess
 import sys
 import time
 
+from perilune.common.paths import ROOT
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.paths import ROOT
 from tests.fuzz import fmi, guided, unguided
 
 FOLDER = ROOT / "build" / "fuzz"

@@ -15,7 +15,6 @@ from hypothesis.strategies import SearchStrategy
 
 from perilune.analysis.campaigns.spec.checks import check_plan
 from perilune.analysis.campaigns.spec.plan import read_plan
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.reports.figures.reading import read_figures
 from perilune.analysis.runtime.ssp.archive import SystemArchive, open_system
 from perilune.analysis.runtime.ssp.parameter_sets import read_parameter_file
@@ -23,6 +22,7 @@ from perilune.analysis.runtime.system.fmu import Fmu
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.analysis.stability.request.reading import read_declaration
+from perilune.common.errors import InputError
 from tests.fuzz.changes import changed_text, changed_xml, flipped
 from tests.fuzz.originals import CAMPAIGN, SOURCE, SSD, SSD_2, SSV, SSV_2
 from tests.support.builders import pack

@@ -15,7 +15,7 @@ from perilune.analysis.campaigns.fly.campaign import Campaign, open_folder
 from perilune.analysis.campaigns.fly.manifest import FILE
 from perilune.analysis.campaigns.fly.runner import merge_rows
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 
 MOST_BITS = 3
 JUNK = st.one_of(

@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 from perilune.analysis.campaigns.draws.given import read_given
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.file import read_campaign
-from perilune.analysis.common.zips import ZippedFiles
 from perilune.analysis.runtime.ssp.documents import read_document
 from perilune.analysis.runtime.ssp.parameter_sets import apply_mapping, read_parameter_file
 from perilune.analysis.runtime.system.series import read_series
+from perilune.common.zips import ZippedFiles
 from tests.fuzz.changes import JUNK, changed_xml, flipped, flipped_bytes
 from tests.fuzz.documents import Target, check, make_archive, reads
 from tests.fuzz.originals import CAMPAIGN, SERIES, SSM, SSV

@@ -13,8 +13,8 @@ import sys
 
 import pytest
 
-from perilune.analysis.common.visible import CONTROLS
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
+from perilune.common.visible import CONTROLS
 from tests.evidence import hostile as evidence
 from tests.hostile import (
     archives,

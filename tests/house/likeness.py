@@ -17,7 +17,7 @@ OPTION = re.compile(r"\w+: [^=]+( = .+)?,$|\w+=.+,$|.*add_argument\(.*")
 
 
 def like_lines(checkout: Checkout) -> Measure:
-    """Pairs of places of `analysis` and `fmus_src` with six or more successive lines alike, and how many of the longest
+    """Pairs of places of the product with six or more successive lines alike, and how many of the longest
     45 are option lists.
 
     Compared are lines without indentation and comments, with every string as "" and every number as 0, names as they

@@ -5,22 +5,22 @@ from __future__ import annotations
 import re
 from collections import Counter
 
-from .sources import Checkout
+from .sources import USERS, Checkout
 
 Measure = tuple[str, list[str]]
 
 
 def analysis(checkout: Checkout) -> Measure:
-    """Lines of all files of `analysis`, its Python files, and its folders that have an `__init__.py`."""
-    lines = sum(checkout.text(path).count("\n") for path in checkout.paths if path.parts[0] == "analysis")
-    files = checkout.below("analysis")
+    """Lines of all files of `analysis` and `common`, their Python files, and their folders with an `__init__.py`."""
+    lines = sum(checkout.text(path).count("\n") for path in checkout.paths if path.parts[0] in USERS)
+    files = checkout.below(*USERS)
     packages = [str(s.path.parent) for s in files if s.path.name == "__init__.py"]
     return f"{lines} lines, {len(files)} files, {len(packages)} packages", packages
 
 
 def small_files(checkout: Checkout) -> Measure:
-    """Python files of `analysis` of 35 lines or fewer that are no `__init__.py`; in brackets with them."""
-    small = [s for s in checkout.below("analysis") if s.text.count("\n") <= 35]
+    """Python files of `analysis` and `common` of 35 lines or fewer that are no `__init__.py`; in brackets with them."""
+    small = [s for s in checkout.below(*USERS) if s.text.count("\n") <= 35]
     others = [f"{s.path}: {s.text.count(chr(10))}" for s in small if s.path.name != "__init__.py"]
     return f"{len(others)} ({len(small)})", others
 
@@ -58,9 +58,9 @@ def campaigns(checkout: Checkout) -> Measure:
 
 
 def project_only(checkout: Checkout) -> Measure:
-    """Lines below `analysis`, hence in the wheel, in folders named demo, contestants or reference."""
+    """Lines below `analysis` and `common`, hence in the wheel, in folders named demo, contestants or reference."""
     only = {"demo", "contestants", "reference"}
-    paths = [path for path in checkout.paths if path.parts[0] == "analysis" and only & {*path.parts}]
+    paths = [path for path in checkout.paths if path.parts[0] in USERS and only & {*path.parts}]
     return f"{sum(checkout.text(path).count(chr(10)) for path in paths)} lines", [str(path) for path in paths]
 
 

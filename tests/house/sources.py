@@ -10,7 +10,8 @@ from functools import cached_property
 from pathlib import Path, PurePosixPath
 
 ROOT = Path(__file__).resolve().parents[2]
-PRODUCT = ("analysis", "fmus_src")
+PRODUCT = ("analysis", "common", "fmus_src")
+USERS = PRODUCT[:2]  # of components: what the goals of size are for
 
 
 @dataclass(frozen=True)

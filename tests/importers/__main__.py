@@ -17,9 +17,9 @@ from pathlib import Path
 
 import perilune
 from perilune.analysis.runtime.ssp.archive import system_names
+from perilune.common.paths import ROOT, shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
-from perilune.fmus_src.paths import ROOT, shipped_fmu
 from tests.support.native.building import NATIVE, fmi3_fmu
 
 from .masters import MASTERS

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from perilune.common.paths import ROOT, shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.native_fmu import build_native_fmu
-from perilune.fmus_src.paths import ROOT, shipped_fmu
 from tests.support.lengths import either
 from tests.support.native.building import NATIVE
 

@@ -10,8 +10,8 @@ import importlib.util
 import pytest
 
 from perilune.analysis.runtime.ssp.archive import system_names
+from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.paths import shipped_fmu
 from tests.support.lengths import either
 from tests.support.native.building import NATIVE
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
-from perilune.fmus_src.paths import shipped_fmu
 from tests.support.native.building import fmi3_fmu
 
 from .masters import Flight

@@ -10,7 +10,7 @@ import hashlib
 import numpy as np
 
 import perilune
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.paths import SYSTEMS
 
 
 def digest(system: str, stop_time: float | None = None) -> str:

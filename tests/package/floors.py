@@ -6,7 +6,7 @@ import re
 import tomllib
 from collections.abc import Iterable, Iterator
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 REQUIREMENT = re.compile(r"([\w.-]+)(?:\[[\w,-]*\])?(?:>=|==)([\w.]+)")
 RUN_TIME = ("cluster", "plan", "symbolic", "notebook")  # extras that users install

@@ -11,8 +11,8 @@ from importlib import import_module
 
 import pytest
 
+from perilune.common.paths import ROOT
 from perilune.fmus_src.former_names import FORMER, PACKAGE
-from perilune.fmus_src.paths import ROOT
 
 BLOCK = """
 from perilune import Block, Output

@@ -10,12 +10,12 @@ import sys
 
 import pytest
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.lengths import LONG
 
 SCRIPT = """
-import analysis, tests, fmus_src
-assert analysis.MINE == tests.MINE == fmus_src.MINE == 1
+import analysis, common, tests, fmus_src
+assert analysis.MINE == common.MINE == tests.MINE == fmus_src.MINE == 1
 import perilune
 assert perilune.simulate("lunar_terminal_guidance", flavour="python", stop_time=1.0).complete
 """
@@ -29,7 +29,7 @@ assert not any(trials.messages for trials in result.trials.values())
 def folder(tmp_path):
     """A folder with the clone in it, named as git names it, and a user's files beside."""
     (tmp_path / "perilune").symlink_to(ROOT)
-    for name in ("analysis", "tests", "fmus_src"):
+    for name in ("analysis", "common", "tests", "fmus_src"):
         (tmp_path / f"{name}.py").write_text("MINE = 1\n")
     (tmp_path / "script.py").write_text(SCRIPT + (WORKERS if LONG else ""))
     return tmp_path

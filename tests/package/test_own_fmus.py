@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from perilune.analysis.common.machine import cached
+from perilune.common.machine import cached
 from perilune.fmus_src import own_digests
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export import available

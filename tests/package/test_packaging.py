@@ -22,8 +22,8 @@ from packaging.utils import canonicalize_name
 from packaging.version import Version
 
 import perilune
+from perilune.common.paths import ROOT
 from perilune.fmus_src.face import HOME_OF
-from perilune.fmus_src.paths import ROOT
 from tests.package.floors import floors
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]

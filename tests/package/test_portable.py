@@ -9,7 +9,7 @@ import ast
 
 import pytest
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 MODULES = {"fcntl", "grp", "posix", "pty", "pwd", "resource", "syslog", "termios", "tty"}
 NAMES = {
@@ -19,7 +19,7 @@ NAMES = {
     | {"pause", "pthread_kill", "pthread_sigmask", "setitimer", "sigwait"},
     "time": {"clock_gettime", "tzset"},
 }
-SOURCES = [path for room in ("analysis", "fmus_src") for path in sorted((ROOT / room).rglob("*.py"))]
+SOURCES = [path for room in ("analysis", "common", "fmus_src") for path in sorted((ROOT / room).rglob("*.py"))]
 
 
 def actual(text):
@@ -37,8 +37,8 @@ def actual(text):
 FORKS = (  # where only Unix gets to; `family` asks for the platform, or for a status that a signal alone gives
     "analysis/runtime/apart/server",
     "analysis/runtime/apart/system",
-    "analysis/common/family/ending.py",
-    "analysis/common/family/keeper.py",
+    "common/family/ending.py",
+    "common/family/keeper.py",
 )
 
 

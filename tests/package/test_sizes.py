@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import re
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from release.sizes import STORED, TOOLS, size_of, sizes_by_package
 from tests.package.test_packaging import PROJECT
 

@@ -12,7 +12,7 @@ from scipy import stats
 
 import perilune
 from docs.figures.papers.fomichev_li import largest_difference, simulate_methods
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.papers.test_fomichev_li import SYSTEM, TABLE
 from tests.support.lengths import LONG, either
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.lengths import either
 
 PAGE = (ROOT / "docs" / "papers" / "somov.md").read_text(encoding="utf-8")

@@ -15,8 +15,8 @@ from pathlib import Path
 
 import pytest
 
-from perilune.analysis.common.errors import InputError
-from perilune.fmus_src.paths import ROOT
+from perilune.common.errors import InputError
+from perilune.common.paths import ROOT
 from release.__main__ import main, publish_locally
 from release.archives import build_sdist, check_page, check_wheel, require_same_bytes
 from release.state import Release, git, read_release

@@ -16,8 +16,8 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.show.server import CONNECTIONS
+from perilune.common.errors import InputError
 from tests.support.campaigns.showing import showing
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 PERIOD, STIFFNESS, DAMPING = 0.125, 0.3**2, 2.0 * 0.9 * 0.3
 MODE_DAMPING = 0.005

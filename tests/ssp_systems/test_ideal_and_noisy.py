@@ -10,7 +10,7 @@ import pytest
 import perilune
 from perilune.analysis.campaigns.spec.plan import with_streams
 from perilune.analysis.runtime.system.prepared import prepare_system
-from perilune.fmus_src.paths import ROOT, SYSTEMS
+from perilune.common.paths import ROOT, SYSTEMS
 from tests.support.lengths import either
 
 pytestmark = pytest.mark.usefixtures("fmus")

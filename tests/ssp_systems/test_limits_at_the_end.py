@@ -17,7 +17,7 @@ from perilune.analysis.reports.figures.declared import Limits
 from perilune.analysis.reports.figures.reading import read_figures
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 pytestmark = pytest.mark.usefixtures("fmus")
 

@@ -10,7 +10,7 @@ from scipy.linalg import expm
 from perilune import modal
 from perilune.analysis.runtime.instances.instance import instantiate
 from perilune.analysis.runtime.system.fmu import load_fmu
-from perilune.fmus_src.paths import shipped_fmu
+from perilune.common.paths import shipped_fmu
 from tests.support.loops.exact_orbital import linear_matrix
 
 pytestmark = pytest.mark.usefixtures("fmus")

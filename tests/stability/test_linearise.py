@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.analysis.stability.point.bench import Bench, OperatingPoint, StudyError
 from perilune.analysis.stability.point.linearise import linearise
 from perilune.analysis.stability.request.channels import channels_of
 from perilune.analysis.stability.request.declaration import Loop, Point
+from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, pack, system
 from tests.support.loops.exact_periodic import EVERY, HYPERPERIOD, STATES, STEP, description, exact_model, hyperperiod
 from tests.support.loops.exact_systems import difference, ring, with_stability

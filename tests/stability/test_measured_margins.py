@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.stability.point import point_study
+from perilune.common.errors import InputError
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.loops.exact_systems import late_double_integrator, resonance
 

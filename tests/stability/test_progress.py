@@ -10,7 +10,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common import progress as bar
+from perilune.common import progress as bar
 from tests.support.bars import watched
 from tests.support.loops.studies import LATE, SWEEP, campaign, named
 

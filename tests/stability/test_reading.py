@@ -6,11 +6,11 @@ Truth: the declaration as written, and the number of the line on which its wrong
 import pytest
 
 import perilune
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.ssp.reading import Reader
 from perilune.analysis.runtime.system.options import Layer
 from perilune.analysis.stability.request.declaration import Declaration, Element, Limits, Loop, Point, Sweep
 from perilune.analysis.stability.request.reading import read_declaration
+from perilune.common.errors import InputError
 from tests.support.builders import component, document, pack, system
 from tests.support.loops.exact_systems import ring, with_stability
 

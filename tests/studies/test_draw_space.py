@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.studies.draw_space import DrawSpace
+from perilune.common.errors import InputError
 
 COVARIANCE = [[4.0, 1.2, 0.0], [1.2, 1.0, -0.3], [0.0, -0.3, 0.5]]
 RANDOM = f"""

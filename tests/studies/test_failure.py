@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.analysis.campaigns.spec.expressions import Expression
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.studies.failure import Failure, failure_of
+from perilune.common.errors import InputError
 
 METRICS = """
 [metric.miss]

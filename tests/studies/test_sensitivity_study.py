@@ -11,7 +11,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.foreign.linear_system import linear_system
 
 CAMPAIGN = """

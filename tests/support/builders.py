@@ -22,8 +22,8 @@ from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.paths import FLAVOURS
 from perilune.fmus_src.export.own_blocks import build_own_blocks
-from perilune.fmus_src.paths import FLAVOURS
 
 BLOCKS = '''
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State

@@ -9,7 +9,7 @@ from pathlib import Path
 from perilune import fmus_src
 from perilune.analysis.compose.files import report_changed_source
 from perilune.analysis.runtime.ssp.archive import system_names
-from perilune.fmus_src.paths import SYSTEMS, shipped_fmu
+from perilune.common.paths import SYSTEMS, shipped_fmu
 
 
 @cache

@@ -2,7 +2,7 @@
 
 import shutil
 
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.paths import SYSTEMS
 
 ROLES = {
     "position": "plant.initial_position",

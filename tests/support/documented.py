@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from perilune.analysis.verbs.options.verbs import VERBS
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 BLOCK = re.compile(r"^```(sh|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 DOTS = "..."

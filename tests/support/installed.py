@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 HIDDEN = ("ziglang", "perilune", "__editable__", "_pytest", "pytest", "mypy", "ruff")
 

@@ -41,12 +41,12 @@ def interrupted_when(condition):
 
 @contextmanager
 def started(
-    words: Sequence[str], folder: Path, environment: Mapping[str, str] | None = None
+    words: Sequence[str], folder: Path, environment: Mapping[str, str] | None = None, module: str = "perilune"
 ) -> Iterator[subprocess.Popen[bytes]]:
     """A command that runs in a folder, and is killed in the end."""
     with (folder / "errors").open("wb") as errors:
         command = subprocess.Popen(
-            [sys.executable, "-m", "perilune", *words],
+            [sys.executable, "-m", module, *words],
             cwd=folder,
             env={**os.environ, **(environment or {})},
             stdin=subprocess.DEVNULL,

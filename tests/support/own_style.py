@@ -6,7 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 
 def assert_in_style(folder: Path) -> None:

@@ -14,7 +14,7 @@ from scipy.stats import beta
 import perilune
 from perilune.analysis.campaigns.statistics import STATISTICS
 from perilune.analysis.cli import main
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.paths import SYSTEMS
 from tests.support.pages.checks import assert_self_contained, data_values, text_of
 
 SYSTEM = "lunar_terminal_guidance"

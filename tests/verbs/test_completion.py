@@ -14,8 +14,8 @@ import pytest
 
 from perilune.analysis.authoring.block import block_slots
 from perilune.analysis.verbs.options.verbs import VERBS
+from perilune.common.paths import LAWS, SYSTEMS
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.paths import LAWS, SYSTEMS
 
 pytestmark = pytest.mark.usefixtures("fmus")
 HEAVY = ("matplotlib", "scipy", "pyarrow", "control")

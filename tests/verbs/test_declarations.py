@@ -15,7 +15,7 @@ import pytest
 import perilune
 from docs.reference.verbs import verb_parser
 from perilune.analysis.verbs.options.option import options_of
-from perilune.analysis.verbs.options.verbs import GROUPS, PURPOSES, RENAMED, VERBS
+from perilune.analysis.verbs.options.verbs import FORMER, GROUPS, PURPOSES, RENAMED, VERBS
 
 HEAVY = {"numpy", "matplotlib", "scipy", "pyarrow", "lxml", "fmpy", "control", "pandas", "jinja2"}
 ONLY_COMMANDS = {"docs"}  # which Python has no use for
@@ -83,6 +83,7 @@ def test_old_names_lead_to_verbs():
     for old, new in RENAMED.items():
         assert old not in VERBS
         assert any(f"{new} ".startswith(f"{name} ") for name in VERBS), new
+    assert not set(FORMER) & set(VERBS)
 
 
 def test_declarations_import_nothing_heavy():

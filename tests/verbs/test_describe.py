@@ -10,8 +10,8 @@ from lxml import etree
 
 import perilune
 from perilune.analysis.cli import main
+from perilune.common.paths import SYSTEMS
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.paths import SYSTEMS
 from tests.support.builders import retouched
 from tests.support.fmi3.strict_fmu import TROUBLES, strict_fmu
 from tests.support.foreign.odd_fmu import odd_fmu

@@ -14,7 +14,7 @@ from perilune.analysis.authoring.campaign import toml_value
 from perilune.analysis.campaigns.spec.file import parse_campaign, read_campaign
 from perilune.analysis.campaigns.spec.table import Table
 from perilune.analysis.cli import main
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.paths import SYSTEMS
 
 CAMPAIGNS = sorted(path for path in SYSTEMS.glob("*/campaigns/*.toml"))
 SHIPPED = [(path.parts[-3], path) for path in CAMPAIGNS if "network_operator]" not in path.read_text(encoding="utf-8")]

@@ -9,8 +9,8 @@ import pytest
 from fmpy.validation import validate_fmu
 
 from perilune.analysis.cli import main
+from perilune.common.paths import BUILD, SYSTEMS
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.paths import BUILD, SYSTEMS
 from tests.support.builders import component, connection, document, pack, parameter_set, retouched, system
 
 pytestmark = pytest.mark.usefixtures("fmus")

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.common.atomic import whole_file
 from perilune.analysis.verbs.options.option import Kind, options_of
 from perilune.analysis.verbs.options.verbs import VERBS
+from perilune.common.atomic import whole_file
 
 pytestmark = pytest.mark.usefixtures("fmus")
 RUN = ["run", "lunar_terminal_guidance"]
@@ -74,7 +74,6 @@ ARGUMENTS = {
     "design bound": [],
     "design bounds": ["lunar_landing", "--campaign", "laws_approach", "--trials", "1", "--workers", "1"],
     "stability": ["robot_rendezvous"],
-    "benchmark": [],
     "docs": [],
     "new block": ["mine"],
     "new system": ["mine"],
@@ -134,7 +133,7 @@ def test_a_link_among_devices_stays(tmp_path, monkeypatch, capsys):
     """/dev/stdout of a command whose output goes to a file: the link's end is an ordinary file."""
     (tmp_path / "log").write_text("")
     (tmp_path / "stdout").symlink_to(tmp_path / "log")
-    monkeypatch.setattr("perilune.analysis.common.targets.DEVICES", tmp_path.resolve())
+    monkeypatch.setattr("perilune.common.targets.DEVICES", tmp_path.resolve())
     assert main([*RUN, "--json", str(tmp_path / "stdout")]) == 2
     assert "is a device, which a file would replace" in capsys.readouterr().err
     assert (tmp_path / "stdout").is_symlink()

@@ -9,8 +9,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ...common.percent import percent
-from ...common.to_json import to_json
+from ....common.percent import percent
+from ....common.to_json import to_json
 from ..folder.stored import StoredBatch
 from ..spec.campaign import Group, Metric
 from ..summary import CONFIDENCE, Rate, Summary, VariantSummary, success_rate, summarise, summary_rows

@@ -10,7 +10,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from ..folder.stored import StoredBatch, read_batch
 from ..lost_trials import lost_lines
 from .comparison import Comparison, Contender

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .declared import Columns, Draw, Independent
 
 TAIL = 3.6541528853610088  # from here on numpy's ziggurat (Marsaglia and Tsang 2000) computes by the C library's log1p

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...common.bounds import INPUT_BYTES, TABLE_TRIALS, TRIALS
-from ...common.errors import InputError, suggestion
-from ...common.regular import read_input
+from ....common.bounds import INPUT_BYTES, TABLE_TRIALS, TRIALS
+from ....common.errors import InputError, suggestion
+from ....common.regular import read_input
 from .declared import Declared, input_names
 
 if TYPE_CHECKING:  # imported where a file is read

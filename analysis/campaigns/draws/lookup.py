@@ -17,7 +17,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from .declared import Formula
 
 TRIAL, INPUTS = "trial", "inputs"  # the first two columns

@@ -17,8 +17,8 @@ from typing import Protocol
 
 import numpy as np
 
-from ...common.bounds import TABLE_TRIALS
-from ...common.errors import InputError
+from ....common.bounds import TABLE_TRIALS
+from ....common.errors import InputError
 from .declared import Columns, Declared, Design, designs_of, input_names
 from .generators import generator, generator_at, independent_draws, sample_columns, stream_of
 from .given import stream_component

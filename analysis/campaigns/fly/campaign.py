@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
+from ....common.errors import InputError
 from ....fmus_src.kernel.functions import VERSION
-from ...common.errors import InputError
 from ...runtime.apart.opening import flies_here
 from ...runtime.fused.refusals import check_fused
 from ...runtime.system.options import FUSED, UNTRUSTED, Trust

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ...common.atomic import remove_partial
-from ...common.errors import InputError
+from ....common.atomic import remove_partial
+from ....common.errors import InputError
 from ..spec.plan import BatchPlan
 from .identity import differences
 from .manifest import CONTENTS, FILE, Manifest, read_manifest, remove_contents, store_contents

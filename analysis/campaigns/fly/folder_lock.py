@@ -11,8 +11,8 @@ from pathlib import Path
 
 from filelock import ReadWriteLock, Timeout
 
-from ...common.errors import InputError
-from ...common.regular import check_regular
+from ....common.errors import InputError
+from ....common.regular import check_regular
 
 FILE = ".lock"  # an empty database, whose lock ends with its process
 

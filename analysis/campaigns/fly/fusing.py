@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import warnings
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ...runtime.flight.base_simulation import BaseSimulation
 
 GAIN = 0.1  # of a trial's time, in most shipped systems (benchmarks/one_fmu.py)

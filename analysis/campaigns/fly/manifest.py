@@ -12,10 +12,10 @@ from typing import Any, NotRequired, Required, TypedDict
 
 import msgspec
 
-from ...common.atomic import write_atomically
-from ...common.bounds import INPUT_BYTES, TRIALS
-from ...common.errors import InputError
-from ...common.regular import check_folder, read_regular
+from ....common.atomic import write_atomically
+from ....common.bounds import INPUT_BYTES, TRIALS
+from ....common.errors import InputError
+from ....common.regular import check_folder, read_regular
 from ...runtime.instances.renewal import Renewal
 
 FILE = "manifest.json"

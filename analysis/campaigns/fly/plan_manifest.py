@@ -14,8 +14,8 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
+from ....common.errors import InputError
 from ....fmus_src.kernel.functions import VERSION
-from ...common.errors import InputError
 from ...runtime.apart.resets import find_verdict
 from ...runtime.instances.renewal import Renewal, ResetVerdict, store_verdict
 from ...runtime.ssp.archive import SystemArchive

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from ...runtime.flight.results import TIMED_OUT, Result
 from ...runtime.system.options import UNTRUSTED, Trust
 from ...runtime.system.prepared import PreparedSystem

@@ -11,8 +11,8 @@ from typing import Any, Self
 
 import pyarrow
 
-from ...common.atomic import write_atomically
-from ...common.to_json import to_json
+from ....common.atomic import write_atomically
+from ....common.to_json import to_json
 from ..plotted_sample import PlottedSample, select_trials
 from ..spec.plan import BatchPlan
 from ..summary import Summary, summarise

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ...common.errors import InputError
-from ...common.progress import progress_bar
+from ....common.errors import InputError
+from ....common.progress import progress_bar
 from ..requirement_verdicts import satisfies, trials_to_decision
 from ..spec.plan import BatchPlan
 from ..trials import TrialRows, Trials

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from loky import cpu_count
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from ...runtime.apart.opening import flies_here
 from ...runtime.flight.interruptible import PATIENCE, wait
 from ...runtime.system.prepared import PreparedSystem

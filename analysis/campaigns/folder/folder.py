@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..fly.campaign import open_folder
 from ..fly.manifest import FILE as MANIFEST
 from ..fly.manifest import WRITE

@@ -15,7 +15,7 @@ import pyarrow.dataset
 import pyarrow.parquet
 from pyarrow.fs import LocalFileSystem
 
-from ...common.errors import suggestion
+from ....common.errors import suggestion
 from ..fly.metadata import Provenance
 from ..fly.shards.files import read_table
 from ..statistics import quantile

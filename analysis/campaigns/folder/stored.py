@@ -14,9 +14,9 @@ import numpy as np
 import pyarrow
 import pyarrow.compute
 
-from ...common.bounds import INPUT_BYTES
-from ...common.errors import InputError
-from ...common.regular import read_regular
+from ....common.bounds import INPUT_BYTES
+from ....common.errors import InputError
+from ....common.regular import read_regular
 from ..fly.manifest import FILE as MANIFEST
 from ..fly.manifest import WRITE
 from ..fly.metadata import Provenance, batch_digest

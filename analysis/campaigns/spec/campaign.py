@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...common.bounds import TRIALS
-from ...common.errors import InputError, suggestion
+from ....common.bounds import TRIALS
+from ....common.errors import InputError, suggestion
 from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import Layer
 from ..draws.declared import Draw, input_names

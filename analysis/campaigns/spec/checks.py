@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from ...runtime.fmi.representations import TEXTS
 from ...runtime.ssp.names import split_name
 from ...runtime.system.checks import check_fault

@@ -10,8 +10,8 @@ from typing import ClassVar, Self
 import numpy as np
 import scipy
 
-from ...common.bounds import GRID_POINTS
-from ...common.errors import InputError
+from ....common.bounds import GRID_POINTS
+from ....common.errors import InputError
 from ...runtime.loop.elementary import elementary
 from ..draws.declared import Columns, Continuous, Design, Distribution, Draw, Independent
 from ..draws.generators import generator

@@ -20,8 +20,8 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...common.bounds import EXPRESSION_CHARACTERS
-from ...common.errors import InputError, suggestion
+from ....common.bounds import EXPRESSION_CHARACTERS
+from ....common.errors import InputError, suggestion
 from ...runtime.loop.elementary import elementary
 
 Where = tuple[str, str]  # file and element, as in InputError

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ...runtime.system.checks import changeable, check_value
 from ...runtime.system.fault import KINDS, Fault
 from ...runtime.system.network import Network

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from ..draws.declared import Draw
 from ..draws.given import stream_component
 from ..draws.lookup import Lookup

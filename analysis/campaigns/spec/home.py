@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from ....fmus_src.paths import names_fmu
-from ...common.errors import InputError
+from ....common.errors import InputError
+from ....common.paths import names_fmu
 from ...runtime.ssp.archive import OSP_DESCRIPTION, SystemArchive, open_system, system_names
 from .source import EXTENDS, parse_toml
 

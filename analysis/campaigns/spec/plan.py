@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ....common.errors import InputError
 from ....fmus_src.roles import SEED, STREAM
-from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive, open_system
 from ...runtime.system.fault import Fault
 from ...runtime.system.options import UNWATCHED, SystemOptions, Watch

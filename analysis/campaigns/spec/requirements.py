@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
-from ...common.errors import suggestion
+from ....common.errors import suggestion
 from ..draws.declared import Design, Draw
 from .expressions import Expression
 from .table import REQUIRED, Table, choice_of, expression, number, text

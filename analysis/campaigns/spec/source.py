@@ -11,9 +11,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ...common.bounds import CAMPAIGN_BYTES, CAMPAIGN_FILES, INPUT_BYTES
-from ...common.errors import InputError
-from ...common.regular import names_file, read_input
+from ....common.bounds import CAMPAIGN_BYTES, CAMPAIGN_FILES, INPUT_BYTES
+from ....common.errors import InputError
+from ....common.regular import names_file, read_input
 from ...runtime.ssp.archive import SystemArchive
 from .table import Table
 

@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from ...common.bounds import GRID_POINTS
-from ...common.errors import InputError
+from ....common.bounds import GRID_POINTS
+from ....common.errors import InputError
 from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import STEP_ROUNDING, SystemOptions
 from ..draws.declared import Draw

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, TypeVar
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .expressions import Expression
 
 T = TypeVar("T")

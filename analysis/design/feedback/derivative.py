@@ -22,7 +22,7 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..poles.controllability import TOLERANCE
 from ..poles.place import PlaceOptions, place
 from ..poles.plant import input_matrix, state_matrix

@@ -31,7 +31,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import null_space
 from scipy.optimize import least_squares
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..poles.freedom import family_of, on_levels
 from ..poles.plant import input_matrix, output_matrix, state_matrix
 from ..poles.results import OutputFeedback, PlacementError, Reason, StateFeedback

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
 
+from ....common.atomic import write_atomically
+from ....common.bounds import CAMPAIGN_BYTES
+from ....common.errors import InputError, suggestion
+from ....common.paths import LAWS
+from ....common.regular import read_input
 from ....fmus_src.evidence.parameter_set import write_parameter_set
 from ....fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
-from ....fmus_src.paths import LAWS
-from ...common.atomic import write_atomically
-from ...common.bounds import CAMPAIGN_BYTES
-from ...common.errors import InputError, suggestion
-from ...common.regular import read_input
 
 FORMAT, VERSION = "perilune-network-operator", 1
 KEYS = ("format", "version", "name", "description", "matrix", "q", "exp_saturation")

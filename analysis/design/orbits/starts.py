@@ -7,8 +7,8 @@ from datetime import UTC, datetime, timedelta
 
 import numpy as np
 
+from ....common.errors import InputError
 from ....fmus_src.mathlib.space.earth_gravity import GRAVITATIONAL_PARAMETER
-from ...common.errors import InputError
 
 J2000 = datetime(2000, 1, 1, 12, tzinfo=UTC)
 LEAP_SECONDS = 37  # TAI - UTC (s) from LEAP_SECONDS_START on: IERS Bulletin C 52, 2016

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import null_space
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .controllability import TOLERANCE
 from .place import PlaceOptions, place
 from .plant import input_matrix, output_matrix, state_matrix

@@ -10,7 +10,7 @@ from itertools import islice
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from .plant import input_matrix, output_matrix, state_matrix
 from .results import OutputFeedback, PlacementError, Reason
 from .smallest import smallest

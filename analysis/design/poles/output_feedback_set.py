@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import block_diag, null_space
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .ackermann import row_stack, split
 from .plant import input_matrix, output_matrix, real_matrix, state_matrix
 from .polynomial import block_companion

@@ -10,7 +10,7 @@ from typing import TypedDict
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from .ackermann import ackermann, ackermann_of, bass_gura, coefficients_of
 from .controllability import TOLERANCE, indices
 from .freedom import least_condition, least_norm

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 
 
 def state_matrix(value: ArrayLike) -> np.ndarray:

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import expm
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .plant import input_matrix, real_matrix, state_matrix
 
 

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .spectrum import distance, match
 
 _SEMISIMPLE = 1e-9  # relative, of the singular values that count as none

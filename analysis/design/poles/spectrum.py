@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import block_diag
 from scipy.optimize import linear_sum_assignment
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 
 _CONJUGATE = 1e-8  # relative; how well a pole and its conjugate agree as they are given
 

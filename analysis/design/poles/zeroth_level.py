@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import null_space
 from scipy.optimize import least_squares
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .controllability import TOLERANCE
 from .freedom import family_of, on_levels
 from .place import make_placement, place_levels

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 
 Expression = Any  # of sympy, which has no types
 Symbols = Any  # a sympy matrix

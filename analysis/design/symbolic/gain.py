@@ -12,7 +12,7 @@ from typing import Any
 import mpmath
 import numpy as np
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from .algebra import Expression, Symbols, exact, matrix_of, sympy, tidy
 from .formulas import ackermann_symbols, bass_gura_symbols
 from .kernel_text import kernel_text

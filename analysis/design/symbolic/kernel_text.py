@@ -6,7 +6,7 @@ import importlib
 import keyword
 from typing import Any
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .algebra import Expression, Symbols, sympy
 
 _FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "asin", "acos", "atan")

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ...common.atomic import write_atomically
-from ...common.errors import InputError
+from ....common.atomic import write_atomically
+from ....common.errors import InputError
 from .candidate import Candidate, Evaluation, Genes
 from .genetic import SearchState
 from .variations import Variation

@@ -7,11 +7,11 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from ....common.errors import InputError
 from ...campaigns.fly.flyer import Flyer, TrialResult
 from ...campaigns.fly.workers import FlyerPool
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.plan import BatchPlan
-from ...common.errors import InputError
 from ...runtime.ssp.given_values import ParameterValue
 from ..laws.law import Law, law_parameters
 from .candidate import Bar, Evaluation, Task

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...common.atomic import write_atomically
+from ....common.atomic import write_atomically
 from ..laws.formula import formula, formula_text
 from ..laws.graph import law_svg
 from ..laws.law import Law, parameter_set

@@ -8,14 +8,14 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
-from ....fmus_src.paths import SEARCHES
+from ....common.errors import InputError
+from ....common.paths import SEARCHES
 from ...campaigns.spec.campaign import Campaign
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.file import SYNTHESIS, parse_campaign
 from ...campaigns.spec.plan import BatchPlan
 from ...campaigns.spec.source import read_source_file
 from ...campaigns.spec.table import Table, expression, integer, number, text
-from ...common.errors import InputError
 from ...runtime.system.options import SystemOptions
 from ..laws.law import Law, find_law, law_parameters, read_law
 from .search_settings import SearchSettings

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from lxml import etree
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ...runtime.ssp.annotations import AnnotationReader
 from ...runtime.ssp.names import split_name
 from ...runtime.system.prepared import PreparedSystem, prepare_system

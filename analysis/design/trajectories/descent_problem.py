@@ -8,8 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+from ....common.errors import InputError, suggestion
 from ....fmus_src.mathlib.lunar.gravity import STANDARD_GRAVITY
-from ...common.errors import InputError, suggestion
 from .point_mass import CentralGravity, PointMassProblem
 
 VECTORS = ("position", "velocity", "target")  # m, m/s, m

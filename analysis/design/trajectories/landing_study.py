@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 
-from ...common.progress import progress_bar
+from ....common.progress import progress_bar
 from .declared_bound import Inputs
 from .least_time import BOUND_INTERVALS, least_propellant
 from .multiple_shooting import direct_propellant

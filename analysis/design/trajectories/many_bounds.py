@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 
-from ...common.family.pools import process_pool
+from ....common.family.pools import process_pool
 from .least_time import least_propellant
 from .path import PlanError
 from .point_mass import PointMassProblem

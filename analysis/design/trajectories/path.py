@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...common.errors import EndedError, ExitStatus
+from ....common.errors import EndedError, ExitStatus
 
 OFF = 0.02  # of the way from least to full throttle: where an interval counts as part of a burn
 ALL = 1.0 - 1e-6  # from where on it counts as all of it

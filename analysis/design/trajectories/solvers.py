@@ -7,7 +7,7 @@ from functools import cache
 from types import ModuleType
 from typing import Any
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 
 Symbol = Any  # of CasADi, which has no types; where one stands, a number or an array may
 

@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from ...common.atomic import write_atomically
-from ...common.errors import InputError
+from ....common.atomic import write_atomically
+from ....common.errors import InputError
 from ...runtime.system.prepared import PreparedSystem
 from .declared_bound import Inputs, read_inputs
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import asdict, dataclass, replace
 
+from ....common.errors import InputError
 from ....fmus_src.mathlib.lunar.gravity import STANDARD_GRAVITY
-from ...common.errors import InputError
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ from typing import Self, TypeVar
 
 import numpy as np
 
+from ....common.errors import InputError
+from ....common.progress import progress_bar
 from ....fmus_src.mathlib.hover.solution import PlanKind
-from ...common.errors import InputError
-from ...common.progress import progress_bar
 from ..trajectories.least_time import BOUND_INTERVALS, least_propellant
 from ..trajectories.path import PlanError, PlannedPath
 from ..trajectories.point_mass import transfer_problem

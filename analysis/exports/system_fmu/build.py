@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path, PurePath
 
+from ....common.errors import InputError
+from ....common.paths import CACHE, SYSTEMS
 from ....fmus_src.evidence.manifest import Related, add_manifest
 from ....fmus_src.export.archive import content_guid, write_zip
 from ....fmus_src.export.compilers import PLATFORMS
@@ -16,9 +18,7 @@ from ....fmus_src.export.description.system import SystemVariable, system_descri
 from ....fmus_src.export.libraries import build_library
 from ....fmus_src.export.native_fmu import read_wrapper
 from ....fmus_src.own_digests import note_own
-from ....fmus_src.paths import CACHE, SYSTEMS
 from ....fmus_src.units import BASE_UNITS, UnitDefinition
-from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive
 from .choices import Preparation, candidate_name, check_slots, find_default
 from .component_source import file_name, write_kind

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ....fmus_src.paths import names_fmu
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
+from ....common.paths import names_fmu
 from ...runtime.fmi.representations import TEXTS
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.ssp.given_values import parse_value

@@ -8,9 +8,9 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ....common.errors import InputError
 from ....fmus_src.export.native_fmu import read_wrapper
 from ....fmus_src.export.write.translate import FOOTER
-from ...common.errors import InputError
 from ...runtime.fused.component_code import TOKEN
 from ...runtime.system.fmu import Fmu
 

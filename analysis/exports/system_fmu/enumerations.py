@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from ....common.zips import open_zip, read_entry
 from ....fmus_src.export.description.system import EnumerationMember, EnumerationType
-from ...common.zips import open_zip, read_entry
 from ...runtime.ssp.documents import parse_xml
 from ...runtime.ssp.fmu_description import DESCRIPTION
 from ...runtime.ssp.names import split_name

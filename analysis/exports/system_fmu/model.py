@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import PurePath
 
+from ....common.errors import InputError
 from ....fmus_src.export.native_fmu import read_wrapper
 from ....fmus_src.export.write.names import RESERVED
-from ...common.errors import InputError
 from ...runtime.flight.instructions import InstructionList
 from ...runtime.flight.orders.injections import Injection
 from ...runtime.flight.orders.rows import Unloaded

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
+from ....common.errors import InputError
 from ....fmus_src.evidence.parameter_set import write_parameter_set
-from ...common.errors import InputError
 from ...runtime.ssp.description import Element, System
 from ...runtime.ssp.given_values import ParameterValue
 from .choices import Preparation

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ...runtime.system.options import SystemOptions
 
 

@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from ....common.percent import percent
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.spec.campaign import Metric
 from ...campaigns.verdicts.order_statistics import quantiles
-from ...common.percent import percent
 from ..common.panels import Panel, Widths, both_widths, is_slim, panel, swatch
 from ..common.quantities import display_factor, label_with_unit
 from ..common.style import (

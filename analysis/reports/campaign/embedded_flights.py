@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
+from ....common.errors import InputError
 from ...campaigns.fly.metadata import Provenance
 from ...campaigns.fly.results import BatchResult
-from ...common.errors import InputError
 from ..common.quantities import display_factor, display_unit
 from ..common.signals import vector_of
 from ..common.style import COLOURS

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from markupsafe import Markup
 
-from ...common.atomic import write_atomically
-from ...common.percent import percent
+from ....common.atomic import write_atomically
+from ....common.percent import percent
 from ..interactive.embedded import Embedded
 from ..interactive.short_svg import shorten
 from .quantities import MINUS, display_unit, in_shown_unit, number

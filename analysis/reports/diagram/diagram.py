@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from markupsafe import Markup
 
-from ...common.visible import on_one_line, visible
+from ....common.visible import on_one_line, visible
 from ...runtime.system.fault import Fault
 from ...runtime.system.prepared import PreparedSystem
 from ..common.page import Table, exact

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Sequence
 from lxml import etree
 from markupsafe import Markup
 
-from ...common.visible import on_one_line, visible
+from ....common.visible import on_one_line, visible
 from ..chart.text import text_width
 from ..common import style
 from .graph import Block, Edge, PortKey, Side

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from ...common.visible import on_one_line, visible
+from ....common.visible import on_one_line, visible
 from ..chart.text import shorten, text_width
 from ..common.quantities import declared_unit
 from .graph import Block, Edge, Port, PortKey, Side

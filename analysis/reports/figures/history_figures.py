@@ -9,7 +9,7 @@ import numpy as np
 from markupsafe import Markup
 from scipy.special import ndtr
 
-from ...common.percent import short_percent
+from ....common.percent import short_percent
 from ...runtime.flight.results import Result
 from ..chart.marks import band_areas, level
 from ..chart.quantity import quantity_curve

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from lxml import etree
 
-from ...common.errors import suggestion
+from ....common.errors import suggestion
 from ...runtime.flight.program import layout_of
 from ...runtime.ssp.annotations import AnnotationReader
 from ...runtime.ssp.conversions import Unit

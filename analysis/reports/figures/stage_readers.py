@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from lxml import etree
 
-from ...common.errors import suggestion
+from ....common.errors import suggestion
 from ...design.trajectories.declared_bound import read_inputs
 from ...design.trajectories.stored_bound import MissingBound, find_bound
 from ...runtime.ssp.documents import tag

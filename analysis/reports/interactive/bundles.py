@@ -6,7 +6,7 @@ import base64
 import hashlib
 from collections.abc import Iterable
 
-from ....fmus_src.paths import BUILD
+from ....common.paths import BUILD
 
 BUNDLES = BUILD / "web" / "bundles"
 MISSING = "The scripts of pages are not built (npm was not available): run `make web`, then the command again."

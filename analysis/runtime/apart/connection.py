@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ...common.errors import EndedError, ExitStatus, InputError
+from ....common.errors import EndedError, ExitStatus, InputError
 from ..flight.results import CRASHED, HUNG, OUT_OF_MEMORY
 from .protocol.messages import (
     ANSWER,

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Iterable
 from pathlib import Path
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..system.fmu import Fmu
 from ..system.options import NETWORK, SystemOptions
 from .servers import Limits

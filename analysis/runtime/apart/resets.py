@@ -6,7 +6,7 @@ import os
 import warnings
 from collections.abc import Mapping
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..flight.results import CRASHED
 from ..instances.renewal import Renewal, ResetVerdict, store_verdict, verdict_in_cache
 from ..system.fmu import Fmu

@@ -15,7 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
-from ...common.process import at_end
+from ....common.process import at_end
 from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem
 from .protocol.orders import SERVER_ENDED, Begin, End, Ended, Forget, Learn, Look

@@ -12,8 +12,8 @@ from typing import Unpack
 
 import numpy as np
 
-from ...common.errors import InputError
-from ...common.machine.room import check_room
+from ....common.errors import InputError
+from ....common.machine.room import check_room
 from ..flight.base_simulation import NOTHING, BaseSimulation, Choices
 from ..flight.endings import FLIGHT_STATUSES
 from ..flight.program import layout_of

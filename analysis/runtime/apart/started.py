@@ -15,7 +15,7 @@ from typing import IO, Any
 
 import psutil
 
-from ...common.scratch import make_folder
+from ....common.scratch import make_folder
 from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem
 from .protocol.messages import receive_frame

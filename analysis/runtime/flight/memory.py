@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from lxml import etree
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..fmi.variable import Variable
 from ..instances.instance import Instance
 from ..instances.slaves import Fmi3Slave

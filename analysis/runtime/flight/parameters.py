@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping
 
 import numpy as np
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..fmi.variable import Variable
 from ..loop import arrays
 from ..ssp.given_values import ParameterValue, parse_value

@@ -7,7 +7,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from ...common.machine.room import check_room
+from ....common.machine.room import check_room
 from ..loop import codes
 
 OUTCOME_WORDS = codes.INSTRUCTION + 1

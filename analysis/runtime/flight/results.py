@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any, NotRequired, Self, TypedDict
 
 import numpy as np
 
+from ....common.atomic import whole_file, write_atomically
+from ....common.errors import suggestion
+from ....common.percent import short_percent
+from ....common.visible import quote_formula
 from ....fmus_src.roles import STATUS
-from ...common.atomic import whole_file, write_atomically
-from ...common.errors import suggestion
-from ...common.percent import short_percent
-from ...common.visible import quote_formula
 from ..ssp.given_values import ParameterValue
 from ..ssp.names import elements, split_name, vectors
 from ..ssp.types import WHOLE
@@ -148,7 +148,7 @@ class Result(Flight):
         """The flight as an Arrow table: time first, units and provenance in the metadata."""
         import pyarrow
 
-        from ...common.machine.arrow import numbers_of
+        from ....common.machine.arrow import numbers_of
 
         arrays = [numbers_of(self.time)]
         fields = [pyarrow.field("time", pyarrow.float64(), metadata={"unit": "s"})]

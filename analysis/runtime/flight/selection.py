@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from ..fmi.representations import TEXTS
 from ..ssp.given_values import parse_value
 from ..ssp.names import elements

@@ -9,7 +9,7 @@ from typing import Unpack
 
 import numpy as np
 
-from ...common.collection import no_collection
+from ....common.collection import no_collection
 from ..fused.fuse import fuse, is_compilable
 from ..fused.refusals import can_fuse, check_fused
 from ..instances.instance import Instance, instantiate

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from fmpy.model_description import ModelDescription
 from lxml import etree
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..ssp.fmu_description import FIX, require_attributes
 from .representations import REPRESENTATIONS, TEXTS
 from .variable import shape

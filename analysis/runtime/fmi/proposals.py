@@ -6,7 +6,7 @@ import math
 
 from fmpy.model_description import ModelDescription
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..ssp.fmu_description import DESCRIPTION
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..ssp.archive import SystemArchive
 from ..ssp.description import Binding, Description, Element, System
 from ..ssp.parameter_sets import Assignment, read_binding

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ...common.zips import open_zip, read_entry
+from ....common.zips import open_zip, read_entry
 from ..ssp.documents import parse_xml
 
 TERMINALS = "terminalsAndIcons/terminalsAndIcons.xml"

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*("([^"]+)"|<[^>]+>)[ \t]*$', re.MULTILINE)
 TOKEN = re.compile(

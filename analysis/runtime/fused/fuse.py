@@ -10,12 +10,12 @@ from tempfile import gettempdir
 
 import numpy as np
 
+from ....common.errors import InputError
+from ....common.machine.os_errors import reason_of, remedy_of
+from ....common.paths import CACHE
 from ....fmus_src.export.compilers import FLAGS as FMU_FLAGS
 from ....fmus_src.export.compilers import FOR_THIS_PROCESSOR, CompilationFailed, CompilerMissing, local_platform
 from ....fmus_src.export.libraries import library_files
-from ....fmus_src.paths import CACHE
-from ...common.errors import InputError
-from ...common.machine.os_errors import reason_of, remedy_of
 from ..instances.instance import PLACED, Instance
 from ..loop import arrays
 from ..system.fmu import Fmu

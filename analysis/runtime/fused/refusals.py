@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ....common.errors import InputError
 from ....fmus_src.export.compilers import CompilerMissing, available_platforms, compilers_for, local_platform
-from ...common.errors import InputError
 from ..system.fmu import Fmu
 from ..system.options import FUSED
 from ..system.prepared import PreparedSystem

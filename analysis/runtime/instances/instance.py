@@ -13,8 +13,8 @@ import numpy as np
 from fmpy import fmi2, fmi3
 from fmpy.logging import addLoggerProxy
 
-from ...common.errors import InputError
-from ...common.visible import visible, visible_line
+from ....common.errors import InputError
+from ....common.visible import visible, visible_line
 from ..system.fmu import Fmu
 from ..system.options import LOG_LEVELS, SAID_FROM
 from .library import LOADING, Library, acquire, release

@@ -9,6 +9,9 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
+from ....common.atomic import write_atomically
+from ....common.errors import InputError
+from ....common.paths import BUILD, CACHE
 from ....fmus_src import export
 from ....fmus_src.export.compilers import (
     FLAGS,
@@ -20,9 +23,6 @@ from ....fmus_src.export.compilers import (
 )
 from ....fmus_src.export.libraries import build_library, library_files
 from ....fmus_src.kernel import elementary
-from ....fmus_src.paths import BUILD, CACHE
-from ...common.atomic import write_atomically
-from ...common.errors import InputError
 from . import codes
 from .structures import enumerators, structures
 

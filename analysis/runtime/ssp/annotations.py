@@ -8,7 +8,7 @@ from collections.abc import Collection
 
 from lxml import etree
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from .documents import NAMESPACES, child, children, tag
 
 

@@ -14,13 +14,13 @@ from multiprocessing import parent_process
 from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
+from ....common.bounds import ARCHIVE_BYTES, bound_of
+from ....common.errors import InputError, suggestion
+from ....common.paths import FLAVOURS, IS_CHECKOUT, ROOT, SYSTEMS, names_fmu, own_fmus
+from ....common.regular import names_file, read_input
+from ....common.zips import ZippedFiles
 from ....fmus_src.export.available import find_fmu
 from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, SYSTEM_FILE, system_files
-from ....fmus_src.paths import FLAVOURS, IS_CHECKOUT, ROOT, SYSTEMS, names_fmu, own_fmus
-from ...common.bounds import ARCHIVE_BYTES, bound_of
-from ...common.errors import InputError, suggestion
-from ...common.regular import names_file, read_input
-from ...common.zips import ZippedFiles
 
 HOW_TO_BUILD = (
     "build_fmus.py builds this repository's, " if IS_CHECKOUT else ""

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from fmpy.model_description import ModelDescription
 from lxml import etree
 
+from ....common.errors import InputError
 from ....fmus_src.units import BASE_UNITS, unit_definition
-from ...common.errors import InputError
 from .documents import child, children, tag
 
 

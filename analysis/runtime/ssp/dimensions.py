@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 from lxml import etree
 
-from ...common.bounds import ARRAY_ELEMENTS
-from ...common.errors import InputError
+from ....common.bounds import ARRAY_ELEMENTS
+from ....common.errors import InputError
 from .documents import children
 
 Shape = tuple[int, ...]  # of a scalar: empty

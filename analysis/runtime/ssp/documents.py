@@ -13,8 +13,8 @@ from pathlib import Path
 import fmpy
 from lxml import etree
 
-from ...common.bounds import XML_BYTES, XML_TAGS
-from ...common.errors import InputError
+from ....common.bounds import XML_BYTES, XML_TAGS
+from ....common.errors import InputError
 
 VERSIONS = ("1.0", "2.0")
 STANDARD = "http://ssp-standard.org/"

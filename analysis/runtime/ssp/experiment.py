@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from lxml import etree
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .documents import child, children, tag
 
 OURS = "org.perilune.step"

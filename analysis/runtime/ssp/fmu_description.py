@@ -9,7 +9,7 @@ from pathlib import Path
 import fmpy
 from lxml import etree
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .documents import check_violations, parse_xml
 
 DESCRIPTION = "modelDescription.xml"

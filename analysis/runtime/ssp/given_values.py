@@ -6,7 +6,7 @@ import math
 
 from lxml import etree
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .dimensions import Shape, read_dimensions
 from .documents import children, tag
 from .types import integer_range, runtime_type

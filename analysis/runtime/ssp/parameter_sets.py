@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from lxml import etree
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .archive import SystemArchive
 from .conversions import Transformation, Unit, check_type, read_transformation, units_of_document
 from .description import Binding

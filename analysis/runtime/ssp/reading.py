@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from lxml import etree
 
-from ....fmus_src.paths import names_fmu
-from ...common.errors import InputError
+from ....common.errors import InputError
+from ....common.paths import names_fmu
 from .annotations import check_annotations, feedthrough_of_component
 from .archive import OSP_SUFFIX, SystemArchive
 from .conversions import Unit, read_transformation, units_of_document

@@ -7,7 +7,7 @@ import re
 
 from fmpy.util import auto_interval
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..fmi.proposals import proposed_step
 from ..fmi.representations import TEXTS
 from ..ssp.description import Component, Connector, Description, System

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from ..fmi.representations import REPRESENTATIONS
 from ..fmi.variable import Variable
 from ..ssp.archive import SystemArchive

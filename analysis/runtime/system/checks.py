@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from fmpy import read_model_description
 
+from ....common.errors import InputError, suggestion
 from ....fmus_src.export.available import fmu_flavours
 from ....fmus_src.roles import SAMPLE_PERIOD
-from ...common.errors import InputError, suggestion
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable, variables_of
 from ..ssp.description import Component

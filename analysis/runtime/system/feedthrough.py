@@ -6,7 +6,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .network import Network
 from .options import SystemOptions
 

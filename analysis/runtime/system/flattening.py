@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ...common.errors import suggestion
+from ....common.errors import suggestion
 from ..ssp.conversions import IDENTITY, Unit, check_type
 from ..ssp.description import (
     Component,

@@ -17,11 +17,11 @@ from fmpy import read_model_description
 from fmpy.model_description import ModelDescription, ValidationError
 from lxml import etree
 
+from ....common.errors import InputError
+from ....common.machine.os_errors import is_of_machine, reason_of, remedy_of
+from ....common.scratch import make_folder
+from ....common.zips import REMEDY, UNREADABLE, open_zip, read_entry
 from ....fmus_src.own_digests import is_own
-from ...common.errors import InputError
-from ...common.machine.os_errors import is_of_machine, reason_of, remedy_of
-from ...common.scratch import make_folder
-from ...common.zips import REMEDY, UNREADABLE, open_zip, read_entry
 from ..fmi import description as fmi3
 from ..fmi.quantities import complete_quantities
 from ..fmi.variable import Variable, elements_of, variables_of

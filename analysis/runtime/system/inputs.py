@@ -12,9 +12,9 @@ from typing import TypedDict
 
 import numpy as np
 
-from ....fmus_src.paths import names_fmu
-from ...common.errors import InputError, suggestion
-from ...common.machine.room import check_room
+from ....common.errors import InputError, suggestion
+from ....common.machine.room import check_room
+from ....common.paths import names_fmu
 from ..fmi.representations import OF_FMI2, REPRESENTATIONS, TEXTS, Representation
 from ..ssp.kinds import LED_OUT
 from ..ssp.names import split_name

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..ssp.conversions import Transformation, Unit
 from ..ssp.description import Component, Description, System
 from ..ssp.kinds import PARAMETERS

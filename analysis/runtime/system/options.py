@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from ..ssp.parameter_sets import SetValue
 
 ALGORITHMS = ("sequential", "jacobi")

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from pathlib import Path
 
+from ....common.collection import no_collection
+from ....common.errors import InputError, suggestion
+from ....common.paths import FLAVOURS, names_fmu
+from ....common.regular import names_file
 from ....fmus_src.export.available import find_fmu, fmu_flavours
-from ....fmus_src.paths import FLAVOURS, names_fmu
-from ...common.collection import no_collection
-from ...common.errors import InputError, suggestion
-from ...common.regular import names_file
 from ..fmi.structure import structural_sizes
 from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, open_system, parameters_asked, read_fmu, use_asked
 from ..ssp.description import Component, System

@@ -7,7 +7,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from .feedthrough import Dependencies, Feedthrough, cut_loops
 from .network import Link, Network, Node
 

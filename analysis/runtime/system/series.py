@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...common.bounds import INPUT_BYTES
-from ...common.errors import InputError
-from ...common.regular import read_input
-from ...common.visible import unquote_formula
+from ....common.bounds import INPUT_BYTES
+from ....common.errors import InputError
+from ....common.regular import read_input
+from ....common.visible import unquote_formula
 
 TIME = "time"
 FORM = "write a comma-separated file whose first line is time and the inputs' names"

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from ....common.paths import FLAVOURS, SYSTEMS, names_fmu
 from ....fmus_src.export.available import find_fmu
 from ....fmus_src.export.sources import find_changed_source
-from ....fmus_src.paths import FLAVOURS, SYSTEMS, names_fmu
 from ..ssp.archive import open_system
 from ..ssp.description import Component, System
 from ..ssp.parameter_sets import Assignment, SetValue, read_parameter_file

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..fmi.proposals import step_of_experiment
 from ..ssp.archive import OSP_SUFFIX
 from .network import Network

@@ -9,8 +9,8 @@ from fractions import Fraction
 
 import numpy as np
 
+from ....common.errors import InputError, suggestion
 from ....fmus_src.roles import SAMPLE_PERIOD
-from ...common.errors import InputError, suggestion
 from ...runtime.apart.opening import open_simulation
 from ...runtime.flight.base_memory import Cell
 from ...runtime.flight.results import COMPLETE, NONFINITE

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ....common.errors import InputError
 from ....fmus_src.roles import FROZEN
-from ...common.errors import InputError
 from ...runtime.system.prepared import PreparedSystem
 from ..request.declaration import Point
 from .bench import Bench

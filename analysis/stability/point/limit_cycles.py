@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ...runtime.apart.opening import open_simulation
 from ...runtime.flight.results import COMPLETE
 from ...runtime.system.options import Layer

@@ -7,7 +7,7 @@ from contextlib import suppress
 
 import numpy as np
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 from ..loops.disk import joint_disk_margin
 from ..loops.margin_values import UNSTABLE, Margins, Quantity
 from ..loops.readings import decibel_size, degree_size

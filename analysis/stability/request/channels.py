@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...common.errors import InputError, suggestion
+from ....common.errors import InputError, suggestion
 from ...runtime.ssp.names import elements
 from ...runtime.system.network import Network
 from ...runtime.system.options import STEP_ROUNDING

@@ -7,7 +7,7 @@ from dataclasses import fields
 
 from lxml import etree
 
-from ...common.errors import suggestion
+from ....common.errors import suggestion
 from ...runtime.ssp.annotations import AnnotationReader
 from ...runtime.ssp.description import Description
 from ...runtime.system.options import Layer

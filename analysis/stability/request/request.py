@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 
+from ....common.errors import InputError, suggestion
 from ...campaigns.spec.checks import check_plan
 from ...campaigns.spec.plan import BatchPlan, read_plan
-from ...common.errors import InputError, suggestion
 from ...runtime.ssp.archive import open_system
 from ...runtime.ssp.description import Description
 from ...runtime.ssp.reading import read_description

@@ -18,8 +18,8 @@ from pathlib import Path
 import numpy as np
 from scipy.io import savemat
 
-from ...common.atomic import write_atomically
-from ...common.visible import quote_formula
+from ....common.atomic import write_atomically
+from ....common.visible import quote_formula
 from .document import document, joint_margin, loop_margins
 from .report import JointReport, LoopReport, Orders, StabilityReport
 from .responses import StateSpace

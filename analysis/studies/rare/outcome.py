@@ -10,8 +10,8 @@ from typing import NotRequired
 
 import numpy as np
 
+from ....common.percent import short_percent
 from ...campaigns.tables import align_columns, assumption_lines
-from ...common.percent import short_percent
 from ..failure import Failure
 from ..flown import FlightDocument, StudyResult, strict
 from ..noise import noise_line

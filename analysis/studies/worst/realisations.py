@@ -9,8 +9,8 @@ from typing import TypedDict
 
 import numpy as np
 
+from ....common.errors import InputError
 from ...campaigns.verdicts.order_statistics import quantiles
-from ...common.errors import InputError
 from .search import LEAST
 
 REALISATIONS = 5

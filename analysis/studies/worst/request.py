@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from ....common.errors import InputError
 from ...campaigns.spec.plan import BatchPlan
-from ...common.errors import InputError
 from ...runtime.system.options import SystemOptions
 from ...stability.dispersion import vary
 from ...stability.point.point_study import PointStudy

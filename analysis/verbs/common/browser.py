@@ -5,7 +5,7 @@ from __future__ import annotations
 import webbrowser
 from pathlib import Path
 
-from ...common.errors import InputError
+from ....common.errors import InputError
 
 REMEDY = "open its file yourself"
 

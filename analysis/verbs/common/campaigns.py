@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from ....common.errors import EndedError, ExitStatus, InputError
+from ....common.machine.os_errors import line_of
 from ...campaigns.draws.given import ALL, GivenDraws
 from ...campaigns.fly.campaign import Campaign
 from ...campaigns.fly.cluster.tasks import WorkersDiedError
@@ -20,8 +22,6 @@ from ...campaigns.replay_command import campaign_command, replay_command
 from ...campaigns.spec.file import parse_campaign
 from ...campaigns.spec.plan import BatchPlan, read_plan
 from ...campaigns.spec.sweeps import part_sweeps
-from ...common.errors import EndedError, ExitStatus, InputError
-from ...common.machine.os_errors import line_of
 from ...runtime.system.fault import faults_of
 from ...runtime.system.options import Watch, system_options
 from ...runtime.system.series import read_series

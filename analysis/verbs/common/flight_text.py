@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from ....fmus_src.paths import SYSTEMS
+from ....common.paths import SYSTEMS
 from ....fmus_src.roles import FINISHED
 from ...reports.figures.declared import Figure, Limits, Unavailable
 from ...reports.figures.limits import Verdict, evaluate, limit_lines

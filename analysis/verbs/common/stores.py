@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ....fmus_src.paths import IS_CHECKOUT, PACKAGE
-from ...common.errors import InputError
+from ....common.errors import InputError
+from ....common.paths import IS_CHECKOUT, PACKAGE
 from ...runtime.ssp.archive import SystemArchive
 
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any, Protocol, TypedDict, TypeVar
 
+from ....common.errors import UnwrittenError
+from ....common.targets import check_folder
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.tables import assumption_lines
-from ...common.errors import UnwrittenError
-from ...common.targets import check_folder
 from ...reports.studies.conditions import StudyResult, conditions_of
 from ..options.studies import ConditionOptions
 from .arguments import requirement_problems

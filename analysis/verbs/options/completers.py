@@ -8,9 +8,9 @@ from pathlib import Path
 
 from argcomplete.completers import FilesCompleter
 
+from ....common.errors import InputError
+from ....common.paths import LAWS, SEARCHES
 from ....fmus_src.export.available import fmu_flavours
-from ....fmus_src.paths import LAWS, SEARCHES
-from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive, open_system, system_names
 from ...runtime.ssp.description import Component
 from ...runtime.ssp.reading import read_description

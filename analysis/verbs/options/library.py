@@ -1,4 +1,4 @@
-"""The verbs of blocks and systems themselves: list, describe, validate, benchmark, docs; new, export."""
+"""The verbs of blocks and systems themselves: list, describe, validate, docs; new, export."""
 
 from __future__ import annotations
 
@@ -151,21 +151,6 @@ DIFF = Verb(
         "perilune diff analytic.parquet astar.parquet --report diff.html": "both, and their differences",
     },
     not_met="a signal differs by more than --tolerance, or with it only one run has the signal",
-)
-
-
-class BenchmarkOptions(TypedDict, total=False):
-    """Options of benchmark"""
-
-    steps: Annotated[int, Option("communication steps of a simulation", 2500, metavar="N")]
-    repeats: Annotated[int, Option("simulations that are timed", 5, metavar="N")]
-
-
-BENCHMARK = Verb(
-    "benchmark",
-    "time a communication step, compared with FMPy",
-    options=BenchmarkOptions,
-    examples={"perilune benchmark --steps 500 --repeats 2": "a shorter run than the default"},
 )
 
 

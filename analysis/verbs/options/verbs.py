@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from .campaigns import BATCH, COMPARE, MERGE, PREPARE, REPLAY, RUN, SHARD, SHOW
 from .design import BOUND, BOUNDS, LAW, SEARCH, TRANSFER
-from .library import BENCHMARK, COMPOSE, DESCRIBE, DIFF, DOCS, EXPORT, LIST, NEW_BLOCK, NEW_SYSTEM, VALIDATE, VERIFY
+from .library import COMPOSE, DESCRIBE, DIFF, DOCS, EXPORT, LIST, NEW_BLOCK, NEW_SYSTEM, VALIDATE, VERIFY
 from .studies import RARE, SENSITIVITY, STABILITY, WORST
 from .verb import Verb
 
 PURPOSES = {  # headings of `perilune --help`
     "Simulate": (RUN, BATCH, REPLAY),
     "Study": (COMPARE, SHOW, DIFF, STABILITY, RARE, WORST, SENSITIVITY),
-    "Inspect": (LIST, DESCRIBE, VALIDATE, VERIFY, BENCHMARK, DOCS),
+    "Inspect": (LIST, DESCRIBE, VALIDATE, VERIFY, DOCS),
     "Create": (NEW_BLOCK, NEW_SYSTEM, COMPOSE, LAW, SEARCH, TRANSFER, BOUND, BOUNDS),
     "Distribute": (EXPORT, PREPARE, SHARD, MERGE),
 }
@@ -21,11 +21,15 @@ GROUPS = {  # first word of verbs -> what they do
     "design": "design control laws, and plans of least propellant",
 }
 
-# Verbs of earlier releases, and what to write for them.
+# Verbs of earlier releases under their present names, ...
 RENAMED = {
     "law": "design law",
     "synthesize": "design search",
     "plan hover-transfer": "design transfer",
     "plan landing-bound": "design bound",
     "plan": "design transfer or perilune design bound",
+}
+# ... and what is said of each that is none any more.
+FORMER = {old: f"renamed; write perilune {new}" for old, new in RENAMED.items()} | {
+    "benchmark": "left the package; run `make bench` in a checkout of Perilune"
 }

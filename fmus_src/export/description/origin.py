@@ -11,8 +11,8 @@ from pathlib import Path
 
 import fmpy
 
-from ....analysis.common.errors import InputError
-from ...paths import IS_CHECKOUT, PACKAGE, ROOT
+from ....common.errors import InputError
+from ....common.paths import IS_CHECKOUT, PACKAGE, ROOT
 
 # The release of this version, which its FMUs are dated with, so that builds are the same bytes.
 RELEASED = datetime(2026, 11, 29, tzinfo=UTC)

@@ -15,8 +15,8 @@ import perilune
 from perilune.analysis.campaigns.fly.flyer import Flyer
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, fly, pack, system
 
 HEAD = """

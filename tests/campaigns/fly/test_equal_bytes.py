@@ -14,7 +14,7 @@ import pytest
 
 import perilune
 from perilune.analysis.campaigns.fly import campaign as opening
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 SYSTEM = "lunar_terminal_guidance"
 TRIALS = 3

@@ -11,10 +11,10 @@ import pytest
 import perilune
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.studies.draw_space import DrawSpace
 from perilune.analysis.studies.flights import SampleFlights
+from perilune.common.errors import InputError
 from tests.support.foreign.odd_fmu import odd_system
 
 SYSTEM, ONE = "lunar_terminal_guidance", {"guidance": ["analytic_guidance"]}

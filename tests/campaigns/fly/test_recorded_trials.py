@@ -13,8 +13,8 @@ import pytest
 import perilune
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.file import read_campaign
-from perilune.analysis.common.errors import InputError
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.errors import InputError
+from perilune.common.paths import SYSTEMS
 from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
 
 SYSTEM = "lunar_terminal_guidance"

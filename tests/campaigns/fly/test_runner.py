@@ -20,9 +20,9 @@ from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.file import read_campaign
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.campaigns.summary import requirement_values
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.errors import InputError
+from perilune.common.paths import SYSTEMS
 
 SYSTEM = "lunar_terminal_guidance"
 PAPER = SYSTEMS / SYSTEM / "campaigns" / "paper.toml"

@@ -12,7 +12,7 @@ import pyarrow.parquet
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.documented import commands_in
 
 TEXT = (ROOT / "docs" / "studies" / "results.md").read_text(encoding="utf-8")

@@ -6,7 +6,7 @@ import pytest
 
 from perilune.analysis.campaigns.spec.campaign import Scatter
 from perilune.analysis.campaigns.spec.file import read_campaign
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 
 FULL = """
 system = "lander"

@@ -9,7 +9,7 @@ import pytest
 
 import perilune
 from perilune.analysis.campaigns.spec.campaign import Variant
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 
 TEXT = """
 [set]

@@ -12,9 +12,9 @@ from scipy import stats
 from perilune.analysis.campaigns.draws.table import BLOCK, CountedDraws, draw_parts, draw_table
 from perilune.analysis.campaigns.spec.checks import check_plan
 from perilune.analysis.campaigns.spec.plan import BatchPlan
-from perilune.analysis.common.bounds import TABLE_TRIALS
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.common.bounds import TABLE_TRIALS
+from perilune.common.errors import InputError
 
 from .test_draws import ALPHA, DESIGN, PARTS, RANDOM
 

@@ -9,7 +9,7 @@ from scipy.stats import qmc
 
 from perilune.analysis.campaigns.draws.generators import generator, stream_numbers
 from perilune.analysis.campaigns.draws.table import draw_table
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 
 RANDOM = """
 [draw.a]

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.analysis.campaigns.spec.expressions import FUNCTIONS, Expression, is_name
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 
 MATH = {
     "sin": math.sin,

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from perilune.analysis.campaigns.spec.campaign import MAXIMUM_GROUPS, groups_of
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.plan import BatchPlan
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.common.errors import InputError
 
 WHERE = ("c.toml", "group.by")
 CASES = '[draw.case]\ndistribution = "choice"\nvalues = [3, 1, 2.5]\n'

@@ -12,10 +12,10 @@ import pytest
 import perilune
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.common.errors import InputError
+from perilune.common.paths import SYSTEMS
 from perilune.fmus_src.export.ssp_package import pack_system
-from perilune.fmus_src.paths import SYSTEMS
 from tests.support.foreign.odd_fmu import odd_system
 
 BASE = """

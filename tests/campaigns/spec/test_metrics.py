@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from perilune.analysis.campaigns.spec.campaign import Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.metrics import evaluate_metric, names_needed, successes
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 
 TIMES = 0.1 * np.arange(1001)  # s; rounding makes 0.1 * 3 exceed 0.3
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 
 METRICS = """
 [metric.miss]

@@ -21,7 +21,7 @@ from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.sweeps import part_sweeps, with_sweeps
 from perilune.analysis.cli import main
 from perilune.analysis.runtime.system.options import SystemOptions
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.paths import SYSTEMS
 
 SYSTEM = "lunar_terminal_guidance"
 MASS = "plant.initial_mass"

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from perilune.analysis.campaigns.verdicts.order_statistics import column_quantiles, quantile_rank, quantiles
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 VALUES = st.floats(allow_nan=True, allow_infinity=True)
 OTHERS = {"percentile", "quantile", "nanpercentile", "nanquantile", "median", "nanmedian", "mquantiles"}
@@ -65,11 +65,9 @@ def test_what_is_no_fraction_is_refused(fraction):
 
 
 def test_the_product_has_no_other_quantile():
-    """No result calls numpy's, which interpolate; the benchmark and the demo are no results."""
+    """Nothing calls numpy's, which interpolate."""
     calls = []
     for file in sorted((ROOT / "analysis").rglob("*.py")):
-        if file.relative_to(ROOT).parts[1] in ("benchmark", "demo"):
-            continue
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in OTHERS:
                 owner = ast.unparse(node.func.value)

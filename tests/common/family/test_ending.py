@@ -8,7 +8,7 @@ from __future__ import annotations
 import subprocess
 import sys
 
-from perilune.analysis.common.family.ending import end_after
+from perilune.common.family.ending import end_after
 
 LIMIT = 30.0  # s, for a machine that is busy
 WAIT = "import time; print(flush=True); time.sleep(600)"

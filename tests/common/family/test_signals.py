@@ -49,7 +49,6 @@ COMMANDS = {
     ),
     "fused": (["run", "lunar_terminal_guidance", "--flavour", "fused"], COMPILER, 1),
     "export": (["export", "lunar_terminal_guidance", "--as-fmu"], "keeper.py", 1),
-    "benchmark": (["benchmark"], "benchmark.serve", 1),
 }
 SHORT = [
     ("stability", signal.SIGTERM),

@@ -1,4 +1,4 @@
-"""perilune.analysis.common.machine.arrow: columns between numpy and Arrow.
+"""perilune.common.machine.arrow: columns between numpy and Arrow.
 
 Truth: pyarrow's own conversions, which load pandas.
 """
@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from perilune.analysis.common.machine.arrow import numbers_of, numpy_of, table_of, texts_of
+from perilune.common.machine.arrow import numbers_of, numpy_of, table_of, texts_of
 
 KINDS = st.sampled_from([np.float64, np.int64, np.int32, np.uint32, np.bool_])
 columns = KINDS.flatmap(lambda kind: arrays.arrays(kind, st.integers(0, 40)))

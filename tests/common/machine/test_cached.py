@@ -10,7 +10,7 @@ import warnings
 
 import pytest
 
-from perilune.analysis.common.machine import cached
+from perilune.common.machine import cached
 
 CONTENT = b"what takes a minute to make"
 

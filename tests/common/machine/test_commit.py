@@ -1,4 +1,4 @@
-"""perilune.analysis.common.machine.commit: which commit `perilune --version` says.
+"""perilune.common.machine.commit: which commit `perilune --version` says.
 
 Truth: git's own `rev-parse` in a repository of the test, and the document of PEP 610.
 """
@@ -11,8 +11,8 @@ import subprocess
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.common.machine import commit
-from perilune.analysis.common.machine.commit import commit_of_checkout, commit_of_origin
+from perilune.common.machine import commit
+from perilune.common.machine.commit import commit_of_checkout, commit_of_origin
 
 
 @pytest.fixture

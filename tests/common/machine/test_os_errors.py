@@ -5,9 +5,9 @@ import os
 
 import pytest
 
-from perilune.analysis.common.errors import EndedError
-from perilune.analysis.common.machine.os_errors import REMEDIES, line_of
 from perilune.analysis.verbs.common.campaigns import resume_hint
+from perilune.common.errors import EndedError
+from perilune.common.machine.os_errors import REMEDIES, line_of
 
 FULL = (errno.ENOSPC, errno.EDQUOT)
 

@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.laws.law import Law, find_law, read_law
+from perilune.common.errors import InputError
 from tests.support.laws.networks import matrices
 
 PAPER = {

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import perilune
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from perilune.fmus_src.plants.spacecraft import Spacecraft
 
 EARTH = 3.986004415e14  # m3/s2

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy.linalg import block_diag
 
 from perilune import modal
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.poles.spectrum import Spectrum
+from perilune.common.errors import InputError
 from tests.support.lengths import LONG, either
 from tests.support.modal.draws import assert_placed, random_spectrum, random_systems
 

@@ -14,7 +14,7 @@ import sys
 import pytest
 
 from perilune import modal
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 PAGE = (ROOT / "docs" / "modal_synthesis.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"```python\n(.*?)```\n(?:```text\n(.*?)```\n)?", PAGE, re.DOTALL)

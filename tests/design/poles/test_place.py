@@ -14,7 +14,7 @@ from scipy.signal import place_poles
 
 import perilune
 from perilune import modal
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.lengths import either
 from tests.support.modal.draws import assert_placed, pole_error, random_systems
 

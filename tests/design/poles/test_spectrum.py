@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.poles.spectrum import Spectrum, distance
+from perilune.common.errors import InputError
 from tests.support.lengths import either
 from tests.support.modal.draws import pole_error, random_spectrum
 

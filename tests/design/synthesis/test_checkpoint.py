@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from perilune.analysis.common.atomic import write_atomically
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.synthesis.checkpoint import read_checkpoint, state_document, state_of, write_checkpoint
 from perilune.analysis.design.synthesis.genetic import Search
+from perilune.common.atomic import write_atomically
+from perilune.common.errors import InputError
 from tests.design.synthesis.test_genetic import SMALL, search
 from tests.support.laws.regression import FormulaEvaluator, near
 

@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 
 from perilune.analysis.campaigns.spec.file import read_campaign
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.laws.law import find_law, read_law
 from perilune.analysis.design.synthesis.search_settings import SearchSettings
 from perilune.analysis.design.synthesis.synthesis_file import LIMITS, read_synthesis
-from perilune.fmus_src.paths import LAWS
+from perilune.common.errors import InputError
+from perilune.common.paths import LAWS
 from tests.support.laws.campaign_text import CAMPAIGN, TEXT
 
 DOCS = (Path(__file__).parents[3] / "docs" / "synthesis.md").read_text(encoding="utf-8")

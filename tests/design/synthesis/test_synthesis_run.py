@@ -9,11 +9,11 @@ import json
 import pytest
 
 import perilune
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.laws.law import read_law
 from perilune.analysis.design.synthesis import fitness
 from perilune.analysis.design.synthesis.synthesis import run_synthesis
 from perilune.analysis.design.synthesis.synthesis_file import read_synthesis
+from perilune.common.errors import InputError
 from tests.support.laws.campaign_text import CAMPAIGN, TEXT
 
 pytestmark = pytest.mark.usefixtures("fmus")

@@ -10,7 +10,6 @@ from dataclasses import replace
 
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.trajectories.declared_bound import landing_of, pieces_of, read_inputs
 from perilune.analysis.design.trajectories.point_mass import landing_problem
 from perilune.analysis.design.trajectories.stored_bound import (
@@ -24,6 +23,7 @@ from perilune.analysis.design.trajectories.stored_bound import (
 )
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.declared_bounds import PIECES, declared_system
 
 pytestmark = pytest.mark.usefixtures("fmus")

@@ -10,11 +10,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.trajectories.convex_form import solve_fixed_time
 from perilune.analysis.design.trajectories.descent_problem import check_roles, descent_problem
 from perilune.analysis.design.trajectories.least_time import least_propellant
 from perilune.analysis.design.trajectories.point_mass import CentralGravity, UniformGravity
+from perilune.common.errors import InputError
 from tests.support.flights.convex_descent import A1, C1, C2, MU, RADIUS, approach, settle
 from tests.support.lengths import either
 

@@ -15,9 +15,9 @@ import perilune
 from perilune.analysis.campaigns.draws.table import draw_table
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.errors import InputError
+from perilune.common.paths import SYSTEMS
 from tests.support.flights.convex_descent import A1, C1, settle
 from tests.support.lengths import either
 

@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.trajectories.vehicle import Transfer, Vehicle
 from perilune.analysis.design.transfers.adjoint import INTEGRALS, NODES, integrate_adjoint, zeros_of
 from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.design.transfers.programme import find_programme
 from perilune.analysis.design.transfers.true_optimum import find_true_optimum
+from perilune.common.errors import InputError
 from tests.support.lengths import either
 
 ENGINE = 4707.192

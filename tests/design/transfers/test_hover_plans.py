@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from perilune.analysis.common import progress
 from perilune.analysis.design.trajectories.path import PlanError
 from perilune.analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
 from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.design.transfers.programme import Programme, find_programme, over_distance, over_duration
 from perilune.analysis.design.transfers.true_optimum import find_true_optimum
+from perilune.common import progress
 from perilune.fmus_src.mathlib.hover.shape import HoverProgramme
 from tests.support.bars import watched
 from tests.support.lengths import either

@@ -7,7 +7,7 @@ import pytest
 from docs.figures.demo import fly, fly_mission
 from docs.figures.page import PUBLISHED
 from docs.figures.readme_figure import draw_readme_figure
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.papers.test_fomichev_li import TABLE
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 

@@ -7,7 +7,7 @@ import pytest
 from lxml import etree
 
 from docs.figures.rendezvous_figures import draw_rendezvous_figures, fly, gyros_figure, momentum_figure, turn_figure
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 LABELS = {
     "scene": {"x, m", "y, m", "z, m", "robot", "object"},

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from docs.figures.stopping_comparison import RATE, course, main, rules
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.lengths import either
 
 

@@ -14,9 +14,9 @@ from fmpy import read_model_description
 from docs.reference.blocks import block_page, fitting, slots_of
 from docs.reference.unread import find_unread
 from docs.reference.usage import usages
+from perilune.common.paths import ROOT, shipped_fmu
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.paths import ROOT, shipped_fmu
 from perilune.fmus_src.runtime import Component
 
 # Blocks that count, compare or pass on, without a model of anything that could be left out.

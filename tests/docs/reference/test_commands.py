@@ -18,7 +18,7 @@ import pytest
 
 from perilune.analysis.cli import main
 from perilune.analysis.verbs.options.verbs import VERBS
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.documented import documented, first_difference, page_text, printed_by, saved_files
 from tests.support.lengths import LONG
 from tests.support.pages.system_page import write_system
@@ -96,7 +96,6 @@ TAKES_LONG = {
     "--direct": "a direct method; likewise",
     "perilune worst robot_rendezvous": "a hundred linearisations",
     "modal_comparison": "two minutes of random plants",
-    "perilune benchmark": "importers that take a minute each",
     "lunar_landing --parameters noisy.ssv --use": "320 s of flight with all sensors and a table of it",
     "lunar_landing --report": "320 s of flight and its page",
     "entry_attitude --report": "a flight through air and its page",
@@ -136,7 +135,6 @@ WORK = {
     "batch": ["verbs.batch.open_campaign"],
     "prepare": ["verbs.shard.open_campaign"],
     "sensitivity": ["studies.sensitivity.sensitivity"],
-    "benchmark": ["verbs.benchmark.run_benchmark"],
     "compare": ["verbs.compare.compare_folders"],
     "design": ["verbs.plans.hover_study", "verbs.plans.landing_study", "verbs.bounds.bound_descents"],
     "replay": ["verbs.replay.replay_trial", "verbs.replay.replay_plan"],

@@ -19,6 +19,7 @@ from docs.reference.pages import derived_pages, reference_navigation
 from docs.reference.verbs import verb_parser
 from perilune.analysis.authoring.fits import slots
 from perilune.analysis.verbs.options.verbs import VERBS
+from perilune.common.paths import ROOT
 from perilune.fmus_src.export.judge.subset_table import (
     ELEMENTARY_FUNCTIONS,
     LANGUAGE_PAGE,
@@ -26,7 +27,6 @@ from perilune.fmus_src.export.judge.subset_table import (
     OTHER_FUNCTION,
     REFUSED_FUNCTIONS,
 )
-from perilune.fmus_src.paths import ROOT
 
 
 @pytest.fixture(scope="module")

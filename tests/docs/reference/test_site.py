@@ -15,8 +15,8 @@ from docs.reference.build import SETTINGS, build_site
 from docs.reference.links import broken_links
 from perilune.analysis.reports.diagram.elk import MISSING
 from perilune.analysis.runtime.ssp.archive import system_names
+from perilune.common.paths import ROOT
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.paths import ROOT
 from tests.support.documented import PAGES
 from tests.support.pages.browser import find_browser, start
 
@@ -84,7 +84,11 @@ def test_tables_are_read_alike_everywhere(page):
 def test_pages_that_messages_and_templates_name_are_there():
     titles = set(re.findall(r'"([^"]+)" = "[\w/]+\.md"', SETTINGS.read_text(encoding="utf-8")))
     named: list[str] = []
-    files = [path for room in ("analysis", "fmus_src", "ssp_systems", "laws", "examples") for path in rglob_text(room)]
+    files = [
+        path
+        for room in ("analysis", "common", "fmus_src", "ssp_systems", "laws", "examples")
+        for path in rglob_text(room)
+    ]
     for path in files:
         text = path.read_text(encoding="utf-8")
         for words in re.findall(r"`perilune docs` (?:says how under|opens the documentation:) ([^\n\"]+)", text):

@@ -16,12 +16,12 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
 
+from perilune.common.paths import CACHE
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from perilune.fmus_src.kernel.enumerations import Enumeration, member
 from perilune.fmus_src.kernel.vector_types import vector
-from perilune.fmus_src.paths import CACHE
 from perilune.fmus_src.runtime import Component
 
 pytestmark = pytest.mark.skipif(local_platform(3) is None, reason="FMI 3.0 libraries are not compiled for this system")

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 
+from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.evidence.check import read_check
 from perilune.fmus_src.export.compilers import local_platform
-from perilune.fmus_src.paths import shipped_fmu
 from tests.support.native.building import COMPILED, NATIVE, REPRESENTATIVE, fmi3_fmu
 from tests.support.native.flights import fly_fmi2, fly_fmi3
 

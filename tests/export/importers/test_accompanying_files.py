@@ -15,14 +15,14 @@ import pytest
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
+from perilune.common.paths import CACHE, SYSTEMS, shipped_fmu
 from perilune.fmus_src.block import Block, Output
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.description.origin import RELEASED
 from perilune.fmus_src.export.native_fmu import build_native_fmu, native_guid
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.paths import CACHE, SYSTEMS, shipped_fmu
 from tests.support.native.building import fmi3_fmu
 from tests.support.native.system_fmus import build_one
 

@@ -16,12 +16,12 @@ from typing import Any
 
 import pytest
 
+from perilune.common.paths import CACHE, shipped_fmu
 from perilune.fmus_src.block import Block, Input, Output, Parameter
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.evidence.check import elements_of, read_check
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
-from perilune.fmus_src.paths import CACHE, shipped_fmu
 from perilune.fmus_src.runtime import Component, StepError
 from tests.support.kernels.native_instance import ERROR, OK, NativeInstance
 from tests.support.lengths import either

@@ -16,11 +16,11 @@ import fmpy
 import pytest
 from lxml import etree
 
+from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.archive import read_zip, write_zip
 from perilune.fmus_src.export.compilers import local_platform
-from perilune.fmus_src.paths import shipped_fmu
 from tests.support import lengths
 from tests.support.kernels.comparison import Pair, fly
 from tests.support.kernels.native_instance import NativeInstance, opened

@@ -9,7 +9,7 @@ import fmpy
 import pytest
 
 import perilune
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.own_blocks import build_own_blocks
 from tests.support.builders import component, connection, document, inline, pack, system

@@ -15,7 +15,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.reports.diagram import diagram, elk
 from perilune.analysis.reports.diagram.elk import MISSING
 from perilune.analysis.reports.interactive import bundles
-from perilune.fmus_src.paths import ROOT, SYSTEMS
+from perilune.common.paths import ROOT, SYSTEMS
 from tests.support.pages.browser import start
 from tests.support.pages.checks import assert_self_contained, parse, text_of
 from tests.support.pages.paper import FORMATS, printed

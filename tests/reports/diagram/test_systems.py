@@ -15,8 +15,8 @@ import perilune
 from perilune.analysis.reports.diagram.diagram import make_diagram
 from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.paths import SYSTEMS
 from perilune.fmus_src.catalogue import block_kinds, catalogue
-from perilune.fmus_src.paths import SYSTEMS
 from tests.support.diagrams.geometry import EXACT, Drawing, assert_readable
 from tests.support.large_systems import build_mixers, large_system
 

@@ -10,15 +10,15 @@ import shutil
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.reports.figures.declared import Band, Error, Pulses, Unavailable
 from perilune.analysis.reports.figures.reading import read_figures
 from perilune.analysis.runtime.flight.program import layout_of
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
+from perilune.common.paths import BUILD, SYSTEMS
 from perilune.fmus_src.export.ssp_package import pack_system
-from perilune.fmus_src.paths import BUILD, SYSTEMS
 from tests.support.builders import component, connection, document, pack, system
 from tests.support.pages.declaring import shipped_ssd, with_report
 

@@ -11,7 +11,7 @@ from perilune.analysis.reports.figures.scene.body_reader import BODY, JETS, NOZZ
 from perilune.analysis.reports.figures.scene.declared import ARROW, GROUND, SHAPES
 from perilune.analysis.reports.figures.scene.reader import KINDS, SCENE, SPHERE
 from perilune.analysis.reports.figures.signal_reader import ROWS
-from perilune.fmus_src.paths import ROOT, SYSTEMS
+from perilune.common.paths import ROOT, SYSTEMS
 
 WORDS = set(
     re.findall(r"[A-Za-z_]+", " ".join(re.findall(r"`([^`\n]+)`", Path(ROOT, "docs", "reports.md").read_text())))

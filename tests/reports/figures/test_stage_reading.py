@@ -11,7 +11,6 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.trajectories.stored_bound import MissingBound, StoredBound
 from perilune.analysis.reports.figures import stage_readers
 from perilune.analysis.reports.figures.declared import (
@@ -28,7 +27,8 @@ from perilune.analysis.reports.figures.declared import (
 from perilune.analysis.reports.figures.reading import read_figures
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.errors import InputError
+from perilune.common.paths import SYSTEMS
 from tests.support.builders import component, document, pack, system
 from tests.support.pages.declaring import shipped_ssd, with_report
 

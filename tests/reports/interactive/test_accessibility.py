@@ -5,7 +5,7 @@ Truth: axe-core's rules.
 
 import pytest
 
-from perilune.fmus_src.paths import BUILD
+from perilune.common.paths import BUILD
 from tests.support.pages.driven import driven
 
 AXE = BUILD / "web" / "node_modules" / "axe-core" / "axe.min.js"

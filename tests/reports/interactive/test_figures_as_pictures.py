@@ -23,7 +23,7 @@ from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.differences.page import write_differences_page
 from perilune.analysis.reports.plan_pages import write_hover_page, write_landing_page
 from perilune.analysis.reports.run_report import write_run_report
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.reports.test_plan_pages import LANDER, LANDING
 from tests.support.lengths import either
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses

@@ -14,7 +14,7 @@ import pyarrow.parquet as parquet
 import pytest
 
 from perilune.analysis.reports.common.quantities import number
-from perilune.fmus_src.paths import BUILD
+from perilune.common.paths import BUILD
 
 PACKAGES = BUILD / "web" / "node_modules"
 SCRIPT = Path(__file__).with_name("firefox.mjs")

@@ -8,7 +8,6 @@ import shutil
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.reports.figures.declared import Unavailable
 from perilune.analysis.reports.figures.reading import read_figures
 from perilune.analysis.reports.figures.scene.declared import (
@@ -24,7 +23,8 @@ from perilune.analysis.reports.figures.scene.declared import (
 )
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.errors import InputError
+from perilune.common.paths import SYSTEMS
 from tests.support.builders import component, document, pack, system
 from tests.support.pages.declaring import with_report
 

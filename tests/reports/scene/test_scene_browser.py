@@ -16,7 +16,7 @@ from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
 from perilune.analysis.reports.run_report import write_run_report
-from perilune.fmus_src.paths import BUILD
+from perilune.common.paths import BUILD
 from tests.support.pages.driven import driven
 from tests.support.scenes.descent import descent
 from tests.support.scenes.embedded import require_bundle

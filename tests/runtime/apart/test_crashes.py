@@ -15,9 +15,9 @@ import perilune
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.apart import servers
 from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.common.errors import InputError
 from tests.support.builders import component, document, pack, system
 from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
 from tests.support.foreign.odd_fmu import ENDS as ENDS_OF_ODD

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import pytest
 
-from perilune.analysis.common.errors import EndedError
 from perilune.analysis.runtime.apart import resets, servers, simulation
 from perilune.analysis.runtime.apart.opening import open_simulation
 from perilune.analysis.runtime.apart.resets import find_verdict
@@ -15,6 +14,7 @@ from perilune.analysis.runtime.apart.servers import start_server
 from perilune.analysis.runtime.instances.renewal import verdict_in_cache
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import EndedError
 from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
 
 pytestmark = [pytest.mark.flies, pytest.mark.skipif(not servers.CAN_FORK, reason="there is no flight server")]

@@ -17,7 +17,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
 from tests.support.lengths import either
 
@@ -129,13 +129,14 @@ def test_describe_loads_nothing(tmp_path):
     assert done.returncode == 0, done.stderr
 
 
-# Who may load FMUs: a child; this process through the door, where they are Perilune's own; and who times our own.
+# Who may load FMUs: a child; this process through the door, where they are Perilune's own;
+# the reference loop, which tests alone open.
 LOADERS = {
     "analysis/runtime/apart/server/child.py",
     "analysis/runtime/apart/opening.py",
-    "analysis/benchmark/importers.py",
     "analysis/runtime/flight/simulation.py",
     "analysis/runtime/instances/reset_check.py",
+    "analysis/runtime/program/opening.py",
 }
 
 

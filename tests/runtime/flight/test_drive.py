@@ -10,12 +10,12 @@ import pytest
 
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.fault import Fault
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.analysis.runtime.system.series import read_series
+from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, pack, system
 
 RAMP = {"time": [0.0, 1.0], "u": [1.0, 3.0]}  # u = 1 + 2 t

@@ -10,10 +10,10 @@ import math
 import numpy as np
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.fault import Fault
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, fly, pack, system
 
 RAMP = component("ramp", "ramp", "output y Real m; output flag Boolean; output count Integer")

@@ -9,7 +9,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.lone_fmus import build_lone_fmu
 
 CAMPAIGN = """

@@ -8,10 +8,10 @@ import re
 import numpy as np
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.builders import pack, retouched
 from tests.support.loops.exact_systems import ring
 

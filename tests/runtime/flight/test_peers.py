@@ -28,9 +28,9 @@ from pathlib import Path
 
 import pytest
 
-from perilune.analysis.benchmark.worker import Worker
+from benchmarks.importers.worker import Worker
+from perilune.common.paths import SYSTEMS
 from perilune.fmus_src.export.ssp_package import pack_system
-from perilune.fmus_src.paths import SYSTEMS
 from tests.support.lengths import either
 
 SYSTEM = "lunar_terminal_guidance"
@@ -55,7 +55,7 @@ def fly(request: pytest.FixtureRequest, fmus: Path, tmp_path_factory: pytest.Tem
         def fly(name: str, steps: int) -> dict[str, float]:
             full = f"{name}_{flavour}" if name.startswith("perilune") else f"{name}{FLAVOURS[flavour]}"
             if full not in workers:
-                workers[full] = stack.enter_context(Worker(full, ssp, "benchmarks.contestants"))
+                workers[full] = stack.enter_context(Worker(full, ssp))
             return workers[full].ask(steps=steps)["values"]
 
         yield fly

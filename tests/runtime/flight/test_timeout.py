@@ -15,11 +15,11 @@ import perilune
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.flight.interruptible import StuckError, fly, run
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions, Watch
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.lengths import either
 from tests.support.lone_fmus import build_lone_fmu
 

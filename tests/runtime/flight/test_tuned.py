@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
+from perilune.common.paths import CACHE
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
-from perilune.fmus_src.paths import CACHE
 from tests.support.builders import component, connection, document, fly, inline, pack, system
 from tests.support.kernels.users_blocks import Gains
 from tests.support.lone_fmus import build_lone_fmu

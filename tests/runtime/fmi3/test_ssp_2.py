@@ -8,9 +8,9 @@ import pytest
 from lxml import etree
 
 import perilune
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.ssp.documents import check_schema
 from perilune.analysis.runtime.ssp.version_2.package import convert_package
+from perilune.common.errors import InputError
 from perilune.fmus_src.export.archive import read_zip
 from tests.support.arrays.documents import in_version_2
 from tests.support.builders import component, connection, document, inline, pack, system, write_zip

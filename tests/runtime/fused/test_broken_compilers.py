@@ -12,14 +12,14 @@ import zipfile
 import pytest
 
 import perilune
-from perilune.analysis.common.errors import InputError
-from perilune.analysis.common.machine import cached
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.fused import fuse
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
+from perilune.common.machine import cached
+from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.export import libraries
-from perilune.fmus_src.paths import shipped_fmu
 from tests.support.builders import component, document, pack, system
 
 RAMP = document(system(component("ramp", "ramp", "output y Real m")))

@@ -9,12 +9,12 @@ import sys
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.fused import fuse
 from perilune.analysis.runtime.fused.component_code import component_code
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.builders import component, document, pack, system
 
 RAMP = document(system(component("ramp", "ramp", "output y Real m")))

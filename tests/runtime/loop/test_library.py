@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.loop import codes, library, structures
 from perilune.analysis.runtime.loop.library import build_loop, built_file, load_library
+from perilune.common.errors import InputError
 from perilune.fmus_src.export.compilers import local_platform
 
 RUN = "import perilune; print(perilune.simulate('satellite_pointing', stop_time=1.0).status)"

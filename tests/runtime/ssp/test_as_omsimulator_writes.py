@@ -7,7 +7,7 @@ components, values and times with Python's `str`. Truth: the ramp and the gain b
 import numpy as np
 import pytest
 
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.builders import NAMESPACES, fly, pack
 
 METADATA = '<ssc:MetaData kind="general" type="application/x-uncertainty-quantification" source="resources/od.xml"/>'

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.builders import fly
 from tests.support.foreign.osp import groups, joined, libcosim, simulator, structure, write_osp
 

@@ -6,9 +6,9 @@ Truth: numpy's integer types. SSP 1.0 has Real and Integer only, whatever an FMU
 import numpy as np
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.ssp.given_values import parse_value
 from perilune.analysis.runtime.ssp.types import integer_range, is_of_type
+from perilune.common.errors import InputError
 
 INTEGERS = ("Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64")
 

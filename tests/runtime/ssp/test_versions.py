@@ -6,9 +6,9 @@ Truth: the same system as SSP 1.0, sample by sample; the rules and the schemas o
 import numpy as np
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.arrays.documents import in_version_2
 from tests.support.builders import (
     component,

@@ -12,9 +12,9 @@ from fmpy.util import auto_interval
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.builders import component, document, pack, retouched, system
 from tests.support.foreign.odd_fmu import odd_fmu
 

@@ -11,12 +11,12 @@ from fmpy.simulation import Input
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system import inputs
 from perilune.analysis.runtime.system.inputs import hold, interpolate
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.analysis.runtime.system.series import read_series
+from perilune.common.errors import InputError
 
 TIMES = st.lists(st.sampled_from([0.0, 0.1, 0.2, 0.3, 0.30000000000000004, 0.5, 0.7, 1.0, 3.0]), min_size=1, max_size=9)
 POINTS = st.lists(

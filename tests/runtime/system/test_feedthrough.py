@@ -12,11 +12,11 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.reports.campaign.tables import replay_command
 from perilune.analysis.runtime.system.feedthrough import Origin
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, fly, pack, retouched, system
 from tests.support.lengths import either
 

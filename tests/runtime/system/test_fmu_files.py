@@ -10,10 +10,10 @@ import zipfile
 import fmpy
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.fmu import load_fmu
+from perilune.common.errors import InputError
+from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.own_digests import SUMS, note_own
-from perilune.fmus_src.paths import shipped_fmu
 from tests.support.builders import retouched, write_zip
 
 

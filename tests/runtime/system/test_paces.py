@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, fly, pack, system
 
 RAMP = component("ramp", "ramp", "output y Real m")

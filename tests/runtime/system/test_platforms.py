@@ -10,8 +10,8 @@ import sys
 import fmpy
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.fmu import load_fmu
+from perilune.common.errors import InputError
 from perilune.fmus_src.export.compilers import local_platform
 from tests.support.fmi3.reference import reference_fmu
 

@@ -6,9 +6,9 @@ Truth: what the FMUs do; which of them may be connected is the table of SSP 2.0.
 import numpy as np
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.arrays.documents import in_version_2
 from tests.support.builders import component, connection, document, fly, inline, pack, system
 

@@ -9,9 +9,9 @@ import itertools
 
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, fly, pack, system
 
 RAMP = component("ramp", "ramp", "output y Real m")

@@ -9,8 +9,8 @@ import fmpy
 import numpy as np
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.series import read_series
+from perilune.common.errors import InputError
 
 
 def test_a_file_as_fmpy_reads_it(tmp_path):

@@ -8,7 +8,7 @@ import shutil
 import pytest
 
 import perilune
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, fly, pack, retouched, system
 
 LANDER = "lunar_terminal_guidance"

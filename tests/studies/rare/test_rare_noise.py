@@ -13,7 +13,7 @@ from scipy.stats import binomtest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.lengths import either
 
 CAMPAIGN = ("lunar_terminal_guidance", "noisy")

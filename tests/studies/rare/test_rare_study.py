@@ -13,7 +13,7 @@ from scipy import stats
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.foreign.linear_system import linear_system
 from tests.support.lengths import either
 

@@ -14,9 +14,9 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.stability.loops.margin_values import Margins
 from perilune.analysis.studies.worst.objective import margin_columns, margin_objective
+from perilune.common.errors import InputError
 from tests.support.lengths import LONG
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.loops.exact_systems import coupled_pair, late_double_integrator

@@ -10,8 +10,8 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.studies.worst.realisations import Realisations, read_realisations
+from perilune.common.errors import InputError
 
 CAMPAIGN = ("lunar_terminal_guidance", "noisy")
 ONE = {"guidance": "analytic_guidance"}

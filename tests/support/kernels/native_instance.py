@@ -11,12 +11,12 @@ from pathlib import Path
 
 from lxml import etree
 
+from perilune.common.paths import BUILD, shipped_fmu
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import PLATFORMS, local_platform
 from perilune.fmus_src.export.libraries import build_library
 from perilune.fmus_src.export.native_fmu import native_sources
-from perilune.fmus_src.paths import BUILD, shipped_fmu
 from tests.support.built import native_are_current
 
 CACHE = BUILD / "cache"

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import fmpy
 
+from perilune.common.paths import FLAVOURS
 from perilune.fmus_src.export.own_blocks import build_own_blocks
-from perilune.fmus_src.paths import FLAVOURS
 
 BLOCKS = '''
 import math

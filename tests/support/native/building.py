@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
+from perilune.common.paths import CACHE
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
-from perilune.fmus_src.paths import CACHE
 from tests.support.lengths import either
 
 # Vectors, matrices, records, random numbers, enumerations, Integers, Booleans, sampling and bundles between them.

@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.paths import SYSTEMS
 
 
 @cache

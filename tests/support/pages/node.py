@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 NO_NODE = "no node"  # tests/conftest.py tells at the end what was left out for it
 CALL = """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 PAGE = (ROOT / "docs" / "write_a_system.md").read_text(encoding="utf-8")
 EXAMPLES = re.findall(r"```(\w+)\n(.*?)```", PAGE, re.DOTALL)

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from perilune.fmus_src.paths import ROOT
+from perilune.common.paths import ROOT
 
 PAGE = (ROOT / "docs" / "systems" / "earth_pointing.md").read_text(encoding="utf-8")
 ARCSEC = math.pi / 648000.0

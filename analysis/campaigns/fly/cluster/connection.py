@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from ....common.errors import InputError
+from .....common.errors import InputError
 from .flights import Cluster
 from .sent import identity, refuse_others
 

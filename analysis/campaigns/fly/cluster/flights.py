@@ -9,7 +9,7 @@ from concurrent.futures import CancelledError
 from contextlib import suppress
 from typing import Any
 
-from ....common.errors import InputError
+from .....common.errors import InputError
 from ....runtime.flight.interruptible import PATIENCE
 from ...trials import Trials
 from ..campaign import Campaign

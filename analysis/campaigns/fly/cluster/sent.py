@@ -11,15 +11,15 @@ from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from .....fmus_src.paths import PACKAGE
-from ....common.errors import InputError
+from .....common.errors import InputError
+from .....common.paths import PACKAGE
 from ..campaign import Campaign
 from ..manifest import CONTENTS, Manifest, content_path
 from ..plan_manifest import gather
 from ..shards.files import DRAWS, write_draws
 from ..workers import in_threads
 
-ROOMS = ("analysis", "fmus_src")
+ROOMS = ("analysis", "common", "fmus_src")
 Identity = tuple[str, str]
 
 

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ....common.atomic import write_atomically
+from .....common.atomic import write_atomically
 from ...spec.plan import BatchPlan
 from ...trials import Trials
 from ..flyer import Flyer

@@ -12,11 +12,11 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
-from ....common.atomic import whole_file
-from ....common.bounds import TRIALS
-from ....common.errors import InputError
-from ....common.machine.arrow import numpy_of, table_of, texts_of
-from ....common.regular import check_regular
+from .....common.atomic import whole_file
+from .....common.bounds import TRIALS
+from .....common.errors import InputError
+from .....common.machine.arrow import numpy_of, table_of, texts_of
+from .....common.regular import check_regular
 from ...spec.plan import BatchPlan
 from ...trials import Trials
 

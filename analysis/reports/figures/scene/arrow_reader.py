@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from lxml import etree
 
-from ....common.errors import suggestion
+from .....common.errors import suggestion
 from ...common.colours import HUES
 from ..signal_reader import MissingSignalError, SignalReader
 from .attributes import read_signal

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ....common.errors import suggestion
+from .....common.errors import suggestion
 from ....runtime.ssp.types import WHOLE
 from ..history_readers import METRE, SECOND
 from ..signal_reader import SignalReader

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from lxml import etree
 
-from ....common.errors import suggestion
+from .....common.errors import suggestion
 from ....runtime.ssp.documents import tag
 from ....runtime.ssp.names import elements, split_name
 from ..declared import Signal

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 
-from ....common.visible import visible_line
+from .....common.visible import visible_line
 
 BLOCK = 65536  # bytes read at once
 LONGEST_LINE = 4096  # bytes

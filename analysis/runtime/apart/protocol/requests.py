@@ -12,7 +12,7 @@ import struct
 from collections.abc import Sequence
 from typing import Any
 
-from ....common.collection import no_collection
+from .....common.collection import no_collection
 
 LENGTH = struct.Struct("<I")
 MOST_FILES = 2

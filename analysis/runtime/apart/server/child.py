@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 import numpy.random
 
-from ....common.errors import InputError
-from ....common.machine.os_errors import reason_of
+from .....common.errors import InputError
+from .....common.machine.os_errors import reason_of
 from ...flight.base_simulation import NOTHING
 from ...flight.memory import Memory, Snapshot
 from ...flight.simulation import Simulation

@@ -22,9 +22,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ....common.family.ending import end_with_parent
-from ....common.process import leave
-from ....common.scratch import make_folder
+from .....common.family.ending import end_with_parent
+from .....common.process import leave
+from .....common.scratch import make_folder
 from ...loop.library import load_library
 from ..protocol.orders import CHANNEL_CLOSED, NEAR_MEMORY_LIMIT, OUT_OF_MEMORY, Begin, End, Ended, Forget, Learn, Look
 from ..protocol.requests import receive_request, send_request, unpack

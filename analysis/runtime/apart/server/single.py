@@ -6,8 +6,8 @@ import pickle
 import socket
 import sys
 
-from ....common.family.ending import end_after
-from ....common.process import leave
+from .....common.family.ending import end_after
+from .....common.process import leave
 from ...loop.library import load_library
 from ..protocol.messages import Done, send_answer
 from ..protocol.orders import Single

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ....common.errors import InputError
+from .....common.errors import InputError
 from ...fmi.representations import TEXTS
 from ...fmi.variable import Variable
 from ...system.network import Network

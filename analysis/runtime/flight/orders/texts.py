@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....common.errors import InputError
+from .....common.errors import InputError
 from ...fmi.variable import Variable
 from ...loop import arrays
 from ...system.network import Network

@@ -8,8 +8,8 @@ from pathlib import PurePosixPath
 
 from lxml import etree
 
-from ....common.errors import InputError
-from ....common.zips import open_zip, read_entry
+from .....common.errors import InputError
+from .....common.zips import open_zip, read_entry
 from ..archive import SystemArchive
 from ..documents import parse_xml
 from ..fmu_description import DESCRIPTION

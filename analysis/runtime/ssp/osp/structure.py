@@ -10,8 +10,8 @@ from pathlib import PurePosixPath
 
 from lxml import etree
 
-from .....fmus_src.paths import names_fmu
-from ....common.errors import InputError
+from .....common.errors import InputError
+from .....common.paths import names_fmu
 from ..archive import SystemArchive
 from ..conversions import IDENTITY, Transformation
 from ..description import Binding, Component, Connection, Connector, Description, System, is_elsewhere, source_file

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from ....common.errors import InputError
+from .....common.errors import InputError
 from ...ssp.description import Connection, Connector, Description, Element, Point, System
 from ...ssp.dimensions import Shape, element_name, element_names, indices, text_of
 from .shapes import Shapes

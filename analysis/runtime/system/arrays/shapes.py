@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ....common.bounds import ARRAY_ELEMENTS
-from ....common.errors import InputError
+from .....common.bounds import ARRAY_ELEMENTS
+from .....common.errors import InputError
 from ...ssp.description import Component, Connection, Connector, Description, Element, Point, System
 from ...ssp.dimensions import Shape, array_shapes, text_of
 from .sizes import Sizes, walk

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
-from ....common.errors import InputError
+from .....common.errors import InputError
 from ...ssp.archive import SystemArchive
 from ...ssp.description import Component, Description, Element, System
 from ...ssp.dimensions import Dimension

@@ -11,7 +11,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
-from ....common.errors import InputError
+from .....common.errors import InputError
 from ..fmu import Fmu
 from .bundled import MODULE, Bundled, bundled_by, module_digest
 

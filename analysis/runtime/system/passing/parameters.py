@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ....common.errors import InputError, suggestion
+from .....common.errors import InputError, suggestion
 from ...ssp.conversions import VALUE_TYPES
 from ...ssp.given_values import ParameterValue
 from ...ssp.kinds import PARAMETERS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ....common.errors import InputError
+from .....common.errors import InputError
 from ...ssp.conversions import Unit
 from ..network import Network, Node
 

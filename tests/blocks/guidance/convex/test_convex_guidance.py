@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
+from perilune.common.paths import ROOT
 from perilune.fmus_src.guidance.convex import PATIENCE, ConvexGuidance
 from perilune.fmus_src.guidance.zem_zev import ZemZevGuidance
-from perilune.fmus_src.paths import ROOT
 from perilune.fmus_src.runtime import Component
 from perilune.fmus_src.variables import Input, Parameter
 from tests.support.flights.convex_descent import A1, C1, C2, MAXIMUM, approach, settle

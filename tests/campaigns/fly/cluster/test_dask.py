@@ -13,8 +13,8 @@ import perilune
 from perilune.analysis.campaigns.fly.cluster import connection, flights
 from perilune.analysis.campaigns.fly.cluster.sent import refuse_others
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
-from perilune.fmus_src.paths import PACKAGE, SYSTEMS
+from perilune.common.errors import InputError
+from perilune.common.paths import PACKAGE, SYSTEMS
 from tests.support.campaigns.clusters import can_hide, dask_cluster, until
 from tests.support.campaigns.folders import bytes_of, killed_when, shards_in, started
 from tests.support.foreign.coupled import coupled_system
@@ -200,7 +200,7 @@ def other_perilune(folder, change):
 
 
 def changed_source(copy):
-    path = copy / "analysis" / "common" / "progress.py"
+    path = copy / "common" / "progress.py"
     path.write_text(path.read_text() + "\n")
 
 

@@ -20,7 +20,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.reports.campaign.tables import extremes_to_replay, failures_to_replay
 from perilune.analysis.reports.compare.tables import failures_to_replay as compared_failures
 from perilune.analysis.runtime.flight import interruptible
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.paths import SYSTEMS
 
 pytestmark = pytest.mark.usefixtures("fmus")
 SYSTEM = "lunar_terminal_guidance"

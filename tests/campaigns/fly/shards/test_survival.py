@@ -110,7 +110,7 @@ def test_a_killed_parent_is_gone_on_with(whole, tmp_path):
 
 KILLED = """
 import os, pathlib, signal, sys
-from perilune.analysis.common.atomic import whole_file
+from perilune.common.atomic import whole_file
 with whole_file(pathlib.Path(sys.argv[1])) as partial:
     partial.write_bytes(b"PAR1")
     os.kill(os.getpid(), signal.SIGKILL)

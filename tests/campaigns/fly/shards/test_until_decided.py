@@ -12,7 +12,7 @@ import perilune
 from perilune.analysis.campaigns.verdicts.acceptance import Verdict
 from perilune.analysis.campaigns.verdicts.stopping import stopping_rule
 from perilune.analysis.cli import main
-from perilune.fmus_src.paths import SYSTEMS
+from perilune.common.paths import SYSTEMS
 from tests.support.campaigns.folders import bytes_of, shards_in
 
 pytestmark = pytest.mark.usefixtures("fmus")

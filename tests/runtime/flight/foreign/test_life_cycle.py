@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.instances.renewal import Renewal, ResetVerdict
 from perilune.analysis.runtime.instances.reset_check import reset_verdict
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.builders import component, document, fly, pack, system
 from tests.support.foreign.odd_fmu import odd_fmu, odd_system
 

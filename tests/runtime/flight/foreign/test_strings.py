@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pythonfmu import FmuBuilder
 
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.builders import component, connection, dedented, document, fly, pack, system
 
 SPEAKER = """

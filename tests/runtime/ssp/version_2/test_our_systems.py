@@ -15,7 +15,6 @@ import numpy as np
 import pytest
 from lxml import etree
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.analysis.runtime.ssp.dimensions import array_shapes
 from perilune.analysis.runtime.ssp.documents import check_schema
@@ -24,8 +23,9 @@ from perilune.analysis.runtime.ssp.version_2.package import convert_package
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.analysis.verbs.export import export
+from perilune.common.errors import InputError
+from perilune.common.paths import BUILD
 from perilune.fmus_src.export.archive import read_zip, write_zip
-from perilune.fmus_src.paths import BUILD
 from tests.support.builders import fly
 from tests.support.lengths import either
 

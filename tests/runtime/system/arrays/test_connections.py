@@ -6,7 +6,7 @@ Truth: the closed forms of the FMUs; the rules of SSP 2.0 (indices from 1, array
 import numpy as np
 import pytest
 
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.arrays.documents import in_version_2
 from tests.support.builders import component, connection, document, fly, inline, pack, system
 

@@ -8,12 +8,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.ssp.dimensions import Dimension
 from perilune.analysis.runtime.ssp.reading import read_ssd
 from perilune.analysis.runtime.system.arrays.sizes import Sizes
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.common.errors import InputError
 from tests.support.arrays.documents import in_version_2
 from tests.support.builders import component, connection, document, inline, pack, parameter_set, system
 

@@ -6,7 +6,7 @@ Truth: what the FMUs start with; the rules of SSP 2.0 (row by row, as many value
 import numpy as np
 import pytest
 
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.arrays.documents import in_version_2
 from tests.support.builders import component, connection, document, fly, inline, inline_mapping, pack, system
 

@@ -14,12 +14,12 @@ import pytest
 from lxml import etree
 
 import perilune
-from perilune.analysis.common.errors import InputError
 from perilune.analysis.differences.differences import compare_runs
 from perilune.analysis.differences.recorded_run import read_run
 from perilune.analysis.reports.figures.signal_reader import SignalReader
 from perilune.analysis.runtime.system.prepared import prepare_system
-from perilune.fmus_src.paths import ROOT
+from perilune.common.errors import InputError
+from perilune.common.paths import ROOT
 from tests.support.builders import (
     UNITS,
     component,

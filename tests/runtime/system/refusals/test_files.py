@@ -10,8 +10,8 @@ import zipfile
 
 import pytest
 
-from perilune.analysis.common.errors import InputError
-from perilune.analysis.common.zips import open_zip, read_entry
+from perilune.common.errors import InputError
+from perilune.common.zips import open_zip, read_entry
 from tests.support.builders import document, external, inline, mapping, parameter_set, system, write_zip
 from tests.support.refused import PLAIN, RAMP, ssp
 

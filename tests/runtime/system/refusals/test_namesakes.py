@@ -18,7 +18,7 @@ from pythonfmu import FmuBuilder
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.common.errors import InputError
+from perilune.common.errors import InputError
 from tests.support.builders import component, document, pack, system, write_zip
 from tests.support.foreign import lag
 from tests.support.foreign.library import library

@@ -1,4 +1,4 @@
-"""The ways of simulating a system that `perilune benchmark` times: this project's loop and FMPy."""
+"""The ways of simulating a system with nothing else installed: this project's loop and FMPy."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import Parameter, ParameterSet
 
-from ..common.errors import InputError
-from ..runtime.flight.simulation import Simulation
-from ..runtime.system.fmu import Fmu
-from ..runtime.system.options import FUSED
-from .contestant import Contestant, Course, Fly, Unavailable, Values, both_flavours
+from perilune.analysis.runtime.flight.simulation import Simulation
+from perilune.analysis.runtime.system.fmu import Fmu
+from perilune.analysis.runtime.system.options import FUSED
+from perilune.common.errors import InputError
+
+from ..contestant import Contestant, Course, Fly, Unavailable, Values
 
 
 def prepare_loop(course: Course, algorithm: str = "sequential", flavour: str | None = None) -> Fly:
@@ -191,7 +192,3 @@ FUSED_STEPS = Contestant(
     partial(prepare_loop, flavour=FUSED),
     exact=True,
 )
-CONTESTANTS = (*both_flavours(FMPY_SSP, FMPY_CALLS, *LOOPS), FUSED_STEPS)
-MODULE = __name__
-# What the others are compared with, by flavour.
-OURS = {"python": "perilune_python", "native": "perilune_native"}

@@ -8,12 +8,12 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from perilune.analysis.benchmark.contestant import Course, Fly, Unavailable, Values
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import FLAGS, PLATFORMS, CompilerMissing, compilers_for, local_platform
 from perilune.fmus_src.export.native_fmu import C_FILES
 
+from ..contestant import Course, Fly, Unavailable, Values
 from .fused_component import Part, write_part
 from .fused_main import FILE, write_main
 

@@ -8,8 +8,9 @@ from pathlib import Path
 
 from lxml import etree
 
-from perilune.analysis.benchmark.contestant import Course, Fly, Unavailable, Values
 from perilune.fmus_src.export.ssp_package import DESCRIPTION, SSD_NAMESPACE
+
+from ..contestant import Course, Fly, Unavailable, Values
 
 OSP = "http://opensimulationplatform.com/SSP/OSPAnnotations"
 COMMON = "http://ssp-standard.org/SSP1/SystemStructureCommon"

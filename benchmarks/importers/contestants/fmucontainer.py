@@ -10,7 +10,7 @@ from pathlib import Path
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
-from perilune.analysis.benchmark.contestant import Course, Fly, Unavailable, Values
+from ..contestant import Course, Fly, Unavailable, Values
 
 
 def prepare(course: Course, sequential: bool = False) -> Fly:

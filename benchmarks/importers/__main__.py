@@ -6,10 +6,10 @@ import argparse
 import json
 from pathlib import Path
 
-from perilune.analysis.benchmark.measure import run_benchmark
-from perilune.analysis.benchmark.table import benchmark_text
+from perilune.common.errors import ExitStatus, InputError
 
-CONTESTANTS = "benchmarks.contestants"
+from .measure import run_benchmark
+from .table import benchmark_text
 
 
 def main() -> None:
@@ -19,7 +19,10 @@ def main() -> None:
     parser.add_argument("--repeats", type=int, default=5, help="simulations that are timed")
     parser.add_argument("--json", type=Path, help="file of the JSON document")
     options = parser.parse_args()
-    document = run_benchmark(steps=options.steps, repeats=options.repeats, contestants=CONTESTANTS)
+    try:
+        document = run_benchmark(steps=options.steps, repeats=options.repeats)
+    except InputError as error:
+        parser.exit(ExitStatus.REFUSED, f"{error}\n")
     print(benchmark_text(document))
     if options.json is not None:
         options.json.write_text(json.dumps(document, indent=2), encoding="utf-8")

@@ -14,12 +14,12 @@ import time
 from pathlib import Path
 from typing import Any
 
-from ..campaigns.fly.runner import run_batch
-from ..campaigns.spec.plan import read_plan
-from ..common.family.ending import end_with_parent
-from ..runtime.system.options import SystemOptions
+from perilune.analysis.campaigns.fly.runner import run_batch
+from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.common.family.ending import end_with_parent
+
 from .contestant import Unavailable
-from .importers import MODULE
 
 
 class WorkerError(Exception):
@@ -27,15 +27,15 @@ class WorkerError(Exception):
 
 
 class Worker:
-    """A contestant of a module, by name, in a process of its own; use it as a context manager."""
+    """A contestant by name, in a process of its own; use it as a context manager."""
 
-    def __init__(self, contestant: str, ssp: Path, module: str = MODULE) -> None:
+    def __init__(self, contestant: str, ssp: Path) -> None:
         self.contestant = contestant
         ending = f"from {end_with_parent.__module__} import end_with_parent; end_with_parent({os.getpid()})"
         start = f"{ending}; from {__package__}.serve import main; main()"
-        command = [sys.executable, "-c", start, contestant, str(ssp), module]
+        command = [sys.executable, "-c", start, contestant, str(ssp)]
         # it ends without clearing up: what it unpacks lies beside the .ssp and goes with it
-        paths = os.pathsep.join(filter(None, sys.path))  # where the module is
+        paths = os.pathsep.join(filter(None, sys.path))  # where this module is
         environment = {**os.environ, "TMPDIR": tempfile.mkdtemp(dir=ssp.parent), "PYTHONPATH": paths}
         self._process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment

@@ -7,7 +7,7 @@ import subprocess
 from importlib.metadata import distribution
 from pathlib import Path
 
-from ....fmus_src.paths import IS_CHECKOUT, ROOT
+from ..paths import IS_CHECKOUT, ROOT
 
 DIGITS = 12
 ORIGIN = "direct_url.json"  # what pip installed a package from (PEP 610)

@@ -6,13 +6,14 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from perilune.analysis.benchmark.contestant import Unavailable
 from perilune.analysis.runtime.ssp.parameter_sets import ParameterValue
 from perilune.analysis.runtime.system.fmu import Fmu
 from perilune.fmus_src.block import Block, Output, State
 from perilune.fmus_src.export.native_fmu import native_guid
 from perilune.fmus_src.export.write.names import literal, member
 from perilune.fmus_src.export.write.translate import FOOTER, translate
+
+from ..contestant import Unavailable
 
 WRAPPER = FOOTER.format(fmi=2)
 BLOCK = re.compile(r"^typedef (\w+) Block;", re.MULTILINE)

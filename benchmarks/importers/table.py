@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .importers import OURS
+from .contestant import OURS
 
 
 def benchmark_text(document: dict[str, Any]) -> str:

@@ -1,11 +1,10 @@
-"""All importers that are compared: those of `perilune benchmark`, libcosim, fmucontainer, and the fused limit."""
+"""All importers that are compared: our loop, FMPy, libcosim, fmucontainer, and the fused limit."""
 
 from functools import partial
 
-from perilune.analysis.benchmark.contestant import Contestant, both_flavours
-from perilune.analysis.benchmark.importers import FMPY_CALLS, FMPY_SSP, FUSED_STEPS, LOOPS
-
+from ..contestant import Contestant, both_flavours
 from . import fmucontainer, fused_limit, libcosim
+from .loop_and_fmpy import FMPY_CALLS, FMPY_SSP, FUSED_STEPS, LOOPS
 
 WAYS = (
     FMPY_SSP,

@@ -12,8 +12,8 @@ import warnings
 from collections.abc import Callable
 from pathlib import Path
 
-from ....fmus_src.paths import CACHE
 from ..atomic import write_atomically
+from ..paths import CACHE
 from ..scratch import make_folder
 from .os_errors import reason_of, remedy_of
 

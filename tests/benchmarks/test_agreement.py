@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from perilune.analysis.benchmark.contestant import Contestant, Course
-from perilune.analysis.benchmark.times import Times, compute_promised_ratios, disagreements
+from benchmarks.importers.contestant import Contestant, Course
+from benchmarks.importers.times import Times, compute_promised_ratios, disagreements
 
 
 def contestant(name: str, algorithm: str | None = "sequential", exact: bool = False) -> Contestant:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from perilune.analysis.benchmark.contestant import Course
 from perilune.analysis.runtime.system.network import Link
 from perilune.analysis.runtime.system.prepared import PreparedSystem
 
+from ..contestant import Course
 from .fused_component import Part
 
 FILE = "fused.c"

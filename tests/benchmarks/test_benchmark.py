@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import json
+import os
+import sys
 from pathlib import Path
 
 import pytest
 
-import benchmarks.contestants
-from benchmarks.contestants import CONTESTANTS
-from perilune.analysis import cli
-from perilune.analysis.benchmark import importers, worker
-from perilune.analysis.benchmark.measure import run_benchmark
-from perilune.analysis.benchmark.table import benchmark_text
-from perilune.analysis.common.errors import InputError
+from benchmarks.importers import worker
+from benchmarks.importers.__main__ import main
+from benchmarks.importers.contestants import CONTESTANTS
+from benchmarks.importers.measure import run_benchmark
+from benchmarks.importers.table import benchmark_text
+from perilune.common.paths import ROOT
+from tests.support.interrupts import descendants, seconds_until_gone, started, wait_for
 from tests.support.lengths import either
 
 PROMISED_TIMES = {
@@ -40,13 +41,10 @@ FLOWN = either(CONTESTANTS, [each for each in CONTESTANTS if each.name in {*PROM
 
 
 @pytest.mark.slow
-def test_a_tiny_run_has_every_contestant_and_all_agree(
-    fmus: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_tiny_run_has_every_contestant_and_all_agree(fmus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(worker, "SECONDS", 0.0)
     monkeypatch.setattr(worker, "LEAST", 4)
-    monkeypatch.setattr(benchmarks.contestants, "CONTESTANTS", FLOWN)
-    document = run_benchmark(steps=30, repeats=1, contestants="benchmarks.contestants")
+    document = run_benchmark(steps=30, repeats=1, contestants=FLOWN)
 
     # Who does not agree with our loop on the values at the end, `fused_limit` to the last bit, is listed here.
     assert document["unavailable"] == {}
@@ -65,21 +63,24 @@ def test_a_tiny_run_has_every_contestant_and_all_agree(
 
 
 @pytest.mark.slow
-def test_the_command_times_what_comes_with_the_package(fmus, capsys, monkeypatch):
-    monkeypatch.setattr(worker, "SECONDS", 0.0)
-    monkeypatch.setattr(worker, "LEAST", 4)
-    assert cli.main(["benchmark", "--steps", "30", "--repeats", "1", "--json", "-"]) == 0
-    document = json.loads(capsys.readouterr().out)
-    assert document["unavailable"] == {}
-    assert list(document["microseconds_per_step"]) == [each.name for each in importers.CONTESTANTS]
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+@pytest.mark.usefixtures("fmus")
+def test_no_contestant_outlives_it(tmp_path: Path) -> None:
+    """Truth: the operating system's list of its descendants, whose flights take minutes."""
+    path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
+    with started((), tmp_path, {"PYTHONPATH": path}, module="benchmarks.importers") as command:
+        wait_for(command, lambda lines: any("importers.serve" in line for line in lines))
+        family = descendants(command)
+        command.kill()
+        assert not seconds_until_gone(family, 30.0)[1]
 
 
 @pytest.mark.parametrize(("steps", "repeats"), [(1, 5), (2500, 0)])
-def test_too_few_steps_or_repeats_are_refused(steps: int, repeats: int) -> None:
-    with pytest.raises(InputError, match="too few"):
-        run_benchmark(steps=steps, repeats=repeats)
-
-
-def test_an_unknown_system_is_refused() -> None:
-    with pytest.raises(InputError, match="no such system"):
-        run_benchmark("lunar_terminal_guidence")
+def test_too_few_steps_or_repeats_are_refused(
+    steps: int, repeats: int, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "argv", ["importers", "--steps", str(steps), "--repeats", str(repeats)])
+    with pytest.raises(SystemExit) as stop:
+        main()
+    assert stop.value.code == 2
+    assert capsys.readouterr().err == f"benchmark: {steps} steps, {repeats} repeats: too few; give 2 and 1 at least\n"

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from ..common.errors import InputError
-from ..runtime.ssp.conversions import IDENTITY
-from ..runtime.ssp.given_values import ParameterValue
-from ..runtime.system.network import Link
-from ..runtime.system.prepared import PreparedSystem, prepare_system
+from perilune.analysis.runtime.ssp.conversions import IDENTITY
+from perilune.analysis.runtime.ssp.given_values import ParameterValue
+from perilune.analysis.runtime.system.network import Link
+from perilune.analysis.runtime.system.prepared import PreparedSystem, prepare_system
+from perilune.common.errors import InputError
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,8 @@ def _is_plain(link: Link) -> bool:
     )
 
 
+# What the others are compared with, by flavour.
+OURS = {"python": "perilune_python", "native": "perilune_native"}
 Values = dict[str, float]
 Fly = Callable[[int], Values]
 

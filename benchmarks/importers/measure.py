@@ -6,31 +6,30 @@ import platform
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 from loky import cpu_count
 
-from ...fmus_src.export.available import fmu_file
-from ...fmus_src.export.ssp_package import list_fmus, pack_system
-from ...fmus_src.paths import SYSTEMS, shipped_fmu
-from ..common.errors import InputError, suggestion
-from ..common.progress import progress_bar
-from ..runtime.ssp.archive import system_names
-from .contestant import Contestant, Course, Unavailable, Values
-from .importers import MODULE, OURS
+from perilune.common.errors import InputError
+from perilune.common.paths import SYSTEMS, shipped_fmu
+from perilune.common.progress import progress_bar
+from perilune.fmus_src.export.available import fmu_file
+from perilune.fmus_src.export.ssp_package import list_fmus, pack_system
+
+from .contestant import OURS, Contestant, Course, Unavailable, Values
+from .contestants import CONTESTANTS
 from .times import Times, compute_promised_ratios, disagreements
 from .worker import ROUNDS, Worker, WorkerError, trials_per_second
 
+SYSTEM = "lunar_terminal_guidance"
+
 
 def run_benchmark(
-    system: str = "lunar_terminal_guidance", steps: int = 2500, repeats: int = 5, contestants: str = MODULE
+    steps: int = 2500, repeats: int = 5, contestants: Sequence[Contestant] = CONTESTANTS
 ) -> dict[str, Any]:
-    """Time a communication step of every contestant; ``system`` is a name under ssp_systems.
-
-    ``contestants`` is a module with a list `CONTESTANTS`.
+    """Time a communication step of `SYSTEM` with every contestant.
 
     Each contestant has a process of its own; in every repeat each flies one step and then
     ``steps`` steps, and the difference is what the steps cost, without reading, instantiation
@@ -38,16 +37,13 @@ def run_benchmark(
     """
     if steps < 2 or repeats < 1:
         raise InputError("benchmark", f"{steps} steps, {repeats} repeats", "too few", "give 2 and 1 at least")
-    if system not in system_names():
-        raise InputError("benchmark", system, "no such system", suggestion(system, system_names()))
-    listed: tuple[Contestant, ...] = import_module(contestants).CONTESTANTS
     unavailable: dict[str, str] = {}
     trials: dict[str, dict[str, float]] = {}
     with tempfile.TemporaryDirectory(prefix="perilune_benchmark_") as folder:
-        archives = _pack(system, Path(folder), listed, unavailable)
+        archives = _pack(Path(folder), contestants, unavailable)
         prepared = Course(next(iter(archives.values()))).prepared
-        with _workers(archives, contestants, listed, unavailable) as workers:
-            times = _fly_in_turn(workers, listed, steps, repeats, unavailable)
+        with _workers(archives, contestants, unavailable) as workers:
+            times = _fly_in_turn(workers, contestants, steps, repeats, unavailable)
         for flavour, archive in archives.items():
             if OURS[flavour] in times:
                 try:
@@ -56,9 +52,9 @@ def run_benchmark(
                     )
                 except (Unavailable, WorkerError) as reason:
                     unavailable[f"trials per second, {flavour} FMUs"] = str(reason)
-    flavours = {each.name: each.flavour for each in listed}
+    flavours = {each.name: each.flavour for each in contestants}
     return {
-        "system": system,
+        "system": SYSTEM,
         "step": prepared.step,
         "steps": steps,
         "repeats": repeats,
@@ -73,39 +69,39 @@ def run_benchmark(
         "promised_ratios": compute_promised_ratios(times, trials),
         "trials_per_second": trials,
         "unavailable": unavailable,
-        "what": {each.name: each.what for each in listed},
+        "what": {each.name: each.what for each in contestants},
         "flavours": flavours,
         "machine": machine(),
         "versions": versions(),
     }
 
 
-def _pack(system: str, folder: Path, listed: Sequence[Contestant], unavailable: dict[str, str]) -> dict[str, Path]:
+def _pack(folder: Path, contestants: Sequence[Contestant], unavailable: dict[str, str]) -> dict[str, Path]:
     """The system with the FMUs of each flavour that is built; reasons go to ``unavailable``."""
     archives: dict[str, Path] = {}
     for flavour in OURS:
         try:
-            files = [fmu_file(Path(source).stem, flavour) for source in list_fmus(SYSTEMS / system)]
+            files = [fmu_file(Path(source).stem, flavour) for source in list_fmus(SYSTEMS / SYSTEM)]
             folders = [*dict.fromkeys(path.parent for path in files if path), shipped_fmu("x", flavour).parent]
-            archives[flavour] = pack_system(SYSTEMS / system, folders, folder / flavour)
+            archives[flavour] = pack_system(SYSTEMS / SYSTEM, folders, folder / flavour)
         except ValueError as error:
-            unavailable |= {each.name: str(error) for each in listed if each.flavour == flavour}
+            unavailable |= {each.name: str(error) for each in contestants if each.flavour == flavour}
     if not archives:
-        raise InputError("benchmark", system, "not all of its FMUs are built", "run build_fmus.py")
+        raise InputError("benchmark", SYSTEM, "not all of its FMUs are built", "run build_fmus.py")
     return archives
 
 
 @contextmanager
 def _workers(
-    archives: dict[str, Path], module: str, listed: Sequence[Contestant], unavailable: dict[str, str]
+    archives: dict[str, Path], contestants: Sequence[Contestant], unavailable: dict[str, str]
 ) -> Iterator[dict[str, Worker]]:
     """A worker for every contestant that can fly; the others' reasons go to ``unavailable``."""
     with ExitStack() as stack:
         workers: dict[str, Worker] = {}
-        for contestant in listed:
+        for contestant in contestants:
             if contestant.flavour in archives:
                 try:
-                    worker = Worker(contestant.name, archives[contestant.flavour], module)
+                    worker = Worker(contestant.name, archives[contestant.flavour])
                 except (Unavailable, WorkerError) as reason:
                     unavailable[contestant.name] = str(reason)
                 else:
@@ -115,7 +111,7 @@ def _workers(
 
 def _fly_in_turn(
     workers: dict[str, Worker],
-    listed: Sequence[Contestant],
+    contestants: Sequence[Contestant],
     steps: int,
     repeats: int,
     unavailable: dict[str, str],
@@ -139,7 +135,7 @@ def _fly_in_turn(
                 else:
                     times[name].add(short["seconds"], long["seconds"])
             if repeat == 0:
-                unavailable |= disagreements(listed, final)
+                unavailable |= disagreements(contestants, final)
     return {name: each for name, each in times.items() if name not in unavailable}
 
 

@@ -8,13 +8,14 @@ import os
 import sys
 import time
 from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from ..common.errors import InputError
-from ..common.process import leave
+from perilune.common.errors import InputError
+from perilune.common.process import leave
+
 from .contestant import Course, Fly, Unavailable
+from .contestants import CONTESTANTS
 from .worker import fly_batch
 
 # Flights are repeated until there are so many and so much time has passed: some take long to start, and unevenly.
@@ -36,13 +37,13 @@ def _turn(fly: Fly, steps: int) -> dict[str, Any]:
     return {"seconds": best, "values": values}
 
 
-def _serve(answer: Callable[[dict[str, Any]], None], name: str, ssp: Path, module: str) -> None:
+def _serve(answer: Callable[[dict[str, Any]], None], name: str, ssp: Path) -> None:
     if name == "batch":
         answer({})
         for line in sys.stdin:
             answer({"seconds": fly_batch(ssp, **json.loads(line))})
         return
-    contestant = next(each for each in import_module(module).CONTESTANTS if each.name == name)
+    contestant = next(each for each in CONTESTANTS if each.name == name)
     fly = contestant.prepare(Course(ssp))
     answer({})
     for line in sys.stdin:
@@ -61,7 +62,7 @@ def main() -> None:
 
         status = 0
         try:
-            _serve(answer, sys.argv[1], Path(sys.argv[2]), sys.argv[3])
+            _serve(answer, sys.argv[1], Path(sys.argv[2]))
         except (Unavailable, InputError) as reason:
             answer({"unavailable": str(reason)})
         except Exception as error:  # a peer may raise anything; the benchmark goes on without it

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.contestants import fused_limit
-from perilune.analysis.benchmark.contestant import Course, Unavailable
-from perilune.analysis.benchmark.importers import prepare_loop
+from benchmarks.importers.contestant import Course, Unavailable
+from benchmarks.importers.contestants import fused_limit
+from benchmarks.importers.contestants.loop_and_fmpy import prepare_loop
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import blocks_in_file
 from tests.support.builders import component, connection, document, inline, pack, retouched, system

@@ -1,1 +1,0 @@
-"""What all rooms use: errors, atomic files, progress, percentages, output streams."""
