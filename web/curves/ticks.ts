@@ -2,7 +2,7 @@
 
 import type uPlot from "uplot";
 
-import type { Axis } from "../page/document";
+import type { Axis } from "../generated/charts";
 import { format } from "../page/numbers";
 import { linearSplits, logarithmicSplits } from "./splits";
 

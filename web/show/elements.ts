@@ -1,7 +1,7 @@
 // Pieces of the page that its figures share: choices, names of quantities, colours.
 
 import { make } from "../page/elements";
-import type { Quantity } from "./document";
+import type { Quantity } from "../generated/documents";
 
 export function choice(label: string, options: string[], chosen: number, onChange: (index: number) => void): HTMLLabelElement {
   const select = make("select");
