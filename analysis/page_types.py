@@ -10,7 +10,7 @@ from __future__ import annotations
 import inspect
 import json
 import types
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, NotRequired, Union, get_args, get_origin, get_type_hints, is_typeddict
@@ -21,6 +21,8 @@ import numpy as np
 from ..fmus_src.paths import ROOT
 from .reports.campaign.embedded_flights import RecordedDocument
 from .reports.campaign.embedded_trials import TrialsDocument
+from .reports.common import colours
+from .reports.common.colours import FAINT, GRID, INK, SHADES, SHIP
 from .reports.interactive.charts import Chart
 from .reports.interactive.columns import Coarse, Packed
 from .reports.interactive.embedded import is_optional
@@ -60,7 +62,7 @@ class Member(NamedTuple):
 
 def write_types(folder: Path = GENERATED) -> None:
     """Write the files that differ from what is there, and remove others."""
-    texts = translate(ROOTS)
+    texts = generate()
     folder.mkdir(exist_ok=True)
     for path in folder.glob("*.ts"):
         if path.name not in texts:
@@ -69,6 +71,20 @@ def write_types(folder: Path = GENERATED) -> None:
         path = folder / name
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
+
+
+def generate() -> dict[str, str]:
+    """Return the files by name: the interfaces of `ROOTS`, and colours."""
+    constants: dict[str, Mapping[str, object]] = {
+        "SHADES": SHADES,
+        "SHIP": SHIP,
+        "FIGURE": {"ink": INK, "faint": FAINT, "grid": GRID},
+    }
+    tables = []
+    for name, table in constants.items():
+        entries = "".join(f"  {key}: {json.dumps(colour)},\n" for key, colour in table.items())
+        tables.append(f"export const {name} = {{\n{entries}}} as const;\n")
+    return translate(ROOTS) | {"colours.ts": "\n".join([_head(colours.__name__), *tables])}
 
 
 def translate(roots: Sequence[type]) -> dict[str, str]:
@@ -131,8 +147,7 @@ def _write_file(module: str, classes: Sequence[type]) -> str:
         for each in (each for member in _members(declared) for each in _named(member.type)):
             if each.__module__ != module:
                 imported.setdefault(_file_of(each.__module__), set()).add(each.__name__)
-    path = module.removeprefix("perilune.").replace(".", "/")
-    lines = [f"// Written by build_web.py from {path}.py."] + [""] * bool(imported)
+    lines = [_head(module).rstrip()] + [""] * bool(imported)
     lines += [
         f'import type {{ {", ".join(sorted(names))} }} from "./{file}";' for file, names in sorted(imported.items())
     ]
@@ -176,6 +191,11 @@ def _translate_type(hint: Any, member: str) -> str:
     if origin is dict:
         return f"Record<{', '.join(translated)}>"
     raise UntranslatableError(f"{member}: {hint} has no counterpart in TypeScript; declare str, float, a list, ...")
+
+
+def _head(module: str) -> str:
+    path = module.removeprefix("perilune.").replace(".", "/")
+    return f"// Written by build_web.py from {path}.py.\n"
 
 
 def _file_of(module: str) -> str:
