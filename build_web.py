@@ -1,7 +1,8 @@
 """Bundles the scripts of report pages to build/web/bundles, from web/*.ts and the packages of web/package-lock.json.
 
-Each web/NAME.ts becomes NAME.js by esbuild, with everything that it imports: the same bytes each time. npm is asked
-only where the lock has changed, esbuild where a source has. Without npm there are no bundles: pages are then static.
+Before, `analysis/page_types.py` writes web/generated. Each web/NAME.ts becomes NAME.js by esbuild, with everything that
+it imports: the same bytes each time. npm is asked only where the lock has changed, esbuild where a source has. Without
+npm there are no bundles: pages are then static.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ import subprocess
 import sys
 from collections.abc import Iterable
 from pathlib import Path
+
+from perilune.analysis.page_types import write_types
 
 ROOT = Path(__file__).resolve().parent
 SOURCES = ROOT / "web"
@@ -50,6 +53,7 @@ def main() -> int:
     parser.add_argument("--tools", action="store_true", help="install what tests need, and check types")
     parser.add_argument("--require", action="store_true", help="exit with status 1 without npm, too")
     options = parser.parse_args()
+    write_types()
     try:
         install(tools=options.tools)
         bundle(options.output, check=options.tools)

@@ -3,11 +3,10 @@
 import { readPage } from "./page/document";
 import { make } from "./page/elements";
 import { CampaignView } from "./show/campaign";
-import type { Document } from "./show/document";
 import { choice } from "./show/elements";
 
 function start(): void {
-  const content = readPage()?.document.show as Document | undefined;
+  const content = readPage()?.document.show;
   const main = document.getElementById("show");
   if (!content || !main) return;
   const area = make("div");

@@ -20,7 +20,7 @@ from .common.panels import Panel, swatch
 from .common.quantities import display_factor, label_with_unit, number
 from .common.signals import SignalGroup, distinct, signal_groups, states_and_commands
 from .common.style import FAINT, house_style, look, new_figure, plain_ticks
-from .interactive.charts import Chart, Note
+from .interactive.charts import NO_BOX, Chart, Note
 
 HEIGHT = 1.9  # in, of a panel on the page
 PLOT_HEIGHT, PLOT_WIDTH = 2.0, 6.8  # in, of a panel in a figure of its own
@@ -148,9 +148,9 @@ def history_chart(group: SignalGroup, result: Result) -> Chart:
     abscissa = linear_axis(axis_ends(seen), 5, label="time, s")
     if group.type == "Boolean":
         ordinate = named_axis((-0.15, 1.15), [(0.0, "false"), (1.0, "true")])
-        return Chart([], abscissa, ordinate, False, curves, [], [], [], [])
+        return Chart(NO_BOX, abscissa, ordinate, curves=curves)
     ends, notes = _ends(factor * values) if group.is_real else (axis_ends(values), [])
-    return Chart([], abscissa, linear_axis(ends, 4, integer=not group.is_real), False, curves, [], [], [], notes)
+    return Chart(NO_BOX, abscissa, linear_axis(ends, 4, integer=not group.is_real), curves=curves, notes=notes)
 
 
 def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[Note]]:
@@ -171,7 +171,7 @@ def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[Note]]:
 
 
 def _note(text: str, at: tuple[float, float], align: tuple[str, str], size: float) -> Note:
-    return Note(text, at, (True, True), (0.0, 0.0), align, FAINT, size, bold=False, backing=None)
+    return Note(text, at, (True, True), (0.0, 0.0), align, FAINT, size)
 
 
 def signal_plot(result: Result, names: Sequence[str]) -> Figure:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from .columns import Binned, BinnedColumns
+from .documents import Counts, GridCounts, HistogramCounts, RangeEnds, ScaleDocument
 from .dots import DOT_LIMIT, dots_of
 from .query import Query, Range
 from .scale import BARS, BINS, CHUNK, CODES, SHIFT
@@ -38,7 +38,7 @@ class Counter:
                 mask = mask & rows
         return mask
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> Counts:
         """All counts, for the page: every figure of the trials that the ranges of other columns select."""
         mask = self.selected()
         return {
@@ -48,13 +48,14 @@ class Counter:
             "grids": [self._grid(x, y) for x, y in self.query.grids],
         }
 
-    def _outcomes(self, mask: np.ndarray) -> list[list[int]]:
+    def _outcomes(self, mask: np.ndarray) -> list[tuple[int, int]]:
         """Failures and successes of each variant (variants, 2)."""
-        return self._by_variant(mask, self._success, 2)
+        return [(failures, successes) for failures, successes in self._by_variant(mask, self._success, 2)]
 
-    def _histograms(self) -> list[dict[str, Any]]:
+    def _histograms(self) -> list[HistogramCounts]:
         """Counts of each variant over the bars, as many columns at a time as memory may have."""
-        histograms, size = [], self._binned.limit
+        histograms: list[HistogramCounts] = []
+        size = self._binned.limit
         for first in range(0, len(self.query.histograms), size):
             group = self.query.histograms[first : first + size]
             columns = self._get(group)
@@ -78,18 +79,20 @@ class Counter:
         binned = self._binned.get([self._names[index] for index in indices])
         return {index: binned[self._names[index]] for index in indices}
 
-    def _grid(self, x: int, y: int) -> dict[str, Any]:
+    def _grid(self, x: int, y: int) -> GridCounts:
         """Counts and failures over two columns (BARS, BARS), rows from the bottom; or the dots of few trials."""
         mask = self.selected(x, y)
         mask = mask & (self._codes(x) < BINS) & (self._codes(y) < BINS)
-        scales = {"x": scale_document(self._columns[x]), "y": scale_document(self._columns[y])}
+        scales: GridCounts = {"x": scale_document(self._columns[x]), "y": scale_document(self._columns[y])}
         rows = np.flatnonzero(mask)
         if rows.size <= DOT_LIMIT:
             variants = self.campaign.variant_numbers[rows]
-            return scales | dots_of(rows, self._codes(x)[rows], self._codes(y)[rows], self._success[rows], variants)
+            dots = dots_of(rows, self._codes(x)[rows], self._codes(y)[rows], self._success[rows], variants)
+            return {**scales, "dots": dots}
         squares = (self._codes(y)[rows] >> SHIFT).astype(np.intp) * BARS + (self._codes(x)[rows] >> SHIFT)
         failures = np.bincount(squares[~self._success[rows]], minlength=BARS * BARS)
-        return scales | {
+        return {
+            **scales,
             "counts": np.bincount(squares, minlength=BARS * BARS).tolist(),
             "failures": failures.tolist(),
         }
@@ -101,10 +104,10 @@ class Counter:
         codes = self._codes(each.column)
         return (codes >= each.first) & (codes <= each.last)
 
-    def _ends(self, each: Range) -> dict[str, float] | None:
-        """The ends of a range in SI, ``low`` included, ``high`` not; None of a column without a finite number.
+    def _ends(self, each: Range) -> RangeEnds | None:
+        """The ends of a range; None of a column without a finite number.
 
-        ``step`` is the width of the narrower one of the bins at the ends.
+        The step is the width of the narrower one of the bins at the ends.
         """
         scale = self._columns[each.column].scale
         if scale is None:
@@ -125,7 +128,7 @@ class Counter:
         return mask & chosen[self.campaign.variant_numbers]
 
 
-def scale_document(column: Binned) -> dict[str, float] | None:
+def scale_document(column: Binned) -> ScaleDocument | None:
     """A scale for the page; None where no number is finite."""
     scale = column.scale
     return None if scale is None else {"low": scale.low, "high": scale.high, "knee": scale.knee}

@@ -10,23 +10,20 @@ from typing import Any
 import numpy as np
 
 from .campaign import OpenCampaign
+from .documents import DotsDocument, TrialEntry
 
 DOT_LIMIT = 20_000  # trials that a figure shows one by one
 TABLE_LIMIT = 50  # rows of the table of selected trials
 
 
-def dots_of(
-    rows: np.ndarray, x: np.ndarray, y: np.ndarray, success: np.ndarray, variants: np.ndarray
-) -> dict[str, Any]:
-    """Row numbers, bins, outcomes and variants of trials (dots,) as little-endian integers in base64."""
+def dots_of(rows: np.ndarray, x: np.ndarray, y: np.ndarray, success: np.ndarray, variants: np.ndarray) -> DotsDocument:
+    """Row numbers, bins, outcomes and variants of trials (dots,)."""
     return {
-        "dots": {
-            "rows": _text(rows.astype("<u4")),
-            "x": _text(x.astype("<u2")),
-            "y": _text(y.astype("<u2")),
-            "success": _text(success.astype("u1")),
-            "variants": _text(variants.astype("<u2")),
-        }
+        "rows": _text(rows.astype("<u4")),
+        "x": _text(x.astype("<u2")),
+        "y": _text(y.astype("<u2")),
+        "success": _text(success.astype("u1")),
+        "variants": _text(variants.astype("<u2")),
     }
 
 
@@ -34,18 +31,15 @@ def _text(numbers: np.ndarray) -> str:
     return base64.b64encode(numbers.tobytes()).decode("ascii")
 
 
-def trials_document(campaign: OpenCampaign, rows: Sequence[int], names: Sequence[str]) -> list[dict[str, Any]]:
-    """Trials with the command that simulates each again, and some of its numbers: null is nan, text infinite.
-
-    Raises InputError for damaged files.
-    """
+def trials_document(campaign: OpenCampaign, rows: Sequence[int], names: Sequence[str]) -> list[TrialEntry]:
+    """Return trials with some of their numbers. Raises InputError for damaged files."""
     return [
         {
             "row": row,
-            "trial": entries["trial"],
-            "variant": entries["variant"],
+            "trial": int(str(entries["trial"])),
+            "variant": str(entries["variant"]),
             "success": bool(entries["success"]),
-            "status": entries["status"],
+            "status": str(entries["status"]),
             "command": campaign.command(str(entries["variant"]), int(str(entries["trial"]))),
             "numbers": [_exact(entries[name]) for name in names],
         }

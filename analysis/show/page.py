@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from ...common.errors import InputError
 from ..reports.common.colours import COLOURS
@@ -12,7 +11,7 @@ from ..reports.common.page import render_page
 from ..reports.common.quantities import display_factor, display_unit
 from ..reports.interactive.bundles import MISSING, read_bundle
 from .campaign import OpenCampaign
-from .dots import TABLE_LIMIT
+from .documents import Campaign, ShowDocument
 from .scale import BARS, BINS
 
 BUNDLE = "show"
@@ -25,15 +24,17 @@ def show_page(campaigns: Sequence[OpenCampaign]) -> str:
         problem, _, remedy = MISSING.partition(": ")
         raise InputError("perilune show", "", problem, remedy.rstrip("."))
     template = Path(__file__).with_name("show.html")
-    documents = [_document(campaign) for campaign in campaigns]
+    document: ShowDocument = {
+        "campaigns": [_document(campaign) for campaign in campaigns],
+        "bins": BINS,
+        "bars": BARS,
+        "figures": FIRST_FIGURES,
+    }
     style = template.with_name("show.css").read_text(encoding="utf-8")
-    sizes = {"bins": BINS, "bars": BARS, "figures": FIRST_FIGURES, "rows": TABLE_LIMIT}
-    return render_page(
-        template, title="Campaigns", document={"campaigns": documents, **sizes}, own_style=style, bundle=BUNDLE
-    )
+    return render_page(template, title="Campaigns", document=document, own_style=style, bundle=BUNDLE)
 
 
-def _document(campaign: OpenCampaign) -> dict[str, Any]:
+def _document(campaign: OpenCampaign) -> Campaign:
     provenance = campaign.source.provenance
     return {
         "folder": campaign.source.folder.name,

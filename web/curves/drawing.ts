@@ -2,7 +2,8 @@
 
 import type uPlot from "uplot";
 
-import type { Chart, Marker, Note, Page, Rule, Values } from "../page/document";
+import type { Chart, Marker, Note, Rule } from "../generated/charts";
+import type { Page, Values } from "../page/document";
 import { type Series, lowerBound } from "./series";
 import { FAINT, fontOf } from "./ticks";
 

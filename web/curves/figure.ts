@@ -1,6 +1,7 @@
 // One figure of the page: its charts over its picture, which remains for print and gives the size.
 
-import type { Axis, Chart, Page } from "../page/document";
+import type { Axis, Chart } from "../generated/charts";
+import type { Page } from "../page/document";
 import type { SharedAxis } from "./axis";
 import { markCursor } from "./marker";
 import { type Place, Plot } from "./plot";

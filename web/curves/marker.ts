@@ -1,6 +1,6 @@
 // The cursor over a figure that remains a picture.
 
-import type { Axis, Chart } from "../page/document";
+import type { Axis, Chart } from "../generated/charts";
 import type { SharedAxis } from "./axis";
 
 export function markCursor(picture: SVGElement, charts: Chart[], sharing: (axis: Axis) => SharedAxis): void {

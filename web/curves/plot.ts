@@ -2,7 +2,8 @@
 
 import uPlot from "uplot";
 
-import type { Axis, Chart, Page } from "../page/document";
+import type { Axis, Chart } from "../generated/charts";
+import type { Page } from "../page/document";
 import { type Range, SharedAxis } from "./axis";
 import { type Layer, Positions, type Shape, drawAbove, drawBelow, loadShapes } from "./drawing";
 import { Series } from "./series";

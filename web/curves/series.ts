@@ -1,6 +1,7 @@
 // A line of a chart with its columns: which row is at an abscissa, what it shows there, how far it reaches.
 
-import type { Curve, Page, Values } from "../page/document";
+import type { Curve } from "../generated/charts";
+import type { Page, Values } from "../page/document";
 import { format } from "../page/numbers";
 import type { Range } from "./axis";
 

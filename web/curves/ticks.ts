@@ -2,11 +2,12 @@
 
 import type uPlot from "uplot";
 
-import type { Axis } from "../page/document";
+import { FIGURE } from "../generated/colours";
+import type { Axis } from "../generated/charts";
 import { format } from "../page/numbers";
 import { linearSplits, logarithmicSplits } from "./splits";
 
-export const [INK, FAINT, GRID] = ["#222222", "#6b6b6b", "#dddddd"]; // as analysis/reports/common/colours.py;
+export const { ink: INK, faint: FAINT, grid: GRID } = FIGURE;
 const SUPERSCRIPTS = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
 const [FEW, MANY] = [6, 15]; // digits of a number
 

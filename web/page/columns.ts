@@ -1,23 +1,14 @@
 // Columns of numbers inside a page: the inverse of analysis/reports/interactive/columns.py.
 
-export interface Encoded {
-  rows: number;
-  low?: number; // of the range of a column in 16 bits; of asinh(x / knee) unless the knee is 0
-  high?: number;
-  knee?: number;
-}
+import type { Encoded } from "../generated/columns";
+import type { PageDocument } from "../generated/page_types";
 
-const STEPS = 65534; // of such a range; the number above is nan
+const STEPS = 65534; // of the range of a column in 16 bits; the number above is nan
 
-export interface Packed {
-  columns: Encoded[];
-  packed: [exact: string, coarse: string]; // the bytes of the columns of each kind, one after the other
-}
-
-const inflated = new WeakMap<Packed, Promise<Uint8Array>[]>();
+const inflated = new WeakMap<PageDocument, Promise<Uint8Array>[]>();
 
 // A column by its number; the first one of a kind takes the time that all of it take.
-export async function decode(page: Packed, number: number): Promise<Float32Array | Float64Array> {
+export async function decode(page: PageDocument, number: number): Promise<Float32Array | Float64Array> {
   const column = page.columns[number]!;
   const size = sizeOf(column);
   const kinds = inflated.get(page) ?? [];

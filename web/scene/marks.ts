@@ -21,7 +21,7 @@ export class Marks {
   private readonly namesAll: boolean;
   readonly element = make("div", { class: "scene-marks", "aria-hidden": "true" });
   private readonly entries: {
-    data: BodyData | SiteData;
+    data: SiteData;
     extent: number; // m; 0 for what is a mark at any distance
     stands: boolean;
     element: HTMLElement;
@@ -40,7 +40,7 @@ export class Marks {
     this.namesAll = bodies.length <= FEW;
   }
 
-  private add(data: BodyData | SiteData, extent: number, stands: boolean, ...lines: string[]) {
+  private add(data: SiteData, extent: number, stands: boolean, ...lines: string[]) {
     const ring = makeSvg("svg", { viewBox: "-12 -12 24 24", width: 24, height: 24 });
     const stroke = lines.includes(CROSS) ? "stroke: currentColor" : strokeOf(data.colour);
     ring.append(makeSvg("path", { d: lines.join(""), fill: "none", style: stroke, "stroke-width": 2 }));

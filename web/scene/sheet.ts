@@ -3,7 +3,7 @@
 export const SHEET = `
 .scene { margin: 12px 0; }
 .scene-view { position: relative; overflow: hidden; border: 1px solid color-mix(in srgb, currentColor 30%, transparent);
-  height: clamp(300px, 62vw, min(640px, 78vh)); touch-action: pan-y; user-select: none; cursor: grab; color: light-dark(#222, #e6e6e6); }
+  height: clamp(300px, 62vw, min(640px, 78vh)); touch-action: pan-y; user-select: none; cursor: grab; color: var(--ink); }
 .scene-view:focus-visible, .scene-controls :focus-visible { outline: 3px solid #1c6fd0; outline-offset: 1px; }
 .scene-view:active { cursor: grabbing; }
 .scene-view canvas { display: block; width: 100%; height: 100%; }
@@ -12,7 +12,7 @@ export const SHEET = `
 .scene-mark svg { position: absolute; left: -12px; top: -12px; }
 .scene-mark bdi { position: absolute; left: 0; bottom: var(--scene-gap); transform: translateX(-50%); white-space: nowrap; max-width: 40ch; overflow: hidden;
   text-overflow: ellipsis; }
-.scene-arrow bdi { bottom: 4px; padding: 0 3px; border-radius: 3px; background: light-dark(rgb(238 242 246 / 75%), rgb(13 17 23 / 75%)); }
+.scene-arrow bdi { bottom: 4px; padding: 0 3px; border-radius: 3px; background: var(--scene-veil); }
 .scene-site bdi { left: 14px; bottom: -8px; transform: none; }
 .scene-values, .scene-scale, .scene-triad { position: absolute; pointer-events: none; font-size: 12px; margin: 0; }
 .scene-values { left: 8px; top: 6px; font-variant-numeric: tabular-nums; max-width: calc(100% - 150px); }
@@ -29,8 +29,8 @@ export const SHEET = `
 .scene-time { flex: 1 1 100%; }
 .scene-time input { flex: 1 1 140px; min-width: 0; height: 40px; margin: 0 4px; }
 .scene-controls button, .scene-controls select { min-width: 40px; min-height: 40px; padding: 0 10px; font: inherit; font-size: 13px;
-  color: light-dark(#222, #e6e6e6); background: light-dark(#f3f4f6, #2b2f36); border: 1px solid light-dark(#9aa0a6, #6b7280); border-radius: 4px; max-width: 100%; }
-.scene-controls button[aria-pressed="true"] { background: light-dark(#0059a0, #4dabf7); color: light-dark(#fff, #10151c); }
+  color: var(--ink); background: var(--scene-button); border: 1px solid var(--scene-edge); border-radius: 4px; max-width: 100%; }
+.scene-controls button[aria-pressed="true"] { background: var(--pressed); color: var(--on-pressed); }
 .scene-time button:first-child { min-width: 68px; }
 @media print { .scene { display: none; } }
 `;

@@ -2,6 +2,8 @@
 
 import { Color } from "three";
 
+import { SHADES } from "../generated/colours";
+
 export interface Theme {
   sky: string;
   ground: string;
@@ -12,24 +14,19 @@ export interface Theme {
   lighter: number; // of lines' colours, from 0 to 1
 }
 
-const LIGHT: Theme = {
-  sky: "#eef2f6",
-  ground: "#d8d4cc",
-  haze: "#e6e5e2",
-  grid: "#8f8a80",
-  flame: "#e8590c",
-  failed: "#222222",
-  lighter: 0,
-};
-const DARK: Theme = {
-  sky: "#0d1117",
-  ground: "#3a3936",
-  haze: "#23252a",
-  grid: "#7d7a74",
-  flame: "#ffa94d",
-  failed: "#f1f3f5",
-  lighter: 0.25,
-};
+function themeAt(shade: 0 | 1): Theme {
+  return {
+    sky: SHADES.scene_sky[shade],
+    ground: SHADES.scene_ground[shade],
+    haze: SHADES.scene_haze[shade],
+    grid: SHADES.scene_grid[shade],
+    flame: SHADES.flame[shade],
+    failed: SHADES.failed[shade],
+    lighter: 0.25 * shade,
+  };
+}
+
+const [LIGHT, DARK] = [themeAt(0), themeAt(1)];
 
 // The theme of an element: dark where its text is light.
 export function themeOf(element: HTMLElement): Theme {

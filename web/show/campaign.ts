@@ -1,6 +1,6 @@
 // One campaign: its figures, what is selected in them, and the requests that follow a selection.
 
-import type { Campaign, Counts, Document } from "./document";
+import type { Campaign, Counts, ShowDocument } from "../generated/documents";
 import { make } from "../page/elements";
 import { choice, labelOf } from "./elements";
 import { Filter } from "./filter";
@@ -28,7 +28,7 @@ export class CampaignView {
   constructor(
     private readonly campaign: Campaign,
     number: number,
-    private readonly document: Document,
+    private readonly document: ShowDocument,
   ) {
     this.filter = new Filter(campaign.variants.length);
     this.requests = new Requests(number, (text) => this.complain(text));

@@ -2,7 +2,7 @@
 
 import { DIGITS, format } from "../page/numbers";
 import { make } from "../page/elements";
-import { colour } from "./elements";
+import { colour, type ShadeName } from "./elements";
 import type { Scale } from "./scale";
 
 const FONT = "11px 'DejaVu Sans', Verdana, sans-serif";
@@ -111,7 +111,7 @@ export class Canvas {
     this.context.strokeRect(...area);
   }
 
-  line(x0: number, y0: number, x1: number, y1: number, name: string): void {
+  line(x0: number, y0: number, x1: number, y1: number, name: ShadeName): void {
     this.context.strokeStyle = colour(name);
     this.context.lineWidth = 1;
     this.context.beginPath();

@@ -1,7 +1,7 @@
 // Trials one by one, as analysis/show/dots.py encodes them.
 
 import { fromBase64 } from "../page/columns";
-import type { DotData } from "./document";
+import type { DotsDocument } from "../generated/documents";
 
 export interface Dots {
   rows: Uint32Array;
@@ -11,7 +11,7 @@ export interface Dots {
   variants: Uint16Array;
 }
 
-export function decodeDots(data: DotData): Dots {
+export function decodeDots(data: DotsDocument): Dots {
   return {
     rows: new Uint32Array(fromBase64(data.rows).buffer),
     x: new Uint16Array(fromBase64(data.x).buffer),

@@ -1,7 +1,8 @@
 // Pieces of the page that its figures share: choices, names of quantities, colours.
 
+import { SHADES } from "../generated/colours";
 import { make } from "../page/elements";
-import type { Quantity } from "./document";
+import type { Quantity } from "../generated/documents";
 
 export function choice(label: string, options: string[], chosen: number, onChange: (index: number) => void): HTMLLabelElement {
   const select = make("select");
@@ -20,6 +21,9 @@ export function labelOf(quantity: Quantity): string {
   return quantity.unit ? `${shortName(quantity)}, ${quantity.unit}` : shortName(quantity);
 }
 
-export function colour(name: string): string {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+export type ShadeName = keyof typeof SHADES;
+
+// For what is drawn on a canvas, which has no properties of CSS.
+export function colour(name: ShadeName): string {
+  return SHADES[name][matchMedia("(prefers-color-scheme: dark)").matches ? 1 : 0];
 }

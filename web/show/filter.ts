@@ -1,12 +1,8 @@
 // Which trials are selected: ranges of columns in bins, an outcome, variants.
 
-export interface Range {
-  column: number;
-  first: number; // bins, both included
-  last: number;
-}
+import type { Query, Range } from "../generated/query";
 
-export type Outcome = "all" | "success" | "failure";
+export type Outcome = NonNullable<Query["outcome"]>;
 
 export class Filter {
   outcome: Outcome = "all";
@@ -46,7 +42,7 @@ export class Filter {
     this.outcome = "all";
   }
 
-  query(): { ranges: Range[]; outcome: Outcome; variants: number[] | null } {
+  query(): Query {
     const shown = [...Array(this.variants).keys()].filter((each) => !this.hidden.has(each));
     return { ranges: this.ranges, outcome: this.outcome, variants: this.hidden.size ? shown : null };
   }

@@ -2,7 +2,7 @@
 
 import { format } from "../page/numbers";
 import { Canvas, type Span } from "./canvas";
-import type { GridCounts, Quantity, Variant } from "./document";
+import type { GridCounts, Quantity, ShowDocument, Variant } from "../generated/documents";
 import { type Dots, decodeDots, nearestDot } from "./dots";
 import { make } from "../page/elements";
 import { choice, colour, labelOf, shortName } from "./elements";
@@ -28,7 +28,7 @@ export class Grid {
     readonly columns: [x: number, y: number],
     private readonly quantities: Quantity[],
     private readonly variants: Variant[],
-    private readonly sizes: { bins: number; bars: number },
+    private readonly sizes: ShowDocument,
     private readonly filter: Filter,
     private readonly onSelect: () => void,
     private readonly onTrial: (row: number) => void,

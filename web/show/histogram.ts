@@ -2,7 +2,7 @@
 
 import { format } from "../page/numbers";
 import { Canvas, type Span } from "./canvas";
-import type { HistogramCounts, Quantity, Variant } from "./document";
+import type { HistogramCounts, Quantity, ShowDocument, Variant } from "../generated/documents";
 import { make } from "../page/elements";
 import { colour, labelOf, shortName } from "./elements";
 import type { Filter } from "./filter";
@@ -22,7 +22,7 @@ export class Histogram {
     readonly column: number,
     private readonly quantity: Quantity,
     private readonly variants: Variant[],
-    private readonly sizes: { bins: number; bars: number },
+    private readonly sizes: ShowDocument,
     private readonly filter: Filter,
     private readonly onSelect: () => void,
     onRemove: () => void,

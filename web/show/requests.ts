@@ -1,6 +1,7 @@
 // Requests to the server that the page is from; a newer one of its kind ends an older one.
 
-import type { Counts, TrialEntry } from "./document";
+import type { Counts, TrialEntry } from "../generated/documents";
+import type { Query } from "../generated/query";
 import type { Filter } from "./filter";
 
 export class Requests {
@@ -28,7 +29,7 @@ export class Requests {
   }
 
   // Null where a newer request of the kind has begun, or the server has refused.
-  private async get<T>(kind: string, path: string, query: unknown): Promise<T | null> {
+  private async get<T>(kind: string, path: string, query: Query | null): Promise<T | null> {
     this.running.get(kind)?.abort();
     const controller = new AbortController();
     this.running.set(kind, controller);

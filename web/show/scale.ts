@@ -1,13 +1,13 @@
 // The scale of a column: analysis/show/scale.py.
 
-import type { ScaleData } from "./document";
+import type { ScaleDocument } from "../generated/documents";
 
 const INTERVALS = 4; // between ticks, about
 
 export class Scale {
   private readonly ends: [number, number];
 
-  constructor(private readonly data: ScaleData) {
+  constructor(private readonly data: ScaleDocument) {
     this.ends = [this.bend(data.low), this.bend(data.high)];
   }
 

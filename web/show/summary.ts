@@ -1,7 +1,7 @@
 // What is selected, in words, with how many trials fail and succeed; what ends the selection.
 
 import { DIGITS, format } from "../page/numbers";
-import type { Campaign, Counts, RangeEnds, Variant } from "./document";
+import type { Campaign, Counts, RangeEnds, Variant } from "../generated/documents";
 import { button, make } from "../page/elements";
 import { choice, shortName } from "./elements";
 import type { Filter, Outcome } from "./filter";

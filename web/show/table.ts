@@ -3,7 +3,7 @@
 import { PinnedCard } from "../page/card";
 import { button, make } from "../page/elements";
 import { DIGITS, format } from "../page/numbers";
-import type { Quantity, TrialEntry } from "./document";
+import type { Quantity, TrialEntry } from "../generated/documents";
 import { labelOf, shortName } from "./elements";
 
 export class TrialTable {

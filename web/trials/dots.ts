@@ -1,6 +1,6 @@
 // Marks of trials on a plot, and which of them is near a point.
 
-import type { Dots } from "../page/document";
+import type { Dots } from "../generated/charts";
 import type { Positions } from "../curves/drawing";
 import type { Selection, Trial } from "./selection";
 import type { Trials, Variant } from "./trials";

@@ -1,6 +1,8 @@
-// What trials have recorded over time: analysis/reports/campaign/embedded_flights.py.
+// What trials have recorded over time.
 
-import type { Axis, Chart, Page } from "../page/document";
+import type { Axis, Chart } from "../generated/charts";
+import type { FlightColumns, FlightsPanel } from "../generated/embedded_flights";
+import type { Page } from "../page/document";
 import type { TrialName } from "../page/trial";
 
 const MARGIN = 0.06; // of an ordinate, above and below its values
@@ -12,29 +14,16 @@ export interface Titled {
   chart: Chart;
 }
 
-interface Panel {
-  title: string;
-  unit?: string;
-  factor: number;
-  steps: boolean;
-  lines: { name: string; colour: string }[];
-}
-
-interface Flight extends TrialName {
-  time: number; // of a column, as are columns
-  columns: number[]; // one for each line of the panels
-}
-
 export class Flights {
   private constructor(
     private readonly page: Page,
-    private readonly panels: Panel[],
-    private readonly flights: Flight[],
+    private readonly panels: FlightsPanel[],
+    private readonly flights: FlightColumns[],
   ) {}
 
   // Null where the page has none.
   static of(page: Page): Flights | null {
-    const document = page.document["recorded"] as { panels: Panel[]; flights: Flight[] } | undefined;
+    const document = page.document.recorded;
     return document ? new Flights(page, document.panels, document.flights) : null;
   }
 
@@ -53,7 +42,7 @@ export class Flights {
     );
   }
 
-  private async chart({ title, unit = "", factor, steps, lines }: Panel, time: number, columns: number[], ends: [number, number]): Promise<Titled> {
+  private async chart({ title, unit, factor, steps, lines }: FlightsPanel, time: number, columns: number[], ends: [number, number]): Promise<Titled> {
     const numbers = await Promise.all(columns.map((each) => this.page.column(each)));
     const finite = numbers.flatMap((each) => [...each]).filter(Number.isFinite);
     const [low, high] = [Math.min(...finite), Math.max(...finite)].map((each) => each * factor) as [number, number];

@@ -1,40 +1,19 @@
-// The trials of a batch: analysis/reports/campaign/embedded_trials.py.
+// The trials of a batch.
 
+import type { TrialQuantity, VariantTrials } from "../generated/embedded_trials";
 import type { Entry } from "../page/card";
 import type { Page, Values } from "../page/document";
 import { uncertainty } from "../page/columns";
 import { DIGITS, format } from "../page/numbers";
 
-interface Quantity {
-  name: string; // "metric.miss", "draw.mass"
-  unit: string;
-  factor: number;
-}
-
-interface EncodedVariant {
-  name: string;
-  command: [before: string, after: string]; // of a trial's number
-  trial: number; // of a column, as are success, status and columns
-  success: number;
-  statuses: string[];
-  status: number;
-  columns: number[];
-  exact: Record<string, (number | string)[]>; // by row; a text where a number is not finite
-}
-
-interface Document {
-  quantities: Quantity[];
-  variants: EncodedVariant[];
-}
-
 export class Trials {
   private constructor(
-    readonly quantities: Quantity[],
+    readonly quantities: TrialQuantity[],
     private readonly variants: Map<string, Variant>,
   ) {}
 
   static async load(page: Page): Promise<Trials | null> {
-    const document = page.document.trials as Document | undefined;
+    const document = page.document.trials;
     if (!document) return null;
     const variants = await Promise.all(document.variants.map((each) => Variant.load(each, document.quantities, page)));
     return new Trials(document.quantities, new Map(variants.map((each) => [each.name, each])));
@@ -47,8 +26,8 @@ export class Trials {
 
 export class Variant {
   private constructor(
-    private readonly encoded: EncodedVariant,
-    private readonly quantities: Quantity[],
+    private readonly encoded: VariantTrials,
+    private readonly quantities: TrialQuantity[],
     readonly numbers: Values,
     readonly success: Values,
     private readonly status: Values,
@@ -56,7 +35,7 @@ export class Variant {
     private readonly page: Page,
   ) {}
 
-  static async load(encoded: EncodedVariant, quantities: Quantity[], page: Page): Promise<Variant> {
+  static async load(encoded: VariantTrials, quantities: TrialQuantity[], page: Page): Promise<Variant> {
     const [numbers, success, status, ...columns] = await Promise.all(
       [encoded.trial, encoded.success, encoded.status, ...encoded.columns].map((each) => page.column(each)),
     );
@@ -93,7 +72,7 @@ export class Variant {
     ];
   }
 
-  private text({ name, factor }: Quantity, index: number, row: number): string {
+  private text({ name, factor }: TrialQuantity, index: number, row: number): string {
     const exact = this.encoded.exact[row]?.[index];
     if (exact !== undefined) return typeof exact === "number" ? format(exact * factor, DIGITS) : exact;
     const number = this.columns.get(name)![row]!;

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from typing import Any
+from typing import TypedDict
+
+import numpy as np
 
 from ....common.errors import InputError
 from ...campaigns.fly.metadata import Provenance
@@ -23,11 +25,44 @@ from .recorded_names import is_real, names_of_record, unit_of
 LINE_LIMIT = 24  # signals of a flight
 
 
+class PanelLine(TypedDict):
+    """A signal in a panel, and its colour."""
+
+    name: str
+    colour: str
+
+
+class FlightsPanel(TypedDict):
+    """A panel over time; numbers are in SI, times ``factor`` in ``unit``."""
+
+    title: str
+    unit: str
+    factor: float
+    steps: bool
+    lines: list[PanelLine]
+
+
+class FlightColumns(TypedDict):
+    """A recorded trial: its time (s), and a column for each line of the panels."""
+
+    variant: str
+    trial: int
+    time: np.ndarray
+    columns: list[np.ndarray]
+
+
+class RecordedDocument(TypedDict):
+    """Recorded flights over time."""
+
+    panels: list[FlightsPanel]
+    flights: list[FlightColumns]
+
+
 @dataclass(frozen=True)
 class EmbeddedFlights:
     """What scripts get of flights, ``document``, the ``scene`` where there is one, and the sentences about both."""
 
-    document: dict[str, Any]
+    document: RecordedDocument
     scene: FlightsView | None
     notes: list[str]
 
@@ -75,7 +110,7 @@ def _scene_names(scene: Scene | None) -> set[str]:
     return set().union(*map(signals_of, poses), *map(signals_of, sites))
 
 
-def _document(provenance: Provenance, names: Sequence[str], flights: Sequence[RecordedFlight]) -> dict[str, Any]:
+def _document(provenance: Provenance, names: Sequence[str], flights: Sequence[RecordedFlight]) -> RecordedDocument:
     """Panels with a line for each signal of a vector, and by flight a column for each line."""
     panels = [(base, list(lines)) for base, lines in groupby(names, key=vector_of)]
     return {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import count
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 
@@ -18,7 +18,38 @@ NUMBER_LIMIT = 2_500_000  # in all, of draws and metrics
 EXACT_LIMIT = 200  # failures of a variant whose numbers are exact
 
 
-def trials_document(batch: BatchResult) -> dict[str, Any]:
+class TrialQuantity(TypedDict):
+    """A metric or a draw by the name of its column; numbers are in SI, times ``factor`` in ``unit``."""
+
+    name: str
+    unit: str
+    factor: float
+
+
+class VariantTrials(TypedDict):
+    """The trials of a variant: columns, by ``command`` what is before and after a trial's number in its replay command.
+
+    ``status`` are indices of ``statuses``; ``exact`` has numbers by row, a text where one is not finite.
+    """
+
+    name: str
+    command: tuple[str, str]
+    trial: np.ndarray
+    success: np.ndarray
+    statuses: list[str]
+    status: np.ndarray
+    columns: list[Coarse]
+    exact: dict[str, list[float | str]]
+
+
+class TrialsDocument(TypedDict):
+    """The trials of a batch, and the quantities that each variant has a column of."""
+
+    quantities: list[TrialQuantity]
+    variants: list[VariantTrials]
+
+
+def trials_document(batch: BatchResult) -> TrialsDocument:
     """All that the page's script needs: quantities with their units, and the trials of each variant.
 
     Draws and metrics are in 16 bits over the range of their column; of the first failures, and of the trials with the
@@ -61,7 +92,7 @@ def _row_limit(batch: BatchResult) -> int:
     return NUMBER_LIMIT // max(1, len(_column_names(batch)) * len(batch.rows))
 
 
-def _variant(batch: BatchResult, variant: str, names: list[str], limit: int) -> dict[str, Any]:
+def _variant(batch: BatchResult, variant: str, names: list[str], limit: int) -> VariantTrials:
     plotted = batch.plotted[variant]
     dots = plotted.dots
     rows = slice(0, limit)
@@ -92,11 +123,12 @@ def _exact_rows(success: np.ndarray, metrics: Iterable[np.ndarray], limit: int) 
     return sorted(rows)
 
 
-def _command_around(batch: BatchResult, variant: str) -> list[str]:
+def _command_around(batch: BatchResult, variant: str) -> tuple[str, str]:
     """The replay command before and after the number of a trial."""
     any_command = _command(batch, variant, 0)
     mark = next(number for number in count(10**9) if str(number) not in any_command)
-    return _command(batch, variant, mark).split(str(mark))
+    before, after = _command(batch, variant, mark).split(str(mark))
+    return before, after
 
 
 def _command(batch: BatchResult, variant: str, trial: int) -> str:

@@ -22,4 +22,4 @@ def named_axis(ends: tuple[float, float], ticks: Sequence[tuple[float, str]], *,
 
 
 def _axis(ends: tuple[float, float], ticks: list[tuple[float, str]], label: str, *, named: bool) -> Axis:
-    return Axis(label, ends, logarithmic=False, ticks=ticks, named=named, bare=False, size=TEXT, grid=True, marked=True)
+    return Axis(label=label, ends=ends, ticks=ticks, named=named, size=TEXT, grid=True, marked=True)

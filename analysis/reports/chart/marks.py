@@ -18,25 +18,25 @@ def band_areas(x: np.ndarray, low: np.ndarray, high: np.ndarray, colour: str, op
         times, lower, upper = x[first:end], low[first:end], high[first:end]
         around_x = np.concatenate([times[:1], times, times[-1:], times[::-1], times[:1]])
         around_y = np.concatenate([upper[:1], lower, upper[-1:], upper[::-1], upper[:1]])
-        areas.append(Area(around_x, around_y, (False, False), colour.lower(), opacity, 0.0, []))
+        areas.append(Area(around_x, around_y, (False, False), colour.lower(), opacity, 0.0))
     return areas
 
 
 def across(low: float, high: float, colour: str, opacity: float) -> Area:
     """Return the area between two ordinates, as wide as the axes."""
-    return Area(SQUARE[:, 0], low + (high - low) * SQUARE[:, 1], (True, False), colour.lower(), opacity, 0.0, [])
+    return Area(SQUARE[:, 0], low + (high - low) * SQUARE[:, 1], (True, False), colour.lower(), opacity, 0.0)
 
 
 def during(begin: float, end: float, colour: str, opacity: float) -> Area:
     """Return the area between two abscissas, as high as the axes."""
-    return Area(begin + (end - begin) * SQUARE[:, 0], SQUARE[:, 1], (False, True), colour.lower(), opacity, 0.0, [])
+    return Area(begin + (end - begin) * SQUARE[:, 0], SQUARE[:, 1], (False, True), colour.lower(), opacity, 0.0)
 
 
 def level(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Rule:
     """Return a line across the axes at an ordinate; dashes in widths of the line."""
-    return Rule(at, False, colour.lower(), width, list(dashes))
+    return Rule(at=at, colour=colour.lower(), width=width, dashes=dashes)
 
 
 def instant(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Rule:
     """Return a line across the axes at an abscissa; dashes in widths of the line."""
-    return Rule(at, True, colour.lower(), width, list(dashes))
+    return Rule(at=at, upright=True, colour=colour.lower(), width=width, dashes=dashes)

@@ -25,18 +25,19 @@ def chart_panel(
     height: float = PANEL_HEIGHT,
     width: float = PANEL_WIDTH,
     *,
+    title: str = "",
     kind: str = "",
     reduced: bool = False,
 ) -> Panel:
     """Return the panel of a ``chart``, sizes in inches; ``name`` must differ between the figures of a page.
 
-    ``kind`` is a class more, for the style; ``reduced``: the page has only envelopes of its curves. A chart whose
-    numbers a page cannot tell apart remains a picture.
+    ``title`` stands above the axes; ``kind`` is a class more, for the style; ``reduced``: the page has only envelopes
+    of its curves. A chart whose numbers a page cannot tell apart remains a picture.
     """
-    placed = lay_out(chart, POINTS * width, POINTS * height)
-    svg = write_svg(placed, name, description, POINTS * width, POINTS * height, kind=kind)
+    placed = lay_out(chart, POINTS * width, POINTS * height, title=title)
+    svg = write_svg(placed, name, description, POINTS * width, POINTS * height, title=title, kind=kind)
     if not all(_is_exact(placed, curve) for curve in placed.curves):
-        stated = replace(placed, picture=True, curves=[], dots=[], areas=[], rules=[], notes=[])
+        stated = Chart(placed.box, placed.x, placed.y, picture=True)
         return Panel(label, Drawing(svg, [stated]))
     curves = [_reduce(curve) for curve in placed.curves] if reduced else placed.curves
     return Panel(label, Drawing(svg, [replace(placed, curves=curves)]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -27,28 +27,36 @@ ANCHORS = {"left": "start", "center": "middle", "right": "end"}
 RISES = {"top": ASCENT, "center": MIDDLE, "bottom": -DESCENT, "baseline": 0.0}
 
 
-def lay_out(chart: Chart, width: float, height: float) -> Chart:
+def lay_out(chart: Chart, width: float, height: float, *, title: str = "") -> Chart:
     """Return the chart with the ``box`` of its axes in a figure of this size (pt), which leaves room for all texts."""
     x, y = chart.x, chart.y
     left = MARGIN + max((text_width(text, y.size) for _, text in y.ticks), default=0.0) + GAP + STROKE
     bottom = MARGIN + STROKE + GAP + (ASCENT + DESCENT) * x.size
     bottom += LABEL_GAP + (ASCENT + DESCENT) * LABEL_SIZE if x.label else 0.0
-    top = MARGIN + (TITLE_GAP + (ASCENT + DESCENT) * LABEL_SIZE if chart.title else MIDDLE * y.size)
+    top = MARGIN + (TITLE_GAP + (ASCENT + DESCENT) * LABEL_SIZE if title else MIDDLE * y.size)
     right = MARGIN
     if x.ticks:
         at, text = x.ticks[-1]
         inner = width - left - right
         beyond = text_width(text, x.size) / 2.0 - (1.0 - _fraction(x, at)) * inner
         right += max(0.0, beyond)
-    box = [left / width, top / height, (width - left - right) / width, (height - top - bottom) / height]
-    return replace(chart, box=[round(each, 5) for each in box])
+    inner_width, inner_height = width - left - right, height - top - bottom
+    box = (
+        round(left / width, 5),
+        round(top / height, 5),
+        round(inner_width / width, 5),
+        round(inner_height / height, 5),
+    )
+    return replace(chart, box=box)
 
 
-def write_svg(chart: Chart, name: str, description: str, width: float, height: float, *, kind: str = "") -> Markup:
+def write_svg(
+    chart: Chart, name: str, description: str, width: float, height: float, *, title: str = "", kind: str = ""
+) -> Markup:
     """Return the <svg> element of a chart that has its box, in a figure of this size (pt).
 
-    ``name`` must differ between the figures of a page; ``description`` is what a screen reader says; ``kind`` is
-    a class more.
+    ``name`` must differ between the figures of a page; ``description`` is what a screen reader says; ``title``
+    stands above the axes; ``kind`` is a class more.
     """
     left, top, wide, high = (
         fraction * size for fraction, size in zip(chart.box, (width, height, width, height), strict=True)
@@ -65,7 +73,7 @@ def write_svg(chart: Chart, name: str, description: str, width: float, height: f
         *(frame.curve(curve) for curve in chart.curves),
         "</g>",
         *(frame.note(note) for note in chart.notes),
-        *frame.labels(height),
+        *frame.labels(height, title),
     ]
     classes = f"figure {kind}".rstrip()
     element = (
@@ -177,12 +185,12 @@ class _Frame:
             f'<path d="{path}" stroke="{rule.colour}" stroke-width="{rule.width:g}"{_dashed(rule.width, rule.dashes)}/>'
         )
 
-    def labels(self, height: float) -> Iterator[str]:
+    def labels(self, height: float, title: str) -> Iterator[str]:
         """The label of the abscissa and the title, which remain where a script draws the chart."""
         middle = self._left + self._wide / 2.0
         for text, x, y, anchor in (
             (self._chart.x.label, middle, height - MARGIN - DESCENT * LABEL_SIZE, "middle"),
-            (self._chart.title, self._left, self._top - TITLE_GAP - DESCENT * LABEL_SIZE, "start"),
+            (title, self._left, self._top - TITLE_GAP - DESCENT * LABEL_SIZE, "start"),
         ):
             if text:
                 yield (
@@ -191,5 +199,5 @@ class _Frame:
                 )
 
 
-def _dashed(width: float, dashes: list[float]) -> str:
+def _dashed(width: float, dashes: Sequence[float]) -> str:
     return f' stroke-dasharray="{" ".join(f"{width * each:g}" for each in dashes)}"' if dashes else ""

@@ -14,6 +14,7 @@ from ....common.atomic import write_atomically
 from ....common.percent import percent
 from ..interactive.embedded import Embedded
 from ..interactive.short_svg import shorten
+from .colours import colour_properties
 from .quantities import MINUS, display_unit, in_shown_unit, number
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def render_page(template: Path, **content: Any) -> str:
         "percent": percent,
     }
     styles = (FOLDER / "page.css", FOLDER.parent / "interactive" / "interactive.css")
-    style = Markup("".join(path.read_text(encoding="utf-8") for path in styles))
+    style = Markup(colour_properties() + "".join(path.read_text(encoding="utf-8") for path in styles))
     return environment.get_template(template.name).render(style=style, embedded=embedded, **content)
 
 

@@ -72,12 +72,13 @@ def band_section(band: Band, result: Result, name: str) -> Section:
     rules += [instant(float(time[row]), INK, 0.9, (1.0, 2.0))] if row else []
 
     def chart(ends: tuple[float, float]) -> Chart:
-        return time_chart(unit, time, lines, ends, areas=[green, *grey], rules=rules)
+        return time_chart(time, lines, ends, areas=[green, *grey], rules=rules)
 
     description = f"{band.title}: {', '.join(band.signal.names)} over time with the tolerance band"
-    panels = [history_panel("Time history", f"{name}-whole", description, chart(whole))]
+    panels = [history_panel("Time history", f"{name}-whole", description, unit, chart(whole))]
     if zoom is not None:
-        panels.append(history_panel("Zoom on tolerance band", f"{name}-zoom", f"{description}, zoom", chart(zoom)))
+        label = "Zoom on tolerance band"
+        panels.append(history_panel(label, f"{name}-zoom", f"{description}, zoom", unit, chart(zoom)))
     for number, other in enumerate(band.against):
         panels.append(_against(band, result, other, f"{name}-against{number}", (low, high)))
     return Section(

@@ -69,15 +69,15 @@ def _panels(
     ]
 
     def chart(ends: tuple[float, float]) -> Chart:
-        return time_chart(unit, time, [line], ends, areas=areas, rules=[level(0.0, FAINT, 0.8)])
+        return time_chart(time, [line], ends, areas=areas, rules=[level(0.0, FAINT, 0.8)])
 
     everything = np.concatenate([displayed([line]), [0.0], *halves, *(-half for half in halves)])
     whole = chart(axis_ends(everything))
-    panels = [history_panel(capital(f"{head}time history"), f"{name}-whole", description, whole)]
+    panels = [history_panel(capital(f"{head}time history"), f"{name}-whole", description, unit, whole)]
     reach = _final_range(values, sigma)
     if reach is not None:
         label, description = capital(f"{head}scaled to the last quarter"), f"{description}, scaled to the last quarter"
-        panels.append(history_panel(label, f"{name}-end", description, chart((-factor * reach, factor * reach))))
+        panels.append(history_panel(label, f"{name}-end", description, unit, chart((-factor * reach, factor * reach))))
     return panels
 
 
@@ -151,17 +151,17 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
         limits = [display_factor(unit_name) * limit for limit in (curve.low, curve.high) if limit is not None]
         ends = axis_ends(np.concatenate([displayed(lines), limits]))
         rules = [level(limit, FAINT, 0.9, (5.0, 3.0)) for limit in limits]
-        return time_chart(unit, time, lines, ends, rules=rules, intervals=intervals)
+        return time_chart(time, lines, ends, rules=rules, intervals=intervals)
 
     notes = [_curve_caption(curve, unit), *curve.notes]
     if len(values) == 1 or curve.together:
         names = ", ".join(signal.label for signal in curve.signals)
-        plot = wide_history(name, f"{curve.title}: {names} over time", partial(chart, range(len(values))))
+        plot = wide_history(name, f"{curve.title}: {names} over time", unit, partial(chart, range(len(values))))
         return Section(title=curve.title, plot=plot, legend=legend_of(curve.labels), notes=notes)
     panels = []
     for index, (label, signal) in enumerate(zip(curve.labels, curve.signals, strict=True)):
         description = f"{curve.title}: {signal.label} over time"
-        panels.append(history_panel(label, f"{name}-{index}", description, chart([index])))
+        panels.append(history_panel(label, f"{name}-{index}", description, unit, chart([index])))
     return Section(title=curve.title, panels=panels, notes=notes)
 
 

@@ -17,7 +17,7 @@ from ..common.page import Table, data, exact
 from ..common.panels import HALF_WIDTH, Panel, Widths, swatch
 from ..common.quantities import MINUS, in_shown_unit
 from ..common.style import WIDTH, look
-from ..interactive.charts import Area, Chart, Curve, Rule
+from ..interactive.charts import NO_BOX, Area, Chart, Curve, Rule
 from .declared import Rows
 
 HEIGHT = 2.6  # in
@@ -45,7 +45,6 @@ def legend_of(labels: tuple[str, ...]) -> list[tuple[Markup, str]]:
 
 
 def time_chart(
-    unit: str,
     time: np.ndarray,
     curves: Sequence[Curve],
     ends: tuple[float, float],
@@ -54,20 +53,10 @@ def time_chart(
     rules: Sequence[Rule] = (),
     intervals: int = 6,
 ) -> Chart:
-    """Return a chart over time with the ``unit`` above its axes; ``ends`` are those of the ordinate, as displayed."""
+    """Return a chart over time; ``ends`` are those of the ordinate, as displayed."""
     abscissa = (float(time[0]), float(time[-1] if time[-1] > time[0] else time[0] + 1.0))
-    return Chart(
-        [],
-        linear_axis(abscissa, intervals, label="time, s"),
-        linear_axis(ends, 5),
-        False,
-        list(curves),
-        [],
-        list(areas),
-        list(rules),
-        [],
-        unit,
-    )
+    x, y = linear_axis(abscissa, intervals, label="time, s"), linear_axis(ends, 5)
+    return Chart(NO_BOX, x, y, curves=curves, areas=areas, rules=rules)
 
 
 def displayed(curves: Sequence[Curve]) -> np.ndarray:
@@ -75,20 +64,19 @@ def displayed(curves: Sequence[Curve]) -> np.ndarray:
     return np.concatenate([ordinates(curve) for curve in curves])
 
 
-def history_panel(label: str, name: str, description: str, chart: Chart) -> Panel:
-    """Return a panel over time, half as wide as the page's column."""
-    return chart_panel(label, name, description, chart, HEIGHT, HALF_WIDTH)
+def history_panel(label: str, name: str, description: str, unit: str, chart: Chart) -> Panel:
+    """Return a panel over time, half as wide as the page's column, with the ``unit`` above its axes."""
+    return chart_panel(label, name, description, chart, HEIGHT, HALF_WIDTH, title=unit)
 
 
-def wide_history(name: str, description: str, chart_of: Callable[[int], Chart]) -> Widths:
+def wide_history(name: str, description: str, unit: str, chart_of: Callable[[int], Chart]) -> Widths:
     """Return a plot over time as wide as the page's column, and one for narrow screens.
 
-    ``chart_of`` makes the chart with at most so many intervals.
+    ``chart_of`` makes the chart with at most so many intervals; the ``unit`` stands above its axes.
     """
-    return Widths(
-        chart_panel("", name, description, chart_of(12), HEIGHT, WIDTH, kind="wide").figure,
-        chart_panel("", f"{name}-slim", description, chart_of(6), HEIGHT, HALF_WIDTH, kind="slim").figure,
-    )
+    wide = chart_panel("", name, description, chart_of(12), HEIGHT, WIDTH, title=unit, kind="wide")
+    slim = chart_panel("", f"{name}-slim", description, chart_of(6), HEIGHT, HALF_WIDTH, title=unit, kind="slim")
+    return Widths(wide.figure, slim.figure)
 
 
 def select_rows(rows: Rows | None, result: Result) -> tuple[np.ndarray, slice]:

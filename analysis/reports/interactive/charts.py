@@ -1,10 +1,12 @@
 """A figure as numbers: the form of its axes, lines, areas and notes, from which the page's script draws them again.
 
-Titles, labels of axes and legends are not in it: they remain where the figure's picture has them.
+Titles, labels of axes and legends are not in it: they remain where the figure's picture has them. Fields with an empty
+default are left out of a page where they are empty.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +18,7 @@ class UnstatedError(Exception):
     """Axes have something that no chart states; their figure remains a picture."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Axis:
     """An axis: its ends as drawn, the first at the left or the bottom, and its ticks in between with their texts.
 
@@ -24,18 +26,18 @@ class Axis:
     where ticks have none; ``size`` (pt) is that of the texts; ``grid`` and ``marked`` where ticks have lines, strokes.
     """
 
-    label: str
+    label: str = ""
     ends: tuple[float, float]
-    logarithmic: bool
-    ticks: list[tuple[float, str]]
-    named: bool
-    bare: bool
+    logarithmic: bool = False
+    ticks: Sequence[tuple[float, str]] = ()
+    named: bool = False
+    bare: bool = False
     size: float
-    grid: bool
-    marked: bool
+    grid: bool = False
+    marked: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Marker:
     """A mark at points of a line: a circle of diameter ``size`` (pt), or the strokes ``outline`` in units of it.
 
@@ -43,13 +45,13 @@ class Marker:
     """
 
     size: float
-    outline: list[list[float]]
-    fill: str
-    edge: str
+    outline: Sequence[Sequence[float]] = ()
+    fill: str = ""
+    edge: str = ""
     width: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Curve:
     """A line; ``time`` (s) where its abscissa is another quantity; ``reduced`` where it is the envelope of its rows;
     ``metric`` where it is the distribution of that over the trials of a variant; ``beyond`` where marks reach beyond
@@ -59,31 +61,31 @@ class Curve:
     x: np.ndarray
     y: np.ndarray | Coarse
     factor: float
-    time: np.ndarray | None
-    name: str
-    unit: str
+    time: np.ndarray | None = None
+    name: str = ""
+    unit: str = ""
     colour: str
     opacity: float
     width: float
-    dashes: list[float]
-    steps: bool
-    joined: bool
-    marker: Marker | None
-    beyond: bool
-    reduced: bool
-    metric: str
+    dashes: Sequence[float] = ()
+    steps: bool = False
+    joined: bool = False
+    marker: Marker | None = None
+    beyond: bool = False
+    reduced: bool = False
+    metric: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Dots:
     """Marks of trials, `TrialDots`; ``cross`` or a filled circle."""
 
     variant: str
     names: tuple[str, str]
-    success: bool
+    success: bool = False
     colour: str
     size: float
-    cross: bool
+    cross: bool = False
 
 
 @dataclass(frozen=True)
@@ -96,23 +98,23 @@ class Area:
     colour: str
     opacity: float
     stroke: float
-    dashes: list[float]
+    dashes: Sequence[float] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Rule:
     """A straight line across the axes, at ``at`` of the abscissa (``upright``) or of the ordinate."""
 
     at: float
-    upright: bool
+    upright: bool = False
     colour: str
     width: float
-    dashes: list[float]
+    dashes: Sequence[float] = ()
 
 
 @dataclass(frozen=True)
 class Backing:
-    """Return the background of a text: a rectangle that is larger by ``margin`` (pt) on each side."""
+    """The background of a text: a rectangle that is larger by ``margin`` (pt) on each side."""
 
     colour: str
     opacity: float
@@ -130,25 +132,26 @@ class Note:
     align: tuple[str, str]
     colour: str
     size: float
-    bold: bool
-    backing: Backing | None
+    bold: bool = False
+    backing: Backing | None = None
+
+
+NO_BOX = (0.0, 0.0, 0.0, 0.0)  # of a chart that has not been laid out
 
 
 @dataclass(frozen=True)
 class Chart:
     """A pair of axes; ``box`` is left, top, width and height of their area as fractions of the figure.
 
-    A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it. The
-    ``title`` above the axes remains the picture's.
+    A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it.
     """
 
-    box: list[float]
+    box: tuple[float, float, float, float]
     x: Axis
     y: Axis
-    picture: bool
-    curves: list[Curve]
-    dots: list[Dots]
-    areas: list[Area]
-    rules: list[Rule]
-    notes: list[Note]
-    title: str = ""
+    picture: bool = False
+    curves: Sequence[Curve] = ()
+    dots: Sequence[Dots] = ()
+    areas: Sequence[Area] = ()
+    rules: Sequence[Rule] = ()
+    notes: Sequence[Note] = ()

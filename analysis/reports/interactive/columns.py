@@ -11,7 +11,7 @@ from __future__ import annotations
 import base64
 import zlib
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypedDict
 
 import numpy as np
 
@@ -28,11 +28,32 @@ class Coarse(NamedTuple):
     numbers: np.ndarray
 
 
+class Scale(TypedDict, total=False):
+    """The range of a column in 16 bits; of asinh(x / knee) unless the knee is 0."""
+
+    low: float
+    high: float
+    knee: float
+
+
+class Encoded(Scale):
+    """A column; without a range its numbers are float32."""
+
+    rows: int
+
+
+class Packed(TypedDict):
+    """The columns of a page; ``packed``: the bytes of exact ones, then of those in 16 bits, one after the other."""
+
+    columns: list[Encoded]
+    packed: tuple[str, str]
+
+
 @dataclass
 class Columns:
     """The columns of one page, numbered in the order in which they were added."""
 
-    encoded: list[dict[str, Any]] = field(default_factory=list)
+    encoded: list[Encoded] = field(default_factory=list)
     _numbers: dict[tuple[bytes, bool], int] = field(default_factory=dict)
     _bytes: tuple[bytearray, bytearray] = field(default_factory=lambda: (bytearray(), bytearray()))
 
@@ -45,15 +66,15 @@ class Columns:
             column = np.ascontiguousarray(numbers, dtype="<f4")
         index = self._numbers.setdefault((column.tobytes(), coarse), len(self.encoded))
         if index == len(self.encoded):
-            described, integers = _coarse(column) if coarse else ({}, _ordered(column))
-            self.encoded.append({"rows": column.size} | described)
+            described, integers = _coarse(column) if coarse else (Scale(), _ordered(column))
+            self.encoded.append({"rows": column.size, **described})
             self._bytes[coarse].extend(_planes(integers))
         return index
 
-    def document(self) -> dict[str, Any]:
-        """What describes the columns, and those of float32 and of 16 bits as base64 of their deflated bytes."""
-        packed = [base64.b64encode(zlib.compress(each, LEVEL)).decode("ascii") for each in self._bytes]
-        return {"columns": self.encoded, "packed": packed}
+    def document(self) -> Packed:
+        """Return what describes the columns, and these as base64 of their deflated bytes."""
+        exact, coarse = (base64.b64encode(zlib.compress(each, LEVEL)).decode("ascii") for each in self._bytes)
+        return {"columns": self.encoded, "packed": (exact, coarse)}
 
 
 def has_enough_digits(ends: tuple[float, float], numbers: np.ndarray) -> bool:
@@ -69,7 +90,7 @@ def _ordered(column: np.ndarray) -> np.ndarray:
     return np.where(bits >> 31 == 1, ~bits, bits | np.uint32(1 << 31))
 
 
-def _coarse(column: np.ndarray) -> tuple[dict[str, float], np.ndarray]:
+def _coarse(column: np.ndarray) -> tuple[Scale, np.ndarray]:
     """The range of a column, and its steps in it as integers."""
     finite = column[np.isfinite(column)].astype(float)
     knee = knee_of(finite, float(np.abs(finite).max(initial=0.0)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import fields, is_dataclass
+from dataclasses import Field, fields, is_dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -72,14 +72,16 @@ class Embedded:
         return Markup(content + scripts)
 
     def _plain(self, node: Any) -> Any:
-        """As JSON: arrays are numbers of columns, what is None or empty is left out of objects."""
+        """As JSON: arrays are numbers of columns; what `is_optional` and empty is left out of objects."""
         if isinstance(node, np.ndarray):
             return self._columns.add(node)
         if isinstance(node, Coarse):
             return self._columns.add(node.numbers, coarse=True)
         if is_dataclass(node):
-            entries = {each.name: getattr(node, each.name) for each in fields(node)}
-            return self._plain({name: entry for name, entry in entries.items() if not _is_empty(entry)})
+            entries = [(each, getattr(node, each.name)) for each in fields(node)]
+            return {
+                each.name: self._plain(entry) for each, entry in entries if not (is_optional(each) and _is_empty(entry))
+            }
         if isinstance(node, dict):
             return {name: self._plain(entry) for name, entry in node.items()}
         if isinstance(node, list | tuple):
@@ -87,5 +89,10 @@ class Embedded:
         return node
 
 
+def is_optional(declared: Field[Any]) -> bool:
+    """True if a page leaves a field of a dataclass out where it is empty: its default is."""
+    return _is_empty(declared.default)
+
+
 def _is_empty(entry: Any) -> bool:
-    return entry is None or entry is False or (isinstance(entry, str | list) and not entry)
+    return entry is None or entry is False or (isinstance(entry, str | list | tuple) and not entry)

@@ -72,7 +72,6 @@ def _read_axes(axes: Axes, reduced: bool) -> Chart:
         box=_box(axes),
         x=read_axis(axes.xaxis, axes.get_xlim(), _label(axes)),
         y=read_axis(axes.yaxis, axes.get_ylim(), ""),
-        picture=False,
         curves=curves,
         dots=[read_dots(line) for line in dots],
         areas=[
@@ -93,18 +92,21 @@ def _check_digits(ends: tuple[float, float], scale: str, numbers: np.ndarray) ->
 def _picture(axes: Axes) -> Chart:
     """Axes that remain a picture, with the abscissa along which the cursor is marked."""
     x, y = (
-        Axis(label, (float(low), float(high)), axis.get_scale() == "log", [], False, False, 0.0, False, False)
+        Axis(label=label, ends=(float(low), float(high)), logarithmic=axis.get_scale() == "log", size=0.0)
         for label, (low, high), axis in (
             (_label(axes), axes.get_xlim(), axes.xaxis),
             ("", axes.get_ylim(), axes.yaxis),
         )
     )
-    return Chart(_box(axes), x, y, True, [], [], [], [], [])
+    return Chart(_box(axes), x, y, picture=True)
 
 
-def _box(axes: Axes) -> list[float]:
+def _box(axes: Axes) -> tuple[float, float, float, float]:
     bounds = axes.get_position()
-    return [round(float(each), 5) for each in (bounds.x0, 1.0 - bounds.y1, bounds.width, bounds.height)]
+    left, top, width, height = (
+        round(float(each), 5) for each in (bounds.x0, 1.0 - bounds.y1, bounds.width, bounds.height)
+    )
+    return left, top, width, height
 
 
 def _label(axes: Axes) -> str:

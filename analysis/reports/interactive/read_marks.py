@@ -65,7 +65,14 @@ def read_dots(line: TrialDots) -> Dots:
     if line.get_marker() not in ("o", "x"):
         raise UnstatedError(f"marker {line.get_marker()}")
     size, cross = line.get_markersize(), line.get_marker() == "x"
-    return Dots(line.variant, line.names, line.success, to_hex(line.get_color()), size, cross)
+    return Dots(
+        variant=line.variant,
+        names=line.names,
+        success=line.success,
+        colour=to_hex(line.get_color()),
+        size=size,
+        cross=cross,
+    )
 
 
 def read_rule(axes: Axes, line: Line2D) -> Rule:
@@ -79,7 +86,13 @@ def read_rule(axes: Axes, line: Line2D) -> Rule:
         along, across = across, along
     if list(along) != [0.0, 1.0] or line.get_marker() not in NOTHING or _opacity(line.get_color(), line) < 1.0:
         raise UnstatedError("a line across a part of the axes")
-    return Rule(float(across[0]), upright, to_hex(line.get_color()), line.get_linewidth(), _dashes(line))
+    return Rule(
+        at=float(across[0]),
+        upright=upright,
+        colour=to_hex(line.get_color()),
+        width=line.get_linewidth(),
+        dashes=_dashes(line),
+    )
 
 
 def read_steps(patch: StepPatch) -> Curve:

@@ -71,8 +71,6 @@ def flights_view(scene: Scene, flights: Sequence[RecordedFlight]) -> FlightsView
             for site, position in sites.items()
             if position is not None
         ],
-        lines=[],
-        arrows=[],
     )
     without_position = [body.name for body in scene.bodies if body.position is not None and body not in located]
     notes = [
@@ -118,8 +116,6 @@ def _body_view(
         at=body.at,
         position=list(_resample(track, flight.time, time)),
         attitude=list(attitude),
-        thrusts=[],
-        jets=[],
         panels=body.panels,
         flight=recorded.name,
     )

@@ -10,9 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..common.colours import SHIP
 from .view import BodyView
 
-FOIL, METAL, DARK, SHIELD, PANEL, MARK = "#c8a040", "#c9ced4", "#4a4f57", "#6b4a36", "#27408b", "#d9480f"
+FOIL, METAL, DARK, SHIELD, PANEL, MARK = SHIP.values()
 SIDES = 24  # of what is round
 X_FORWARD = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # z goes to x
 LEG = 0.02  # width

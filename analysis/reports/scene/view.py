@@ -17,15 +17,26 @@ from ..common.colours import COLOURS, HUES
 from ..common.quantities import display_unit
 from ..common.round_body import track_normal
 from ..figures.declared import Signal
-from ..figures.scene.declared import ARROW, GROUND, Arrow, Body, Jets, Line, Panel, Scene, Site
+from ..figures.scene.declared import (
+    ARROW,
+    GROUND,
+    Arrow,
+    AxisLetter,
+    AxisNames,
+    Body,
+    Jets,
+    Line,
+    Panel,
+    Scene,
+    Site,
+    Vector,
+)
 from .notes import largest_magnitude, plume_length
 from .poses import Pose, compute_poses
 from .quaternions import normalise, rotate
 
-Numbers = Sequence[float]
 
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ThrustView:
     """A force: its values in ``unit``, where it acts and along which direction (body), and its plume's ``length`` (m).
 
@@ -35,22 +46,22 @@ class ThrustView:
     values: np.ndarray
     largest: float
     length: float
-    unit: str
+    unit: str = ""
     label: str
-    at: Numbers
-    along: Numbers
+    at: Vector
+    along: Vector
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class JetView:
     """A jet: its force over the ``largest`` of its group, or the time (s) that its pulse still lasts, with its sign."""
 
     values: np.ndarray
     largest: float
-    pulse: bool
-    couple: bool
-    at: Numbers
-    along: Numbers
+    pulse: bool = False
+    couple: bool = False
+    at: Vector
+    along: Vector
 
 
 @dataclass(frozen=True)
@@ -59,7 +70,7 @@ class FlightName:
 
     variant: str
     trial: int
-    failed: bool
+    failed: bool = False
 
 
 @dataclass(frozen=True)
@@ -72,13 +83,13 @@ class BodyView:
     name: str
     colour: str
     shape: str
-    size: Numbers
-    at: Numbers
+    size: Vector
+    at: Vector
     position: Sequence[np.ndarray]
     attitude: Sequence[np.ndarray]
-    thrusts: Sequence[ThrustView]
-    jets: Sequence[JetView]
-    panels: Sequence[Panel]
+    thrusts: Sequence[ThrustView] = ()
+    jets: Sequence[JetView] = ()
+    panels: Sequence[Panel] = ()
     flight: FlightName | None = None
 
 
@@ -93,12 +104,11 @@ class SiteView:
 
 @dataclass(frozen=True)
 class LineView:
-    """A line from a point to another, named; to the ground below where ``end`` is missing."""
+    """A line from a named point to another; to the ground below where ``end`` is missing."""
 
-    name: str
     start: str
-    end: str | None
-    condition: np.ndarray | None
+    end: str | None = None
+    condition: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -113,7 +123,7 @@ class ArrowView:
     start: str
     direction: Sequence[np.ndarray]
     length: float
-    on_screen: bool
+    on_screen: bool = False
 
 
 @dataclass(frozen=True)
@@ -124,9 +134,9 @@ class GroundView:
     """
 
     name: str
-    radius: float | None
-    centre: Numbers | None
-    normal: Numbers | None
+    radius: float | None = None
+    centre: Vector | None = None
+    normal: Vector | None = None
 
 
 @dataclass(frozen=True)
@@ -145,20 +155,20 @@ class CameraStart:
 START = CameraStart(field=math.radians(40.0), azimuth=2.5, elevation=0.25, diagonals=3.6)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SceneView:
     """A scene of a flight with samples at ``time`` (s)."""
 
     title: str
-    axes: Sequence[str]
-    up: str
-    origin: Numbers
+    axes: AxisNames
+    up: AxisLetter
+    origin: Vector
     time: np.ndarray
-    ground: GroundView | None
+    ground: GroundView | None = None
     bodies: Sequence[BodyView]
-    sites: Sequence[SiteView]
-    lines: Sequence[LineView]
-    arrows: Sequence[ArrowView]
+    sites: Sequence[SiteView] = ()
+    lines: Sequence[LineView] = ()
+    arrows: Sequence[ArrowView] = ()
     camera: CameraStart = START
 
 
@@ -245,7 +255,7 @@ def _jets(jets: Jets, result: Result) -> list[JetView]:
         values = remaining_pulses(result.time, values, None if jets.count is None else jets.count.values(result)[0])
     largest = largest_magnitude(values)
     return [
-        JetView(row, largest, jets.pulses, jets.couple, at, along)
+        JetView(values=row, largest=largest, pulse=jets.pulses, couple=jets.couple, at=at, along=along)
         for row, at, along in zip(values, jets.at, jets.along, strict=True)
     ]
 
@@ -274,7 +284,7 @@ def _site(site: Site, origin: np.ndarray, colour: str, result: Result) -> SiteVi
 
 def _line(line: Line, result: Result) -> LineView:
     condition = None if line.condition is None else line.condition.values(result)[0]
-    return LineView(line.name, line.start, None if line.end == GROUND else line.end, condition)
+    return LineView(line.start, None if line.end == GROUND else line.end, condition)
 
 
 def _arrow(arrow: Arrow, frame: np.ndarray | None, colour: str, flight: Result) -> ArrowView:

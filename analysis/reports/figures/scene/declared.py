@@ -8,10 +8,13 @@ latitude and height it is east, north, up at the ground below the last sample. A
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from ..declared import Figure, Signal
 
 Vector = tuple[float, float, float]
+AxisNames = tuple[str, str, str]
+AxisLetter = Literal["x", "y", "z"]
 GROUND = "ground"
 ARROW = 0.3  # length of an arrow over the view's height, unless declared
 SHAPES = ("box", "capsule", "cylinder", "lander", "satellite")
@@ -175,11 +178,11 @@ class Arrow:
 
 @dataclass(frozen=True)
 class Scene(Figure):
-    """Bodies in a ``frame``, whose ``axes`` have names; ``up`` is "x", "y" or "z"."""
+    """Bodies in a ``frame``, whose ``axes`` have names; ``up`` is one of them."""
 
     frame: str
-    axes: tuple[str, ...]
-    up: str
+    axes: AxisNames
+    up: AxisLetter
     surface: Surface | None
     bodies: tuple[Body, ...]
     sites: tuple[Site, ...]

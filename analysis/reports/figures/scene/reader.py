@@ -15,7 +15,7 @@ from ..signal_reader import NUMBERS, MissingSignalError, SignalReader
 from .arrow_reader import read_arrow
 from .attributes import check_length, read_available, read_signal, read_vector
 from .body_reader import read_body
-from .declared import GROUND, Geographic, Line, Scene, Site, Surface
+from .declared import GROUND, AxisLetter, AxisNames, Geographic, Line, Scene, Site, Surface
 
 SCENE = ("frame", "axes", "up", "title")
 SPHERE = ("radius", "centre", "name")
@@ -68,7 +68,7 @@ def read_scene(reader: SignalReader, element: etree._Element) -> Scene:
 
 def _axes(
     reader: SignalReader, element: etree._Element, local: bool, surface: Surface | None
-) -> tuple[tuple[str, ...], str]:
+) -> tuple[AxisNames, AxisLetter]:
     """The names of the axes, and which of them is up."""
     axes, up = tuple(element.get("axes", "x y z").split()), element.get("up", "z").strip()
     for name in ("frame", "axes"):

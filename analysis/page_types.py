@@ -1,0 +1,202 @@
+"""Writes web/generated/*.ts: the documents of pages, the queries of `perilune show` and its answers in TypeScript.
+
+Their declarations are dataclasses, TypedDicts and Structs next to the code that fills or reads them. Those that
+`ROOTS` consist of are written, a file for each module. Arrays are columns: numbers in a page, of another type where a
+script has them decoded.
+"""
+
+from __future__ import annotations
+
+import inspect
+import json
+import types
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Any, Literal, NamedTuple, NotRequired, Union, get_args, get_origin, get_type_hints, is_typeddict
+
+import msgspec
+import numpy as np
+
+from ..common.paths import ROOT
+from .reports.campaign.embedded_flights import RecordedDocument
+from .reports.campaign.embedded_trials import TrialsDocument
+from .reports.common import colours
+from .reports.common.colours import FAINT, GRID, INK, SHADES, SHIP
+from .reports.interactive.charts import Chart
+from .reports.interactive.columns import Coarse, Packed
+from .reports.interactive.embedded import is_optional
+from .reports.scene.view import SceneView
+from .show.documents import Counts, ShowDocument, TrialEntry
+from .show.query import Query
+
+GENERATED = ROOT / "web" / "generated"
+PLAIN = {str: "string", int: "number", float: "number", bool: "boolean", type(None): "null"}
+COLUMNS = (np.ndarray, Coarse)
+
+
+class PageDocument(Packed):
+    """The document inside a page: its columns, its figures, and by name what the scripts of some pages read."""
+
+    figures: list[list[Chart]]
+    trials: NotRequired[TrialsDocument]
+    recorded: NotRequired[RecordedDocument]
+    scene: NotRequired[SceneView]
+    show: NotRequired[ShowDocument]
+
+
+ROOTS = (PageDocument, Query, Counts, TrialEntry)
+
+
+class UntranslatableError(TypeError):
+    """A member has a type that no page can have."""
+
+
+class Member(NamedTuple):
+    """A member of an interface, and its type in Python."""
+
+    name: str
+    type: Any
+    optional: bool
+
+
+def write_types(folder: Path = GENERATED) -> None:
+    """Write the files that differ from what is there, and remove others."""
+    texts = generate()
+    folder.mkdir(exist_ok=True)
+    for path in folder.glob("*.ts"):
+        if path.name not in texts:
+            path.unlink()
+    for name, text in texts.items():
+        path = folder / name
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def generate() -> dict[str, str]:
+    """Return the files by name: the interfaces of `ROOTS`, and colours."""
+    constants: dict[str, Mapping[str, object]] = {
+        "SHADES": SHADES,
+        "SHIP": SHIP,
+        "FIGURE": {"ink": INK, "faint": FAINT, "grid": GRID},
+    }
+    tables = []
+    for name, table in constants.items():
+        entries = "".join(f"  {key}: {json.dumps(colour)},\n" for key, colour in table.items())
+        tables.append(f"export const {name} = {{\n{entries}}} as const;\n")
+    return translate(ROOTS) | {"colours.ts": "\n".join([_head(colours.__name__), *tables])}
+
+
+def translate(roots: Sequence[type]) -> dict[str, str]:
+    """Return the files by name: the interfaces of these classes and of all that they consist of."""
+    modules: dict[str, list[type]] = {}
+    for declared in _collect(roots):
+        modules.setdefault(declared.__module__, []).append(declared)
+    return {f"{_file_of(module)}.ts": _write_file(module, classes) for module, classes in sorted(modules.items())}
+
+
+def _collect(roots: Sequence[type]) -> list[type]:
+    """Return classes in the order of their modules' lines."""
+    collected: set[type] = set()
+    pending = list(roots)
+    while pending:
+        declared = pending.pop()
+        if declared not in collected:
+            collected.add(declared)
+            pending.extend(each for member in _members(declared) for each in _named(member.type))
+    return sorted(collected, key=lambda each: (each.__module__, inspect.getsourcelines(each)[1]))
+
+
+def _members(declared: type) -> Iterator[Member]:
+    hints = get_type_hints(declared)
+    if is_dataclass(declared):
+        for each in fields(declared):
+            optional = is_optional(each)
+            yield Member(each.name, _without_none(hints[each.name]) if optional else hints[each.name], optional)
+    elif issubclass(declared, msgspec.Struct):
+        yield from (Member(each.name, hints[each.name], not each.required) for each in msgspec.structs.fields(declared))
+    else:
+        stated = get_type_hints(declared, include_extras=True)
+        for name, hint in hints.items():
+            # Of annotations as text only the class's totality is in __optional_keys__.
+            optional = name in getattr(declared, "__optional_keys__", ()) or get_origin(stated[name]) is NotRequired
+            yield Member(name, hint, optional)
+
+
+def _named(hint: Any) -> Iterator[type]:
+    """Yield the declared classes in a type."""
+    if _is_declared(hint):
+        yield hint
+    for each in get_args(hint):
+        yield from _named(each)
+
+
+def _is_declared(hint: Any) -> bool:
+    return is_dataclass(hint) or is_typeddict(hint) or (isinstance(hint, type) and issubclass(hint, msgspec.Struct))
+
+
+def _without_none(hint: Any) -> Any:
+    if get_origin(hint) not in (Union, types.UnionType):
+        return hint
+    return Union[tuple(each for each in get_args(hint) if each is not type(None))]  # noqa: UP007
+
+
+def _write_file(module: str, classes: Sequence[type]) -> str:
+    imported: dict[str, set[str]] = {}
+    for declared in classes:
+        for each in (each for member in _members(declared) for each in _named(member.type)):
+            if each.__module__ != module:
+                imported.setdefault(_file_of(each.__module__), set()).add(each.__name__)
+    lines = [_head(module).rstrip()] + [""] * bool(imported)
+    lines += [
+        f'import type {{ {", ".join(sorted(names))} }} from "./{file}";' for file, names in sorted(imported.items())
+    ]
+    return "\n".join([*lines, "", *map(_write_interface, classes)])
+
+
+def _write_interface(declared: type) -> str:
+    comment = "".join(f"// {line}".rstrip() + "\n" for line in inspect.cleandoc(declared.__doc__ or "").splitlines())
+    parameter = "<Column = number>" if _has_columns(declared) else ""
+    members = "".join(
+        f"  {each.name}{'?' * each.optional}: {_translate_type(each.type, f'{declared.__name__}.{each.name}')};\n"
+        for each in _members(declared)
+    )
+    return f"{comment}export interface {declared.__name__}{parameter} {{\n{members}}}\n"
+
+
+def _has_columns(hint: Any) -> bool:
+    if _is_declared(hint):
+        return any(_has_columns(each.type) for each in _members(hint))
+    return hint in COLUMNS or any(map(_has_columns, get_args(hint)))
+
+
+def _translate_type(hint: Any, member: str) -> str:
+    """Return a type in TypeScript. Raises UntranslatableError, with the ``member`` that has it."""
+    if hint in PLAIN:
+        return PLAIN[hint]
+    if hint in COLUMNS:
+        return "Column"
+    if _is_declared(hint):
+        return f"{hint.__name__}{'<Column>' if _has_columns(hint) else ''}"
+    origin, arguments = get_origin(hint), get_args(hint)
+    if origin is Literal:
+        return " | ".join(map(json.dumps, arguments))
+    translated = [_translate_type(each, member) for each in arguments if each is not ...]
+    if origin in (Union, types.UnionType):
+        return " | ".join(dict.fromkeys(translated))
+    if origin is tuple and ... not in arguments:
+        return f"[{', '.join(translated)}]"
+    if origin in (list, tuple, Sequence):
+        return f"({translated[0]})[]" if "|" in translated[0] else f"{translated[0]}[]"
+    if origin is dict:
+        return f"Record<{', '.join(translated)}>"
+    raise UntranslatableError(f"{member}: {hint} has no counterpart in TypeScript; declare str, float, a list, ...")
+
+
+def _head(module: str) -> str:
+    path = module.removeprefix("perilune.").replace(".", "/")
+    return f"// Written by build_web.py from {path}.py.\n"
+
+
+def _file_of(module: str) -> str:
+    return module.rpartition(".")[2]

@@ -1,0 +1,9 @@
+// Written by build_web.py from analysis/reports/interactive/columns.py.
+
+// A column; without a range its numbers are float32.
+export interface Encoded {
+  low?: number;
+  high?: number;
+  knee?: number;
+  rows: number;
+}
