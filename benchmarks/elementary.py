@@ -14,8 +14,9 @@ import numpy as np
 from perilune.analysis.runtime.loop.elementary import elementary
 from perilune.analysis.runtime.loop.write_elementary import FUNCTIONS
 from perilune.common.paths import BUILD
-from perilune.fmus_src.export.compilers import PLATFORMS, build_library, local_platform
+from perilune.fmus_src.export.compilers import PLATFORMS, local_platform
 from perilune.fmus_src.export.judge.subset_table import ELEMENTARY_FUNCTIONS
+from perilune.fmus_src.export.libraries import build_library
 from perilune.fmus_src.export.native_fmu import native_sources
 from perilune.fmus_src.kernel import functions
 from tests.support.kernels.elementary_block import ElementaryFunctions
