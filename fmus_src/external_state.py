@@ -59,7 +59,7 @@ def _is_external(attribute: object) -> bool:
 
 
 class DataFiles:
-    """What a block with ``data`` inherits: the path of each file, as an object and inside an FMU."""
+    """Mixin of a block with ``data``: the path of each file, as an object and inside an FMU."""
 
     data: ClassVar[tuple[str, ...]] = ()
     fmu_resources: str | None = None  # the folder of the FMU that the instance runs in, set by the FMU
@@ -79,7 +79,7 @@ class DataFiles:
 
 
 def data_problem(names: object, python_only: bool) -> str | None:
-    """What is wrong with a declaration of data, and what to do; None where nothing is."""
+    """Return the problem of a declaration of data, and the remedy; None for a valid one."""
     if not isinstance(names, tuple) or not all(isinstance(name, str) for name in names):
         return f"data is {names!r}; write a tuple of file names, data = ('net.npz',)"
     for name in names:

@@ -18,7 +18,7 @@ FROZEN = "frozen_"  # before the name of an output
 
 @dataclass(frozen=True)
 class Role:
-    """What a variable of this name is declared as, and what follows from it.
+    """Declaration that a name demands of its variable, and its effect.
 
     ``is_in_life_cycle``: the life cycle of every FMU computes with it, so that it is one number.
     """

@@ -151,7 +151,7 @@ def test_a_floor_imports_what_is_below_it_only(room, below, arrows):
 
 @pytest.mark.parametrize(("room", "modules"), [("fmus_src", 250), ("common", 20)])
 def test_a_floor_brings_no_analysis(room, modules):
-    """What a process has that has imported every module of it."""
+    """Modules of a process that has imported every module of a floor."""
     done = subprocess.run(
         [sys.executable, "-c", IMPORT_ALL.format(room=room)], cwd=ROOT, capture_output=True, text=True, check=True
     )

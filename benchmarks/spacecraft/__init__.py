@@ -1,1 +1,1 @@
-"""What the plant `spacecraft` costs, alone and in a system."""
+"""Cost of the plant `spacecraft`, alone and in a system."""

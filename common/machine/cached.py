@@ -6,7 +6,6 @@ A damaged file is made again, and a cache that cannot be used ends nothing: eith
 from __future__ import annotations
 
 import hashlib
-import tempfile
 import threading
 import warnings
 from collections.abc import Callable
@@ -18,7 +17,6 @@ from ..scratch import make_folder
 from .os_errors import reason_of, remedy_of
 
 CHECKSUM = ".sha256"  # of the file next to one that other programs open
-DIGEST = hashlib.sha256().digest_size  # bytes behind the content of a sealed file
 _substitutes: dict[Path, Path] = {}  # of files that cannot be kept: temporary ones of this process
 _warned: set[str] = set()
 _writing = threading.Lock()  # of threads that make one file at once
@@ -57,37 +55,6 @@ def _has_checksum(path: Path) -> bool:
     if digest != checksum:
         warn_damaged(path)
     return digest == checksum
-
-
-def write_sealed(path: Path, content: bytes) -> None:
-    """Write a file with its digest behind its content, whole or not at all. Raises OSError."""
-    with _writing:
-        write_atomically(path, content + hashlib.sha256(content).digest())
-
-
-def is_sealed(path: Path) -> bool:
-    """True if a file is as `write_sealed` wrote it; a damaged one is removed."""
-    try:
-        content = path.read_bytes()
-        if hashlib.sha256(content[:-DIGEST]).digest() == content[-DIGEST:]:
-            return True
-        warn_damaged(path)
-        path.unlink()
-    except FileNotFoundError:
-        pass
-    except OSError as error:
-        warn_unusable(path.parent, error)
-    return False
-
-
-def find_obstacle(folder: Path) -> OSError | None:
-    """Return why a folder of the cache cannot be written, None where it can; the folder is made."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            return None
-    except OSError as error:
-        return error
 
 
 def warn_damaged(path: Path) -> None:

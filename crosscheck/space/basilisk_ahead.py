@@ -1,4 +1,4 @@
-"""Where a craft of Basilisk is in the middle of its next step. Runs in Basilisk's environment."""
+"""Position of a craft of Basilisk in the middle of its next step. Runs in Basilisk's environment."""
 
 import numpy as np
 from Basilisk.architecture import messaging, sysModel

@@ -52,7 +52,7 @@ confidence = "90 %"
 
 
 def test_the_worst_trial_has_its_command(capsys, tmp_path):
-    """Of an upper bound the largest, of a lower one the smallest, nan before all; by variant, of a stored campaign."""
+    """The largest of an upper bound, the smallest of a lower one, nan before all; by variant, of a stored campaign."""
     metrics = """
 [metric.late]
 expression = "time"

@@ -1,4 +1,4 @@
-"""What a system written our way gives; and all flights of these tests compared with the reference loop's."""
+"""Rows of a system written our way; and all flights of these tests compared with the reference loop's."""
 
 import threading
 

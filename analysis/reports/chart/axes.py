@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..common.measures import TICK_SIZE
 from ..common.quantities import tick
 from ..interactive.charts import Axis
 from .ticks import axis_ticks
 
-TEXT = 8.0  # pt
-
 
 def linear_axis(ends: tuple[float, float], intervals: int, *, label: str = "", integer: bool = False) -> Axis:
-    """Return a linear axis with at most so many intervals between ticks, at integers where asked."""
+    """Return a linear axis with at most ``intervals`` intervals between ticks, at integers if ``integer``."""
     return _axis(ends, [(at, tick(at)) for at in axis_ticks(*ends, intervals, integer=integer)], label, named=False)
 
 
@@ -22,4 +21,4 @@ def named_axis(ends: tuple[float, float], ticks: Sequence[tuple[float, str]], *,
 
 
 def _axis(ends: tuple[float, float], ticks: list[tuple[float, str]], label: str, *, named: bool) -> Axis:
-    return Axis(label=label, ends=ends, ticks=ticks, named=named, size=TEXT, grid=True, marked=True)
+    return Axis(label=label, ends=ends, ticks=ticks, named=named, size=TICK_SIZE, grid=True, marked=True)

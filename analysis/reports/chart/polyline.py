@@ -49,7 +49,7 @@ def _thin(points: np.ndarray) -> np.ndarray:
 
 
 def _stroke(points: np.ndarray) -> str:
-    """Where a stroke begins, then each point relative to the one before; the same point is left out."""
+    """Return a stroke: its first point, then each one relative to the last; a repeated point is left out."""
     tenths = np.rint(10.0 * points).astype(np.int64)
     moves = np.diff(tenths, axis=1).T
     moves = moves[np.any(moves != 0, axis=1)]

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..common.colours import COLOURS
+from ..common.measures import DASHES, LINE_WIDTH
 from ..common.quantities import display_factor, display_unit
 from ..interactive.charts import Curve, Marker
 
-DASHES: tuple[tuple[float, ...], ...] = ((), (5.0, 1.6), (1.2, 1.2), (6.0, 1.6, 1.2, 1.6), (9.0, 2.0))  # line widths
-WIDTH = 1.3  # pt
 DOT = 3.0  # pt, the diameter of a lone sample
 
 
@@ -38,7 +37,7 @@ def quantity_curve(
         unit=display_unit(unit),
         colour=colour,
         opacity=1.0,
-        width=WIDTH,
+        width=LINE_WIDTH,
         dashes=DASHES[index % len(DASHES)],
         steps=steps,
         joined=True,

@@ -34,7 +34,7 @@ def _widen(low: float, high: float) -> tuple[float, float]:
 
 
 def axis_ticks(low: float, high: float, intervals: int, *, integer: bool = False) -> list[float]:
-    """Return the ticks between two ends: at most so many ``intervals``, at integers where asked.
+    """Return the ticks between two ends: at most ``intervals`` intervals, at integers if ``integer``.
 
     The steps are 1, 2, 2.5 or 5 times a power of ten; ends between which there are less than two ticks get smaller
     steps.

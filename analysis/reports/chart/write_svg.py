@@ -9,6 +9,7 @@ import numpy as np
 from markupsafe import Markup, escape
 
 from ..common.colours import FAINT, GRID, INK
+from ..common.measures import AXES_WIDTH, GRID_WIDTH, LABEL_SIZE
 from ..interactive.charts import Area, Axis, Chart, Curve, Note, Rule
 from .polyline import path_of
 from .quantity import ordinates
@@ -17,7 +18,6 @@ from .text import text_width
 MARGIN = 3.0  # pt, around everything
 STROKE, GAP = 3.5, 3.5  # pt: of a tick, from there to its text
 LABEL_GAP = 4.0  # pt, from the texts of ticks to the label of the axis
-LABEL_SIZE = 9.0  # pt, of labels and titles
 TITLE_GAP = 4.0  # pt, from the title to the axes
 ASCENT, DESCENT = 0.928, 0.236  # of DejaVu Sans, of its size
 MIDDLE = 0.365  # of its size, from the base line to the middle of digits
@@ -84,7 +84,7 @@ def write_svg(
 
 
 def _fraction(axis: Axis, at: float) -> float:
-    """Where a number lies between the ends of an axis."""
+    """Return where a number lies between the ends of an axis: 0 at the first, 1 at the second."""
     low, high = axis.ends
     return (at - low) / (high - low)
 
@@ -108,11 +108,11 @@ class _Frame:
         y = [(self._y(at), text) for at, text in self._chart.y.ticks]
         upright = "".join(f"M{at:.2f} {bottom:.2f}V{top:.2f}" for at, _ in x)
         level = "".join(f"M{left:.2f} {at:.2f}H{right:.2f}" for at, _ in y)
-        yield f'<path d="{upright}{level}" stroke="{GRID}" stroke-width=".6"/>'
+        yield f'<path d="{upright}{level}" stroke="{GRID}" stroke-width="{GRID_WIDTH:g}"/>'
         strokes = "".join(f"M{at:.2f} {bottom:.2f}v{STROKE:g}" for at, _ in x)
         strokes += "".join(f"M{left:.2f} {at:.2f}h-{STROKE:g}" for at, _ in y)
         edges = f"M{left:.2f} {top:.2f}V{bottom:.2f}H{right:.2f}"
-        yield f'<path d="{edges}{strokes}" fill="none" stroke="{FAINT}" stroke-width=".7"/>'
+        yield f'<path d="{edges}{strokes}" fill="none" stroke="{FAINT}" stroke-width="{AXES_WIDTH:g}"/>'
         base = bottom + STROKE + GAP + ASCENT * self._chart.x.size
         for size, anchor, texts in (
             (self._chart.x.size, "middle", [(at, base, text) for at, text in x]),

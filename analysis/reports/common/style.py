@@ -11,11 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.typing import CapStyleType, LineStyleType
 
+from . import measures
 from .colours import BLUE, COLOURS, FAINT, GREEN, GRID, INK, ORANGE, PURPLE, SKY, VERMILION  # noqa: F401
 from .quantities import log_tick, tick
 from .svg import Picture
 
-DASHES: tuple[LineStyleType, ...] = ("-", (0, (5, 1.6)), (0, (1.2, 1.2)), (0, (6, 1.6, 1.2, 1.6)), (0, (9, 2)))
+DASHES: tuple[LineStyleType, ...] = tuple((0, each) if each else "-" for each in measures.DASHES)
 MARKERS = "osD^vPX"
 
 
@@ -41,11 +42,11 @@ WIDTH = 10.4  # in; the page's column
 SETTINGS: Any = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
-    "font.size": 9.0,
-    "axes.titlesize": 9.0,
-    "axes.labelsize": 9.0,
-    "xtick.labelsize": 8.0,
-    "ytick.labelsize": 8.0,
+    "font.size": measures.LABEL_SIZE,
+    "axes.titlesize": measures.LABEL_SIZE,
+    "axes.labelsize": measures.LABEL_SIZE,
+    "xtick.labelsize": measures.TICK_SIZE,
+    "ytick.labelsize": measures.TICK_SIZE,
     "legend.fontsize": 8.5,
     "axes.edgecolor": FAINT,
     "axes.labelcolor": INK,
@@ -55,14 +56,14 @@ SETTINGS: Any = {
     "ytick.color": FAINT,
     "xtick.labelcolor": INK,
     "ytick.labelcolor": INK,
-    "axes.linewidth": 0.7,
-    "lines.linewidth": 1.3,
+    "axes.linewidth": measures.AXES_WIDTH,
+    "lines.linewidth": measures.LINE_WIDTH,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
     "axes.axisbelow": True,
     "grid.color": GRID,
-    "grid.linewidth": 0.6,
+    "grid.linewidth": measures.GRID_WIDTH,
     "legend.frameon": False,
     "figure.facecolor": "white",
     "path.simplify": True,

@@ -72,7 +72,7 @@ def history_panel(label: str, name: str, description: str, unit: str, chart: Cha
 def wide_history(name: str, description: str, unit: str, chart_of: Callable[[int], Chart]) -> Widths:
     """Return a plot over time as wide as the page's column, and one for narrow screens.
 
-    ``chart_of`` makes the chart with at most so many intervals; the ``unit`` stands above its axes.
+    ``chart_of`` makes the chart with a largest number of intervals between ticks; the ``unit`` stands above its axes.
     """
     wide = chart_panel("", name, description, chart_of(12), HEIGHT, WIDTH, title=unit, kind="wide")
     slim = chart_panel("", f"{name}-slim", description, chart_of(6), HEIGHT, HALF_WIDTH, title=unit, kind="slim")

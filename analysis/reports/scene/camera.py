@@ -18,7 +18,7 @@ FORWARD = {"x": "y", "y": "x", "z": "x"}
 
 @dataclass(frozen=True)
 class Camera:
-    """Where it is, ``eye`` (m), its axes right, up, forward as rows, and the tangent of half its field, upwards."""
+    """Position ``eye`` (m), axes right, up, forward as rows, and the tangent of half the vertical field of view."""
 
     eye: np.ndarray
     axes: np.ndarray

@@ -37,7 +37,7 @@ class Ground:
         return up, along / np.linalg.norm(along)
 
     def hides(self, eye: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Whether the ground is between the eye, [3], and each of the points, [n, 3]."""
+        """True for each of the points, [n, 3], that the ground hides from the eye, [3]."""
         if math.isinf(self.radius):
             return (points[:, 2] - self.centre[2]) * self.height(eye) < 0.0
         start, way = eye - self.centre, points - eye

@@ -44,7 +44,7 @@ def draw_names(
 
 
 def _on_picture(camera: Camera, ground: Ground | None, point: np.ndarray) -> tuple[float, float] | None:
-    """Where a point is on the picture; None where it is outside, behind the camera or hidden by the ground."""
+    """Return a point on the picture; None if it is outside, behind the camera or hidden by the ground."""
     seen = camera.look(point[None])
     if not seen[0, 2] > 0.0 or (ground is not None and ground.hides(camera.eye, point[None])[0]):
         return None

@@ -1,4 +1,4 @@
-"""What pictures of a scene are drawn with: their size, colours of light and dark pages, paths and names as SVG."""
+"""Means to draw pictures of a scene: their size, colours of light and dark pages, paths and names as SVG."""
 
 from __future__ import annotations
 
@@ -36,6 +36,6 @@ def lighter(colour: str) -> str:
 
 
 def point_of(scene: SceneView, name: str, row: int) -> np.ndarray:
-    """Where a body or a site is by its name (m), [3]."""
+    """Return the position of a body or a site by its name (m), [3]."""
     points: list[BodyView | SiteView] = [*scene.bodies, *scene.sites]
     return next(position_at(each, row) for each in points if each.name == name)

@@ -204,7 +204,7 @@ def scene_view(scene: Scene, result: Result) -> SceneView | None:
 
 
 def position_at(point: BodyView | SiteView, row: int) -> np.ndarray:
-    """Where a body or a site of a view is at a sample (m), [3], relative to the view's origin."""
+    """Return the position of a body or a site at a sample (m), [3], relative to the view's origin."""
     return np.array([column[row] for column in point.position])
 
 

@@ -32,7 +32,7 @@ _numbers = itertools.count(1)
 
 @dataclass(frozen=True)
 class Subject:
-    """What a child works on, as it is sent, and as it is here: the server has it as long as it is."""
+    """System or FMU of a child, as it is sent, and its ``owner`` here: the server keeps it as long as that lives."""
 
     owner: object
     content: PreparedSystem | Fmu

@@ -1,1 +1,1 @@
-"""What flies a system: instances of FMUs, instructions, memory, faults, results."""
+"""Simulation of a system in this process: instances of FMUs, instructions, memory, faults, results."""

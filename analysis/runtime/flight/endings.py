@@ -1,4 +1,4 @@
-"""How a flight ended: what the loop leaves of it, as a status and words."""
+"""Endings of a simulation: the outcome that the loop leaves, as a status and a message."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ def nothing_flown(simulation: BaseSimulation, message: str) -> Flight:
 
 
 def _within(simulation: BaseSimulation, timeout: float | None, work: Callable[[], Flown]) -> Flown:
-    """A flight with so many seconds."""
+    """Return a flight that is interrupted after ``timeout`` seconds of wall time."""
     if timeout is None:
         return work()
     future = _start(work)

@@ -242,7 +242,7 @@ class Simulation(BaseSimulation):
         return flight
 
     def _run(self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray) -> arrays.Run:
-        """What the loop is to simulate, to record and to add."""
+        """Return a run between two communication points: what is simulated, recorded and added."""
         prepared = self.prepared
         span = arrays.Span(
             reset=reset,

@@ -45,7 +45,7 @@ class Settings(NamedTuple):
 
 
 class Span(NamedTuple):
-    """What of a flight is flown. Times in s."""
+    """Part of a run that is simulated. Times in s."""
 
     reset: bool  # whether the FMUs have flown before
     start: float
@@ -56,7 +56,7 @@ class Span(NamedTuple):
 
 
 class Recording(NamedTuple):
-    """What is kept: the slots ``slots`` of every ``stride``-th communication point, and always of the last one."""
+    """Recorded rows: ``slots`` at every ``stride``-th communication point, and always at the last one."""
 
     slots: np.ndarray  # int64 [k]
     stride: int
@@ -66,7 +66,7 @@ class Recording(NamedTuple):
 
 
 class Group(NamedTuple):
-    """What n flights one behind another are given, and how they ended."""
+    """Inputs and outcomes of n consecutive runs."""
 
     real: np.ndarray  # float64 [n, v], values of parameters
     real_position: np.ndarray  # int64 [v], their places in `Settings`
@@ -89,7 +89,7 @@ class Texts(NamedTuple):
 
 
 class Transfers(NamedTuple):
-    """What is exchanged with FMUs of FMI 3.0: transfers of slots, parameters or texts, one call each."""
+    """Exchanges with FMUs of FMI 3.0: transfers of slots, parameters or texts, one call each."""
 
     rows: np.ndarray  # int64 [q, codes.TRANSFER_COLUMNS]
     reference: np.ndarray  # uint32, value references, one of a whole array
@@ -97,7 +97,7 @@ class Transfers(NamedTuple):
 
 
 class StoredValues(NamedTuple):
-    """What FMUs of FMI 3.0 exchange, in their own types."""
+    """Values of FMUs of FMI 3.0 in their own types."""
 
     sent: np.ndarray  # uint64 [s], each transfer's values side by side from its first slot on, as given or taken last
     exact: np.ndarray  # uint64 [s], whole numbers of 64 bits, of which the float64 of a slot may be rounded
@@ -106,7 +106,7 @@ class StoredValues(NamedTuple):
 
 
 class Fmi3(NamedTuple):
-    """What systems with FMUs of FMI 3.0 have in addition."""
+    """Arrays that systems with FMUs of FMI 3.0 have in addition."""
 
     transfers: Transfers
     start: np.ndarray  # uint64 [s], whole numbers of 64 bits before anything is exchanged

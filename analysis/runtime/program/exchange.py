@@ -1,4 +1,4 @@
-"""What is exchanged and recorded of a system, by the names of variables and connectors."""
+"""Variables that a simulation exchanges and records, by the names of variables and connectors."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..system.schedule import origin
 
 @dataclass(frozen=True)
 class Roles:
-    """What is done with the variables of a component; arrays of FMI 3.0 have all elements in one of these.
+    """Uses of the variables of a component; arrays of FMI 3.0 have all elements in one of these.
 
     ``given`` are inputs, and parameters that change in flight; ``outputs`` also what is connected like one;
     ``recorded`` what else is read. ``uses_events``: FMI 3.0's event mode, of an FMU that has it and a discrete input.
@@ -30,17 +30,17 @@ class Roles:
 class Exchange:
     """``roles`` by component, system ``connectors`` that have values, and the names of signals ``recorded``.
 
-    These are ``wanted`` ones, or where None all that is exchanged. Outputs that nothing needs are not read.
+    These are the ``selected`` ones, or where None all that is exchanged. Outputs that nothing needs are not read.
     """
 
     def __init__(
-        self, system: PreparedSystem, faults: Sequence[Fault] = (), wanted: Collection[str] | None = None
+        self, system: PreparedSystem, faults: Sequence[Fault] = (), selected: Collection[str] | None = None
     ) -> None:
         self._network = network = system.network
-        self._wanted = set(wanted or ())
+        self._selected = set(selected or ())
         links = list(network.links())
         signals = [link.source for link in links if not link.is_parameter]
-        self._fetched = None if wanted is None else self._wanted | {link.source.name for link in links}
+        self._fetched = None if selected is None else self._selected | {link.source.name for link in links}
         if self._fetched is not None:
             self._fetched |= {fault.name for fault in faults}
         self._changing = {*network.driver, *network.driven}
@@ -66,7 +66,7 @@ class Exchange:
             for each in (*roles.given, *roles.outputs)
             if each.type not in TEXTS and (each in roles.outputs or self._is_changing(component, each))
         ]
-        self.recorded = [*exchanged, *self.connectors] if wanted is None else list(wanted)
+        self.recorded = [*exchanged, *self.connectors] if selected is None else list(selected)
 
     def _find_roles(self, component: str) -> Roles:
         fmu = self._network.fmus[component]
@@ -81,7 +81,7 @@ class Exchange:
                 given += array
             elif is_output and self._is_fetched(first, names):
                 outputs += array
-            elif names & self._wanted:
+            elif names & self._selected:
                 recorded += array
         discrete = any(each.causality == "input" and each.variability == "discrete" for each in given)
         has_events = fmu.version == 3 and bool(fmu.description.coSimulation.hasEventMode)

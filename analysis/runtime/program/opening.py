@@ -23,12 +23,14 @@ from .signals import Signals
 LOOPS = {"sequential": Sequential, "jacobi": Jacobi}
 
 
-def fly_reference(system: PreparedSystem, faults: Sequence[Fault] = (), wanted: Collection[str] | None = None) -> Rows:
-    """Fly a system once, in this process; record the ``wanted`` signals, or all that are exchanged where None.
+def fly_reference(
+    system: PreparedSystem, faults: Sequence[Fault] = (), selected: Collection[str] | None = None
+) -> Rows:
+    """Fly a system once, in this process; record the ``selected`` signals, or all that are exchanged where None.
 
     Raises InputError where an FMU cannot be instantiated.
     """
-    exchange = Exchange(system, faults, wanted)
+    exchange = Exchange(system, faults, selected)
     instances: dict[str, Instance] = {}
     is_fatal = False
     try:

@@ -46,7 +46,7 @@ class Signals:
         return is_there and self.values["finished"] != 0.0
 
     def move_to(self, point: int) -> None:
-        """Have faults and inputs over time of a communication point."""
+        """Set the time of faults, and the row of inputs over time, to a communication point."""
         self.time = self._system.start + point * self._system.step
         self._drive_row = point + 1
 

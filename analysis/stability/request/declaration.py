@@ -106,6 +106,6 @@ class Declaration:
 
     @property
     def layers(self) -> tuple[Layer, ...]:
-        """What operating points and elements change of the system's options."""
+        """Options of the system that operating points and elements change."""
         elements = (element.layer for loop in self.loops for element in loop.elements)
         return (*(point.layer for point in self.points), *elements)

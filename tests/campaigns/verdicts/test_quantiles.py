@@ -65,7 +65,7 @@ def test_what_is_no_fraction_is_refused(fraction):
 
 
 def test_the_product_has_no_other_quantile():
-    """Nothing calls numpy's, which interpolate."""
+    """Calls of numpy's quantiles, which interpolate, are absent."""
     calls = []
     for file in sorted((ROOT / "analysis").rglob("*.py")):
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):

@@ -83,7 +83,6 @@ def test_a_cache_that_is_a_file(tmp_path, said):
     (tmp_path / "cache").write_text("")
     folder = tmp_path / "cache" / "fused"
     assert cached.cached_file(folder / "a.so", lambda: CONTENT).read_bytes() == CONTENT
-    assert isinstance(cached.find_obstacle(folder), NotADirectoryError)
     assert said() == [
         f"cache {folder}: Not a directory: done without; remove the file that is where a folder is needed"
     ]
@@ -95,20 +94,6 @@ def test_a_cache_that_may_not_be_entered(tmp_path, said, monkeypatch):
         monkeypatch.setattr(cached.Path, name, denied(errno.EACCES))
     monkeypatch.setattr(cached, "write_atomically", denied(errno.EACCES))
     substitute = cached.cached_file(tmp_path / "a.so", lambda: CONTENT)
-    assert not cached.is_sealed(tmp_path / "b")
     monkeypatch.undo()
     assert substitute.read_bytes() == CONTENT
     assert len(said()) == 1
-
-
-@pytest.mark.parametrize("damaged", [b"", CONTENT[:9], b"\xff\xfe", CONTENT])
-def test_sealed_files(tmp_path, said, damaged):
-    path = tmp_path / "a.nbc"
-    assert not cached.is_sealed(path)
-    cached.write_sealed(path, CONTENT)
-    assert cached.is_sealed(path)
-    assert path.read_bytes()[: len(CONTENT)] == CONTENT
-    path.write_bytes(damaged)
-    assert not cached.is_sealed(path)
-    assert not path.exists()
-    assert said() == [f"cache {tmp_path}: damaged files are made again, a.nbc for one"]

@@ -1,4 +1,4 @@
-"""What of a line is in a picture, and what the ground hides of it.
+"""Parts of a line that a picture shows, and parts that the ground hides.
 
 Truth: many points of the line, each compared with the picture's edges or the ground itself.
 """

@@ -115,7 +115,7 @@ def test_the_nearest_facet_on_a_ray_hides_the_others(shape):
 
 
 def depth_on_ray(stroke, ray):
-    """How far a ray goes to a convex facet; None if it passes beside it."""
+    """Return the length of a ray to a convex facet; None if it misses."""
     depth = (stroke.points[0] @ stroke.normal) / (ray @ stroke.normal)
     edges = np.roll(stroke.points, -1, axis=0) - stroke.points
     sides = np.cross(edges, depth * ray - stroke.points) @ stroke.normal

@@ -87,7 +87,8 @@ DEFECTS = {
 
 
 @pytest.mark.parametrize(
-    "case", [pytest.param(case, marks=pytest.mark.xfail(reason=reason)) for case, reason in DEFECTS.items()]
+    "case",
+    [pytest.param(case, marks=pytest.mark.xfail(reason=reason, strict=True)) for case, reason in DEFECTS.items()],
 )
 def test_the_loop_in_c(case, request):
     assert_same(*request.getfixturevalue(case))

@@ -1,4 +1,4 @@
-"""What a system can have, each by the interpreted loop: the rows of the reference loop to the bit, and its status."""
+"""Features of a system, each by the interpreted loop: the rows of the reference loop to the bit, and its status."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What a page's pictures of a scene show, read back from their SVG."""
+"""Contents of a page's pictures of a scene, read back from their SVG."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""What a three-dimensional scene consists of: bodies with position and attitude, a ground, sites, jets, lines, arrows.
+"""Elements of a three-dimensional scene: bodies with position and attitude, a ground, sites, jets, lines, arrows.
 
 The frame of a scene is right-handed and that of the signals; its positions are in m. Where positions are longitude,
 latitude and height it is east, north, up at the ground below the last sample. A sphere's centre is at

@@ -1,6 +1,6 @@
 /* What happens once, before a run: parameters, modes, and whether the FMUs took what they were given. */
 
-#define LOSS 1e-6 /* of a Real: what an FMU may lose of it by single precision or a unit of its own */
+#define LOSS 1e-6 /* of a Real: what an FMU may lose of it by single precision or another unit */
 
 static bool is_near(double stored, double requested)
 {

@@ -1,4 +1,4 @@
-/* The callback that FMUs of FMI 3.0 call within their steps: nothing is exchanged there, and no early return is asked. */
+/* The callback that FMUs of FMI 3.0 call within their steps: nothing is exchanged there, and no early return is requested. */
 EXPORT void perilune_ignore_update(
     void *environment,
     double time,

@@ -31,13 +31,13 @@ static bool is_true(double value)
 
 static double extreme(const Rows *rows, bool smallest)
 {
-    double found = rows->values[rows->first];
+    double extremum = rows->values[rows->first];
     for (int64_t row = rows->first; row < rows->end; row++) {
         const double value = rows->values[row];
         if (isnan(value)) return value;
-        if (smallest ? value < found : value > found) found = value;
+        if (smallest ? value < extremum : value > extremum) extremum = value;
     }
-    return found;
+    return extremum;
 }
 
 static double mean(const Rows *rows, bool squared)
