@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..common.measures import TICK_SIZE
 from ..common.quantities import tick
 from ..interactive.charts import Axis
+from ..interactive.measures import TICK_SIZE
 from .ticks import axis_ticks
 
 

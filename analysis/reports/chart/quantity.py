@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..common.colours import COLOURS
-from ..common.measures import DASHES, LINE_WIDTH
 from ..common.quantities import display_factor, display_unit
 from ..interactive.charts import Curve, Marker
+from ..interactive.measures import DASHES, LINE_WIDTH
 
 DOT = 3.0  # pt, the diameter of a lone sample
 

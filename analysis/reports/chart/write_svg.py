@@ -9,8 +9,8 @@ import numpy as np
 from markupsafe import Markup, escape
 
 from ..common.colours import FAINT, GRID, INK
-from ..common.measures import AXES_WIDTH, GRID_WIDTH, LABEL_SIZE
 from ..interactive.charts import Area, Axis, Chart, Curve, Note, Rule
+from ..interactive.measures import AXES_WIDTH, GRID_WIDTH, LABEL_SIZE
 from .polyline import path_of
 from .quantity import ordinates
 from .text import text_width

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.typing import CapStyleType, LineStyleType
 
-from . import measures
+from ..interactive import measures
 from .colours import BLUE, COLOURS, FAINT, GREEN, GRID, INK, ORANGE, PURPLE, SKY, VERMILION  # noqa: F401
 from .quantities import log_tick, tick
 from .svg import Picture
