@@ -11,12 +11,13 @@ import math
 
 from ..kernel.elementary.two_doubles import ROUND
 from ..kernel.functions import cos, log
-from ..kernel.matrices import Matrix, matrix
+from .rng_jumps import JUMPS
 from .vectors import Vector3, vector
 
 M1 = 4294967087.0
 M2 = 4294944443.0
 NORM = 2.328306549295727688e-10
+STREAM = 51  # row of `JUMPS` with the distance of streams, 2^127
 
 
 def nearest(x: float) -> float:
@@ -50,60 +51,49 @@ def combine(s: Vector3, a: Vector3, b: Vector3, c: Vector3, m: float) -> Vector3
     )
 
 
-def square(p: Vector3, cube: Vector3, fourth: Vector3, m: float) -> Vector3:
-    """p^2 mod m, of a polynomial of degree two in a matrix, with its powers as in `jump`."""
-    high = high_words(p)
-    low = p - 65536.0 * high
-    d0 = reduce_modulo(p.x * high.x, p.x * low.x, m)
-    d1 = reduce_modulo(2.0 * p.x * high.y, 2.0 * p.x * low.y, m)
-    d2 = reduce_modulo(2.0 * p.x * high.z + p.y * high.y, 2.0 * p.x * low.z + p.y * low.y, m)
-    d3 = reduce_modulo(2.0 * p.y * high.z, 2.0 * p.y * low.z, m)
-    d4 = reduce_modulo(p.z * high.z, p.z * low.z, m)
-    return combine(vector(1.0, d3, d4), vector(d0, d1, d2), cube, fourth, m)
+def advance(state: list) -> None:
+    """Replace the state by that of the next number."""
+    p1 = 1403580.0 * state[1] - 810728.0 * state[0]
+    p2 = 527612.0 * state[5] - 1370589.0 * state[3]
+    state[0] = state[1]
+    state[1] = state[2]
+    state[2] = p1 - float(math.floor(p1 / M1)) * M1
+    state[3] = state[4]
+    state[4] = state[5]
+    state[5] = p2 - float(math.floor(p2 / M2)) * M2
 
 
-def times_matrix(p: Vector3, cube: Vector3, m: float) -> Vector3:
-    """p a mod m, of a polynomial of degree two in a matrix a."""
-    return combine(vector(1.0, p.z, 0.0), vector(0.0, p.x, p.y), cube, cube, m)
+def store(state: list, offset: int, v: Vector3, m: float) -> None:
+    """Set state[offset : offset + 3] to v, residues nearest to 0, as residues in [0, m)."""
+    state[offset] = v.x + m if v.x < 0.0 else v.x
+    state[offset + 1] = v.y + m if v.y < 0.0 else v.y
+    state[offset + 2] = v.z + m if v.z < 0.0 else v.z
 
 
-def transform(a: Matrix, v: Vector3, m: float) -> Vector3:
-    """a v mod m, for a 3 x 3 matrix."""
-    return combine(
-        v,
-        vector(a[0, 0], a[1, 0], a[2, 0]),
-        vector(a[0, 1], a[1, 1], a[2, 1]),
-        vector(a[0, 2], a[1, 2], a[2, 2]),
-        m,
-    )
+def jump(state: list, row: int) -> None:
+    """Advance the state by 2^(76 + row) numbers, in the polynomials of `JUMPS`."""
+    a0 = vector(state[0], state[1], state[2])
+    b0 = vector(state[3], state[4], state[5])
+    advance(state)
+    a1 = vector(state[0], state[1], state[2])
+    b1 = vector(state[3], state[4], state[5])
+    advance(state)
+    a2 = vector(state[0], state[1], state[2])
+    b2 = vector(state[3], state[4], state[5])
+    i = 6 * row
+    store(state, 0, combine(vector(JUMPS[i], JUMPS[i + 1], JUMPS[i + 2]), a0, a1, a2, M1), M1)
+    store(state, 3, combine(vector(JUMPS[i + 3], JUMPS[i + 4], JUMPS[i + 5]), b0, b1, b2, M2), M2)
 
 
-def jump(state: list, offset: int, a: Matrix, cube: Vector3, count: int, m: float) -> None:
-    """state[offset : offset + 3] = a^count state mod m, by repeated squaring from the first bit of count on.
-
-    ``cube`` is t in a^3 = t.x + t.y a + t.z a^2 (Cayley and Hamilton), by which every power
-    is a polynomial of degree two in a: squaring that takes 12 products, squaring the matrix 27 (for generators over
-    bits: Haramoto, Matsumoto, Nishimura, Panneton and L'Ecuyer, INFORMS Journal on Computing 20(3), 2008).
-    """
-    if count > 0:
-        fourth = times_matrix(cube, cube, m)
-        bit = 1
-        while bit <= count // 2:
-            bit = 2 * bit
-        left = count - bit
-        power = vector(0.0, 1.0, 0.0)
-        while bit > 1:
-            bit = bit // 2
-            power = square(power, cube, fourth, m)
-            if left >= bit:
-                left = left - bit
-                power = times_matrix(power, cube, m)
-        v = vector(state[offset], state[offset + 1], state[offset + 2])
-        once = transform(a, v, m)
-        v = combine(power, v, once, transform(a, once, m), m)
-        state[offset] = v.x + m if v.x < 0.0 else v.x
-        state[offset + 1] = v.y + m if v.y < 0.0 else v.y
-        state[offset + 2] = v.z + m if v.z < 0.0 else v.z
+def jump_times(state: list, count: int, first: int) -> None:
+    """Advance the state by ``count`` times 2^(76 + first) numbers."""
+    left = count
+    row = first
+    while left > 0:
+        if left % 2 == 1:
+            jump(state, row)
+        left = left // 2
+        row = row + 1
 
 
 def seed_streams(state: list, seed: int, stream: int) -> None:
@@ -113,50 +103,15 @@ def seed_streams(state: list, seed: int, stream: int) -> None:
     """
     for i in range(6):
         state[i] = 12345.0
-    # A1^(2^127), A2^(2^127): one stream
-    a1 = matrix(
-        [2427906178.0, 3580155704.0, 949770784.0],
-        [226153695.0, 1230515664.0, 3580155704.0],
-        [1988835001.0, 986791581.0, 1230515664.0],
-    )
-    a2 = matrix(
-        [1464411153.0, 277697599.0, 1610723613.0],
-        [32183930.0, 1464411153.0, 1022607788.0],
-        [2824425944.0, 32183930.0, 2093834863.0],
-    )
-    a1_cube = vector(2714382928.0, 888045435.0, 593970419.0)
-    a2_cube = vector(117492272.0, 4204460113.0, 727712726.0)
-    jump(state, 0, a1, a1_cube, seed, M1)
-    jump(state, 3, a2, a2_cube, seed, M2)
-    # A1^(2^76), A2^(2^76): one substream
-    b1 = matrix(
-        [82758667.0, 1871391091.0, 4127413238.0],
-        [3672831523.0, 69195019.0, 1871391091.0],
-        [3672091415.0, 3528743235.0, 69195019.0],
-    )
-    b2 = matrix(
-        [1511326704.0, 3759209742.0, 1610795712.0],
-        [4292754251.0, 1511326704.0, 3889917532.0],
-        [3859662829.0, 4292754251.0, 3708466080.0],
-    )
-    b1_cube = vector(179953957.0, 1238372185.0, 221148705.0)
-    b2_cube = vector(1350139077.0, 1707256826.0, 2436175045.0)
-    jump(state, 0, b1, b1_cube, stream, M1)
-    jump(state, 3, b2, b2_cube, stream, M2)
+    jump_times(state, seed, STREAM)
+    jump_times(state, stream, 0)
 
 
 def uniform(state: list) -> float:
     """The next number, in (0, 1)."""
-    p1 = 1403580.0 * state[1] - 810728.0 * state[0]
-    p1 = p1 - float(math.floor(p1 / M1)) * M1
-    state[0] = state[1]
-    state[1] = state[2]
-    state[2] = p1
-    p2 = 527612.0 * state[5] - 1370589.0 * state[3]
-    p2 = p2 - float(math.floor(p2 / M2)) * M2
-    state[3] = state[4]
-    state[4] = state[5]
-    state[5] = p2
+    advance(state)
+    p1 = state[2]
+    p2 = state[5]
     if p1 > p2:
         return (p1 - p2) * NORM
     return (p1 - p2 + M1) * NORM
