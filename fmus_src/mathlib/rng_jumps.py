@@ -1,8 +1,8 @@
 """Jumps of MRG32k3a by 2^76, 2^77, ..., 2^189 numbers: the distances between its substreams and its streams.
 
 A jump by n numbers multiplies the state by A^n, A the transition matrix of one number, which is a polynomial
-c0 + c1 A + c2 A^2 (Cayley and Hamilton). A is a companion matrix, so that (c0, c1, c2) is the first row of A^n. Source of
-A: L'Ecuyer, Operations Research 47(1), 1999.
+c0 + c1 A + c2 A^2 (Cayley and Hamilton). A is a companion matrix, so that (c0, c1, c2) is the first row of A^n.
+Source of A: L'Ecuyer, Operations Research 47(1), 1999.
 """
 
 # Rows of c0, c1, c2 of the first component, then of the second.
