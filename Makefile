@@ -173,9 +173,9 @@ elementary: .venv/ready
 	$(BIN)/python -m tests.kernel.coefficients
 
 # The same bits everywhere: whole campaigns with less of the processor, the C of every block by every compiler, and the
-# shipped Windows libraries under Wine.
+# shipped Windows libraries and the loop under Wine.
 processors: build emulator windows
-	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 tests/processors
+	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 tests/processors tests/runtime/loop/test_platforms.py
 
 # What the tests of the C on aarch64 need, from Debian's packages (as root), its C library among them; without it they
 # are left out.

@@ -6,12 +6,7 @@ Microsoft's C runtime (ucrtbase) as Wine writes it: what an FMU calls of it is e
 
 from __future__ import annotations
 
-import os
-import shutil
-import subprocess
-import tempfile
 import zipfile
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -22,23 +17,13 @@ from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from tests.support.kernels.programs import ZIG, checksum, fly, link
 from tests.support.lengths import LONG
+from tests.support.wine import WINE, windows  # noqa: F401 -- a fixture
 
-WINE = shutil.which("wine")
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = 2000
 
 if WINE is None or not LONG:
     pytest.skip("only with Wine, in make processors", allow_module_level=True)
-
-
-@pytest.fixture(scope="module")
-def windows() -> Iterator[dict[str, str]]:
-    """An environment whose Wine has a fresh Windows, of 700 MB, which ends with the tests."""
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as prefix:
-        environment = {**os.environ, "WINEPREFIX": prefix, "WINEDEBUG": "-all"}
-        subprocess.run([str(WINE), "wineboot", "--init"], env=environment, check=True, capture_output=True)
-        yield environment
-        subprocess.run([str(WINE), "wineboot", "--kill"], env=environment, check=True, capture_output=True)
 
 
 @pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.fmu_name)

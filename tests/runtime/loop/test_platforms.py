@@ -1,6 +1,7 @@
-"""The loop without Python, on another processor: one FMU of FMI 3.0 on aarch64 Linux under qemu.
+"""The loop without Python, on other platforms: one FMU of FMI 3.0 on aarch64 Linux under qemu, on Windows under Wine.
 
-Truth: the record of the same run by this machine's library. `make emulator` installs qemu and the C library of aarch64.
+Truth: the record of the same run by this machine's library. `make emulator` installs qemu and the C library of aarch64,
+`make windows` Wine, which only `make processors` takes.
 """
 
 from __future__ import annotations
@@ -25,12 +26,17 @@ from perilune.fmus_src.export.compilers import PLATFORMS, local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from tests.export.fmi3.test_platforms import LIBRARIES
 from tests.support.kernels.programs import NO_QEMU, QEMU, ZIG
-from tests.support.lengths import either
+from tests.support.lengths import LONG, either
 from tests.support.native.frozen_run import freeze_run
+from tests.support.wine import WINE, windows  # noqa: F401 -- a fixture
 
 NAME = "spacecraft"
 STEPS = either(2000, 100)
-RUNNERS = {"x86_64-linux": [], "aarch64-linux": [QEMU or "qemu-aarch64-static", "-L", str(LIBRARIES)]}
+RUNNERS = {
+    "x86_64-linux": [],
+    "aarch64-linux": [QEMU or "qemu-aarch64-static", "-L", str(LIBRARIES)],
+    "x86_64-windows": [str(WINE)],
+}
 FROZEN = Path(freeze_run.__code__.co_filename).with_name("fly_frozen_run.c")
 pytestmark = [
     pytest.mark.skipif(importlib.util.find_spec("ziglang") is None, reason="ziglang is not installed"),
@@ -64,9 +70,12 @@ def case(fmu: Path) -> tuple[str, str, str]:
 
 
 @pytest.mark.parametrize("platform", RUNNERS)
-def test_a_program_in_c_has_the_bits_of_this_machine(fmu, case, platform, tmp_path):
+def test_a_program_in_c_has_the_bits_of_this_machine(fmu, case, platform, request, tmp_path):
     if platform == "aarch64-linux" and (QEMU is None or not LIBRARIES.is_dir()):
         pytest.skip(NO_QEMU)
+    is_windows = platform == "x86_64-windows"
+    if is_windows and (WINE is None or not LONG):
+        pytest.skip("only with Wine, in make processors")
     frozen, token, expected = case
     for name, content in {**library.sources(), "frozen_run.h": frozen.encode()}.items():
         (tmp_path / name).write_bytes(content)
@@ -75,13 +84,18 @@ def test_a_program_in_c_has_the_bits_of_this_machine(fmu, case, platform, tmp_pa
             if name.startswith((f"binaries/{platform}/", "sources/fmi3")):
                 (tmp_path / Path(name).name).write_bytes(archive.read(name))
     (target,) = PLATFORMS[platform].zig_targets
-    options = [*library.FLAGS, "-Wl,-rpath,$ORIGIN", "-I", "."]
+    program, extension = ("program.exe", "dll") if is_windows else ("program", "so")
+    options = [*library.FLAGS, "-I", ".", *([] if is_windows else ["-Wl,-rpath,$ORIGIN"])]
     flags = [flag for flag in options if flag not in ("-shared", "-fPIC")]
-    command = [*ZIG, "-target", target, *flags, "-o", "program", str(FROZEN), f"{NAME}.so", "-lm"]
+    command = [*ZIG, "-target", target, *flags, "-o", program, str(FROZEN), f"{NAME}.{extension}", "-lm"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     done = subprocess.run(
-        [*RUNNERS[platform], str(tmp_path / "program"), token], capture_output=True, text=True, check=False
+        [*RUNNERS[platform], str(tmp_path / program), token],
+        env=request.getfixturevalue("windows") if is_windows else None,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert done.returncode == 0, done.stderr
     assert done.stdout == expected
