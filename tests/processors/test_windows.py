@@ -28,7 +28,7 @@ if WINE is None or not LONG:
 
 @pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.fmu_name)
 def test_a_shipped_windows_library_gives_the_same_bits(
-    block: type[Block], windows: dict[str, str], tmp_path: Path
+    block: type[Block], windows: dict[str, str], tmp_path: Path  # noqa: F811
 ) -> None:
     library = f"{block.fmu_name}.dll"
     path = build_native_fmu(block, tmp_path / f"{block.fmu_name}.fmu", platforms=["win64"], portable=True)
