@@ -7,6 +7,7 @@ Microsoft's C runtime (ucrtbase) as Wine writes it: what an FMU calls of it is e
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -17,7 +18,7 @@ from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from tests.support.kernels.programs import ZIG, checksum, fly, link
 from tests.support.lengths import LONG
-from tests.support.wine import WINE, windows  # noqa: F401 -- a fixture
+from tests.support.wine import WINE, fresh_windows
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = 2000
@@ -26,9 +27,15 @@ if WINE is None or not LONG:
     pytest.skip("only with Wine, in make processors", allow_module_level=True)
 
 
+@pytest.fixture(scope="module")
+def windows() -> Iterator[dict[str, str]]:
+    with fresh_windows() as environment:
+        yield environment
+
+
 @pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.fmu_name)
 def test_a_shipped_windows_library_gives_the_same_bits(
-    block: type[Block], windows: dict[str, str], tmp_path: Path  # noqa: F811
+    block: type[Block], windows: dict[str, str], tmp_path: Path
 ) -> None:
     library = f"{block.fmu_name}.dll"
     path = build_native_fmu(block, tmp_path / f"{block.fmu_name}.fmu", platforms=["win64"], portable=True)

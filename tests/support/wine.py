@@ -7,15 +7,14 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator
-
-import pytest
+from contextlib import contextmanager
 
 WINE = shutil.which("wine")
 
 
-@pytest.fixture(scope="module")
-def windows() -> Iterator[dict[str, str]]:
-    """An environment whose Wine has a fresh Windows, of 700 MB, which ends with the tests."""
+@contextmanager
+def fresh_windows() -> Iterator[dict[str, str]]:
+    """Yield an environment whose Wine has a fresh Windows, of 700 MB, which ends with the context."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as prefix:
         environment = {**os.environ, "WINEPREFIX": prefix, "WINEDEBUG": "-all"}
         subprocess.run([str(WINE), "wineboot", "--init"], env=environment, check=True, capture_output=True)

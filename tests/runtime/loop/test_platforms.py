@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib.util
 import subprocess
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +29,7 @@ from tests.export.fmi3.test_platforms import LIBRARIES
 from tests.support.kernels.programs import NO_QEMU, QEMU, ZIG
 from tests.support.lengths import LONG, either
 from tests.support.native.frozen_run import freeze_run
-from tests.support.wine import WINE, windows  # noqa: F401 -- a fixture
+from tests.support.wine import WINE, fresh_windows
 
 NAME = "spacecraft"
 STEPS = either(2000, 100)
@@ -42,6 +43,12 @@ pytestmark = [
     pytest.mark.skipif(importlib.util.find_spec("ziglang") is None, reason="ziglang is not installed"),
     pytest.mark.skipif(local_platform(3) != "x86_64-linux", reason="compared with x86_64-linux"),
 ]
+
+
+@pytest.fixture(scope="module")
+def windows() -> Iterator[dict[str, str]]:
+    with fresh_windows() as environment:
+        yield environment
 
 
 @pytest.fixture(scope="module")
