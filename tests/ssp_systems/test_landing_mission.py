@@ -323,3 +323,14 @@ def test_without_the_gradient_of_gravity_the_gate_locks_the_camera_out():
 def test_campaigns_of_harder_landings(campaign):
     (actual,) = perilune.batch(SYSTEM, campaign, parameters=["noisy.ssv"]).trials.values()
     assert actual.success.all()
+
+
+@pytest.mark.skipif(not LONG, reason="long: half a minute")
+def test_margins_at_the_communication_step_itself_are_those_of_the_loops(fmus):
+    """Truth: the same loops by differences of several steps; one step has an integrator's multiplier at 1 + 2.4e-5."""
+    for loop in perilune.stability("landing_mission").loops:
+        _, same, _ = loop.sampling
+        assert same.step == loop.sample_period
+        for name in ("gain", "phase", "modulus", "disk"):
+            assert getattr(same.margins, name) == pytest.approx(getattr(loop.margins, name), rel=1e-3)
+        assert same.margins.stable

@@ -14,6 +14,9 @@ from .jacobian import STEPS, Jacobian, plateau
 from .lifted import LiftedModel, StateVariable, reachable
 from .modes import Block, circles, multipliers
 
+# Of derivatives by one step of 1e-5: an integrator's multiplier over 5 s differs from 1 by 2.4e-5 (landing_mission).
+ONE_STEP_CHANGE = 1e-5
+
 
 @dataclass
 class Linearisation:
@@ -22,7 +25,8 @@ class Linearisation:
     ``neighbour`` is the model from the next smaller steps of the differences: as far as both agree, the steps are
     right. ``drift`` lists name, value, change over the period and unit of the memory in the model, the largest relative
     change first. ``blocks`` have the multipliers of the whole system. ``cells`` numbers the memory that matters for
-    either among the ``states`` cells of all.
+    either among the ``states`` cells of all. ``unknown`` is a relative change with the steps, assumed where
+    there was one step.
     """
 
     model: LiftedModel
@@ -31,6 +35,7 @@ class Linearisation:
     blocks: tuple[Block, ...]
     cells: list[int]
     states: int
+    unknown: float = 0.0
 
 
 def linearise(
@@ -68,7 +73,8 @@ def linearise(
     memory = operating_point.memory.cells
     drift = [(memory[cell].name, float(jacobian.start[cell]), float(change[cell]), memory[cell].unit) for cell in order]
     blocks = _blocks(jacobian, matrices[0] if screened is None else screened, driven, matrices)
-    return Linearisation(models[0], models[1], drift, blocks, list(cells), count)
+    unknown = ONE_STEP_CHANGE if len(steps) == 1 else 0.0
+    return Linearisation(models[0], models[1], drift, blocks, list(cells), count, unknown)
 
 
 def _model(jacobian: Jacobian, cells: np.ndarray, matrix: np.ndarray, driven: np.ndarray) -> LiftedModel:

@@ -127,7 +127,7 @@ def loop_model(linearisation: Linearisation, port: Port) -> LoopModel:
     look = np.geomspace(1e-3, 1.0, 40) * nyquist
     a, b = model.response((port,), look)[:, 0, 0], neighbour.response((port,), look)[:, 0, 0]
     visible = (abs(a) > LEAST_LOOK) & (abs(a) < 1.0 / LEAST_LOOK)  # margins are decided where L is about 1
-    change = float(np.max(abs(b[visible] / a[visible] - 1.0), initial=0.0))
+    change = float(np.max(abs(b[visible] / a[visible] - 1.0), initial=linearisation.unknown))
     facts = Linearised(
         states=linearisation.states,
         period=model.period,
