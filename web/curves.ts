@@ -12,6 +12,7 @@ import type { Axis } from "./generated/charts";
 import { type Page, readPage } from "./page/document";
 import { announceTime, followTime } from "./page/time";
 import { Card } from "./trials/card";
+import { showChosen } from "./trials/chosen";
 import { Selection } from "./trials/selection";
 import { TrialPlot } from "./trials/trial_plot";
 import { Trials } from "./trials/trials";
@@ -32,6 +33,7 @@ class Curves {
     private readonly trials: Trials | null,
   ) {
     this.card = new Card(page, trials);
+    if (trials) showChosen(this.selection, trials, this.toolbar.element);
     followTime("curves", (at) => {
       this.isFollowing = true;
       this.axes.get(TIME)?.goTo(at);

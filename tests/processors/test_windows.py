@@ -18,7 +18,7 @@ from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from tests.support.kernels.programs import ZIG, checksum, fly, link
 from tests.support.lengths import LONG
-from tests.support.wine import WINE, fresh_windows
+from tests.support.native.wine import WINE, fresh_windows
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = 2000

@@ -4,6 +4,8 @@ export type Range = [number, number];
 
 export class SharedAxis {
   cursor: number | null = null;
+  mark: number | null = null; // the second cursor
+  hasStatistics = false; // of the range that is shown, next to the values at the cursor
   zoom: Range | null = null; // null: each figure as it was drawn
   private readonly onCursor: (() => void)[] = [];
   private readonly onZoom: (() => void)[] = [];
@@ -28,6 +30,28 @@ export class SharedAxis {
   moveCursor(to: number | null): void {
     this.cursor = to;
     for (const call of this.onCursor) call();
+  }
+
+  // Leaves the second cursor where the first one is, or removes it from there.
+  setMark(): void {
+    this.mark = this.mark === this.cursor ? null : this.cursor;
+    this.moveCursor(this.cursor);
+  }
+
+  clearMark(): void {
+    this.mark = null;
+    this.moveCursor(null);
+  }
+
+  toggleStatistics(): void {
+    this.hasStatistics = !this.hasStatistics;
+    this.moveCursor(this.cursor);
+  }
+
+  // Name and unit of the quantity.
+  get quantity(): { name: string; unit: string } {
+    const [, name = this.label, unit = ""] = /^(.*), ([^,]*)$/.exec(this.label) ?? [];
+    return { name, unit };
   }
 
   // Moves the cursor, and what is shown to it.

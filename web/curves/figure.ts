@@ -5,6 +5,7 @@ import type { Page } from "../page/document";
 import type { SharedAxis } from "./axis";
 import { markCursor } from "./marker";
 import { type Place, Plot } from "./plot";
+import { describePlot } from "./readout";
 import { fontOf, widthOf } from "./ticks";
 
 const GAP = 18; // px above axes
@@ -27,7 +28,9 @@ export class Figure {
   ) {
     this.frame.className = `live ${picture.classList.contains("slim") ? "slim" : picture.classList.contains("wide") ? "wide" : ""}`;
     picture.before(this.frame);
-    this.frame.append(picture, ...plots.map((plot) => plot.root), this.values);
+    this.frame.append(picture, ...plots.map((plot) => plot.root));
+    this.values.className = "values";
+    this.frame.after(this.values);
     // Calls once when it begins to observe, for all new figures together after the page was laid out.
     new ResizeObserver(([entry]) => this.resize(entry!.contentRect)).observe(this.frame);
     new IntersectionObserver((entries) => this.move(entries.at(-1)!.isIntersecting), MARGIN).observe(this.frame);
@@ -100,19 +103,6 @@ export class Figure {
       if (span.dataset.colour !== colour) span.style.borderColor = span.dataset.colour = colour;
     }
   }
-}
-
-// What the lines of a plot show at a place of the cursor, with their colours.
-export function describePlot(plot: Plot, at: number): [text: string, colour: string][] {
-  const shown = plot.series.filter((each) => plot.isShown(each));
-  return shown.flatMap((each) => {
-    const row = each.rowWithin(at);
-    if (row === null) return [];
-    const { name = "", unit = "", colour } = each.curve;
-    const value = plot.isPath ? `(${each.at(row)})` : `${each.text(row)}${unit && ` ${unit}`}`;
-    const label = shown.length > 1 ? (/(?:^\w+ )?\[[\d,]+\]$/.exec(name)?.[0] ?? name) : "";
-    return [[label ? `${label} ${value}` : value, colour]];
-  });
 }
 
 const measuring = document.createElement("canvas").getContext("2d")!;

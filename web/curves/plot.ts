@@ -30,6 +30,7 @@ export class Plot {
   private size = { width: 0, height: 0 }; // px, of the area; asking the page for it would lay it out anew each time
   private ordinate: Range | null = null; // of a path at its own zoom
   private readonly line = document.createElement("div");
+  private readonly mark = document.createElement("div"); // the second cursor
   private readonly dots: HTMLElement[];
 
   private constructor(
@@ -41,6 +42,7 @@ export class Plot {
   ) {
     this.root.className = "chart";
     this.line.className = "cursor";
+    this.mark.className = "cursor mark";
     this.dots = series.map((each) => {
       const dot = document.createElement("i");
       dot.style.background = each.curve.colour;
@@ -69,7 +71,7 @@ export class Plot {
     Object.assign(this.root.style, px({ left: place.left, top: place.top, width: place.width, height: place.height }));
     this.plot?.destroy();
     this.plot = new uPlot(this.options(place), [[0], [null]], this.root);
-    this.plot.over.append(this.line, ...this.dots);
+    this.plot.over.append(this.line, this.mark, ...this.dots);
     this.size = { width: this.plot.bbox.width / devicePixelRatio, height: this.plot.bbox.height / devicePixelRatio };
     this.onArea(this.plot.over);
     this.showCursor();
@@ -136,12 +138,8 @@ export class Plot {
     if (!this.plot || !this.isNear) return;
     const at = this.time.cursor;
     const visible = at !== null;
-    this.line.hidden = !visible || this.isPath;
-    if (visible && !this.isPath) {
-      const left = this.plot!.valToPos(at, "x");
-      this.line.hidden = !(left >= 0 && left <= this.size.width);
-      this.line.style.transform = `translateX(${left}px)`;
-    }
+    this.moveLine(this.line, at);
+    this.moveLine(this.mark, this.time.mark);
     this.series.forEach((each, index) => {
       const dot = this.dots[index]!;
       const row = visible && this.isShown(each) && !each.curve.reduced ? each.rowWithin(at) : null;
@@ -151,6 +149,12 @@ export class Plot {
       dot.hidden = !(left >= 0 && left <= this.size.width && top >= 0 && top <= this.size.height);
       dot.style.transform = `translate(${left}px, ${top}px)`;
     });
+  }
+
+  private moveLine(line: HTMLElement, at: number | null): void {
+    const left = at === null || this.isPath ? -1 : this.plot!.valToPos(at, "x");
+    line.hidden = !(left >= 0 && left <= this.size.width);
+    line.style.transform = `translateX(${left}px)`;
   }
 
   // Whether a line is one whose values are shown at the cursor.

@@ -124,7 +124,9 @@ export function press(plot: Plot, key: string, shift: boolean): boolean {
     case "+": case "=": plot.axis.zoomBy(0.5, plot.isPath ? null : plot.axis.cursor); break;
     case "-": plot.axis.zoomBy(2, plot.isPath ? null : plot.axis.cursor); break;
     case "0": plot.zoom(null, null); break;
-    case "Escape": plot.zoom(null, null); plot.time.moveCursor(null); break;
+    case "m": plot.time.setMark(); break;
+    case "r": plot.time.toggleStatistics(); break;
+    case "Escape": plot.zoom(null, null); plot.time.clearMark(); break;
     default: return false;
   }
   return true;

@@ -67,7 +67,21 @@ export class Series {
     return Number.isNaN(value) ? "\u2013" : format(value);
   }
 
-  // Least and greatest value within a range of the abscissa; null where none is finite.
+  // Of the rows within a range of the abscissa; null where none is finite.
+  statistics([low, high]: Range): { least: number; greatest: number; rms: number } | null {
+    let [least, greatest, squares, count] = [Infinity, -Infinity, 0, 0];
+    for (let row = lowerBound(this.x, low); row < this.x.length && this.x[row]! <= high; row++) {
+      const value = this.y(row);
+      if (!Number.isFinite(value)) continue;
+      least = Math.min(least, value);
+      greatest = Math.max(greatest, value);
+      squares += value * value;
+      count += 1;
+    }
+    return count ? { least, greatest, rms: Math.sqrt(squares / count) } : null;
+  }
+
+  // Least and greatest value within a range of the abscissa, and of the rows next to it; null where none is finite.
   reach([low, high]: Range): Range | null {
     let least = Infinity;
     let greatest = -Infinity;

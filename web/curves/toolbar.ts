@@ -11,6 +11,8 @@ const BUTTONS: [key: string, label: string, sign: string][] = [
   ["PageUp", "earlier", "\u27f5"],
   ["PageDown", "later", "\u27f6"],
   ["0", "whole range", "\u2922"],
+  ["m", "second cursor here: differences and slopes", "\u0394"],
+  ["r", "least, greatest, rms of the visible range", "\u03a3"],
 ];
 
 export class Toolbar {
@@ -40,8 +42,10 @@ export class Toolbar {
   }
 
   show(axis: SharedAxis): void {
-    const [, name = axis.label, unit = ""] = /^(.*), ([^,]*)$/.exec(axis.label) ?? [];
-    this.cursor.textContent = axis.cursor === null ? "" : `${name} ${format(axis.cursor)} ${unit}`;
+    const { name, unit } = axis.quantity;
+    const { cursor, mark } = axis;
+    const difference = cursor === null || mark === null ? "" : `, \u0394 ${format(cursor - mark)} ${unit}`;
+    this.cursor.textContent = cursor === null ? "" : `${name} ${format(cursor)} ${unit}${difference}`;
   }
 
   // Says the values once the cursor rests.

@@ -19,7 +19,6 @@ export const SHADES = {
   pass: ["#00694d", "#4cc38a"],
   fail: ["#a84300", "#ff9a5a"],
   withheld: ["#7a5c00", "#e0b94a"],
-  veil: ["rgb(255 255 255 / 88%)", "rgb(20 20 20 / 88%)"],
   faint: ["#6b6b6b", "#a8a8a8"],
   grid: ["#e4e4e4", "#333"],
   brush: ["rgb(0 0 0 / 10%)", "rgb(255 255 255 / 14%)"],

@@ -1,7 +1,7 @@
 // The signals of one trial over time, a small plot for each quantity, with a cursor that the page's scene shares.
 
 import { SharedAxis } from "../curves/axis";
-import { describePlot } from "../curves/figure";
+import { describePlot } from "../curves/readout";
 import { Plot } from "../curves/plot";
 import { listen, listenToKeys } from "../curves/pointer";
 import type { Page } from "../page/document";

@@ -8,6 +8,7 @@ export interface Trial {
 }
 
 export class Selection {
+  source: object | null = null; // the plot whose brush has chosen
   private chosen: Map<Variant, Set<number>> | null = null; // null: all
   private readonly followers: (() => void)[] = [];
 
@@ -15,7 +16,8 @@ export class Selection {
     this.followers.push(onChange);
   }
 
-  choose(trials: Trial[] | null): void {
+  choose(trials: Trial[] | null, source: object | null = null): void {
+    this.source = source;
     this.chosen = trials && new Map();
     for (const { variant, row } of trials ?? []) {
       const rows = this.chosen!.get(variant) ?? new Set();
@@ -28,8 +30,9 @@ export class Selection {
     return this.chosen === null;
   }
 
-  get size(): number {
-    return [...(this.chosen?.values() ?? [])].reduce((sum, rows) => sum + rows.size, 0);
+  // The variants with chosen trials, and the rows of these in ascending order.
+  get variants(): [variant: Variant, rows: number[]][] {
+    return [...(this.chosen ?? [])].map(([variant, rows]) => [variant, [...rows].sort((one, other) => one - other)]);
   }
 
   has(variant: Variant, row: number): boolean {

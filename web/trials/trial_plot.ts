@@ -3,6 +3,8 @@
 import type { Series } from "../curves/series";
 import type { Plot } from "../curves/plot";
 import type { Range } from "../curves/axis";
+import type { Positions } from "../curves/drawing";
+import { SHADES } from "../generated/colours";
 import type { Picking } from "../curves/pointer";
 import type { Card } from "./card";
 import { DotLayer } from "./dots";
@@ -30,6 +32,7 @@ export class TrialPlot implements Picking {
   private order: Mark[] | null = null; // from left to right, for keys
   private ordered: Distribution | null = null; // of which they are
   private current = -1;
+  private brushed: { x: Range; y: Range } | null = null; // what the last brush of this plot has covered
 
   private constructor(
     private readonly plot: Plot,
@@ -45,6 +48,7 @@ export class TrialPlot implements Picking {
     plot.layers.push((context, to, size) => {
       for (const layer of this.layers) layer.draw(context, to, size, selection);
       this.drawRug(context, to.x, plot.positions.to.y(0, true));
+      this.drawBrush(context, to);
     });
     selection.follow(() => plot.redraw());
   }
@@ -70,7 +74,8 @@ export class TrialPlot implements Picking {
     const between = this.distributions.flatMap(({ variant, x: numbers }) =>
       [...numbers.keys()].filter((row) => numbers[row]! >= x[0] && numbers[row]! <= x[1]).map((row) => ({ variant, row })),
     );
-    this.selection.choose([...marked, ...between]);
+    this.brushed = { x, y };
+    this.selection.choose([...marked, ...between], this);
   }
 
   // Keys step from mark to mark or along the first distribution, Enter pins, Escape ends a selection.
@@ -152,6 +157,16 @@ export class TrialPlot implements Picking {
       [best, trial] = [distance, row < 0 ? trial : { variant, row }];
     }
     return trial;
+  }
+
+  // The range of the brush, of a distribution as high as the axes.
+  private drawBrush(context: CanvasRenderingContext2D, to: Positions): void {
+    if (!this.brushed || this.selection.source !== this) return;
+    const { x, y } = this.brushed;
+    const [left, right] = [to.x(x[0]), to.x(x[1])];
+    const [bottom, top] = this.layers.length ? [to.y(y[0]), to.y(y[1])] : [to.y(0, true), to.y(1, true)];
+    context.fillStyle = SHADES.brush[0];
+    context.fillRect(left, bottom, right - left, top - bottom);
   }
 
   private drawRug(context: CanvasRenderingContext2D, toX: (value: number) => number, bottom: number): void {

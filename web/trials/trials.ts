@@ -19,6 +19,11 @@ export class Trials {
     return new Trials(document.quantities, new Map(variants.map((each) => [each.name, each])));
   }
 
+  // How many trials of all variants the page has.
+  get size(): number {
+    return [...this.variants.values()].reduce((sum, each) => sum + each.numbers.length, 0);
+  }
+
   variant(name: string): Variant | undefined {
     return this.variants.get(name);
   }
@@ -57,6 +62,13 @@ export class Variant {
   command(row: number): string {
     const [before, after] = this.encoded.command;
     return `${before}${this.numbers[row]}${after}`;
+  }
+
+  // A shell command that simulates several trials again.
+  commandOf(rows: number[]): string {
+    if (rows.length === 1) return this.command(rows[0]!);
+    const [before, after] = this.encoded.command;
+    return `for trial in ${rows.map((row) => this.numbers[row]).join(" ")}; do ${before}$trial${after}; done`;
   }
 
   // What is known of a trial; "about" where a number is rounded to the digits that its column has.

@@ -53,7 +53,6 @@ SHADES = {
     "pass": Shade("#00694d", "#4cc38a"),  # of verdicts
     "fail": Shade("#a84300", "#ff9a5a"),
     "withheld": Shade("#7a5c00", "#e0b94a"),
-    "veil": Shade("rgb(255 255 255 / 88%)", "rgb(20 20 20 / 88%)"),  # behind numbers over a figure
     "faint": Shade("#6b6b6b", "#a8a8a8"),  # axes
     "grid": Shade("#e4e4e4", "#333"),
     "brush": Shade("rgb(0 0 0 / 10%)", "rgb(255 255 255 / 14%)"),

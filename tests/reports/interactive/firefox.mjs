@@ -29,7 +29,7 @@ const box = await area.boundingBox();
 await flight.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
 const pointed = await text(flight, ".explore output");
 await flight.evaluate((at) => document.dispatchEvent(new CustomEvent("perilune-time", { detail: { time: at, from: "test" } })), Number(time));
-const altitude = await frame.$eval("output", (element) => element.textContent);
+const altitude = await frame.evaluate((element) => element.nextElementSibling.textContent);
 await flight.$eval("g.block[data-block=plant]", (block) => {
   block.dispatchEvent(new PointerEvent("pointermove", { clientX: 9, clientY: 9, pointerType: "mouse" }));
 });

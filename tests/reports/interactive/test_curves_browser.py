@@ -34,7 +34,7 @@ for (const key of keys) {
   for (const frame of document.querySelectorAll(".live")) {
     const label = frame.querySelector("svg").getAttribute("aria-label");
     if (!label.endsWith(" over time") || frame.closest("details") || !frame.clientHeight) continue;
-    texts[label.slice(0, -10)] = [...frame.querySelectorAll("output span")].map((span) => span.textContent);
+    texts[label.slice(0, -10)] = [...frame.nextElementSibling.querySelectorAll("span")].map((span) => span.textContent);
   }
   rows.push([document.querySelector(".explore output").textContent, texts]);
 }
@@ -97,6 +97,32 @@ def test_the_last_rows_of_a_landing(browser, flight):
         plot.send_keys("0")
         ActionChains(driver).send_keys(Keys.HOME, Keys.ARROW_RIGHT).perform()
         assert driver.find_element(By.CSS_SELECTOR, ".explore output").text == "time 0.1 s"
+
+
+def test_the_second_cursor_and_the_visible_range(browser, flight):
+    """Truth: differences, slopes, extremes and root mean squares of the rows, by numpy."""
+    table = parquet.read_table(flight / "flight.parquet")
+    time, altitude = (table[name].to_numpy().astype(np.float32).astype(float) for name in ("time", "plant.altitude"))
+    first, second = 50, 90
+    with driven(browser, flight / "page.html") as driver:
+        plot, area = panel_of(driver, "plant.altitude")
+        keys = ["Home", *["ArrowRight"] * first, "m", *["ArrowRight"] * (second - first)]
+        cursor, texts = driver.execute_script(READ, plot, keys)[-1]
+        run, rise = time[second] - time[first], altitude[second] - altitude[first]
+        assert cursor == f"time {number(time[second], 6)} s, \u0394 {number(run, 6)} s"
+        value, difference, slope = texts["plant.altitude"][0].split(", ")
+        assert value == f"{number(altitude[second], 6)} m"
+        assert difference == f"\u0394 {number(rise, 6)} m"
+        assert slope == f"slope {number(rise / run, 6)} m per s"
+        assert driver.execute_script("return !arguments[0].querySelector('.mark').hidden", area)
+
+        _, texts = driver.execute_script(READ, plot, ["m", "r"])[-1]
+        assert texts["plant.altitude"][0].startswith(f"{number(altitude[second], 6)} m, \u0394 ")  # of the other mark
+        _, texts = driver.execute_script(READ, plot, ["m"])[-1]
+        statistics = texts["plant.altitude"][0].split(", ")[1:]
+        rms = np.sqrt(np.mean(altitude**2))
+        exact = {"least": altitude.min(), "greatest": altitude.max(), "rms": rms}
+        assert statistics == [f"{name} {number(quantity, 6)}" for name, quantity in exact.items()]
 
 
 def test_a_block_shows_its_signals(browser, flight):

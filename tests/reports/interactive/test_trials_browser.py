@@ -95,6 +95,27 @@ def test_a_brush_chooses_trials_in_all_figures(browser, batch):
         assert driver.execute_script(STRONG, frame) == before
 
 
+def test_a_brush_counts_its_trials_and_has_their_command(browser, batch):
+    """Truth: the trials of the variant in the table."""
+    table = parquet.read_table(batch / "out" / "trials").to_pylist()
+    mine = [row for row in table if row["variant"] == VARIANT]
+    failures = sum(not row["success"] for row in mine)
+    with driven(browser, batch / "page.html") as driver:
+        _, area = frame_of(driver, f"Failures of {VARIANT} over heading_error")
+        width, height = area.size["width"], area.size["height"]
+        ActionChains(driver).move_to_element_with_offset(
+            area, 2 - width // 2, 2 - height // 2
+        ).click_and_hold().move_by_offset(width - 4, height - 4).release().perform()
+        note = driver.find_element(By.CSS_SELECTOR, ".chosen")
+        assert note.text.startswith(f"{len(mine)} of {len(table)} trials, {failures} failures")
+        command = note.find_element(By.TAG_NAME, "code").get_attribute("textContent")
+        numbers, _, end = command.removeprefix("for trial in ").partition("; do perilune replay ")
+        assert [int(number) for number in numbers.split()] == sorted(row["trial"] for row in mine)
+        assert end.endswith("; done")
+        ActionChains(driver).send_keys(Keys.ESCAPE).perform()
+        assert not note.is_displayed()
+
+
 def test_a_distribution_names_its_trials(browser, batch):
     table = parquet.read_table(batch / "out" / "trials").to_pylist()
     with driven(browser, batch / "page.html") as driver:

@@ -29,7 +29,7 @@ from tests.export.fmi3.test_platforms import LIBRARIES
 from tests.support.kernels.programs import NO_QEMU, QEMU, ZIG
 from tests.support.lengths import LONG, either
 from tests.support.native.frozen_run import freeze_run
-from tests.support.wine import WINE, fresh_windows
+from tests.support.native.wine import WINE, fresh_windows
 
 NAME = "spacecraft"
 STEPS = either(2000, 100)
