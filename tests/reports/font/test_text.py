@@ -9,7 +9,7 @@ import matplotlib
 import pytest
 from PIL import ImageFont
 
-from perilune.analysis.reports.chart.text import text_width
+from perilune.analysis.reports.font.text import text_width
 
 FONTS = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 LARGE = 2048  # px, at which hinting moves nothing

@@ -10,6 +10,9 @@ import matplotlib
 from matplotlib.ft2font import FT2Font, LoadFlags
 
 ELLIPSIS = "…"
+ASCENT, DESCENT = 0.928, 0.236  # of a line, of its size
+TALL, DEEP = 0.76, 0.207  # of l and p, of its size
+MIDDLE = 0.365  # of its size, from the base line to the middle of digits
 EM = 2048  # units of the font
 ZERO_WIDTH = ("Mn", "Me", "Cf")  # categories of characters that take no room
 
