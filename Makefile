@@ -88,6 +88,10 @@ figures: build
 screenshots: build browser
 	$(BIN)/python -m docs.figures.screenshots
 
+# How wide characters of figures are, from the font that matplotlib has: analysis/reports/font/advances.json.
+font: .venv/ready
+	$(BIN)/python -m release.font
+
 bench: build
 	$(BIN)/python -m benchmarks.importers
 
@@ -231,4 +235,4 @@ INSTALL = $(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --no
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build web docs wheel release notebooks explore gains checks figures screenshots bench sizes guidance-cost bench-basilisk large importers crosscheck basilisk sanitize fuzz lowest newest processors emulator windows browser browser-firefox lint clean
+.PHONY: demo test quick long long-campaigns build web docs wheel release notebooks explore gains checks figures screenshots bench font sizes guidance-cost bench-basilisk large importers crosscheck basilisk sanitize fuzz lowest newest processors emulator windows browser browser-firefox lint clean

@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.figure import Figure
 
 from ..campaigns.verdicts.order_statistics import quantiles
 from ..runtime.flight.results import Result
 from ..runtime.ssp.names import elements
-from .chart.axes import linear_axis, named_axis
+from .chart.axes import bare_axis, linear_axis, named_axis
 from .chart.panel import chart_panel
 from .chart.quantity import quantity_curve
 from .chart.ticks import axis_ends
 from .common.panels import Panel, swatch
 from .common.quantities import display_factor, label_with_unit, number
 from .common.signals import SignalGroup, distinct, signal_groups, states_and_commands
-from .common.style import FAINT, house_style, look, new_figure, plain_ticks
+from .common.style import FAINT, look
 from .interactive.charts import NO_BOX, Chart, Note
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 HEIGHT = 1.9  # in, of a panel on the page
 PLOT_HEIGHT, PLOT_WIDTH = 2.0, 6.8  # in, of a panel in a figure of its own
@@ -137,20 +140,24 @@ def _legend(groups: list[SignalGroup]) -> list[tuple[Markup, str]]:
     return [(swatch(look(position)), f"[{index}]") for position, index in enumerate(elements)]
 
 
-def history_chart(group: SignalGroup, result: Result) -> Chart:
-    """Return the chart of a scalar or a vector over time; Integers and Booleans as steps."""
+def history_chart(group: SignalGroup, result: Result, *, intervals: tuple[int, int] = (5, 4)) -> Chart:
+    """Return the chart of a scalar or a vector over time; Integers and Booleans as steps.
+
+    ``intervals`` between ticks are at most so many on the abscissa and on the ordinate.
+    """
     values, factor = group.values(result), display_factor(group.unit)
     curves = [
         quantity_curve(result.time, row, name, group.unit, index, steps=not group.is_real)
         for index, (name, row) in enumerate(zip(group.names, values, strict=True))
     ]
     seen = result.time[np.isfinite(values).any(axis=0)]
-    abscissa = linear_axis(axis_ends(seen), 5, label="time, s")
+    abscissa = linear_axis(axis_ends(seen), intervals[0], label="time, s")
     if group.type == "Boolean":
         ordinate = named_axis((-0.15, 1.15), [(0.0, "false"), (1.0, "true")])
         return Chart(NO_BOX, abscissa, ordinate, curves=curves)
     ends, notes = _ends(factor * values) if group.is_real else (axis_ends(values), [])
-    return Chart(NO_BOX, abscissa, linear_axis(ends, 4, integer=not group.is_real), curves=curves, notes=notes)
+    ordinate = linear_axis(ends, intervals[1], integer=not group.is_real)
+    return Chart(NO_BOX, abscissa, ordinate, curves=curves, notes=notes)
 
 
 def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[Note]]:
@@ -175,29 +182,26 @@ def _note(text: str, at: tuple[float, float], align: tuple[str, str], size: floa
 
 
 def signal_plot(result: Result, names: Sequence[str]) -> Figure:
-    """A panel for each signal or vector, stacked over the same time. Raises KeyError for an unknown name."""
-    values = [result[name] for name in names]
-    with house_style():
-        figure = new_figure(0.3 + PLOT_HEIGHT * len(names), PLOT_WIDTH)
-        panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
-        for axes, name, columns in zip(panels, names, values, strict=True):
-            parts = elements(name, result.signals)
-            unit = result.units[parts[0]]
-            plotted = display_factor(unit) * columns.reshape(result.time.size, -1)
-            for index, part in enumerate(parts):
-                style = look(index)
-                is_real = result.types[part] == "Real"
-                axes.plot(
-                    result.time,
-                    plotted[:, index],
-                    color=style.colour,
-                    linestyle=style.dashes,
-                    label=part.removeprefix(name),
-                    drawstyle="default" if is_real else "steps-post",
-                )
-            plain_ticks(axes, x=8, y=5)
-            axes.set_title(label_with_unit(name, unit), loc="left")
-            if len(parts) > 1:
-                axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(parts), borderaxespad=0.0)
-        panels[-1].set_xlabel("time, s")
-    return figure
+    """Return a panel for each signal or vector, below each other over the same time.
+
+    Raises KeyError for an unknown name.
+    """
+    from .chart.plot import plot_charts  # which imports matplotlib
+
+    charts, titles, legends = [], [], []
+    for name in names:
+        group = _group_of(name, result)
+        charts.append(history_chart(group, result, intervals=(8, 5)))
+        titles.append(label_with_unit(name, group.unit))
+        legends.append([each.removeprefix(name) for each in group.names] if len(group.names) > 1 else [])
+    seen = [chart.x.ends for chart in charts]
+    time = linear_axis((min(low for low, _ in seen), max(high for _, high in seen)), 8, label="time, s")
+    panels = [replace(chart, x=bare_axis(time)) for chart in charts[:-1]]
+    return plot_charts([*panels, replace(charts[-1], x=time)], PLOT_HEIGHT, PLOT_WIDTH, titles=titles, legends=legends)
+
+
+def _group_of(name: str, run: Result) -> SignalGroup:
+    """The signal of this name, or the elements of the vector."""
+    run[name]  # raises KeyError
+    names = elements(name, run.signals)
+    return SignalGroup("", name, run.units[names[0]], run.types[names[0]], tuple(names), ())

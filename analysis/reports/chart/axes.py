@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from ..common.quantities import tick
+from ..common.quantities import log_tick, tick
 from ..interactive.charts import Axis
-from ..interactive.measures import TICK_SIZE
-from .ticks import axis_ticks
+from ..interactive.measures import LABEL_SIZE, TICK_SIZE
+from .ticks import axis_ticks, decade_ticks
 
 
 def linear_axis(ends: tuple[float, float], intervals: int, *, label: str = "", integer: bool = False) -> Axis:
@@ -15,9 +16,30 @@ def linear_axis(ends: tuple[float, float], intervals: int, *, label: str = "", i
     return _axis(ends, [(at, tick(at)) for at in axis_ticks(*ends, intervals, integer=integer)], label, named=False)
 
 
+def logarithmic_axis(
+    ends: tuple[float, float], limit: int, *, label: str = "", multiples: tuple[float, ...] = (1.0,)
+) -> Axis:
+    """Return a logarithmic axis with at most ``limit`` decades marked, by these ``multiples`` where it marks each."""
+    low, high = min(ends), max(ends)
+    ticks = [(at, log_tick(at)) for at in decade_ticks(low, high, limit, multiples)]
+    return replace(_axis(ends, ticks, label, named=False), logarithmic=True)
+
+
 def named_axis(ends: tuple[float, float], ticks: Sequence[tuple[float, str]], *, label: str = "") -> Axis:
     """Return an axis whose ticks have names."""
     return _axis(ends, list(ticks), label, named=True)
+
+
+def lane_axis(labels: Sequence[str], ends: tuple[float, float] | None = None, *, size: float = LABEL_SIZE) -> Axis:
+    """Return the ordinate of lanes at 0, 1, ..., the first at the top, without strokes or lines at them."""
+    low, high = ends or (len(labels) - 0.4, -0.6)
+    ticks = [(float(index), label) for index, label in enumerate(labels)]
+    return replace(named_axis((low, high), ticks), size=size, grid=False, marked=False)
+
+
+def bare_axis(axis: Axis) -> Axis:
+    """Return an axis without the texts of its ticks."""
+    return replace(axis, ticks=[(at, "") for at, _ in axis.ticks], label="", named=False, bare=True)
 
 
 def _axis(ends: tuple[float, float], ticks: list[tuple[float, str]], label: str, *, named: bool) -> Axis:

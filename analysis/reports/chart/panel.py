@@ -8,11 +8,11 @@ import numpy as np
 
 from ..common.panels import PANEL_HEIGHT, PANEL_WIDTH, Panel
 from ..common.svg import Drawing
-from ..interactive.charts import Chart, Curve
+from ..interactive.charts import NO_BOX, Chart, Curve
 from ..interactive.columns import Coarse, has_enough_digits
 from ..interactive.envelope import envelope
-from .quantity import ordinates
-from .write_svg import lay_out, write_svg
+from .layout import lay_out
+from .write_svg import TrialPositions, no_trials, write_svg
 
 POINTS = 72.0  # in an inch
 
@@ -27,24 +27,31 @@ def chart_panel(
     *,
     title: str = "",
     kind: str = "",
+    left: float = 0.0,
+    trials: TrialPositions = no_trials,
     reduced: bool = False,
 ) -> Panel:
     """Return the panel of a ``chart``, sizes in inches; ``name`` must differ between the figures of a page.
 
-    ``title`` stands above the axes; ``kind`` is a class more, for the style; ``reduced``: the page has only envelopes
-    of its curves. A chart whose numbers a page cannot tell apart remains a picture.
+    A chart that has its box keeps it, others are laid out. ``title`` stands above the axes; ``kind`` is a class more,
+    for the style; ``left`` (pt) is the room left of the axes at least; ``trials`` returns the positions of its marks of
+    trials; ``reduced``: the page has only envelopes of its curves. A chart whose numbers a page cannot tell apart
+    remains a picture.
     """
-    placed = lay_out(chart, POINTS * width, POINTS * height, title=title)
-    svg = write_svg(placed, name, description, POINTS * width, POINTS * height, title=title, kind=kind)
+    across, up = POINTS * width, POINTS * height
+    placed = chart if chart.box != NO_BOX else lay_out(chart, across, up, title=title, left=left)
+    svg = write_svg(placed, name, description, across, up, title=title, kind=kind, trials=trials)
     if not all(_is_exact(placed, curve) for curve in placed.curves):
-        stated = Chart(placed.box, placed.x, placed.y, picture=True)
-        return Panel(label, Drawing(svg, [stated]))
+        return Panel(label, Drawing(svg, [Chart(placed.box, placed.x, placed.y, picture=True)]))
     curves = [_reduce(curve) for curve in placed.curves] if reduced else placed.curves
     return Panel(label, Drawing(svg, [replace(placed, curves=curves)]))
 
 
 def _is_exact(chart: Chart, curve: Curve) -> bool:
-    return has_enough_digits(chart.x.ends, curve.x) and has_enough_digits(chart.y.ends, ordinates(curve))
+    return all(
+        axis.logarithmic or has_enough_digits(axis.ends, numbers)
+        for axis, numbers in ((chart.x, curve.x), (chart.y, curve.displayed))
+    )
 
 
 def _reduce(curve: Curve) -> Curve:

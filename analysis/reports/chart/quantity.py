@@ -12,13 +12,6 @@ from ..interactive.measures import DASHES, LINE_WIDTH
 DOT = 3.0  # pt, the diameter of a lone sample
 
 
-def ordinates(curve: Curve) -> np.ndarray:
-    """Return the ordinates of a curve as displayed, [rows]."""
-    assert isinstance(curve.y, np.ndarray)
-    displayed: np.ndarray = curve.factor * curve.y
-    return displayed
-
-
 def quantity_curve(
     x: np.ndarray, quantity: np.ndarray, name: str, unit: str | None, index: int = 0, *, steps: bool = False
 ) -> Curve:

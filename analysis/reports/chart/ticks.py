@@ -60,6 +60,32 @@ def axis_ticks(low: float, high: float, intervals: int, *, integer: bool = False
     return [float(tick + offset) for tick in ticks if low - edge <= tick <= high + edge]
 
 
+def decade_ticks(low: float, high: float, limit: int, multiples: tuple[float, ...] = (1.0,)) -> list[float]:
+    """Return at most ``limit`` powers of ten between two ends, each so many decades from the next.
+
+    Where each decade has one, ``multiples`` of it are ticks as well.
+    """
+    lowest, highest = math.log10(low), math.log10(high)
+    first, last = math.ceil(lowest), math.floor(highest)
+    decades = last - first + 1
+    step = decades // (limit + 1) + 1
+    count = min(limit, math.ceil(decades / step))
+    if count == 1:
+        first = round((lowest + highest) / 2.0)
+        step = max(first - math.ceil(lowest), last - first) + 1
+    elif count > 1:
+        step = (decades - 1) // (count - 1)
+        if step * count < decades:
+            step = decades // count
+        fewest, beyond = max(decades - step * count, 0), min(decades - step * (count - 1), step)
+        offset = -first % step
+        first += offset if fewest <= offset < beyond else fewest
+    begin = first - 1 if step == 1 else first
+    factors = multiples if step == 1 or decades <= 1 else (1.0,)
+    powers = range(begin, last + 1, step)
+    return [tick for power in powers for factor in factors if low <= (tick := factor * 10.0**power) <= high]
+
+
 def _floor(number: float, step: float, offset: float) -> float:
     """The number of steps in a number, rounded down but for rounding errors."""
     quotient, remainder = divmod(number, step)

@@ -15,8 +15,8 @@ from lxml import etree
 from markupsafe import Markup
 
 from ....common.visible import on_one_line, visible
-from ..chart.text import text_width
 from ..common import style
+from ..font.text import text_width
 from .graph import Block, Edge, PortKey, Side
 from .placement import Placed, Placement, Point, Route, Segment, Terminal
 from .shapes import HEADER, LIST_LINE, LIST_SIZE, MARGIN, NAME_SIZE, TEXT_SIZE, Label, plain

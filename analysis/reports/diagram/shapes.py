@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from ....common.visible import on_one_line, visible
-from ..chart.text import shorten, text_width
 from ..common.quantities import declared_unit
+from ..font.text import shorten, text_width
 from .graph import Block, Edge, Port, PortKey, Side
 
 NAME_SIZE, TEXT_SIZE, LIST_SIZE = 11.0, 9.0, 9.0

@@ -12,7 +12,6 @@ from markupsafe import Markup
 from ...runtime.flight.results import Result
 from ..chart.axes import linear_axis
 from ..chart.panel import chart_panel
-from ..chart.quantity import ordinates
 from ..common.page import Table, data, exact
 from ..common.panels import HALF_WIDTH, Panel, Widths, swatch
 from ..common.quantities import MINUS, in_shown_unit
@@ -61,7 +60,7 @@ def time_chart(
 
 def displayed(curves: Sequence[Curve]) -> np.ndarray:
     """Return all ordinates of curves, as displayed."""
-    return np.concatenate([ordinates(curve) for curve in curves])
+    return np.concatenate([curve.displayed for curve in curves])
 
 
 def history_panel(label: str, name: str, description: str, unit: str, chart: Chart) -> Panel:

@@ -75,6 +75,12 @@ class Curve:
     reduced: bool = False
     metric: str = ""
 
+    @property
+    def displayed(self) -> np.ndarray:
+        """The ordinates in ``unit``, [rows]."""
+        numbers: np.ndarray = self.factor * (self.y.numbers if isinstance(self.y, Coarse) else self.y)
+        return numbers
+
 
 @dataclass(frozen=True, kw_only=True)
 class Dots:

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import StepPatch
 
 from .charts import Axis, Chart, UnstatedError
-from .columns import Coarse, has_enough_digits
+from .columns import has_enough_digits
 from .lines import TrialDots
 from .read_marks import read_areas, read_collection, read_curve, read_dots, read_rule, read_steps
 from .read_notes import read_note
@@ -63,11 +63,7 @@ def _read_axes(axes: Axes, reduced: bool) -> Chart:
     curves = [*(read_curve(line, reduced) for line in plain), *map(read_steps, steps)]
     for curve in curves:
         _check_digits(axes.get_xlim(), axes.get_xscale(), curve.x)
-        _check_digits(
-            axes.get_ylim(),
-            axes.get_yscale(),
-            curve.factor * (curve.y.numbers if isinstance(curve.y, Coarse) else curve.y),
-        )
+        _check_digits(axes.get_ylim(), axes.get_yscale(), curve.displayed)
     return Chart(
         box=_box(axes),
         x=read_axis(axes.xaxis, axes.get_xlim(), _label(axes)),

@@ -16,7 +16,7 @@ from lxml import etree
 import perilune
 from perilune.analysis.campaigns.verdicts.order_statistics import quantiles
 from perilune.analysis.reports.chart.panel import chart_panel
-from perilune.analysis.reports.chart.polyline import path_of
+from perilune.analysis.reports.chart.svg.polyline import path_of
 from perilune.analysis.reports.common.lines import plot_quantity
 from perilune.analysis.reports.common.panels import PANEL_WIDTH
 from perilune.analysis.reports.common.quantities import display_factor, number

@@ -10,12 +10,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from lxml import etree, html
 
-from perilune.analysis.reports.chart.text import shorten
 from perilune.analysis.reports.common.page import Table, render_page
 from perilune.analysis.reports.diagram.diagram import Diagram, block_table, connection_table
 from perilune.analysis.reports.diagram.drawing import draw
 from perilune.analysis.reports.diagram.layout import lay_out
 from perilune.analysis.reports.diagram.page import TEMPLATE
+from perilune.analysis.reports.font.text import shorten
 from tests.support.diagrams.geometry import Drawing, assert_readable
 from tests.support.diagrams.graphs import block_of, connect
 

@@ -2,28 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
-from ..interactive.envelope import envelope
+from ...interactive.envelope import envelope
 
 SPANS_PER_POINT = 2  # of an envelope, along the abscissa
 TOLERANCE = 0.05  # pt, by which a point that is left out may lie aside
 PASSES = 8
+FAR = 1e6  # pt, where a line ends that goes on
 
 
-def path_of(x: np.ndarray, y: np.ndarray, *, steps: bool, width: float) -> str:
-    """Return the path through points (pt), [rows]; it is interrupted where an ordinate is not finite.
+def path_of(x: np.ndarray, y: np.ndarray, *, steps: bool, width: float | None = None) -> str:
+    """Return the path through points (pt), [rows]; it is interrupted where a coordinate is not finite.
 
-    ``steps``: an ordinate holds until the next row. A line of more rows than can be told apart over ``width`` (pt) is
-    its envelope.
+    ``steps``: an ordinate holds until the next row. A line with ascending abscissas of more rows than can be told
+    apart over ``width`` (pt) is its envelope.
     """
     if steps:
         changes = np.flatnonzero(np.append(True, ~((y[1:] == y[:-1]) | (np.isnan(y[1:]) & np.isnan(y[:-1])))))
         rows = np.union1d(changes, [y.size - 1])
         x, y = np.repeat(x[rows], 2)[1:], np.repeat(y[rows], 2)[:-1]
-    x, y = envelope(x, y, int(SPANS_PER_POINT * width))
-    points = np.stack([x, y])
-    return "".join(_stroke(_thin(points[:, rows])) for rows in _finite_runs(np.isfinite(y)))
+    if width is not None and np.all(np.diff(x) >= 0.0):
+        x, y = envelope(x, y, int(SPANS_PER_POINT * width))
+    points = np.clip(np.stack([x, y]), -FAR, FAR)
+    return "".join(_stroke(_thin(points[:, rows])) for rows in _finite_runs(np.isfinite(x) & np.isfinite(y)))
 
 
 def _finite_runs(finite: np.ndarray) -> list[slice]:
@@ -53,12 +57,16 @@ def _stroke(points: np.ndarray) -> str:
     tenths = np.rint(10.0 * points).astype(np.int64)
     moves = np.diff(tenths, axis=1).T
     moves = moves[np.any(moves != 0, axis=1)]
-    start = f"M{_number(int(tenths[0, 0])).strip()}{_number(int(tenths[1, 0]))}"
-    return start + (f"l{''.join(map(_number, moves.ravel().tolist())).strip()}" if moves.size else "h0")
+    line = f"l{in_tenths(moves.ravel().tolist())}" if moves.size else "h0"
+    return f"M{in_tenths(tenths[:, 0].tolist())}{line}"
+
+
+def in_tenths(tenths: Iterable[int]) -> str:
+    """Return tenths as decimals; a minus is its own separator."""
+    return "".join(map(_number, tenths)).strip()
 
 
 def _number(tenths: int) -> str:
-    """Tenths in decimals; a minus is its own separator."""
     whole, tenth = divmod(abs(tenths), 10)
     text = f"{whole or ''}.{tenth}" if tenth else f"{whole}"
     return f"-{text}" if tenths < 0 else f" {text}"

@@ -3,15 +3,16 @@
 Truth: Pillow's own layout of the same font, without kerning.
 """
 
-from pathlib import Path
+import json
+import subprocess
+import sys
 
-import matplotlib
 import pytest
 from PIL import ImageFont
 
-from perilune.analysis.reports.chart.text import text_width
+from perilune.analysis.reports.font.text import TABLE, text_width
+from release.font import FILES, FONTS, advances
 
-FONTS = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 LARGE = 2048  # px, at which hinting moves nothing
 
 
@@ -23,6 +24,22 @@ def test_widths(text, is_bold):
     )
     expected = sum(font.getlength(character) for character in text) * 9.0 / LARGE
     assert text_width(text, 9.0, is_bold=is_bold) == pytest.approx(expected, rel=2e-3)
+
+
+@pytest.mark.parametrize("weight", FILES)
+def test_the_table_is_that_of_the_font(weight):
+    expected = advances(FONTS / FILES[weight])
+    assert json.loads(TABLE.read_text(encoding="utf-8"))[weight] == expected
+    assert sum(map(len, expected.values())) > 4000
+
+
+def test_pictures_of_charts_need_no_matplotlib():
+    code = (
+        "import sys\n"
+        "from perilune.analysis.reports.chart import axes, equal, layout, marks, symbols, write_svg\n"
+        "sys.exit('matplotlib' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 def test_characters_that_the_font_lacks():

@@ -1,0 +1,44 @@
+"""Charts in which a unit is as long on the ordinate as on the abscissa."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from ..interactive.charts import Chart
+from .layout import lay_out
+
+Ends = tuple[float, float]
+ROUNDS = 4  # of layouts: other ends have other texts at their ticks, which need other room
+
+
+def equal_ends(x: Ends, y: Ends, width: float, height: float) -> tuple[Ends, Ends]:
+    """Return the ends of both axes, those of one widened about its middle, so that a unit is equally long on both.
+
+    ``width`` and ``height`` are those of the area of the axes.
+    """
+    unit = max(abs(x[1] - x[0]) / width, abs(y[1] - y[0]) / height)
+    return _widen(x, unit * width), _widen(y, unit * height)
+
+
+def to_scale(
+    chart_of: Callable[[Ends, Ends], Chart], x: Ends, y: Ends, width: float, height: float, *, title: str = ""
+) -> Chart:
+    """Return a chart that is laid out in a figure of this size (pt), with equal units on its axes.
+
+    ``chart_of`` constructs it with ends of the abscissa and of the ordinate, which contain ``x`` and ``y``.
+    """
+    chart = lay_out(chart_of(x, y), width, height, title=title)
+    for _ in range(ROUNDS):
+        ends = equal_ends(x, y, width * chart.box[2], height * chart.box[3])
+        chart = lay_out(chart_of(*ends), width, height, title=title)
+    ends = equal_ends(x, y, width * chart.box[2], height * chart.box[3])
+    return replace(chart, x=replace(chart.x, ends=ends[0]), y=replace(chart.y, ends=ends[1]))
+
+
+def _widen(ends: Ends, length: float) -> Ends:
+    low, high = ends
+    if high < low:
+        return _widen((high, low), length)[::-1]
+    more = (length - (high - low)) / 2.0
+    return low - more, high + more

@@ -1,0 +1,64 @@
+"""The area of the axes in a picture, and where abscissas and ordinates lie in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...interactive.charts import Axis
+
+
+def fraction(axis: Axis, numbers: np.ndarray) -> np.ndarray:
+    """Return where numbers lie between the ends of an axis: 0 at the first, 1 at the second; nan where they cannot."""
+    low, high = axis.ends
+    if axis.logarithmic:
+        low, high = np.log10(low), np.log10(high)
+        numbers = np.log10(np.where(numbers > 0.0, numbers, np.nan))
+    lying: np.ndarray = (numbers - low) / (high - low)
+    return lying
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A rectangle (pt, from the left and the top of the picture) and the axes that it has."""
+
+    x: Axis
+    y: Axis
+    left: float
+    top: float
+    width: float
+    height: float
+
+    @property
+    def right(self) -> float:
+        return self.left + self.width
+
+    @property
+    def bottom(self) -> float:
+        return self.top + self.height
+
+    def across(self, numbers: np.ndarray, *, of_axes: bool = False) -> np.ndarray:
+        """Return the positions of abscissas; ``of_axes``: they are fractions of the rectangle, from its left."""
+        position: np.ndarray = self.left + self.width * (numbers if of_axes else fraction(self.x, numbers))
+        return position
+
+    def down(self, numbers: np.ndarray, *, of_axes: bool = False) -> np.ndarray:
+        """Return the positions of ordinates; ``of_axes``: they are fractions of the rectangle, from its bottom."""
+        position: np.ndarray = self.top + self.height * (1.0 - (numbers if of_axes else fraction(self.y, numbers)))
+        return position
+
+    def point(self, at: tuple[float, float], of_axes: tuple[bool, bool] = (False, False)) -> tuple[float, float]:
+        """Return the position of a point."""
+        x, y = (np.array([each]) for each in at)
+        return float(self.across(x, of_axes=of_axes[0])[0]), float(self.down(y, of_axes=of_axes[1])[0])
+
+    def has(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return which positions lie in the rectangle or on its edge, [rows]."""
+        inside: np.ndarray = (
+            (x >= self.left - EDGE) & (x <= self.right + EDGE) & (y >= self.top - EDGE) & (y <= self.bottom + EDGE)
+        )
+        return inside
+
+
+EDGE = 0.05  # pt, by which a mark on an edge may lie outside

@@ -1,0 +1,74 @@
+"""Marks in a picture: of the points of curves, and of trials."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...interactive.charts import Curve, Dots, Marker
+from .frame import Frame
+from .polyline import in_tenths
+
+CROSS_WIDTH = 0.29  # of the size of a cross
+CROSS = ((-0.5, -0.5, 0.5, 0.5), (-0.5, 0.5, 0.5, -0.5))
+
+
+def draw_marks(frame: Frame, curve: Curve) -> str:
+    """Return the marks at the points of a curve that lie within the axes."""
+    if curve.marker is None:
+        return ""
+    positions = _within(frame, frame.across(curve.x), frame.down(curve.displayed))
+    elements = _draw(curve.marker, positions)
+    return f'<g opacity="{curve.opacity:g}">{elements}</g>' if elements and curve.opacity < 1.0 else elements
+
+
+def draw_dots(frame: Frame, dots: Dots, x: np.ndarray, y: np.ndarray) -> str:
+    """Return marks of trials at abscissas and ordinates, [trials], as one path; those that coincide are one."""
+    positions = np.unique(_within(frame, frame.across(x), frame.down(y)), axis=0)
+    if not dots.cross:
+        return _round(positions, dots.size, dots.colour)
+    path = _shapes(positions, CROSS, dots.size)
+    return f'<path d="{path}" stroke="{dots.colour}" stroke-width="{CROSS_WIDTH * dots.size:.3g}"/>' if path else ""
+
+
+def _within(frame: Frame, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The positions within the axes in tenths of pt, [marks, 2]."""
+    return np.rint(10.0 * np.stack([x, y], axis=1)[frame.has(x, y)]).astype(np.int64)
+
+
+def _draw(marker: Marker, positions: np.ndarray) -> str:
+    if not positions.size:
+        return ""
+    width = marker.width if marker.edge else 0.0
+    if not marker.outline and marker.edge in ("", marker.fill):
+        return _round(positions, marker.size + width, marker.fill)
+    edge = f' stroke="{marker.edge}" stroke-width="{width:g}"' if width else ""
+    paint = f'fill="{marker.fill or "none"}"{edge}'
+    if not marker.outline:
+        return "".join(
+            f'<circle cx="{x / 10:g}" cy="{y / 10:g}" r="{marker.size / 2.0:g}" {paint}/>'
+            for x, y in positions.tolist()
+        )
+    return f'<path d="{_shapes(positions, marker.outline, marker.size)}" {paint}/>'
+
+
+def _round(positions: np.ndarray, diameter: float, colour: str) -> str:
+    """Discs as the round ends of strokes without length, all in one path."""
+    moves = np.diff(positions, axis=0, prepend=0).tolist()
+    path = "".join(f"m{in_tenths(move)}h0" for move in moves)
+    # A page's style sheet has the other ends for strokes, which an attribute would not change.
+    style = 'style="stroke-linecap:round"'
+    return f'<path d="{path}" stroke="{colour}" stroke-width="{diameter:.3g}" {style}/>' if path else ""
+
+
+def _shapes(positions: np.ndarray, outline: Sequence[Sequence[float]], size: float) -> str:
+    """The path of an outline at all positions."""
+    strokes = [np.rint(10.0 * size * np.reshape(stroke, (-1, 2)) * (1.0, -1.0)).astype(np.int64) for stroke in outline]
+    moves = [in_tenths(np.diff(stroke, axis=0).ravel().tolist()) for stroke in strokes]
+    ends = ["z" if np.array_equal(stroke[0], stroke[-1]) else "" for stroke in strokes]
+    return "".join(
+        f"M{in_tenths((position + stroke[0]).tolist())}l{move}{end}"
+        for position in positions
+        for stroke, move, end in zip(strokes, moves, ends, strict=True)
+    )

@@ -1,0 +1,59 @@
+"""Notes in a picture, and how far they reach."""
+
+from __future__ import annotations
+
+import numpy as np
+from markupsafe import escape
+
+from ...font.text import ASCENT, DEEP, DESCENT, MIDDLE, TALL, text_width
+from ...interactive.charts import Note
+from .frame import Frame
+
+ANCHORS = {"left": "start", "center": "middle", "right": "end"}
+BEGINS = {"left": 0.0, "center": -0.5, "right": -1.0}  # of its width, from the point of a text to its left end
+RISES = {"top": ASCENT, "center": MIDDLE, "bottom": -DESCENT, "baseline": 0.0}
+
+
+def draw_note(frame: Frame, note: Note) -> str:
+    """Return a text at a point of the data or of the axes, over its backing; nothing where the data lie outside."""
+    x, y = frame.point(note.at, note.of_axes)
+    of_data = (frame.left if note.of_axes[0] else x, frame.top if note.of_axes[1] else y)
+    if not frame.has(*np.array(of_data)[:, np.newaxis]).all():
+        return ""
+    x, y = x + note.offset[0], y - note.offset[1] + RISES[note.align[1]] * note.size
+    bold = ' font-weight="700"' if note.bold else ""
+    return (
+        f'{_backing(note, x, y)}<text x="{x:.2f}" y="{y:.2f}" font-size="{note.size:g}" '
+        f'text-anchor="{ANCHORS[note.align[0]]}" fill="{note.colour}"{bold}>{escape(note.text)}</text>'
+    )
+
+
+def overhang(note: Note, width: float, height: float) -> tuple[float, float, float, float]:
+    """Return how far (pt) a note at the edge of axes of this size reaches beyond: left, top, right, bottom."""
+    left = note.offset[0] + BEGINS[note.align[0]] * _width(note)
+    base = -note.offset[1] + RISES[note.align[1]] * note.size
+    right, top, bottom = left + _width(note), base - ASCENT * note.size, base + DESCENT * note.size
+    across, up = note.at
+    return (
+        -left - across * width if note.of_axes[0] and across <= 0.0 else 0.0,
+        -top + (up - 1.0) * height if note.of_axes[1] and up >= 1.0 else 0.0,
+        right + (across - 1.0) * width if note.of_axes[0] and across >= 1.0 else 0.0,
+        bottom - up * height if note.of_axes[1] and up <= 0.0 else 0.0,
+    )
+
+
+def _width(note: Note) -> float:
+    return text_width(note.text, note.size, is_bold=note.bold)
+
+
+def _backing(note: Note, x: float, y: float) -> str:
+    """A rectangle as high as the tallest letters, so that it is equal for all texts."""
+    if note.backing is None:
+        return ""
+    margin, width = note.backing.margin, _width(note)
+    left, top = x + BEGINS[note.align[0]] * width - margin, y - TALL * note.size - margin
+    return (
+        f'<rect x="{left:.2f}" y="{top:.2f}" width="{width + 2.0 * margin:.2f}" '
+        f'height="{(TALL + DEEP) * note.size + 2.0 * margin:.2f}" fill="{note.backing.colour}" '
+        f'fill-opacity="{note.backing.opacity:g}"/>'
+    )

@@ -1,0 +1,1 @@
+"""The font of figures: how wide its text is."""
