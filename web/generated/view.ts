@@ -87,12 +87,14 @@ export interface GroundView {
 
 // The camera as it is at first: its ``field`` upwards, its direction from a body (rad), its distance.
 //
-// The azimuth is counted from forward about up. The distance is ``diagonals`` diagonals of the body.
+// The azimuth is counted from forward about up. The distance is ``diagonals`` diagonals of the body, or such that all
+// bodies are in view, with this ``room`` around them.
 export interface CameraStart {
   field: number;
   azimuth: number;
   elevation: number;
   diagonals: number;
+  room: number;
 }
 
 // A scene of a flight with samples at ``time`` (s).

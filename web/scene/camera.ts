@@ -50,10 +50,10 @@ export class Camera {
   }
 
   reset(): void {
-    const { azimuth, elevation, diagonals, field } = this.scene.camera;
+    const { azimuth, elevation, diagonals, field, room } = this.scene.camera;
     this.azimuth = this.mode === "chase" ? Math.PI : azimuth;
     this.elevation = elevation;
-    this.distance = diagonals * Math.hypot(...this.followed.size);
+    this.distance = Math.max(diagonals * Math.hypot(...this.followed.size), (room * reachOf(this.scene, this.followed)) / Math.sin(field / 2));
     if (this.mode === "free") {
       this.distance = Math.max((1.05 * this.whole.radius) / Math.sin(field / 2), this.distance);
       this.target.copy(this.whole.middle);
@@ -150,6 +150,18 @@ export class Camera {
       this.forward.copy(FORWARD[this.scene.up]).applyQuaternion(attitude);
     }
   }
+}
+
+// How far (m) other bodies reach from one at the start.
+function reachOf(scene: SceneData, body: BodyData): number {
+  const [from, to] = [new Vector3(), new Vector3()];
+  if (!sampleAt(body.position, 0, from)) return 0;
+  let reach = 0;
+  for (const other of scene.bodies) {
+    if (other === body || !sampleAt(other.position, 0, to)) continue;
+    reach = Math.max(reach, to.distanceTo(from) + Math.hypot(...other.size) / 2);
+  }
+  return reach;
 }
 
 // A ball around all positions.

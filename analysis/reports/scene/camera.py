@@ -1,4 +1,7 @@
-"""The camera of a view as it is at first: at the first body, level with the horizon. web/scene/camera.ts moves it."""
+"""The camera of a view as it is at first: at the first body, level with the horizon, with all bodies in view.
+
+web/scene/camera.ts moves it.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +45,9 @@ def first_camera(scene: SceneView, ground: Ground | None, row: int) -> Camera | 
     up, forward = np.array(UP[scene.up]), np.array(UP[FORWARD[scene.up]])
     if ground is not None and not ground.height(target) < DEEP * ground.radius:
         up, forward = ground.level(target)
-    distance = start.diagonals * math.hypot(*body.size)
+    distance = max(
+        start.diagonals * math.hypot(*body.size), start.room * _reach(scene, row) / math.sin(0.5 * start.field)
+    )
     level = math.cos(start.elevation) * distance
     eye = target + level * (math.cos(start.azimuth) * forward + math.sin(start.azimuth) * np.cross(up, forward))
     eye = eye + math.sin(start.elevation) * distance * up
@@ -53,3 +58,13 @@ def first_camera(scene: SceneView, ground: Ground | None, row: int) -> Camera | 
     right = np.cross(ahead, up)
     right = right / np.linalg.norm(right)
     return Camera(eye, np.stack([right, np.cross(right, ahead), ahead]), math.tan(0.5 * start.field))
+
+
+def _reach(scene: SceneView, row: int) -> float:
+    """How far (m) other bodies reach from the first one at a sample; 0 where there are none."""
+    first, *others = scene.bodies
+    ends = [
+        float(np.linalg.norm(position_at(body, row) - position_at(first, row))) + 0.5 * math.hypot(*body.size)
+        for body in others
+    ]
+    return max((end for end in ends if math.isfinite(end)), default=0.0)

@@ -143,16 +143,18 @@ class GroundView:
 class CameraStart:
     """The camera as it is at first: its ``field`` upwards, its direction from a body (rad), its distance.
 
-    The azimuth is counted from forward about up. The distance is ``diagonals`` diagonals of the body.
+    The azimuth is counted from forward about up. The distance is ``diagonals`` diagonals of the body, or such that all
+    bodies are in view, with this ``room`` around them.
     """
 
     field: float
     azimuth: float
     elevation: float
     diagonals: float
+    room: float
 
 
-START = CameraStart(field=math.radians(40.0), azimuth=2.5, elevation=0.25, diagonals=3.6)
+START = CameraStart(field=math.radians(40.0), azimuth=2.5, elevation=0.25, diagonals=3.6, room=1.15)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,13 +9,14 @@ import pytest
 from markupsafe import Markup
 from scipy.spatial.transform import Rotation
 
-from perilune.analysis.reports.figures.scene.declared import SHAPES, Arrow, Panel, Quaternion, Surface
+from perilune.analysis.reports.figures.scene.declared import SHAPES, Arrow, Cartesian, Panel, Quaternion, Surface
+from perilune.analysis.reports.scene.camera import first_camera
 from perilune.analysis.reports.scene.painting import Stroke, in_order
 from perilune.analysis.reports.scene.picture import draw_ends, draw_scene
 from perilune.analysis.reports.scene.solids import facets_of
-from perilune.analysis.reports.scene.view import BodyView, scene_view
+from perilune.analysis.reports.scene.view import BodyView, position_at, scene_view
 from tests.support.pages.checks import parse
-from tests.support.scenes.made import SIZE, body, cartesian, flown, scene, vector
+from tests.support.scenes.made import METRE, SIZE, body, cartesian, flown, scene, vector
 from tests.support.scenes.stills import arrow_tips, points_of
 
 RANDOM = np.random.default_rng(5)
@@ -120,6 +121,21 @@ def depth_on_ray(stroke, ray):
     edges = np.roll(stroke.points, -1, axis=0) - stroke.points
     sides = np.cross(edges, depth * ray - stroke.points) @ stroke.normal
     return depth if (sides > 0.0).all() or (sides < 0.0).all() else None
+
+
+def test_the_camera_is_as_far_as_shows_every_body():
+    """Truth: a point in any direction from the middle of the view is inside of a cone that touches its edges."""
+    for _ in range(20):
+        away = RANDOM.normal(size=3)
+        away *= RANDOM.uniform(20.0, 400.0) / np.linalg.norm(away)
+        signals = {"position": np.tile(POINT[:, None], 2), "other": np.tile((POINT + away)[:, None], 2)}
+        declared = [body(position=cartesian()), body("far", Cartesian(vector("ship.other", 3, METRE)))]
+        view = scene_view(scene(*declared), flown(**signals))
+        camera = first_camera(view, None, 0)
+        points = np.array([position_at(each, 0) for each in view.bodies])
+        distance = np.linalg.norm(camera.eye - points[0])
+        assert distance >= (np.linalg.norm(away) + np.linalg.norm(SIZE) / 2.0) / np.sin(np.radians(20.0))
+        assert np.all(np.abs(camera.project(camera.look(points))) < 0.5)
 
 
 def test_a_picture_at_the_first_and_at_the_last_known_sample():

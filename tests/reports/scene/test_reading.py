@@ -80,6 +80,7 @@ def test_all_that_can_be_declared(read):
             body('axis="robot.angular_velocity"', name="other"),
             '<Site name="mark" position="guidance.target_position"/>',
             '<Site name="plan" position="guidance.planned_position"/>',
+            '<Site name="flag" position="-1 0.5 2e3"/>',
             '<Line from="it" to="ground" while="ranger.sample_count" name="beam"/>',
             '<Line from="other" to="mark"/>',
             '<Arrow name="spin" from="mark" signal="robot.angular_velocity" frame="it" length="2.5" colour="sky"/>',
@@ -103,9 +104,10 @@ def test_all_that_can_be_declared(read):
     assert jets.along == ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
     assert second.position is None
     assert isinstance(second.attitude, ThrustAxis)
-    mark, plan = whole.sites
+    mark, plan, flag = whole.sites
     assert mark.position == (469.8463103929542, 171.01007166283435, 0.0)  # a parameter, of nominal.ssv
     assert plan.position.label == "guidance.planned_position"
+    assert flag.position == (-1.0, 0.5, 2000.0)
     beam, line = whole.lines
     assert (beam.name, beam.start, beam.end, beam.condition.label) == ("beam", "it", "ground", "ranger.sample_count")
     assert line == Line("other to mark", "other", "mark", None)

@@ -106,6 +106,8 @@ def _site(reader: SignalReader, element: etree._Element, local: bool) -> Site:
     if local:
         raise reader.refuse(element, "a Site with longitude and latitude", "leave it out")
     position = element.get("position", "").strip()
+    if position.startswith(tuple("+-.0123456789")):
+        return Site(name, read_vector(reader, element, "position"))
     component, variable = split_name(position, reader.network.fmus)
     fmu = reader.network.fmus.get(component)
     names = elements(variable, fmu.variables) if fmu is not None else []
