@@ -53,7 +53,7 @@ export class Camera {
     const { azimuth, elevation, diagonals, field, room } = this.scene.camera;
     this.azimuth = this.mode === "chase" ? Math.PI : azimuth;
     this.elevation = elevation;
-    this.distance = Math.max(diagonals * Math.hypot(...this.followed.size), (room * reachOf(this.scene, this.followed)) / Math.sin(field / 2));
+    this.distance = Math.max(diagonals * Math.hypot(...this.followed.size), (room * extentOf(this.scene, this.followed)) / Math.sin(field / 2));
     if (this.mode === "free") {
       this.distance = Math.max((1.05 * this.whole.radius) / Math.sin(field / 2), this.distance);
       this.target.copy(this.whole.middle);
@@ -153,15 +153,15 @@ export class Camera {
 }
 
 // How far (m) other bodies reach from one at the start.
-function reachOf(scene: SceneData, body: BodyData): number {
+function extentOf(scene: SceneData, body: BodyData): number {
   const [from, to] = [new Vector3(), new Vector3()];
   if (!sampleAt(body.position, 0, from)) return 0;
-  let reach = 0;
+  let extent = 0;
   for (const other of scene.bodies) {
     if (other === body || !sampleAt(other.position, 0, to)) continue;
-    reach = Math.max(reach, to.distanceTo(from) + Math.hypot(...other.size) / 2);
+    extent = Math.max(extent, to.distanceTo(from) + Math.hypot(...other.size) / 2);
   }
-  return reach;
+  return extent;
 }
 
 // A ball around all positions.

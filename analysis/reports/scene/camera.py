@@ -46,7 +46,7 @@ def first_camera(scene: SceneView, ground: Ground | None, row: int) -> Camera | 
     if ground is not None and not ground.height(target) < DEEP * ground.radius:
         up, forward = ground.level(target)
     distance = max(
-        start.diagonals * math.hypot(*body.size), start.room * _reach(scene, row) / math.sin(0.5 * start.field)
+        start.diagonals * math.hypot(*body.size), start.room * _extent(scene, row) / math.sin(0.5 * start.field)
     )
     level = math.cos(start.elevation) * distance
     eye = target + level * (math.cos(start.azimuth) * forward + math.sin(start.azimuth) * np.cross(up, forward))
@@ -60,7 +60,7 @@ def first_camera(scene: SceneView, ground: Ground | None, row: int) -> Camera | 
     return Camera(eye, np.stack([right, np.cross(right, ahead), ahead]), math.tan(0.5 * start.field))
 
 
-def _reach(scene: SceneView, row: int) -> float:
+def _extent(scene: SceneView, row: int) -> float:
     """How far (m) other bodies reach from the first one at a sample; 0 where there are none."""
     first, *others = scene.bodies
     ends = [
