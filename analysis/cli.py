@@ -14,9 +14,9 @@ from ..common.errors import EndedError, ExitStatus, InputError, UnwrittenError, 
 from ..common.machine.os_errors import line_of, reason_of
 from ..common.process import leave, open_closed_streams, steady_streams
 from ..common.targets import check_encoding
+from .options.parsing import Completer, add_verb, flags_of, read_parsed
+from .options.verb import Verb
 from .verbs.help import Parser, group_help, overview, verb_help
-from .verbs.options.parsing import add_verb, flags_of, read_parsed
-from .verbs.options.verb import Verb
 from .verbs.options.verbs import FORMER, GROUPS, VERBS
 
 HELP_ALL = "--help-all"
@@ -139,11 +139,17 @@ def parser_of(given: Sequence[str]) -> Parser:
             second or first, description=verb.text, epilog=verb_help(verb), add_help=False
         )
         if first in named and (not second or second in named):
-            add_verb(own, verb, is_complete=is_complete)
+            add_verb(own, verb, _find_completer, is_complete=is_complete)
             displayed = own.add_argument_group("help")
             displayed.add_argument("--help", "-h", action="help", help="show this help")
             displayed.add_argument(HELP_ALL, action="help", help="show this help with the shared options")
     return parser
+
+
+def _find_completer(name: str) -> Completer:
+    """Return a function of the module of completers, whose imports take a while."""
+    completer: Completer = getattr(importlib.import_module(".verbs.options.completers", __package__), name)
+    return completer
 
 
 def run() -> NoReturn:

@@ -11,7 +11,7 @@ from .analysis.design.trajectories.vehicle import Landing as Landing
 from .analysis.design.trajectories.vehicle import Margins as Margins
 from .analysis.design.trajectories.vehicle import Transfer as Transfer
 from .analysis.design.trajectories.vehicle import Vehicle as Vehicle
-from .analysis.runtime.system.fault import Fault as Fault
+from .analysis.options.fault import Fault as Fault
 from .analysis.stability.point.bench import StudyError as StudyError
 from .analysis.verbs.batch import BatchResult as BatchResult
 from .analysis.verbs.batch import batch as batch

@@ -121,6 +121,35 @@ def test_the_list_allows_nothing_that_is_not_used(arrows):
             assert allowed <= {target for target, _ in arrows.get(room, set())}
 
 
+def test_only_the_command_line_and_the_build_know_the_verbs(arrows):
+    """A request is data: what lies below writes no command line of its own."""
+    importers = {
+        here
+        for here, pairs in arrows.items()
+        if any(target.split("/")[:2] == ["analysis", "verbs"] for target, _ in pairs)
+    }
+    assert {here for here in importers if here.split("/")[1] != "verbs"} == {"analysis/cli", "analysis/shipped"}
+
+
+def test_options_lie_on_the_floor_above_common(arrows):
+    rooms = {"analysis/options", "analysis/options/declared"}
+    assert {target for room in rooms for target, _ in arrows[room]} == {"analysis/options", "common"}
+    assert list(ROOMS)[-1] == "analysis/options" or list(ROOMS)[-2] == "analysis/options"
+
+
+def test_a_request_knows_no_command_line(arrows):
+    """Rooms of algorithms import no declaration of a verb, and not the writer of commands."""
+    rooms = ("stability", "studies", "campaigns", "design")
+    known = {
+        (here, target)
+        for here, pairs in arrows.items()
+        for target, _ in pairs
+        if here.split("/")[1:2] and here.split("/")[1] in rooms
+    }
+    assert len(known) > 30
+    assert not [pair for pair in known if pair[1] in ("analysis/options/declared", "analysis/commands")]
+
+
 def test_no_room_is_crowded():
     listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
     count = defaultdict(int)

@@ -12,11 +12,11 @@ from ...common.atomic import write_atomically
 from ...common.errors import InputError, suggestion
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.ssp_package import DESCRIPTION
+from ..options.command import write_command
+from ..options.declared.campaigns import RUN
 from ..runtime.ssp.archive import open_system, system_names
 from ..runtime.ssp.description import Component
 from ..runtime.ssp.reading import read_description
-from ..verbs.options.campaigns import RUN
-from ..verbs.options.command import write_command
 from .fits import slots
 from .names import check_free, check_name, class_name
 

@@ -14,9 +14,9 @@ from ..compose.assembly import compose_document, folder_archive
 from ..compose.document import fmu_source
 from ..compose.files import add_mark
 from ..compose.source import read_source
-from ..verbs.options.campaigns import BATCH, RUN
-from ..verbs.options.command import write_command
-from ..verbs.options.studies import STABILITY
+from ..options.command import write_command
+from ..options.declared.campaigns import BATCH, RUN
+from ..options.declared.studies import STABILITY
 from .block import Written, render, template_names
 from .names import check_free, check_name, class_name
 

@@ -17,6 +17,7 @@ from ..campaigns.fly.campaign import open_campaign
 from ..campaigns.fly.results import BatchResult
 from ..campaigns.fly.runner import fly_campaign
 from ..campaigns.spec.plan import read_plan
+from ..commands.stability import study_command
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.ssp.reading import read_description
 from ..runtime.system.options import SystemOptions, Watch
@@ -76,7 +77,7 @@ def _verdicts(system: Path, name: str, options: SystemOptions, timeout: float | 
 
 
 def _margins(system: Path, options: SystemOptions) -> dict[str, object]:
-    made: dict[str, Any] = document(study(read_request(system, options)))
+    made: dict[str, Any] = document(study(read_request(system, options), study_command))
     loops = [{key: loop[key] for key in KEYS if key in loop} for loop in made["loops"]]
     return {"verdict": made["verdict"], "limits": made["limits"], "loops": loops}
 

@@ -28,7 +28,7 @@ from ..campaigns.fly.shards.files import (
 )
 from ..campaigns.folder.columns import Column, describe_column
 from ..campaigns.folder.folder import ResultFolder, Shard, read_folder
-from ..campaigns.replay_command import replay_of_folder
+from ..commands.campaigns import replay_of_folder
 
 ROW_LIMIT = 20_000_000  # of a campaign: a column of it is 40 MB
 NUMERIC = ("end_time",)

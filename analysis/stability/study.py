@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import chdir
 from dataclasses import asdict, dataclass
 from functools import partial
@@ -29,6 +29,8 @@ from .results.report import JointReport, LoopReport, PointReport, StabilityRepor
 from .results.varied import Dispersion
 from .variation import run_sweep, vary_step
 
+Replay = Callable[[Request, str, int], str]  # the command that studies a loop again, at one trial of the campaign
+
 
 @dataclass
 class PointResult:
@@ -42,17 +44,19 @@ class PointResult:
     provenance: dict[str, Any]
 
 
-def study(request: Request, workers: int | None = None) -> StabilityReport:
-    """Everything, points side by side in ``workers`` processes (None: one per processor), in both orders if need be.
+def study(request: Request, replay: Replay, workers: int | None = None) -> StabilityReport:
+    """Study everything, points side by side in ``workers`` processes (None: one per processor), in both orders if need
+    be.
 
-    The report does not depend on their number. Raises InputError, and StudyError where no flight reaches a point.
+    The report does not depend on their number. ``replay`` is a function that other processes can import. Raises
+    InputError, and StudyError where no flight reaches a point.
     """
     with chdir(Path.cwd()), show_progress() as report:  # an FMU may change the folder
         count = worker_count(workers)
-        return in_both_orders(request, lambda asked: _study(asked, count, report))
+        return in_both_orders(request, lambda each: _study(each, replay, count, report))
 
 
-def _study(request: Request, count: int, tell: Tell) -> StabilityReport:
+def _study(request: Request, replay: Replay, count: int, tell: Tell) -> StabilityReport:
     begun = time.monotonic()
     points = [point for point in request.declaration.points if request.loops_at(point)]
     if min(count, len(points)) > 1:
@@ -60,9 +64,9 @@ def _study(request: Request, count: int, tell: Tell) -> StabilityReport:
             listen(tell) as pipe,
             process_pool(min(count, len(points)), begin, pipe) as pool,
         ):
-            results = list(pool.map(partial(study_point, request, tell=tell_parent), points))
+            results = list(pool.map(partial(study_point, request, replay, tell=tell_parent), points))
     else:
-        results = [study_point(request, point, tell) for point in points]
+        results = [study_point(request, replay, point, tell) for point in points]
     cells = {point.name: result.cells for point, result in zip(points, results, strict=True)}
     unstudied = [item for result in results for item in result.unstudied]
     sweeps = []
@@ -93,7 +97,7 @@ def _study(request: Request, count: int, tell: Tell) -> StabilityReport:
     )
 
 
-def study_point(request: Request, point: Point, tell: Tell) -> PointResult:
+def study_point(request: Request, replay: Replay, point: Point, tell: Tell) -> PointResult:
     """One point with all its loops: a step each, one for the linear model. Raises InputError, StudyError."""
     subject = Subject(request.system, request.options)
     loops, limits = request.loops_at(point), request.declaration.limits
@@ -131,7 +135,7 @@ def study_point(request: Request, point: Point, tell: Tell) -> PointResult:
             provenance=dict(work.bench.simulation.provenance()),
         )
     if result.cells is not None and reports:
-        _vary(request, subject, point, reports, step, result.cells, unstudied, tell)
+        _vary(request, replay, subject, point, reports, step, result.cells, unstudied, tell)
     return result
 
 
@@ -161,6 +165,7 @@ def _loop(request: Request, subject: Subject, point: PointStudy, channel: Channe
 
 def _vary(
     request: Request,
+    replay: Replay,
     subject: Subject,
     point: Point,
     reports: Sequence[LoopReport],
@@ -176,7 +181,7 @@ def _vary(
     if request.plan is not None:
         try:
             limits = request.declaration.limits
-            spread = disperse(subject, request.plan, point, loops, limits, cells, request.replay, tell)
+            spread = disperse(subject, request.plan, point, loops, limits, cells, partial(replay, request), tell)
         except (StudyError, InputError) as error:  # wrong input has been refused before; a trial may still end early
             unstudied.append(Unstudied(request.campaign or "", point.name, "campaign", str(error)))
     for report in reports:

@@ -11,7 +11,7 @@ from ...fmus_src.evidence.manifest import mime_type
 from ..campaigns.fly.manifest import CONTENTS, FILE, CampaignDocument, Manifest, SourceDocument, read_manifest
 from ..campaigns.fly.results import BatchResult
 from ..campaigns.fly.shards.files import DRAWS, FOLDER, SUMMARY
-from ..campaigns.replay_command import campaign_command
+from ..commands.campaigns import campaign_command
 from .elements import Task
 
 PARQUET, JSON = mime_type(DRAWS), mime_type(SUMMARY)

@@ -19,14 +19,14 @@ from ..campaigns.summary import CONFIDENCE, summary_rows
 from ..campaigns.summary_text import select_metrics
 from ..campaigns.tables import requirement_rows, who_cells, who_heads
 from ..campaigns.trials import whole_column
+from ..options.declared.campaigns import BATCH, BatchOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..runtime.flight.results import require_pandas
 from ..studies.sobol import rank_correlations
 from ..traceability.campaign_task import write_task
 from .common.campaign_text import campaign_problems, campaign_requirements, status_meanings, worst_lines
 from .common.campaigns import name_foreign, read_campaign, resume_hint
-from .options.campaigns import BATCH, BatchOptions
-from .options.option import FilePath
-from .options.verb import verb
 
 if TYPE_CHECKING:  # plots and pages are imported where they are made
     from matplotlib.figure import Figure as Plot

@@ -15,18 +15,18 @@ from ...common.errors import InputError, UnwrittenError
 from ...common.progress import progress_bar
 from ..campaigns.draws.lookup import InputColumns, Lookup, TrialTable, input_hashes
 from ..campaigns.fly.workers import worker_count
-from ..campaigns.replay_command import campaign_name
 from ..campaigns.spec.checks import check_draws, lookup_constants, prepare_variants
 from ..campaigns.spec.plan import BatchPlan, read_plan
+from ..commands.campaigns import campaign_name
 from ..design.trajectories.descent_problem import check_roles, descent_problem
 from ..design.trajectories.many_bounds import INTERVALS, bound_descents
+from ..options.command import write_command
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.system.options import SystemOptions
 from .common.stores import check_stored_system
-from .options.command import write_command
 from .options.design import BOUNDS, BoundsOptions
-from .options.option import FilePath
-from .options.verb import verb
 
 LOOKUP = "bound"  # the lookup that is computed here
 DECIMALS = {"propellant": 6, "duration": 2}  # of the columns of its table, kg and s

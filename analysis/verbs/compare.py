@@ -13,12 +13,12 @@ from ..campaigns.compare import comparison
 from ..campaigns.compare.side_by_side import compare_folders
 from ..campaigns.summary import summary_rows
 from ..campaigns.tables import who_cells, who_heads
+from ..options.command import write_command
+from ..options.declared.campaigns import COMPARE, CompareOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..runtime.flight.results import require_pandas
 from .common.arguments import path_list
-from .options.campaigns import COMPARE, CompareOptions
-from .options.command import write_command
-from .options.option import FilePath
-from .options.verb import verb
 from .result import NoProblems
 
 if TYPE_CHECKING:  # plots and pages are imported where they are made

@@ -17,6 +17,9 @@ from ..compose.files import add_mark, check_unedited, write_source
 from ..compose.source import SystemSource, read_source
 from ..compose.text import write_toml
 from ..compose.way_back import source_of
+from ..options.declared.library import COMPOSE, ComposeOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..reports.figures.reading import read_figures
 from ..runtime.ssp.archive import open_system
 from ..runtime.ssp.reading import read_description
@@ -24,9 +27,6 @@ from ..runtime.system.options import SystemOptions
 from ..runtime.system.prepared import prepare_system
 from ..runtime.system.times import MissingStopTimeError
 from ..stability.request.reading import read_declaration
-from .options.library import COMPOSE, ComposeOptions
-from .options.option import FilePath
-from .options.verb import verb
 from .result import NoProblems
 
 

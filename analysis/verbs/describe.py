@@ -16,6 +16,9 @@ from ...fmus_src.export.available import fmu_flavours
 from ..authoring.campaign import describe_campaign
 from ..authoring.description import describe_system, variables_of
 from ..authoring.fits import blocks_of_slot, slots
+from ..options.declared.library import DESCRIBE, DescribeOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..runtime.fmi.terminals import read_terminals
 from ..runtime.ssp.archive import system_names
 from ..runtime.system.alone import describe_alone
@@ -24,9 +27,6 @@ from ..runtime.system.options import SystemOptions as System
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import PreparedSystem, locate_fmu, prepare_system
 from .common.description_text import description_lines
-from .options.library import DESCRIBE, DescribeOptions
-from .options.option import FilePath
-from .options.verb import verb
 from .result import NoProblems
 
 

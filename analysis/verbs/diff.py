@@ -13,11 +13,11 @@ from ...common.to_json import to_json
 from ..campaigns.tables import align_columns
 from ..differences.differences import RunDifferences, compare_runs
 from ..differences.recorded_run import read_run
+from ..options.declared.library import DIFF, DiffOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..reports.common.quantities import number
 from ..reports.differences.page import write_differences_page
-from .options.library import DIFF, DiffOptions
-from .options.option import FilePath
-from .options.verb import verb
 
 LISTED = 20  # signals that a terminal shows
 NAMED = 6  # signals of one run alone

@@ -8,9 +8,9 @@ from typing import Unpack
 
 from ...common.errors import InputError
 from ...common.paths import BUILD, IS_CHECKOUT
+from ..options.declared.library import DOCS, DocsOptions
+from ..options.verb import verb
 from .common.browser import open_page
-from .options.library import DOCS, DocsOptions
-from .options.verb import verb
 from .result import NoProblems
 
 FIRST_PAGE = BUILD / "site" / "index.html"

@@ -22,12 +22,12 @@ from ..exports.request import ExportRequest, Written
 from ..exports.system_fmu.build import build_system_fmu
 from ..exports.system_fmu.request import OneFmu
 from ..exports.systems import export_system
+from ..options.declared.library import EXPORT, ExportOptions
+from ..options.option import FilePath, defaults_of, options_of
+from ..options.system import AssemblyOptions
+from ..options.verb import verb
 from ..runtime.ssp.archive import open_system, system_names
 from ..runtime.system.options import system_options
-from .options.library import EXPORT, ExportOptions
-from .options.option import FilePath, defaults_of, options_of
-from .options.system import AssemblyOptions
-from .options.verb import verb
 from .result import NoProblems
 
 

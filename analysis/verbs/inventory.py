@@ -13,12 +13,12 @@ from ...common.paths import LAWS, SEARCHES
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
+from ..options.declared.library import LIST
+from ..options.verb import verb
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.reading import read_description
 from ..stability.request.reading import read_declaration
 from .common.description_text import wrap
-from .options.library import LIST
-from .options.verb import verb
 from .result import NoProblems
 
 TITLE = 18  # columns of a title

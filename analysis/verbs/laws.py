@@ -19,11 +19,11 @@ from ..design.laws.law import find_law, parameter_set
 from ..design.synthesis.outcome import SynthesisResult
 from ..design.synthesis.synthesis import run_synthesis
 from ..design.synthesis.synthesis_file import find_search, read_synthesis
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.common.style import house_style
 from .options.design import LAW, SEARCH, LawOptions, SearchOptions
-from .options.option import FilePath
-from .options.verb import verb
 from .result import NoProblems
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..authoring import block, system
-from .options.library import NEW_BLOCK, NEW_SYSTEM
-from .options.verb import verb
+from ..options.declared.library import NEW_BLOCK, NEW_SYSTEM
+from ..options.verb import verb
 from .result import NoProblems
 
 

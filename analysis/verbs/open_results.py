@@ -19,11 +19,11 @@ from ..campaigns.folder.opened import OpenedResults
 from ..campaigns.spec.campaign import Metric
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.trials import whole_column
+from ..options.option import FilePath
 from ..reports.campaign.distributions import distribution_plot
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.common.style import look
 from ..runtime.flight.results import require_pandas
-from .options.option import FilePath
 
 Results = OpenedResults | BatchResult
 

@@ -27,14 +27,14 @@ from ..design.trajectories.vehicle import (
     check_vehicle,
 )
 from ..design.transfers.hover_study import HoverStudy, hover_study
+from ..options.option import FilePath, options_of
+from ..options.verb import verb
 from ..reports.plan_pages import write_hover_page, write_landing_page
 from ..runtime.system.options import SystemOptions, system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
 from .common.stores import check_stored_system
 from .common.transfer_text import adjoint_lines, burns_text, finite_lines, free_fall_lines
 from .options.design import BOUND, TRANSFER, BoundOptions, TransferOptions, VehicleOptions
-from .options.option import FilePath, options_of
-from .options.verb import verb
 
 OF_VEHICLE = frozenset(options_of(VehicleOptions))
 NEEDS = {

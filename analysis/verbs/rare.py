@@ -9,6 +9,9 @@ from typing import Unpack
 
 from matplotlib.figure import Figure as Plot
 
+from ..options.declared.studies import RARE, RareOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.studies.rare_figures import rare_plot
 from ..reports.studies.rare_page import design_table, level_table, write_rare_page
@@ -17,9 +20,6 @@ from ..studies.rare.study import rare_failure
 from .common.arguments import read_requirements
 from .common.campaigns import commands_of, read_campaign
 from .common.studies import Required, condition_lines, conditions, results_folder, store_result
-from .options.option import FilePath
-from .options.studies import RARE, RareOptions
-from .options.verb import verb
 
 NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # on which requirements are
 

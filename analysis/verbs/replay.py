@@ -11,17 +11,17 @@ from typing import Any, Unpack
 from ...common.errors import InputError
 from ..campaigns.fly.replay import ReplayedTrial, replay_plan, replay_trial
 from ..campaigns.tables import faults_line
+from ..options.command import record_options
+from ..options.declared.campaigns import REPLAY, ReplayOptions
+from ..options.option import FilePath
+from ..options.system import TrustOptions
+from ..options.verb import verb
 from ..reports.figures.reading import read_figures
 from ..runtime.flight.interruptible import StuckError
 from ..runtime.system.options import trust_of
 from .common.arguments import read_requirements
 from .common.campaign_text import outcome_lines
 from .common.campaigns import read_campaign
-from .options.campaigns import REPLAY, ReplayOptions
-from .options.command import record_options
-from .options.option import FilePath
-from .options.system import TrustOptions
-from .options.verb import verb
 from .run import STUCK, Result
 
 METRIC = "metric."

@@ -12,6 +12,10 @@ from ...common.errors import InputError
 from ...common.visible import on_one_line
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.tables import faults_line
+from ..options.declared.campaigns import RUN, RunOptions
+from ..options.fault import Fault, faults_of
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..reports.figures.declared import Band, Figure, Limits
 from ..reports.figures.limits import limit_document, limit_rows
 from ..reports.figures.reading import read_figures
@@ -20,16 +24,12 @@ from ..runtime.flight import results
 from ..runtime.flight.interruptible import StuckError, fly
 from ..runtime.flight.selection import find_variables
 from ..runtime.instances.instance import Log
-from ..runtime.system.fault import Fault, faults_of
 from ..runtime.system.inputs import missing_outputs
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
 from ..runtime.system.series import read_series
 from .common.arguments import read_requirements, requirement_problems
 from .common.flight_text import flight_lines, flight_problems, note_lines
-from .options.campaigns import RUN, RunOptions
-from .options.option import FilePath
-from .options.verb import verb
 
 if TYPE_CHECKING:  # plots and pages are imported where they are made: half of what a run without them would take
     from matplotlib.figure import Figure as Plot

@@ -11,14 +11,14 @@ from typing import Unpack
 from matplotlib.figure import Figure as Plot
 
 from ...common.errors import suggestion
+from ..options.declared.studies import SENSITIVITY, SensitivityOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.studies.sensitivity_page import driver_table, rank_table, sensitivity_plot, write_sensitivity_page
 from ..studies import sensitivity as study
 from .common.campaigns import commands_of, read_campaign
 from .common.studies import Stored, condition_lines, conditions, results_folder, store_result
-from .options.option import FilePath
-from .options.studies import SENSITIVITY, SensitivityOptions
-from .options.verb import verb
 
 MOST_PLOTTED = 4  # metrics, in a notebook
 

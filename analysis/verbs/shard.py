@@ -15,13 +15,13 @@ from ..campaigns.fly.cluster.connection import cluster
 from ..campaigns.fly.runner import fly_campaign, merge_rows
 from ..campaigns.fly.shards.numbering import numbers_of
 from ..campaigns.summary_text import select_metrics
+from ..options.declared.campaigns import MERGE, PREPARE, SHARD, MergeOptions, PrepareOptions, ShardOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..runtime.system.options import trust_of
 from .batch import BatchResult
 from .common.campaign_text import campaign_requirements, failure_lines, find_failed
 from .common.campaigns import name_foreign, read_campaign, resume_hint
-from .options.campaigns import MERGE, PREPARE, SHARD, MergeOptions, PrepareOptions, ShardOptions
-from .options.option import FilePath
-from .options.verb import verb
 from .result import NoProblems
 
 

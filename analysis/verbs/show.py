@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Unpack
 
 from ...common.errors import InputError
+from ..options.declared.campaigns import SHOW, ShowOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..show.server import CampaignServer
 from .common.arguments import path_list
-from .options.campaigns import SHOW, ShowOptions
-from .options.option import FilePath
-from .options.verb import verb
 from .result import NoProblems
 
 

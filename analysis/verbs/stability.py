@@ -10,6 +10,10 @@ from typing import Any, Unpack
 from matplotlib.figure import Figure as Plot
 
 from ...common.errors import suggestion
+from ..commands.stability import study_command
+from ..options.declared.studies import STABILITY, StabilityOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.stability.figures import Diagram, loop_plot
 from ..reports.stability.orders import order_sentences
@@ -25,9 +29,6 @@ from ..stability.results.report import LoopReport
 from ..stability.results.requirement import Verdict
 from ..stability.study import study
 from .common.stability_text import stability_lines, stability_problems
-from .options.option import FilePath
-from .options.studies import STABILITY, StabilityOptions
-from .options.verb import verb
 
 
 @dataclass(repr=False)
@@ -168,4 +169,4 @@ def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> Stabilit
         trial=options["trial"],
         draws=None if draws is None else Path(draws),
     )
-    return StabilityReport(**vars(study(request, options["workers"])))
+    return StabilityReport(**vars(study(request, study_command, options["workers"])))

@@ -19,9 +19,9 @@ from ..compose.document import RESOURCES
 from ..compose.files import check_unedited, check_unedited_source, write_new
 from ..compose.source import ComponentSource, Entry, SetValue, SystemSource
 from ..compose.text import write_toml
+from ..options.declared.campaigns import RunOptions
+from ..options.option import FilePath
 from .compose import compose_source
-from .options.campaigns import RunOptions
-from .options.option import FilePath
 from .run import Result, simulate
 
 

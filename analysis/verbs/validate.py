@@ -27,6 +27,9 @@ from ..compose.likeness import find_difference
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
 from ..design.trajectories.stored_bound import MissingBound, find_bound
+from ..options.declared.library import VALIDATE, ValidateOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..reports.figures.reading import read_figures
 from ..runtime.apart.resets import find_verdict, renewal_note
 from ..runtime.ssp.archive import DEFAULT_VARIANT, open_system
@@ -44,9 +47,6 @@ from ..stability.request.request import Subject
 from .common.arguments import path_list
 from .common.description_text import wrap
 from .compose import compose_file
-from .options.library import VALIDATE, ValidateOptions
-from .options.option import FilePath
-from .options.verb import verb
 
 ELEMENT = r"[A-Za-z_][A-Za-z0-9_]*(\[[0-9]+(,[0-9]+)*\])?"
 PLAIN_NAME = re.compile(rf"{ELEMENT}(\.{ELEMENT})*")  # of those that FMI 2.0's structured naming convention allows

@@ -15,14 +15,14 @@ from ...fmus_src.export.available import find_fmu, fmu_flavours
 from ..evidence.comparison import SignalCheck
 from ..evidence.reproduction import Reproduction
 from ..evidence.verification import Verification, verify_archive
+from ..options.declared.library import VERIFY, VerifyOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..reports.common.quantities import number
 from ..runtime.ssp.archive import open_system, system_names
 from ..runtime.system.options import SystemOptions, Watch, trust_of
 from .common.arguments import path_list
 from .common.description_text import wrap
-from .options.library import VERIFY, VerifyOptions
-from .options.option import FilePath
-from .options.verb import verb
 
 VERIFIED, COMPARED, DIFFERENT = "verified", "compared", "different"  # verdicts
 NAMED = 6  # signals of an experiment that do not fit

@@ -11,6 +11,9 @@ from typing import Unpack
 from matplotlib.figure import Figure as Plot
 
 from ..campaigns.spec.plan import BatchPlan
+from ..options.declared.studies import WORST, WorstOptions
+from ..options.option import FilePath
+from ..options.verb import verb
 from ..reports.common.notebook import Grid, notebook_view
 from ..reports.studies.worst_figures import worst_plot
 from ..reports.studies.worst_page import metric_table, parameter_table, worst_flight, write_worst_page
@@ -19,11 +22,8 @@ from ..studies.worst import outcome
 from ..studies.worst.request import check_options, margin_asked
 from ..studies.worst.study import MARGIN, worst_case, worst_margin
 from .common.arguments import read_requirements
-from .common.campaigns import commands_of, read_campaign
+from .common.campaigns import commands_of, commands_of_margin, read_campaign
 from .common.studies import Conditions, Required, condition_lines, conditions, results_folder, store_result
-from .options.option import FilePath
-from .options.studies import WORST, WorstOptions
-from .options.verb import verb
 
 NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # on which requirements are
 
@@ -114,5 +114,7 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
                 at=options["at"],
                 seed=options["seed"],
             )
-            result = worst_margin(request, options["margin"] or MARGIN, **search)
+            result = replace(
+                worst_margin(request, options["margin"] or MARGIN, **search), commands=commands_of_margin(request)
+            )
     return store_result(WorstResult, result, folder, plan=plan, requirements=requirements)

@@ -14,7 +14,7 @@ import pytest
 
 import perilune
 from docs.reference.verbs import verb_parser
-from perilune.analysis.verbs.options.option import options_of
+from perilune.analysis.options.option import options_of
 from perilune.analysis.verbs.options.verbs import FORMER, GROUPS, PURPOSES, RENAMED, VERBS
 
 HEAVY = {"numpy", "matplotlib", "scipy", "pyarrow", "lxml", "fmpy", "control", "pandas", "jinja2"}

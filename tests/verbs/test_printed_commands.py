@@ -13,9 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.analysis.cli import parser_of
-from perilune.analysis.verbs.options.command import write_command
-from perilune.analysis.verbs.options.option import Kind, defaults_of, options_of
-from perilune.analysis.verbs.options.parsing import read_parsed
+from perilune.analysis.options.command import write_command
+from perilune.analysis.options.option import Kind, defaults_of, options_of
+from perilune.analysis.options.parsing import read_parsed
 from perilune.analysis.verbs.options.verbs import GROUPS, VERBS
 
 PLAIN = st.text(alphabet="abcXYZ019._[]", min_size=1, max_size=12)

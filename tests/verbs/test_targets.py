@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.verbs.options.option import Kind, options_of
+from perilune.analysis.options.option import Kind, options_of
 from perilune.analysis.verbs.options.verbs import VERBS
 from perilune.common.atomic import whole_file
 

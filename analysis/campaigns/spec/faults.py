@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....common.errors import InputError
+from ...options.fault import KINDS, Fault
 from ...runtime.system.checks import changeable, check_value
-from ...runtime.system.fault import KINDS, Fault
 from ...runtime.system.network import Network
 from ...runtime.system.passing.flight_table import FaultColumns
 from .expressions import Expression

@@ -11,8 +11,8 @@ import numpy as np
 
 from ....common.errors import InputError
 from ....fmus_src.roles import SEED, STREAM
+from ...options.fault import Fault
 from ...runtime.ssp.archive import SystemArchive, open_system
-from ...runtime.system.fault import Fault
 from ...runtime.system.options import UNWATCHED, SystemOptions, Watch
 from ...runtime.system.passing.flight_table import FlightTable
 from ...runtime.system.prepared import PreparedSystem, prepare_system

@@ -13,13 +13,13 @@ from markupsafe import Markup
 from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.evaluation import worst_statuses
 from ...campaigns.fly.results import BatchResult
-from ...campaigns.replay_command import replay_command, replay_of_folder
 from ...campaigns.requirement_verdicts import RequirementVerdict
 from ...campaigns.spec.campaign import Campaign
 from ...campaigns.statistics import QUANTILES, STATISTICS
 from ...campaigns.summary import Summary, SummaryRow, summary_rows
 from ...campaigns.tables import bound_text, requirement_rows, unevaluated_text
 from ...campaigns.trials import TrialRows
+from ...commands.campaigns import replay_command, replay_of_folder
 from ...studies.sobol import rank_correlations
 from ..common.page import exact
 from ..common.quantities import display_unit, in_shown_unit, number

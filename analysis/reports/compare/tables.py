@@ -12,8 +12,8 @@ from markupsafe import Markup
 from ...campaigns.compare.comparison import Comparison, name_of
 from ...campaigns.compare.paired import PairedRates, PairedValues
 from ...campaigns.fly.manifest import FILE as MANIFEST
-from ...campaigns.replay_command import replay_of_folder
 from ...campaigns.spec.campaign import Metric
+from ...commands.campaigns import replay_of_folder
 from ..campaign.tables import FAILURES, Replay
 
 T = TypeVar("T", PairedRates, PairedValues)

@@ -13,7 +13,7 @@ from typing import TypeVar
 from markupsafe import Markup
 
 from ....common.visible import on_one_line, visible
-from ...runtime.system.fault import Fault
+from ...options.fault import Fault
 from ...runtime.system.prepared import PreparedSystem
 from ..common.page import Table, exact
 from ..common.quantities import declared_unit, display_unit

@@ -8,11 +8,11 @@ from dataclasses import replace
 from pathlib import PurePosixPath
 
 from ....fmus_src.catalogue import block_kinds
+from ...options.fault import Fault
 from ...runtime.ssp.conversions import IDENTITY, Transformation
 from ...runtime.ssp.description import Component, Connection, Connector, DictionaryReference, Element, Point, System
 from ...runtime.ssp.kinds import PARAMETERS
 from ...runtime.ssp.names import split_name
-from ...runtime.system.fault import Fault
 from ...runtime.system.flattening import orient
 from ...runtime.system.network import Node
 from ...runtime.system.prepared import PreparedSystem

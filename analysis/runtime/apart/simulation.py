@@ -14,6 +14,7 @@ import numpy as np
 
 from ....common.errors import InputError
 from ....common.machine.room import check_room
+from ...options.fault import Fault
 from ..flight.base_simulation import NOTHING, BaseSimulation, Choices
 from ..flight.endings import FLIGHT_STATUSES
 from ..flight.program import layout_of
@@ -21,7 +22,6 @@ from ..flight.recorder import Phase, rows_between
 from ..flight.results import COMPLETE, CRASHED, Flight
 from ..flight.selection import check_replaced
 from ..ssp.given_values import ParameterValue
-from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
 from . import progress
 from .connection import ChildEndedError, Connection, ServerEndedError, Stillness

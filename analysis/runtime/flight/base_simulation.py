@@ -8,9 +8,9 @@ from typing import Any, Self, TypedDict, Unpack
 
 import numpy as np
 
+from ...options.fault import Fault
 from ..instances.instance import Log
 from ..ssp.given_values import ParameterValue
-from ..system.fault import Fault
 from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem
 from .base_memory import BaseMemory

@@ -18,10 +18,10 @@ from ....common.errors import suggestion
 from ....common.percent import short_percent
 from ....common.visible import quote_formula
 from ....fmus_src.roles import STATUS
+from ...options.fault import Fault
 from ..ssp.given_values import ParameterValue
 from ..ssp.names import elements, split_name, vectors
 from ..ssp.types import WHOLE
-from ..system.fault import Fault
 from ..system.inputs import DrivenInput, InputFacts
 from ..system.network import Network
 from ..system.passing.settings import Settings

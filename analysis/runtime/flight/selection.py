@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from ....common.errors import InputError, suggestion
+from ...options.fault import Fault
 from ..fmi.representations import TEXTS
 from ..ssp.given_values import parse_value
 from ..ssp.names import elements
 from ..system.checks import check_fault
-from ..system.fault import Fault
 from ..system.fmu import NOT_VARIED, STRUCTURAL
 from ..system.network import Network
 from ..system.passing.settings import Settings

@@ -10,13 +10,13 @@ from typing import Unpack
 import numpy as np
 
 from ....common.collection import no_collection
+from ...options.fault import Fault
 from ..fused.fuse import fuse, is_compilable
 from ..fused.refusals import can_fuse, check_fused
 from ..instances.instance import Instance, instantiate
 from ..loop import arrays, codes
 from ..loop.loop import Loop
 from ..ssp.given_values import ParameterValue
-from ..system.fault import Fault
 from ..system.namesakes.namesakes import note_loaded
 from ..system.options import FUSED
 from ..system.passing.flight_table import FlightTable

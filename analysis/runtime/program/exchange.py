@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
+from ...options.fault import Fault
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable
 from ..ssp.kinds import PARAMETERS
-from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
 from ..system.schedule import origin
 

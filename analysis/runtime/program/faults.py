@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..system.fault import Fault
+from ...options.fault import Fault
 from .component import Sample
 
 MARGIN = 1e-6  # of a step: the times of communication points, start + n step, carry rounding

@@ -7,8 +7,8 @@ from collections.abc import Collection, Sequence
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Error
 
+from ...options.fault import Fault
 from ..instances.instance import Instance, instantiate
-from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
 from .component import Component
 from .exchange import Exchange

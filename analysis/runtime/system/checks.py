@@ -9,11 +9,11 @@ from fmpy import read_model_description
 from ....common.errors import InputError, suggestion
 from ....fmus_src.export.available import fmu_flavours
 from ....fmus_src.roles import SAMPLE_PERIOD
+from ...options.fault import Fault, number_text
 from ..fmi.representations import TEXTS
 from ..fmi.variable import Variable, variables_of
 from ..ssp.description import Component
 from ..ssp.names import split_name
-from .fault import Fault, number_text
 from .network import Network
 from .options import STEP_ROUNDING
 from .passing.settings import Settings

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ....common.errors import InputError, suggestion
@@ -16,9 +16,6 @@ from ...runtime.ssp.reading import read_description
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.options import Layer, SystemOptions
 from ...runtime.system.prepared import PreparedSystem, prepare_system
-from ...verbs.options.command import write_command
-from ...verbs.options.option import options_of
-from ...verbs.options.studies import STABILITY
 from .declaration import Declaration, Loop, Point
 from .reading import read_declaration
 
@@ -50,22 +47,6 @@ class Request:
 
     def point(self, name: str) -> Point:
         return next(point for point in self.declaration.points if point.name == name)
-
-    def replay(self, loop: str, trial: int) -> str:
-        """The command that studies one trial of the campaign again."""
-        assert self.plan is not None
-        assert self.campaign is not None
-        settings = {each.name: getattr(self.options, each.name) for each in fields(SystemOptions)}
-        options = {name: value for name, value in settings.items() if name in options_of(STABILITY.options)}
-        trials = {"trials": self.plan.campaign.trials} if self.draws is None else {"draws": self.draws}
-        options |= {
-            "campaign": self.campaign,
-            "configuration": self.plan.campaign.selected,
-            "trial": trial,
-            **trials,
-            "seed": self.plan.campaign.seed,
-        }
-        return write_command(STABILITY, {"system": self.system}, options | {"loops": (loop,), "at": self.at})
 
 
 def read_request(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from ....common.errors import InputError
@@ -37,10 +37,6 @@ class MarginAsked:
     def plan(self) -> BatchPlan:
         assert self.request.plan is not None
         return self.request.plan
-
-    def replay(self, draws: Path, trial: int) -> str:
-        """The command that studies the loop at a row of a file of draws."""
-        return replace(self.request, draws=draws).replay(self.loop.name, trial)
 
     def open_request(self) -> PointStudy:
         """The point with the campaign's layer and what it draws, to be closed. Raises InputError, StudyError."""

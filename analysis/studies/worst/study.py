@@ -17,7 +17,7 @@ from ...campaigns.spec.plan import BatchPlan
 from ...runtime.system.prepared import PreparedSystem
 from ..draw_space import DrawSpace
 from ..flights import SampleFlights, StudyProvenance
-from ..flown import Commands, Flown
+from ..flown import Flown
 from ..noise import Noise
 from ..units import units_of
 from .margin_studies import MarginStudies
@@ -98,7 +98,7 @@ def worst_margin(
     with MarginStudies(asked, search.middle, noise_trial=search.noise_trial, workers=search.workers) as studies:
         objective = margin_objective(asked.loop.name, asked.point.name, studies.channels, margin)
         result = search.result(studies, objective)
-        return replace(result, reason=studies.reasons[result.places[0]], commands=Commands(asked.replay))
+        return replace(result, reason=studies.reasons[result.places[0]])
 
 
 class _Search:

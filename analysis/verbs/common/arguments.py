@@ -9,7 +9,7 @@ import numpy as np
 
 from ....common.errors import InputError, suggestion
 from ...campaigns.spec.expressions import Expression
-from ..options.option import FilePath
+from ...options.option import FilePath
 
 
 def read_requirements(texts: Sequence[str], known: Collection[str], families: tuple[str, ...] = ()) -> list[Expression]:

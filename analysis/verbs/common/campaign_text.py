@@ -14,13 +14,13 @@ from ...campaigns.fly.evaluation import worst_statuses
 from ...campaigns.fly.flyer import TrialResult
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.lost_trials import lost_of
-from ...campaigns.replay_command import replay_of_folder
 from ...campaigns.spec.campaign import Metric
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.plan import BatchPlan
 from ...campaigns.summary import requirement_values, summarise
 from ...campaigns.tables import align_columns, short, unmet_lines
 from ...campaigns.trials import TrialColumns, TrialRows
+from ...commands.campaigns import replay_of_folder
 from ...runtime.flight.results import TIMED_OUT, with_meaning
 from .arguments import read_requirements, requirement_problems
 

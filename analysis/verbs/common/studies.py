@@ -11,8 +11,8 @@ from ....common.errors import UnwrittenError
 from ....common.targets import check_folder
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.tables import assumption_lines
+from ...options.declared.studies import ConditionOptions
 from ...reports.studies.conditions import StudyResult, conditions_of
-from ..options.studies import ConditionOptions
 from .arguments import requirement_problems
 
 

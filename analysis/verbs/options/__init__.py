@@ -1,1 +1,1 @@
-"""The declarations of verbs and options, from which command line, Python signatures, commands and records derive."""
+"""Declarations that need higher rooms: the verbs of design, the list of all verbs, completion in a shell."""

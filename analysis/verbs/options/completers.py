@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from argcomplete.completers import FilesCompleter
@@ -16,7 +15,6 @@ from ...runtime.ssp.description import Component
 from ...runtime.ssp.reading import read_description
 
 SLOT_TEMPLATES = Path(__file__).parents[2] / "authoring" / "templates" / "slots"
-Completer = Callable[..., Iterable[str]]
 
 
 def csv_files(prefix: str, **_: object) -> list[str]:

@@ -14,10 +14,10 @@ from ...design.trajectories.vehicle import (
     LANDING_VEHICLE,
     Margins,
 )
-from .campaigns import CAMPAIGN, SYSTEM
-from .option import FilePath, Option
-from .system import JsonFile, ReportFiles, Seed, SystemOptions
-from .verb import Argument, Verb
+from ...options.declared.campaigns import CAMPAIGN, SYSTEM
+from ...options.option import FilePath, Option
+from ...options.system import JsonFile, ReportFiles, Seed, SystemOptions
+from ...options.verb import Argument, Verb
 
 MOST_INTERVALS = 100_000
 NO_PLAN = "there is no such plan, or it takes more propellant than is on board"

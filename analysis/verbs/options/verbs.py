@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
-from .campaigns import BATCH, COMPARE, MERGE, PREPARE, REPLAY, RUN, SHARD, SHOW
+from ...options.declared.campaigns import BATCH, COMPARE, MERGE, PREPARE, REPLAY, RUN, SHARD, SHOW
+from ...options.declared.library import (
+    COMPOSE,
+    DESCRIBE,
+    DIFF,
+    DOCS,
+    EXPORT,
+    LIST,
+    NEW_BLOCK,
+    NEW_SYSTEM,
+    VALIDATE,
+    VERIFY,
+)
+from ...options.declared.studies import RARE, SENSITIVITY, STABILITY, WORST
+from ...options.verb import Verb
 from .design import BOUND, BOUNDS, LAW, SEARCH, TRANSFER
-from .library import COMPOSE, DESCRIBE, DIFF, DOCS, EXPORT, LIST, NEW_BLOCK, NEW_SYSTEM, VALIDATE, VERIFY
-from .studies import RARE, SENSITIVITY, STABILITY, WORST
-from .verb import Verb
 
 PURPOSES = {  # headings of `perilune --help`
     "Simulate": (RUN, BATCH, REPLAY),

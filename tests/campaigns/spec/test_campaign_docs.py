@@ -15,7 +15,7 @@ from perilune.analysis.campaigns.spec.file import REDUCTION_OF, SCATTER
 from perilune.analysis.campaigns.spec.reductions import REDUCTIONS
 from perilune.analysis.campaigns.spec.requirements import KEYS as REQUIREMENT
 from perilune.analysis.campaigns.spec.requirements import SIDES
-from perilune.analysis.runtime.system.fault import KINDS
+from perilune.analysis.options.fault import KINDS
 
 TEXT = (Path(__file__).parents[3] / "docs" / "campaigns.md").read_text(encoding="utf-8")
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.campaigns.spec.plan import BatchPlan
-from perilune.analysis.runtime.system.fault import Fault
+from perilune.analysis.options.fault import Fault
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.common.errors import InputError
 

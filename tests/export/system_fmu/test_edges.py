@@ -14,7 +14,7 @@ from fmpy.fmi2 import fmi2Terminated
 from fmpy.validation import validate_fmu
 
 import perilune
-from perilune.analysis.runtime.system.fault import Fault
+from perilune.analysis.options.fault import Fault
 from perilune.common.errors import InputError
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.own_blocks import build_own_blocks

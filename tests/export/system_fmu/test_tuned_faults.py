@@ -14,7 +14,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
 import perilune
-from perilune.analysis.runtime.system.fault import Fault
+from perilune.analysis.options.fault import Fault
 from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, fly, inline, pack, system
 from tests.support.native.system_fmus import Slave, build_one

@@ -12,12 +12,12 @@ from dataclasses import replace
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.replay_command import replay_command
 from perilune.analysis.campaigns.spec.campaign import Variant
 from perilune.analysis.cli import main
+from perilune.analysis.commands.campaigns import replay_command
+from perilune.analysis.options.fault import parse_fault
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.campaign.tables import extremes_to_replay, failures_to_replay
-from perilune.analysis.runtime.system.fault import parse_fault
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.series import read_series
 from tests.support.pages.checks import assert_self_contained, text_of

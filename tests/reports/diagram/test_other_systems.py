@@ -7,8 +7,8 @@ from collections import Counter
 
 import pytest
 
+from perilune.analysis.options.fault import parse_fault
 from perilune.analysis.reports.diagram.diagram import connection_table, make_diagram
-from perilune.analysis.runtime.system.fault import parse_fault
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import component, connection, connectors, document, pack, system

@@ -10,8 +10,8 @@ import pytest
 
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.options.fault import Fault
 from perilune.analysis.runtime.flight.simulation import Simulation
-from perilune.analysis.runtime.system.fault import Fault
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.analysis.runtime.system.series import read_series

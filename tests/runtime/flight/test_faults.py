@@ -10,8 +10,8 @@ import math
 import numpy as np
 import pytest
 
+from perilune.analysis.options.fault import Fault
 from perilune.analysis.runtime.flight.simulation import Simulation
-from perilune.analysis.runtime.system.fault import Fault
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, fly, pack, system

@@ -8,8 +8,8 @@ import shutil
 import numpy as np
 import pytest
 
+from perilune.analysis.options.fault import parse_fault
 from perilune.analysis.runtime.program.opening import fly_reference
-from perilune.analysis.runtime.system.fault import parse_fault
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.analysis.runtime.system.series import read_series

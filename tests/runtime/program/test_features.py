@@ -2,8 +2,8 @@
 
 import pytest
 
+from perilune.analysis.options.fault import parse_fault
 from perilune.analysis.runtime.ssp.conversions import Transformation
-from perilune.analysis.runtime.system.fault import parse_fault
 from perilune.analysis.runtime.system.network import Link
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.runtime.system.fault import parse_fault
+from perilune.analysis.options.fault import parse_fault
 from perilune.common.errors import InputError
 from tests.support.builders import fly
 from tests.support.foreign.osp import groups, joined, libcosim, simulator, structure, write_osp

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from perilune.analysis.options.fault import KINDS, Fault, parse_fault
 from perilune.analysis.runtime.system.checks import check_fault
-from perilune.analysis.runtime.system.fault import KINDS, Fault, parse_fault
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, pack, system

@@ -8,12 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from perilune.analysis.options.fault import Fault
 from perilune.analysis.runtime.flight.parameters import _set_once, _unreadable
 from perilune.analysis.runtime.flight.results import Flight
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.program.opening import fly_reference
 from perilune.analysis.runtime.program.rows import Rows
-from perilune.analysis.runtime.system.fault import Fault
 from perilune.analysis.runtime.system.options import FUSED, SystemOptions
 from perilune.analysis.runtime.system.prepared import PreparedSystem, prepare_system
 

@@ -3,7 +3,7 @@ what is recorded, the algorithm."""
 
 from hypothesis import strategies as st
 
-from perilune.analysis.runtime.system.fault import Fault
+from perilune.analysis.options.fault import Fault
 from tests.support.builders import component, connection, document, system
 
 # Blocks of tests/support/builders.py: connectors by type, and the inputs that an output follows at once.

@@ -13,10 +13,10 @@ from typing import TypeVar
 import msgspec
 import numpy as np
 
+from ....options.fault import Fault
 from ...flight.selection import Selection
 from ...instances.renewal import ResetVerdict
 from ...ssp.given_values import ParameterValue
-from ...system.fault import Fault
 from .requests import ChannelError, receive_bytes
 
 HEADER = struct.Struct("<cI")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from ....options.fault import Fault
 from ...loop import codes
-from ...system.fault import Fault
 
 KIND_NUMBERS = {"override": codes.OVERRIDE, "bias": codes.BIAS, "freeze": codes.FREEZE}
 NEVER = (math.inf, math.inf)  # the window of a fault that does not fly

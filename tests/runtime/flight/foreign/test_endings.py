@@ -9,8 +9,8 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
+from perilune.analysis.options.fault import parse_fault
 from perilune.analysis.runtime.flight.simulation import Simulation
-from perilune.analysis.runtime.system.fault import parse_fault
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import component, connection, document, fly, pack, system

@@ -33,10 +33,10 @@ class Option:
 
     ``default`` holds where the option is not given; a mutable one is an empty constant. ``flag`` is the name on the
     command line where it differs: the singular of an option that may be repeated. ``above``, ``minimum`` and
-    ``maximum`` bound a number. ``completer`` names a function of `completers`. ``comma`` reads several values from one
-    text, with commas between. ``needs`` names the option of a file without which it would have no effect on the command
-    line. Of a file, ``suffixes`` are those that it may have, ``is_folder`` says that it is a folder, and ``writer`` is
-    the method of the result that writes it.
+    ``maximum`` bound a number. ``completer`` names a function of `verbs/options/completers`. ``comma`` reads several
+    values from one text, with commas between. ``needs`` names the option of a file without which it would have no
+    effect on the command line. Of a file, ``suffixes`` are those that it may have, ``is_folder`` says that it is a
+    folder, and ``writer`` is the method of the result that writes it.
     """
 
     text: str

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from numbers import Real
 from typing import Any
 
-from ....common.errors import InputError, suggestion
+from ...common.errors import InputError, suggestion
 from .option import Declared, Kind
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, TypedDict
 
+from ..option import EMPTY, FilePath, Option
+from ..system import Overwrite, ReportFiles, RequireOptions, Seed, SystemOptions, Workers
+from ..verb import Argument, Verb
 from .campaigns import CAMPAIGN, SYSTEM, CampaignOptions, TrialsOptions
-from .option import EMPTY, FilePath, Option
-from .system import Overwrite, ReportFiles, RequireOptions, Seed, SystemOptions, Workers
-from .verb import Argument, Verb
 
 PAPER = "lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance"  # of the examples
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, TypedDict
 
-from ...runtime.system.fault import Fault
+from .fault import Fault
 from .option import EMPTY, FilePath, Option, SetValue, StructuredArray
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, TypedDict
 
-from .option import EMPTY, FilePath, Option
-from .system import AssemblyOptions, ReportFiles, SystemOptions, TrustOptions
-from .verb import Argument, Verb
+from ..option import EMPTY, FilePath, Option
+from ..system import AssemblyOptions, ReportFiles, SystemOptions, TrustOptions
+from ..verb import Argument, Verb
 
 PATHS = Argument(
     "paths", "PATH", "a system, .ssp, .fmu, .ssv, law .json or campaign .toml", "systems_and_files", many=True

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import importlib
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from .option import Declared, Kind, options_of
@@ -12,13 +11,16 @@ from .system import SHARED
 from .values import read_value
 from .verb import Argument, Verb
 
+Completer = Callable[..., Iterable[str]]  # argcomplete's
+FindCompleter = Callable[[str], Completer]  # by the name that a declaration states, when a shell asks
 
-def add_verb(parser: argparse.ArgumentParser, verb: Verb, is_complete: bool) -> None:
+
+def add_verb(parser: argparse.ArgumentParser, verb: Verb, find_completer: FindCompleter, *, is_complete: bool) -> None:
     """Add a verb's arguments and options: its own first; shared ones are explained where ``is_complete``."""
     parser.usage = f"{parser.prog} {' '.join(map(_usage, verb.arguments))} [OPTION ...]".replace("  ", " ")
     arguments = parser.add_argument_group("arguments")
     for argument in verb.arguments:
-        _add_argument(arguments, argument)
+        _complete(_add_argument(arguments, argument), argument.completer, find_completer)
     options = [*options_of(verb.options).values(), *options_of(verb.files).values()]
     shared = {name: title for title, group in SHARED.items() for name in options_of(group)}
     sections: dict[str, list[Declared]] = {}
@@ -29,7 +31,7 @@ def add_verb(parser: argparse.ArgumentParser, verb: Verb, is_complete: bool) -> 
         names = " ".join(f"--{each.flag}" for each in members)
         group = parser.add_argument_group(title, None if is_explained else f"{names} (explained by --help-all)")
         for each in members:
-            _add_option(group, each, is_explained)
+            _complete(_add_option(group, each, is_explained), each.option.completer, find_completer)
 
 
 def _usage(argument: Argument) -> str:
@@ -39,22 +41,19 @@ def _usage(argument: Argument) -> str:
     return f"[{argument.metavar}]" if argument.optional else f"{argument.metavar}{' ...' if argument.many else ''}"
 
 
-def _add_argument(parser: argparse._ArgumentGroup, argument: Argument) -> None:
+def _add_argument(parser: argparse._ArgumentGroup, argument: Argument) -> argparse.Action:
     keywords: dict[str, Any] = {"metavar": argument.metavar, "help": argument.text}
     if argument.is_option:
-        action = parser.add_argument(f"--{argument.name}", required=not argument.optional, **keywords)
-    else:
-        nargs = "+" if argument.many else "?" if argument.optional else None
-        action = parser.add_argument(argument.name, nargs=nargs, **keywords)
-    _complete(action, argument.completer)
+        return parser.add_argument(f"--{argument.name}", required=not argument.optional, **keywords)
+    nargs = "+" if argument.many else "?" if argument.optional else None
+    return parser.add_argument(argument.name, nargs=nargs, **keywords)
 
 
-def _add_option(group: argparse._ArgumentGroup, declared: Declared, is_explained: bool) -> None:
+def _add_option(group: argparse._ArgumentGroup, declared: Declared, is_explained: bool) -> argparse.Action:
     option = declared.option
     text = f"{option.text}{_default_text(declared)}" if is_explained else argparse.SUPPRESS
     if declared.kind is Kind.FLAG:
-        group.add_argument(f"--{declared.flag}", dest=declared.name, action="store_const", const=[""], help=text)
-        return
+        return group.add_argument(f"--{declared.flag}", dest=declared.name, action="store_const", const=[""], help=text)
     action = group.add_argument(
         f"--{declared.flag}",
         dest=declared.name,
@@ -64,7 +63,7 @@ def _add_option(group: argparse._ArgumentGroup, declared: Declared, is_explained
     )
     if declared.choices:
         action.choices = declared.choices
-    _complete(action, option.completer)
+    return action
 
 
 def _metavar(declared: Declared) -> str:
@@ -84,13 +83,12 @@ def _default_text(declared: Declared) -> str:
     return f"{unit}; default: {text}"
 
 
-def _complete(action: argparse.Action, completer: str) -> None:
-    """Let a shell offer what a function of `completers`, imported only then, gives for an argument."""
+def _complete(action: argparse.Action, completer: str, find_completer: FindCompleter) -> None:
+    """Let a shell offer for an argument what its completer, found only then, returns."""
     if completer:
 
         def offer(*arguments: Any, **keywords: Any) -> Any:
-            module = importlib.import_module(".completers", __package__)
-            return getattr(module, completer)(*arguments, **keywords)
+            return find_completer(completer)(*arguments, **keywords)
 
         vars(action)["completer"] = offer
 

@@ -6,11 +6,11 @@ from collections.abc import Collection
 from dataclasses import fields
 from pathlib import Path, PurePosixPath
 
+from ..campaigns.spec.campaign import Variant
+from ..campaigns.spec.plan import BatchPlan
+from ..options.command import write_command
+from ..options.declared.campaigns import BATCH, REPLAY
 from ..runtime.system.options import SystemOptions
-from ..verbs.options.campaigns import BATCH, REPLAY
-from ..verbs.options.command import write_command
-from .spec.campaign import Variant
-from .spec.plan import BatchPlan
 
 
 def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:

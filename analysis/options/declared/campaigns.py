@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, TypedDict
 
-from .option import EMPTY, FilePath, Option
-from .system import (
+from ..option import EMPTY, FilePath, Option
+from ..system import (
     Overwrite,
     ReportFiles,
     RequireOptions,
@@ -17,7 +17,7 @@ from .system import (
     UntilDecided,
     Workers,
 )
-from .verb import Argument, NoOptions, Verb
+from ..verb import Argument, NoOptions, Verb
 
 SYSTEM = Argument(
     "system",

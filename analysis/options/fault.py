@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ....common.errors import InputError
+from ...common.errors import InputError
 
 KINDS = ("override", "bias", "freeze")
 FORM = "COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T]"

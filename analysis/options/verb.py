@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TypedDict, TypeVar
 
-from ....common.errors import suggestion
+from ...common.errors import suggestion
 from .option import defaults_of, options_of
 from .system import JsonFile
 from .values import check_value
