@@ -9,13 +9,14 @@ import asyncio
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
+from urllib.parse import quote
 
 import msgspec
 import numpy as np
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, PlainTextResponse, Response
+from starlette.responses import HTMLResponse, PlainTextResponse, Response, StreamingResponse
 from starlette.routing import Route
 from starlette.types import ASGIApp
 
@@ -26,6 +27,7 @@ from .counts import Counter
 from .dots import TABLE_LIMIT, trials_document
 from .guard import Guard
 from .query import Query, read_query
+from .selected import selected_csv
 
 WORKERS = 2  # requests that are worked on at a time
 
@@ -61,6 +63,16 @@ class Service:
             return trials_document(columns.campaign, rows.tolist(), [names[index] for index in query.histograms])
 
         return await self._answer(request, work)
+
+    async def selected(self, request: Request) -> Response:
+        """All trials that a query selects, with all columns, as a file."""
+        columns, names, query = self._read(request)
+        mask = await asyncio.get_running_loop().run_in_executor(
+            self._executor, lambda: Counter(columns, names, query).selected()
+        )
+        name = f"{columns.campaign.source.folder.name}-selected.csv"
+        headers = {"content-disposition": f"attachment; filename*=UTF-8''{quote(name, safe='')}"}
+        return StreamingResponse(selected_csv(columns.campaign, mask, names), media_type="text/csv", headers=headers)
 
     async def trial(self, request: Request) -> Response:
         """All numbers of one trial, by its row."""
@@ -108,6 +120,7 @@ def make_app(service: Service, authority: str, token: str) -> ASGIApp:
             Route("/", service.page),
             Route("/campaigns/{campaign:int}/counts", service.counts),
             Route("/campaigns/{campaign:int}/trials", service.trials),
+            Route("/campaigns/{campaign:int}/selected.csv", service.selected),
             Route("/campaigns/{campaign:int}/trials/{row:int}", service.trial),
         ],
         exception_handlers={InputError: _refuse, StoppedError: _end},

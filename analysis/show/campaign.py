@@ -115,6 +115,16 @@ class OpenCampaign:
             (entries,) = table.slice(row - self.starts[number], 1).to_pylist()
             yield entries
 
+    def read_selected(self, mask: np.ndarray, names: Sequence[str]) -> Iterator[pyarrow.Table]:
+        """The rows of a ``mask`` (rows,), shard by shard: identity, `DETAILS` and columns. Raises as `read` does."""
+        for shard, start in zip(self.source.shards, self.starts, strict=False):
+            if self.is_stopped():
+                raise StoppedError
+            rows = mask[start : start + len(shard.trials) * len(self.variants)]
+            if rows.any():
+                columns = [*IDENTITY, *DETAILS, *names]
+                yield self._table(shard, [*names, *DETAILS]).select(columns).filter(pyarrow.array(rows))
+
     def command(self, variant: str, trial: int) -> str:
         """The command that simulates a trial again."""
         return replay_of_folder(self.source.folder, self.variants, variant, trial)

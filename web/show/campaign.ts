@@ -89,7 +89,7 @@ export class CampaignView {
       const columns = this.histograms.map((each) => each.column);
       const entries = await this.requests.trials(this.filter, columns);
       const selected = counts.outcomes.reduce((sum, [failures, successes]) => sum + failures + successes, 0);
-      if (entries) this.table.show(entries, columns, selected);
+      if (entries) this.table.show(entries, columns, selected, this.requests.fileOf(this.filter));
       window.document.documentElement.dataset.ready = "show";
     }, REST);
   }

@@ -64,7 +64,7 @@ export class Canvas {
     return this.context;
   }
 
-  xAxis(scale: Scale, factor: number): void {
+  xAxis(scale: Scale, factor: number, title = ""): void {
     const { left, top, width, height } = this.box;
     this.context.textAlign = "center";
     this.context.textBaseline = "top";
@@ -83,9 +83,12 @@ export class Canvas {
       end = middle + half;
     }
     this.line(left, top + height, left + width, top + height, "faint");
+    this.context.fillStyle = colour("note");
+    this.context.fillText(this.shorten(title, width), left + width / 2, top + height + 22);
   }
 
-  yAxis(scale: Scale, factor: number): void {
+  // The title stands above the axis.
+  yAxis(scale: Scale, factor: number, title = ""): void {
     const { left, top, width, height } = this.box;
     this.context.textAlign = "right";
     this.context.textBaseline = "middle";
@@ -98,6 +101,18 @@ export class Canvas {
       this.context.fillText(format(tick * factor, digits), left - 5, y);
     }
     this.line(left, top, left, top + height, "faint");
+    this.context.fillStyle = colour("note");
+    this.context.textAlign = "left";
+    this.context.textBaseline = "bottom";
+    this.context.fillText(this.shorten(title, left + width - 2), 2, top - 9);
+  }
+
+  // A text cut where it is wider.
+  private shorten(text: string, width: number): string {
+    if (this.context.measureText(text).width <= width) return text;
+    let end = text.length;
+    while (end && this.context.measureText(`${text.slice(0, end)}\u2026`).width > width) end--;
+    return `${text.slice(0, end)}\u2026`;
   }
 
   // What is selected, or marked by a drag.

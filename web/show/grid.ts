@@ -33,7 +33,7 @@ export class Grid {
     private readonly onSelect: () => void,
     private readonly onTrial: (row: number) => void,
   ) {
-    this.canvas = new Canvas({ left: 58, top: 8, width: 12, height: 22 }, this, () => this.draw());
+    this.canvas = new Canvas({ left: 58, top: 26, width: 12, height: 38 }, this, () => this.draw());
     const keys = "arrow keys move over the squares, with shift they select, escape selects all";
     this.canvas.element.setAttribute("aria-label", `Trials over two quantities; ${keys}`);
     const chooser = (axis: 0 | 1) =>
@@ -140,8 +140,9 @@ export class Grid {
   private draw(): void {
     this.canvas.start();
     if (!this.counts || !this.scales) return;
-    this.canvas.xAxis(this.scales.x, this.quantities[this.columns[0]]!.factor);
-    this.canvas.yAxis(this.scales.y, this.quantities[this.columns[1]]!.factor);
+    const [x, y] = this.columns.map((column) => this.quantities[column]!) as [Quantity, Quantity];
+    this.canvas.xAxis(this.scales.x, x.factor, labelOf(x));
+    this.canvas.yAxis(this.scales.y, y.factor, labelOf(y));
     if (this.dots) this.drawDots(this.dots);
     else if (this.counts.counts) this.drawSquares(this.counts.counts, this.counts.failures!);
     const span = this.canvas.marked ?? this.selected();

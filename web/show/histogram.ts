@@ -27,7 +27,7 @@ export class Histogram {
     private readonly onSelect: () => void,
     onRemove: () => void,
   ) {
-    this.canvas = new Canvas({ left: 8, top: 8, width: 8, height: 22 }, this, () => this.draw());
+    this.canvas = new Canvas({ left: 50, top: 26, width: 8, height: 38 }, this, () => this.draw());
     const name = shortName(quantity);
     const keys = "left and right move along the bars, with shift they select, escape selects all";
     this.canvas.element.setAttribute("aria-label", `Histogram of ${name}; ${keys}`);
@@ -114,8 +114,9 @@ export class Histogram {
     if (!this.counts || !this.scale) return;
     const { left, top, width, height } = this.canvas.box;
     const { bars } = this.sizes;
-    this.canvas.xAxis(this.scale, this.quantity.factor);
     const most = Math.max(1, ...this.counts.counts.flatMap((each) => each.slice(0, bars)));
+    this.canvas.xAxis(this.scale, this.quantity.factor, labelOf(this.quantity));
+    this.canvas.yAxis(new Scale({ low: 0, high: most, knee: 0 }), 1, "trials");
     this.counts.counts.forEach((each, index) => {
       if (this.filter.hides(index)) return;
       const path = new Path2D();

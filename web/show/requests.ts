@@ -24,8 +24,18 @@ export class Requests {
     return this.get("trial", `trials/${row}`, null);
   }
 
+  // The address of a file with all trials that a filter selects.
+  fileOf(filter: Filter): string {
+    return this.address("selected.csv", filter.query());
+  }
+
   stop(): void {
     for (const each of this.running.values()) each.abort();
+  }
+
+  private address(path: string, query: Partial<Query> | null): string {
+    const search = query === null ? "" : `?query=${encodeURIComponent(JSON.stringify(query))}`;
+    return `/campaigns/${this.campaign}/${path}${search}`;
   }
 
   // Null where a newer request of the kind has begun, or the server has refused.
@@ -33,9 +43,8 @@ export class Requests {
     this.running.get(kind)?.abort();
     const controller = new AbortController();
     this.running.set(kind, controller);
-    const search = query === null ? "" : `?query=${encodeURIComponent(JSON.stringify(query))}`;
     try {
-      const response = await fetch(`/campaigns/${this.campaign}/${path}${search}`, { signal: controller.signal });
+      const response = await fetch(this.address(path, query), { signal: controller.signal });
       if (response.ok) return (await response.json()) as T;
       this.onError((await response.text()) || `The server answered ${response.status}.`);
     } catch (error) {

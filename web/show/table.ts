@@ -20,7 +20,8 @@ export class TrialTable {
     this.element.append(make("h2", {}, "Selected trials"), make("div", { class: "scroll", tabindex: "0" }, table), this.note);
   }
 
-  show(entries: TrialEntry[], columns: number[], selected: number): void {
+  // ``file`` is the address of a file with all of them.
+  show(entries: TrialEntry[], columns: number[], selected: number, file: string): void {
     const shown = columns.map((each) => this.quantities[each]!);
     const heads = ["trial", "variant", "outcome", ...shown.map(labelOf)];
     this.head.replaceChildren(make("tr", {}, ...heads.map((text, index) => make("th", index > 2 ? { class: "n" } : {}, text))));
@@ -33,7 +34,9 @@ export class TrialTable {
         return make("tr", {}, make("td", {}, open), ...texts, ...numbers);
       }),
     );
-    this.note.textContent = entries.length < selected ? `The first ${entries.length} of ${selected}.` : selected ? "" : "No trial is selected.";
+    this.note.textContent = entries.length < selected ? `The first ${entries.length} of ${selected}. ` : selected ? "" : "No trial is selected.";
+    const link = `${selected === 1 ? "The selected trial" : `All ${selected} selected trials`} as CSV`;
+    if (selected) this.note.append(make("a", { href: file, download: "" }, link), ", every quantity in SI.");
   }
 }
 
