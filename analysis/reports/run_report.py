@@ -23,7 +23,7 @@ from .scene.notes import scene_notes
 from .scene.picture import draw_ends
 from .scene.view import scene_view
 from .time_histories import time_histories
-from .trajectory import trajectory_panels, trajectory_reading
+from .trajectory import trajectory_legend, trajectory_panels, trajectory_reading
 
 ENDINGS = {
     "finished": "Nominal termination: end-of-run flag raised.",
@@ -63,6 +63,7 @@ def write_run_report(
         provenance=result.provenance,
         key_values=key_values(result),
         trajectory=trajectory_panels(result),
+        trajectory_legend=trajectory_legend(result),
         trajectory_reading=trajectory_reading(result),
         joint=joint_findings(figures, result),
         scene=view,

@@ -16,10 +16,10 @@ from .chart.axes import bare_axis, linear_axis, named_axis
 from .chart.panel import chart_panel
 from .chart.quantity import quantity_curve
 from .chart.ticks import axis_ends
+from .common.colours import FAINT, look
 from .common.panels import Panel, swatch
 from .common.quantities import display_factor, label_with_unit, number
 from .common.signals import SignalGroup, distinct, signal_groups, states_and_commands
-from .common.style import FAINT, look
 from .interactive.charts import NO_BOX, Chart, Note
 
 if TYPE_CHECKING:

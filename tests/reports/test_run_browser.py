@@ -6,11 +6,14 @@ Truth: how many figures its source has, and what a screen of a width can show.
 import numpy as np
 import pytest
 from matplotlib import image
+from selenium.webdriver.common.by import By
 
 from perilune.analysis.reports.run_report import write_run_report
 from tests.support.lengths import either
 from tests.support.pages.browser import start
+from tests.support.pages.driven import driven, scroll_to_plot
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses
+from tests.support.pages.samples import run_result
 
 
 @pytest.mark.parametrize(("width", "height"), either([(1100, 4200), (400, 9000)], [(1100, 4200)]))
@@ -43,3 +46,46 @@ def test_a_flight_through_phases_renders_wide_and_narrow(browser, mission_page, 
     inked = np.any(pixels < 250.0, axis=-1)
     assert not inked[:, -8:].any()  # what is wider scrolls in itself
     assert not inked[-40:].any()  # the whole page was seen
+
+
+COUNT = """
+const {width, height} = arguments[0];
+const copy = new OffscreenCanvas(width, height).getContext("2d", {willReadFrequently: true});
+copy.drawImage(arguments[0], 0, 0);
+const pixels = copy.getImageData(0, 0, width, height).data;
+const counts = [0, 0];
+for (let at = 0; at < pixels.length; at += 4)
+  [[0, 114, 178], [213, 94, 0]].forEach((colour, index) => {
+    if (pixels[at + 3] === 255 && colour.every((each, which) => pixels[at + which] === each)) counts[index] += 1;
+  });
+return counts;
+"""
+
+
+def test_a_legend_hides_a_path_with_its_marks(browser, tmp_path):
+    """Blue and vermilion pixels of both views: none of a path that is hidden, dots and circle included."""
+    run = run_result()
+    for name in run.signals:
+        if name.startswith("crew.cook.position"):
+            run.signals[name] = 0.7 * run.signals[name] + 40.0
+    write_run_report(run, tmp_path / "page.html", "Two")
+    with driven(browser, tmp_path / "page.html") as driver:
+        entries = driver.find_elements(By.XPATH, "//h2[.='Trajectory']/following-sibling::p[1]/span")
+        assert [entry.text for entry in entries] == ["ship.position", "crew.cook.position"]
+        frames = driver.find_elements(By.XPATH, "//h2[.='Trajectory']/..//div[contains(@class, 'live')]")
+        for frame in frames:
+            scroll_to_plot(driver, frame)
+        canvases = [frame.find_element(By.TAG_NAME, "canvas") for frame in frames]
+
+        def pixels():
+            return [driver.execute_script(COUNT, canvas) for canvas in canvases]
+
+        assert len(canvases) == 2
+        assert np.all(np.array(pixels()) > 50)
+        for index, entry in enumerate(entries):
+            driver.execute_script("arguments[0].click()", entry)
+            displayed = np.array(pixels())
+            assert np.all(displayed[:, index] == 0)
+            assert np.all(displayed[:, 1 - index] > 50)
+            driver.execute_script("arguments[0].click()", entry)
+        assert np.all(np.array(pixels()) > 50)

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from perilune.analysis.reports.common.style import new_figure
 from perilune.analysis.reports.run_report import ENDINGS, write_run_report
-from perilune.analysis.reports.trajectory import _views
+from perilune.analysis.reports.trajectory import trajectory_panels
 from perilune.analysis.runtime.flight.results import LOST
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 from tests.support.pages.samples import DIGEST, run_result
@@ -190,15 +189,14 @@ def over_the_moon(way):
 @pytest.mark.parametrize("way", [0.15, 3.5])
 def test_a_side_view_over_a_round_body_is_altitude_over_the_ground(way, tmp_path):
     """A steady descent stays one: on the tangent plane it would rise first (0.15 rad), or go round (3.5 rad)."""
-    views = {view.name: view for view in _views(over_the_moon(way))}
-    figure = new_figure(3.0)
-    axes = figure.subplots()
-    views["side"].draw(axes)
-    x, y = axes.lines[0].get_data()
+    (side,) = trajectory_panels(over_the_moon(way))[-1].figure.charts
+    x, y = side.curves[0].x, side.curves[0].y
     np.testing.assert_allclose(x, 1737.4 * np.linspace(-way, 0.0, x.size), atol=1e-3)
     np.testing.assert_allclose(y, np.linspace(50.0, 0.0, y.size), atol=1e-3)
-    assert [axes.get_xlabel(), axes.get_ylabel()] == ["downrange from the origin, km", "altitude, km"]
-    assert any(np.all(np.asarray(line.get_ydata()) == 0.0) for line in axes.lines)  # the surface
+    assert side.x.label == "downrange from the origin, km"
+    assert [rule.at for rule in side.rules] == [0.0]  # the surface
+    assert side.areas[0].y.max() == 0.0
     text = text_of(write(over_the_moon(way), tmp_path / "run.html"))
+    assert "altitude, km" in text
     assert "a sphere of 1737.4 km radius" in text
     assert ("Ground track" in text) == (way > 1.0)

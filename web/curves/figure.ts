@@ -76,10 +76,11 @@ export class Figure {
     this.frame.classList.add("drawn"); // from now on the picture is hidden
   }
 
-  // Hides the lines of which it says so, by their name and number, and shows the others.
-  hide(hides: (name: string, line: number) => boolean): void {
+  // Hides the lines of which it says so, by their name, number and all names, and shows the others.
+  hide(hides: (name: string, line: number, names: ReadonlySet<string>) => boolean): void {
     for (const plot of this.plots) {
-      plot.series.forEach((series, line) => (series.hidden = hides(series.curve.name ?? "", line)));
+      const names = new Set(plot.series.map(({ curve }) => curve.name ?? ""));
+      plot.series.forEach((series, line) => (series.hidden = hides(series.curve.name ?? "", line, names)));
       plot.redraw();
     }
     this.showValues();

@@ -7,8 +7,8 @@ export function listenToLegends(figureOf: (picture: Element) => Promise<Figure |
     const below = picturesBelow(legend);
     if (!below.length) continue;
     const entries = [...legend.querySelectorAll<HTMLElement>(".who")];
-    const hides = (name: string, line: number) =>
-      entries.some((entry, index) => entry.getAttribute("aria-pressed") === "false" && isFor(entry, index, name, line));
+    const hides = (name: string, line: number, names: ReadonlySet<string>) =>
+      entries.some((entry, index) => entry.getAttribute("aria-pressed") === "false" && isFor(entry, index, name, line, names));
     entries.forEach((entry) => {
       entry.setAttribute("role", "button");
       entry.setAttribute("aria-pressed", "true");
@@ -28,11 +28,13 @@ export function listenToLegends(figureOf: (picture: Element) => Promise<Figure |
   }
 }
 
-// An entry is for the line of its number, or for those that begin with a run or end with an index of its data-lines.
-function isFor(entry: HTMLElement, index: number, name: string, line: number): boolean {
+// An entry is for lines that begin with a run or end with an index of its data-lines; without these for lines that have
+// its text as their name, or in a figure without such lines for that of its number.
+function isFor(entry: HTMLElement, index: number, name: string, line: number, names: ReadonlySet<string>): boolean {
   const keys = entry.dataset.lines?.split(" ");
-  if (!keys) return index === line;
-  return keys.some((key) => (key.startsWith("[") ? name.endsWith(key) : name === key || name.startsWith(`${key} `)));
+  if (keys) return keys.some((key) => (key.startsWith("[") ? name.endsWith(key) : name === key || name.startsWith(`${key} `)));
+  const text = entry.textContent!.trim();
+  return names.has(text) ? name === text : index === line;
 }
 
 function picturesBelow(legend: Element): Element[] {

@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..common.panels import PANEL_HEIGHT, PANEL_WIDTH, Panel
-from ..common.svg import Drawing
-from ..interactive.charts import NO_BOX, Chart, Curve
+from ..interactive.charts import NO_BOX, Chart, Curve, Drawing
 from ..interactive.columns import Coarse, has_enough_digits
 from ..interactive.envelope import envelope
 from .layout import lay_out

@@ -15,12 +15,15 @@ SMALLEST = 1e21 * np.finfo(float).tiny  # magnitudes that count as 0
 ROUNDING = 1e-10  # of a step
 
 
-def axis_ends(numbers: np.ndarray) -> tuple[float, float]:
-    """Return the ends of an axis of these numbers; those that are not finite are left out."""
+def axis_ends(numbers: np.ndarray, margin: float = MARGIN) -> tuple[float, float]:
+    """Return the ends of an axis of these numbers, a ``margin`` (of their range) beyond them.
+
+    Those that are not finite are left out.
+    """
     finite = numbers[np.isfinite(numbers)]
     low, high = _widen(float(finite.min()), float(finite.max())) if finite.size else (-MARGIN, MARGIN)
-    margin = (high - low) * MARGIN
-    return low - margin, high + margin
+    beyond = (high - low) * margin
+    return low - beyond, high + beyond
 
 
 def _widen(low: float, high: float) -> tuple[float, float]:

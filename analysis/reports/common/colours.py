@@ -5,7 +5,12 @@ The style sheets of pages have them as properties, `colour_properties`; scripts 
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..interactive import measures
+
+if TYPE_CHECKING:
+    from matplotlib.typing import LineStyleType
 
 
 class Shade(NamedTuple):
@@ -75,3 +80,20 @@ def colour_properties() -> str:
     shades = (f"--{name.replace('_', '-')}: light-dark({light}, {dark});" for name, (light, dark) in SHADES.items())
     hues = (f"--{name}: {colour};" for name, colour in HUES.items())
     return ":root {\n  " + "\n  ".join((*shades, *hues)) + "\n}\n"
+
+
+DASHES: tuple[LineStyleType, ...] = tuple((0, each) if each else "-" for each in measures.DASHES)
+MARKERS = "osD^vPX"
+
+
+class Look(NamedTuple):
+    """How one of several series is drawn: told apart by colour, dashes and marker at once."""
+
+    colour: str
+    dashes: LineStyleType
+    marker: str
+
+
+def look(index: int) -> Look:
+    """The look of the index-th series."""
+    return Look(COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)], MARKERS[index % len(MARKERS)])

@@ -6,19 +6,17 @@ import math
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from markupsafe import Markup
 
 from ....common.atomic import write_atomically
 from ....common.percent import percent
+from ..interactive.charts import Drawing
 from ..interactive.embedded import Embedded
 from ..interactive.short_svg import shorten
 from .colours import colour_properties
 from .quantities import MINUS, display_unit, in_shown_unit, number
-
-if TYPE_CHECKING:
-    from .svg import Drawing  # which imports matplotlib
 
 FOLDER = Path(__file__).parent
 

@@ -7,19 +7,23 @@ Text is never below 8 pt of a figure's own size. A figure fills what it stands i
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from .style import WIDTH, Look, house_style, new_figure
-from .svg import Drawing, inline_svg
+from ..interactive.charts import Drawing, Marker
+from ..interactive.measures import WIDTH
+from .colours import Look
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 PANEL_WIDTH = 3.4  # in; three in the page's column
 PANEL_HEIGHT = 2.5  # in
 HALF_WIDTH = 4.5  # in; two in the page's column
+SWATCH = 6.0  # px, the size of a mark in a legend
 KILOMETRES = 1e4  # m, from which on lengths are in km
 
 
@@ -44,6 +48,9 @@ def panel(
 
     ``reduced``: the page has only envelopes of its lines.
     """
+    from .style import house_style, new_figure  # which import matplotlib
+    from .svg import inline_svg
+
     with house_style():
         figure = new_figure(height, width)
         draw(figure.subplots())
@@ -64,6 +71,9 @@ def both_widths(
 
     Heights in inches; ``name`` must differ between the figures of a page. How wide it is, ``draw`` asks the figure.
     """
+    from .style import house_style, new_figure  # which import matplotlib
+    from .svg import inline_svg
+
     plotted = []
     for kind, width, high in (("wide", WIDTH, height), ("slim", HALF_WIDTH, slim_height or height)):
         with house_style():
@@ -91,3 +101,13 @@ def swatch(look: Look) -> Markup:
         '<svg class="swatch" viewBox="0 0 26 8" aria-hidden="true">'
         '<line x1="0" y1="4" x2="26" y2="4" stroke="{}" stroke-width="3.2" stroke-dasharray="{}"/></svg>'
     ).format(look.colour, lengths or "none")
+
+
+def mark_swatch(marker: Marker) -> Markup:
+    """A mark for legends in text."""
+    scale = SWATCH / marker.size
+    paint = f'fill="{marker.fill or "none"}" stroke="{marker.edge or "none"}" stroke-width="{scale * marker.width:g}"'
+    lines = [np.reshape(each, (-1, 2)) * [SWATCH, -SWATCH] for each in marker.outline]
+    path = "".join("M" + "L".join(f"{x:g} {y:g}" for x, y in line) for line in lines)
+    shape = f'<path d="{path}" {paint}/>' if lines else f'<circle r="{SWATCH / 2.0:g}" {paint}/>'
+    return Markup(f'<svg class="swatch" viewBox="-13 -4 26 8" aria-hidden="true">{shape}</svg>')

@@ -20,16 +20,16 @@ def radius_of(position: np.ndarray, altitude: np.ndarray) -> float | None:
     slope is fitted by least squares. None too where nothing moves far enough for the curvature to be seen.
     """
     finite = np.all(np.isfinite(position), axis=0) & np.isfinite(altitude)
-    place, height = position[:, finite], altitude[finite]
-    rise = 2.0 * (height - place[2])
+    points, height = position[:, finite], altitude[finite]
+    rise = 2.0 * (height - points[2])
     if not rise.size or np.max(np.abs(rise)) < FLATNESS:
         return None
-    square = np.sum(place**2, axis=0) - height**2
+    square = np.sum(points**2, axis=0) - height**2
     radius = float(np.sum(rise * square) / np.sum(rise**2))
     if radius <= 0.0:
         return None
-    error = np.abs(altitude_over(place, radius) - height)
-    return radius if np.all(error <= MISMATCH + 1e-6 * np.linalg.norm(place, axis=0)) else None
+    error = np.abs(altitude_over(points, radius) - height)
+    return radius if np.all(error <= MISMATCH + 1e-6 * np.linalg.norm(points, axis=0)) else None
 
 
 def altitude_over(position: np.ndarray, radius: float) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, NamedTuple, TypedDict
+from typing import Any, TypedDict
 
 import matplotlib
 from matplotlib.axes import Axes
@@ -12,12 +12,25 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocato
 from matplotlib.typing import CapStyleType, LineStyleType
 
 from ..interactive import measures
-from .colours import BLUE, COLOURS, FAINT, GREEN, GRID, INK, ORANGE, PURPLE, SKY, VERMILION  # noqa: F401
+from ..interactive.measures import WIDTH
+from .colours import (  # noqa: F401
+    BLUE,
+    COLOURS,
+    DASHES,
+    FAINT,
+    GREEN,
+    GRID,
+    INK,
+    MARKERS,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    Look,
+    look,
+)
 from .quantities import log_tick, tick
 from .svg import Picture
-
-DASHES: tuple[LineStyleType, ...] = tuple((0, each) if each else "-" for each in measures.DASHES)
-MARKERS = "osD^vPX"
 
 
 class LineStyle(TypedDict, total=False):
@@ -38,7 +51,6 @@ class LineStyle(TypedDict, total=False):
 
 
 FAILED: LineStyle = {"color": INK, "linestyle": (0, (4, 2))}  # flights that failed, and what is to be expected
-WIDTH = 10.4  # in; the page's column
 SETTINGS: Any = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
@@ -81,19 +93,6 @@ def house_style() -> Iterator[None]:
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(SETTINGS)
         yield
-
-
-class Look(NamedTuple):
-    """How one of several series is drawn: told apart by colour, dashes and marker at once."""
-
-    colour: str
-    dashes: LineStyleType
-    marker: str
-
-
-def look(index: int) -> Look:
-    """The look of the index-th series."""
-    return Look(COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)], MARKERS[index % len(MARKERS)])
 
 
 def new_figure(height: float, width: float = WIDTH) -> Picture:

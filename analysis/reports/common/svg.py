@@ -6,7 +6,7 @@ import io
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, NamedTuple
+from typing import Any
 
 import matplotlib
 from lxml import etree
@@ -14,7 +14,7 @@ from markupsafe import Markup
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from ..interactive.charts import Chart
+from ..interactive.charts import Drawing
 from ..interactive.read_figure import STILL, read_charts, still_artists
 
 IMAGE_DPI = 200  # of what is no vector
@@ -58,16 +58,6 @@ SVG = "{http://www.w3.org/2000/svg}"
 XLINK_HREF = "{http://www.w3.org/1999/xlink}href"
 DECIMALS = re.compile(r"(\.\d\d)\d+")  # beyond hundredths of a point
 REFERENCE = re.compile(r"url\(#([^)]+)\)")
-
-
-class Drawing(NamedTuple):
-    """A figure as an <svg> element, and what it shows as data."""
-
-    svg: Markup
-    charts: list[Chart]
-
-    def __html__(self) -> str:
-        return self.svg
 
 
 def inline_svg(figure: Figure, name: str, description: str, *, kind: str = "", reduced: bool = False) -> Drawing:

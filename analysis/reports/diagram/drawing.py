@@ -15,7 +15,7 @@ from lxml import etree
 from markupsafe import Markup
 
 from ....common.visible import on_one_line, visible
-from ..common import style
+from ..common import colours
 from ..font.text import text_width
 from .graph import Block, Edge, PortKey, Side
 from .placement import Placed, Placement, Point, Route, Segment, Terminal
@@ -23,15 +23,15 @@ from .shapes import HEADER, LIST_LINE, LIST_SIZE, MARGIN, NAME_SIZE, TEXT_SIZE, 
 from .strokes import uncovered
 
 INK, FAINT, PAPER = (f"var(--diagram-{name}, {colour})" for name, colour in (
-    ("ink", style.INK), ("faint", style.FAINT), ("paper", "#ffffff")))  # fmt: skip
+    ("ink", colours.INK), ("faint", colours.FAINT), ("paper", "#ffffff")))  # fmt: skip
 COLOURS = {
     "plants": INK,
-    "sensors": style.GREEN,
-    "navigation": style.BLUE,
-    "guidance": style.PURPLE,
-    "control": style.VERMILION,
-    "actuators": style.ORANGE,
-    "sequencing": style.SKY,
+    "sensors": colours.GREEN,
+    "navigation": colours.BLUE,
+    "guidance": colours.PURPLE,
+    "control": colours.VERMILION,
+    "actuators": colours.ORANGE,
+    "sequencing": colours.SKY,
 }
 FONT = "'DejaVu Sans', Verdana, 'Segoe UI', sans-serif"
 WARNING = "#a84300"  # of faults

@@ -2,28 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from markupsafe import Markup
-from matplotlib.axes import Axes
-from matplotlib.ticker import NullFormatter
 
 from ...runtime.flight.results import Result
+from ..chart.axes import linear_axis, logarithmic_axis
 from ..chart.marks import across, during, instant, level
 from ..chart.quantity import quantity_curve
 from ..chart.ticks import axis_ends
-from ..common.lines import plot_quantity
+from ..common.colours import FAINT, GREEN, INK
 from ..common.page import exact
-from ..common.panels import HALF_WIDTH, Panel, panel
 from ..common.quantities import display_factor, display_unit
-from ..common.style import FAINT, GREEN, INK
-from ..interactive.charts import Chart
+from ..interactive.charts import NO_BOX, Chart
 from .declared import Band, Signal
-from .section import HEIGHT, Section, displayed, history_panel, legend_of, time_chart
+from .section import Section, displayed, history_panel, legend_of, time_chart
 from .words import range_text, seconds, sentence
 
 SETTLED = "settled"  # a band's name that a settling time needs not repeat
 ZOOM = 3.0  # widths of the band that the zoom shows
 DECADES = 100.0  # ratio of an abscissa's ends from which on it is logarithmic
+MOST_DECADES = 6  # ticks of a logarithmic abscissa
 WIDE = 4.0  # range of the signal over the width of the band from which a zoom is plotted
 
 
@@ -80,7 +80,10 @@ def band_section(band: Band, result: Result, name: str) -> Section:
         label = "Zoom on tolerance band"
         panels.append(history_panel(label, f"{name}-zoom", f"{description}, zoom", unit, chart(zoom)))
     for number, other in enumerate(band.against):
-        panels.append(_against(band, result, other, f"{name}-against{number}", (low, high)))
+        label = f"Versus {other.label.rpartition('.')[2].replace('_', ' ')}"
+        description = f"{band.title} versus {other.label}, with the tolerance band"
+        chart_over = against_chart(band, result, other)
+        panels.append(history_panel(label, f"{name}-against{number}", description, unit, chart_over))
     return Section(
         title=band.title,
         panels=panels,
@@ -110,25 +113,31 @@ def _spans(band: Band, result: Result) -> list[tuple[float, float]]:
     return [(float(time[begin]), float(time[end])) for begin, end in zip(begins, ends, strict=True)]
 
 
-def _against(band: Band, result: Result, other: Signal, name: str, limits: tuple[float | None, float | None]) -> Panel:
-    """The signal over another one, on a logarithmic scale if that spans decades."""
-    across = other.plot_values(result)[0]
-    decades = bool(np.all(across > 0.0)) and float(np.nanmax(across)) > DECADES * float(np.nanmin(across))
-    unit = display_unit(other.unit_name)
-
-    def draw(axes: Axes) -> None:
-        for index, (element, line) in enumerate(zip(band.line_names, band.values(result), strict=True)):
-            plot_quantity(axes, across, line, element, band.signal.unit_name, index, time=result.time)
-        _shade(axes, *limits)
-        if decades:
-            axes.set_xscale("log")
-            axes.xaxis.set_major_formatter("{x:g}")  # plain digits: the text of a figure is not set as mathematics
-            axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.set_xlabel(f"{other.label}, {unit}" if unit else other.label)
-        axes.set_title(display_unit(band.signal.unit_name), loc="left", pad=4)
-
-    label = f"Versus {other.label.rpartition('.')[2].replace('_', ' ')}"
-    return panel(label, name, f"{band.title} versus {other.label}, with the tolerance band", draw, HEIGHT, HALF_WIDTH)
+def against_chart(band: Band, result: Result, other: Signal) -> Chart:
+    """Return the chart of a band's signal over another one, on a logarithmic scale where that spans decades."""
+    abscissa, unit = other.plot_values(result)[0], display_unit(other.unit_name)
+    label = f"{other.label}, {unit}" if unit else other.label
+    placed = np.isfinite(abscissa)
+    finite = abscissa[placed]
+    if finite.size and finite.min() > 0.0 and finite.max() > DECADES * finite.min():
+        low_end, high_end = axis_ends(np.log10(finite))
+        x = logarithmic_axis((10.0**low_end, 10.0**high_end), MOST_DECADES, label=label)
+    else:
+        x = linear_axis(axis_ends(abscissa), 6, label=label)
+    lines = [
+        replace(
+            quantity_curve(abscissa, np.where(placed, line, np.nan), element, band.signal.unit_name, index),
+            time=result.time,
+        )
+        for index, (element, line) in enumerate(zip(band.line_names, band.values(result), strict=True))
+    ]
+    factor = display_factor(band.signal.unit_name)
+    low, high = (None if limit is None else factor * limit for limit in (band.low, band.high))
+    limits = [limit for limit in (low, high) if limit is not None]
+    ends = _ends(displayed(lines), limits)
+    green = across(ends[0] if low is None else low, ends[1] if high is None else high, GREEN, 0.16)
+    rules = [level(limit, FAINT, 0.8) for limit in limits]
+    return Chart(NO_BOX, x, linear_axis(ends, 5), curves=lines, areas=[green], rules=rules)
 
 
 def _zoom_limits(values: np.ndarray, low: float, high: float) -> tuple[float, float] | None:
@@ -140,16 +149,6 @@ def _zoom_limits(values: np.ndarray, low: float, high: float) -> tuple[float, fl
     if not np.any(near) or np.ptp(finite) <= WIDE * width:
         return None
     return low - margin, high + margin
-
-
-def _shade(axes: Axes, low: float | None, high: float | None) -> None:
-    """Shade the band between the limits, to the edge of the panel where there is none."""
-    limits = [limit for limit in (low, high) if limit is not None]
-    for limit in limits:
-        axes.axhline(limit, color=FAINT, linewidth=0.8)
-    bottom, top = axes.get_ylim()
-    axes.axhspan(bottom if low is None else low, top if high is None else high, color=GREEN, alpha=0.16, linewidth=0.0)
-    axes.set_ylim(bottom, top)
 
 
 def _findings(band: Band, time: np.ndarray, within: np.ndarray) -> Markup:

@@ -14,10 +14,10 @@ from ...runtime.flight.results import Result
 from ..chart.marks import band_areas, level
 from ..chart.quantity import quantity_curve
 from ..chart.ticks import axis_ends
+from ..common.colours import FAINT, ORANGE
 from ..common.page import data, exact
 from ..common.panels import Panel
 from ..common.quantities import display_factor, display_unit
-from ..common.style import FAINT, ORANGE
 from ..interactive.charts import Chart
 from .declared import Curve, Error
 from .section import Section, displayed, history_panel, legend_of, select_rows, time_chart, wide_history

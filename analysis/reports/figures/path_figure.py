@@ -2,56 +2,117 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
 import numpy as np
 from markupsafe import Markup
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ...runtime.flight.results import Result
-from ..common.lines import plot_path
-from ..common.panels import both_widths, far, is_slim
+from ..chart.axes import linear_axis
+from ..chart.equal import Ends, to_scale
+from ..chart.marks import level
+from ..chart.panel import POINTS
+from ..chart.quantity import quantity_curve
+from ..chart.symbols import marker, marks
+from ..chart.ticks import axis_ends
+from ..chart.widths import chart_widths
+from ..common.colours import BLUE, INK, look
+from ..common.panels import far, mark_swatch
 from ..common.quantities import display_unit, label_with_unit
-from ..common.style import BLUE, INK, look, plain_ticks
-from .declared import Arc, Path, Point, Signal
-from .section import Section, select_rows
+from ..interactive.charts import NO_BOX, Chart, Curve, Marker
+from .declared import Arc, Path, Signal
+from .section import Section, intervals_over, select_rows
 from .words import condition_text, sentence
 
 HEIGHT = 3.6  # in
 EQUAL_HEIGHT = 4.6  # in, with equal scales
 SLIM_HEIGHT = 3.4  # in
+Y_MARGIN = 0.08  # of the range of the ordinate, beyond its ends
+Y_INTERVALS = 6
+WHITE = "#ffffff"
 
 
 def path_section(path: Path, result: Result, name: str) -> Section:
     """The section of a path; ``name`` must differ between the figures of a page."""
     chosen, rows = select_rows(path.rows, result)
 
-    def line(signal: Signal | Arc) -> np.ndarray:
+    def plotted(signal: Signal | Arc) -> np.ndarray:
         return np.where(chosen, signal.plot_values(result)[0], np.nan)[rows]
 
-    x, y = line(path.x), line(path.y)
+    x, y = plotted(path.x), plotted(path.y)
     scales = _scales(path, x, y)
+    others = [np.stack([scales[0] * plotted(each.x), scales[1] * plotted(each.y)]) for each in path.points]
+    position, title = np.stack([scales[0] * x, scales[1] * y]), _axis(path.y, scales[1])
 
-    def draw(figure: Figure) -> None:
-        axes = figure.subplots()
-        plot_path(axes, scales[0] * x, scales[1] * y, path.y.label, result.time[rows])
-        axes.plot(scales[0] * x[-1], scales[1] * y[-1], "o", markersize=6, markerfacecolor="white", color=BLUE)
-        for index, point in enumerate(path.points, 1):
-            _draw_point(axes, point, (scales[0] * line(point.x), scales[1] * line(point.y)), index)
-        axes.set_xlabel(_axis(path.x, scales[0]))
-        axes.set_ylabel(_axis(path.y, scales[1]))
-        if _over_ground(path):
-            axes.axhline(0.0, color=INK, linewidth=0.8, zorder=0.9)
-        plain_ticks(axes, x=5 if is_slim(figure) else 10, y=6)
-        axes.margins(0.05, 0.08)
-        if path.equal:
-            axes.set_aspect("equal", adjustable="datalim")
-        if path.points:
-            axes.legend(loc="best")
+    def chart(width: float, height: float) -> Chart:
+        chart_of = partial(path_chart, path, result.time[rows], position, others, _axis(path.x, scales[0]), width)
+        ends = path_ends(path, position, others)
+        size = (POINTS * width, POINTS * height)
+        return to_scale(chart_of, *ends, *size, title=title) if path.equal else chart_of(*ends)
 
     beyond = isinstance(path.x, Arc) and bool(np.nanmax(x, initial=0.0) > 0.5 * np.pi * path.x.radius)
     description = f"{path.title}: {path.y.label} over {path.x.label}"
-    plot = both_widths(name, description, draw, EQUAL_HEIGHT if path.equal else HEIGHT, SLIM_HEIGHT)
-    return Section(title=path.title, plot=plot, notes=[_caption(path, beyond), *path.notes])
+    height = EQUAL_HEIGHT if path.equal else HEIGHT
+    return Section(
+        title=path.title,
+        plot=chart_widths(name, description, chart, height, SLIM_HEIGHT, title=title),
+        legend=[(mark_swatch(_final_mark(index)), each.name) for index, each in enumerate(path.points, 1)],
+        notes=[_caption(path, beyond), *path.notes],
+    )
+
+
+def path_ends(path: Path, position: np.ndarray, others: Sequence[np.ndarray]) -> tuple[Ends, Ends]:
+    """Return the ends of both axes around a path and the positions of its points, as `path_chart` gets them."""
+    x, y = np.concatenate([position, *others], axis=1)
+    up = axis_ends(y, Y_MARGIN)
+    if _over_ground(path) and not up[0] <= 0.0 <= up[1]:
+        up = axis_ends(np.append(y, 0.0), Y_MARGIN)
+    return axis_ends(x), up
+
+
+def path_chart(
+    path: Path,
+    time: np.ndarray,
+    position: np.ndarray,
+    others: Sequence[np.ndarray],
+    label: str,
+    width: float,
+    x_ends: Ends,
+    y_ends: Ends,
+) -> Chart:
+    """Return the chart of a path at times (s), [n], through ``position``, [2, n] in units of the axes.
+
+    Its curves are the path, its end, and for each of its points, ``others``, [2, n], all positions and the last one.
+    ``label`` is that of the abscissa, ``width`` (in) that of the figure.
+    """
+    line = quantity_curve(position[0], position[1], path.y.label, None)
+    end = marks(position[0, -1:], position[1, -1:], marker("o", 6.0, BLUE, fill=WHITE))
+    curves = [replace(line, time=time), end]
+    for index, (point, positions) in enumerate(zip(path.points, others, strict=True), 1):
+        curves += _point_curves(point.name, positions, index)
+    x, y = linear_axis(x_ends, intervals_over(width), label=label), linear_axis(y_ends, Y_INTERVALS)
+    rules = [level(0.0, INK, 0.8)] if _over_ground(path) else []
+    return Chart(NO_BOX, x, y, curves=curves, rules=rules)
+
+
+def _point_curves(name: str, position: np.ndarray, index: int) -> list[Curve]:
+    """All positions of a point, [2, n], and the last one larger; none where none is finite."""
+    finite = position[:, np.all(np.isfinite(position), axis=0)]
+    if not finite.size:
+        return []
+    style = look(index)
+    new = np.concatenate([[True], np.any(np.diff(finite, axis=1) != 0.0, axis=0)])
+    return [
+        marks(finite[0, new], finite[1, new], marker(style.marker, 4.0, style.colour), name=name),
+        marks(finite[0, -1:], finite[1, -1:], _final_mark(index), name=name),
+    ]
+
+
+def _final_mark(index: int) -> Marker:
+    style = look(index)
+    return marker(style.marker, 9.0, style.colour, fill="", width=1.6)
 
 
 def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
@@ -71,21 +132,6 @@ def _over_ground(path: Path) -> bool:
 
 def _axis(signal: Signal | Arc, scale: float) -> str:
     return label_with_unit(signal.label, "km" if scale != 1.0 else display_unit(signal.unit_name))
-
-
-def _draw_point(axes: Axes, point: Point, position: tuple[np.ndarray, np.ndarray], index: int) -> None:
-    """All values of a position, the last one larger."""
-    points = np.stack(position)
-    points = points[:, np.all(np.isfinite(points), axis=0)]
-    if not points.size:
-        return
-    moved = np.concatenate([[True], np.any(np.diff(points, axis=1) != 0.0, axis=0)])
-    style = look(index)
-    axes.plot(*points[:, moved], linestyle="", marker=style.marker, markersize=4, color=style.colour)
-    axes.plot(
-        *points[:, -1], linestyle="", marker=style.marker, markersize=9, markerfacecolor="none",
-        markeredgewidth=1.6, color=style.colour, label=point.name,
-    )  # fmt: skip
 
 
 def _caption(path: Path, beyond: bool) -> Markup:

@@ -8,16 +8,20 @@ from dataclasses import dataclass
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ...runtime.flight.results import Flight, Result
+from ..chart.axes import lane_axis, linear_axis
+from ..chart.marks import SQUARE, instant
+from ..chart.panel import chart_panel
+from ..chart.widths import chart_widths
+from ..common.colours import BLUE, INK, VERMILION
 from ..common.page import Table, exact
-from ..common.panels import Widths, both_widths, is_slim
+from ..common.panels import HALF_WIDTH, Panel, Widths
 from ..common.quantities import display_unit, label_with_unit, number
-from ..common.style import BLUE, FAINT, INK, VERMILION, label_lanes, plain_ticks
+from ..interactive.charts import NO_BOX, Area, Chart, Note
+from ..interactive.measures import TICK_SIZE
 from .declared import BoundValues, Budget, Item, Phase, Phases
-from .section import Section, align
+from .section import Section, align, intervals_over
 from .words import seconds, sentence
 
 
@@ -83,8 +87,11 @@ def statuses_of(phases: Phases, flight: Flight) -> list[tuple[int, float]] | Non
 
 
 LANE = 0.27  # in
-LONG = 0.5  # fraction of the flight without an event from which the time axis is broken
-MARGIN = 0.06  # of the remaining time, shown on either side of the break
+BAR = 0.62  # of a lane
+EDGE = 0.8  # pt, of the ends of bars, so that short ones are visible
+GAP = 4.0  # pt, from a bar to its duration
+LONG = 0.5  # fraction of the flight without an event from which the plot has two windows
+MARGIN = 0.06  # of the remaining time, shown on either side of it
 NEAR_THE_EDGE = 0.88  # of a window, from which the duration is written on the left of a bar
 Window = tuple[float, float]
 
@@ -94,12 +101,16 @@ def phase_section(phases: Phases, result: Result, name: str) -> Section:
     spans, statuses = spans_of(phases, result), statuses_of(phases, result)
     windows = _windows(spans, statuses or [])
     notes = [Markup("Bars: phases with their duration, s.")]
+    if statuses:
+        notes[0] = Markup("{} Dashed lines: status.").format(notes[0])
     if len(windows) > 1:
         left_out = windows[1][0] - windows[0][1]
-        notes[0] = Markup("{} Axis break: {} omitted.").format(notes[0], seconds(left_out))
+        notes[0] = Markup("{} Between the panels {} are omitted.").format(notes[0], seconds(left_out))
+    panels, plot = _panels(phases, spans, statuses or [], windows, name)
     return Section(
         title=phases.title,
-        plot=_figure(phases, spans, statuses or [], windows, name),
+        panels=panels,
+        plot=plot,
         table=_table(phases, spans),
         findings=[] if statuses is None else _findings(phases, statuses),
         notes=[*notes, *phases.notes],
@@ -119,65 +130,72 @@ def _windows(spans: Sequence[Span], statuses: Sequence[tuple[int, float]]) -> li
     return [(begin, left + margin), (right - margin, end)]
 
 
-def _figure(
-    phases: Phases, spans: Sequence[Span], statuses: Sequence[tuple[int, float]], windows: Sequence[Window], name: str
-) -> Widths:
+def phase_chart(spans: Sequence[Span], statuses: Sequence[tuple[int, float]], window: Window, intervals: int) -> Chart:
+    """Return the chart of what is within a window of time: a bar for each phase, a line for each time of a status."""
     lanes = list(dict.fromkeys(span.name for span in spans))
-    widths = [end - begin or 1.0 for begin, end in windows]
-
-    def draw(figure: Figure) -> None:
-        all_axes = figure.subplots(1, len(windows), squeeze=False, sharey=True, width_ratios=widths)[0]
-        for axes, (begin, end), width in zip(all_axes, windows, widths, strict=True):
-            for span in spans:
-                _draw_bar(axes, span, lanes.index(span.name), begin, end)
-            _draw_statuses(axes, [(status, time) for status, time in statuses if begin <= time <= end])
-            axes.set_xlim(begin, begin + width)
-            label_lanes(axes, lanes)
-            plain_ticks(axes, x=max(2, round((5 if is_slim(figure) else 10) * width / sum(widths))))
-        if len(windows) > 1:
-            _draw_cut(*all_axes)
-        figure.supxlabel("time, s", fontsize=9, color=INK)
-
-    description = f"{phases.title}: {', '.join(lanes)} over time"
-    return both_widths(name, description, draw, 0.75 + LANE * len(lanes))
-
-
-def _draw_bar(axes: Axes, span: Span, lane: int, begin: float, end: float) -> None:
-    """The part of a phase within a window, with its whole duration where it ends."""
-    left, right = max(span.begin, begin), min(span.end, end)
-    if right < left or (right == left and span.end > span.begin):
-        return
-    axes.barh(lane, right - left, left=left, height=0.62, color=BLUE, edgecolor=BLUE, linewidth=0.8)
-    if span.end > end:
-        return
-    before = right > begin + NEAR_THE_EDGE * (end - begin)
-    axes.annotate(
-        number(span.end - span.begin, 4), (left if before else right, lane), xytext=(-4 if before else 4, 0),
-        textcoords="offset points", ha="right" if before else "left", va="center", fontsize=8, color=INK,
-    )  # fmt: skip
-
-
-def _draw_statuses(axes: Axes, statuses: Sequence[tuple[int, float]]) -> None:
-    by_time: dict[float, list[int]] = {}
+    begin, end = window
+    inside = [
+        span
+        for span in spans
+        if max(span.begin, begin) < min(span.end, end) or (span.begin == span.end and begin <= span.begin <= end)
+    ]
+    bars, edges, notes = [], [], []
+    for span in inside:
+        left, right, lane = max(span.begin, begin), min(span.end, end), lanes.index(span.name)
+        x, y = left + (right - left) * SQUARE[:, 0], lane + BAR * (SQUARE[:, 1] - 0.5)
+        bars.append(Area(x, y, (False, False), BLUE.lower(), 1.0, 0.0))
+        edges.append(np.array([[left, left, right, right], [y[0], y[2], y[0], y[2]]]))
+        if span.end <= end:
+            before = right > begin + NEAR_THE_EDGE * (end - begin)
+            notes.append(_duration(span, left if before else right, lane, before=before))
+    strokes = np.concatenate(edges, axis=1)
+    by_time: dict[float, list[str]] = {}
     for status, time in statuses:
-        by_time.setdefault(time, []).append(status)
-    for time, numbers in by_time.items():
-        axes.axvline(time, color=VERMILION, linewidth=1.1, linestyle=(0, (4, 2)))
-        axes.annotate(
-            ", ".join(map(str, numbers)), (time, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 3),
-            textcoords="offset points", ha="center", fontsize=8, color=VERMILION, fontweight="bold",
-        )  # fmt: skip
+        if begin <= time <= end:
+            by_time.setdefault(time, []).append(str(status))
+    return Chart(
+        NO_BOX,
+        linear_axis((begin, end if end > begin else begin + 1.0), intervals, label="time, s"),
+        lane_axis(lanes),
+        areas=[*bars, Area(strokes[0], strokes[1], (False, False), BLUE.lower(), 1.0, EDGE)],
+        rules=[instant(time, VERMILION, 1.1, (4.0, 2.0)) for time in by_time],
+        notes=[*notes, *(_status(time, ", ".join(numbers)) for time, numbers in by_time.items())],
+    )
 
 
-def _draw_cut(left: Axes, right: Axes) -> None:
-    """Slanted strokes at the break of the time axis."""
-    left.spines["right"].set_visible(False)
-    right.spines["left"].set_visible(False)
-    for axes, x in ((left, 1.0), (right, 0.0)):
-        axes.plot(
-            [x, x], [0.0, 1.0], transform=axes.transAxes, clip_on=False, linestyle="", color=FAINT,
-            marker=[(-0.6, -1.0), (0.6, 1.0)], markersize=9, markeredgewidth=1.0,
-        )  # fmt: skip
+def _duration(span: Span, at: float, lane: int, *, before: bool) -> Note:
+    """The duration of a phase, after its bar or ``before`` it."""
+    offset, side = (-GAP, "right") if before else (GAP, "left")
+    text = number(span.end - span.begin, 4)
+    return Note(text, (at, float(lane)), (False, False), (offset, 0.0), (side, "center"), INK, TICK_SIZE)
+
+
+def _status(time: float, numbers: str) -> Note:
+    """The numbers of statuses above the axes."""
+    return Note(
+        numbers, (time, 1.0), (False, True), (0.0, 3.0), ("center", "baseline"), VERMILION.lower(), TICK_SIZE, bold=True
+    )
+
+
+def _panels(
+    phases: Phases, spans: Sequence[Span], statuses: Sequence[tuple[int, float]], windows: Sequence[Window], name: str
+) -> tuple[list[Panel], Widths | None]:
+    """Return a panel for each of several windows, or one figure as wide as the page."""
+    lanes = dict.fromkeys(span.name for span in spans)
+    height, description = 0.75 + LANE * len(lanes), f"{phases.title}: {', '.join(lanes)} over time"
+    if len(windows) == 1:
+
+        def chart(width: float, _: float) -> Chart:
+            return phase_chart(spans, statuses, windows[0], intervals_over(width))
+
+        return [], chart_widths(name, description, chart, height)
+    panels = []
+    for index, window in enumerate(windows):
+        begin, end = (number(each, 5) for each in window)
+        label = f"{begin} to {end} s"
+        timeline = phase_chart(spans, statuses, window, intervals_over(HALF_WIDTH))
+        panels.append(chart_panel(label, f"{name}-{index}", f"{description}; {label}", timeline, height, HALF_WIDTH))
+    return panels, None
 
 
 def _table(phases: Phases, spans: Sequence[Span]) -> Table:

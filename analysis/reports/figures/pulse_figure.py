@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from markupsafe import Markup
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.patches import PathPatch
-from matplotlib.path import Path
 
 from ...runtime.flight.results import Result
+from ..chart.marks import level
+from ..chart.panel import chart_panel
+from ..chart.quantity import quantity_curve
+from ..chart.ticks import axis_ends
+from ..common.colours import BLUE, FAINT, VERMILION
 from ..common.page import exact
-from ..common.panels import Widths, both_widths, is_slim
+from ..common.panels import HALF_WIDTH
 from ..common.quantities import label_with_unit, number
-from ..common.style import BLUE, FAINT, VERMILION, plain_ticks
+from ..interactive.charts import Area, Chart
 from .declared import Pulses
-from .section import Section
+from .section import Section, displayed, time_chart
 from .words import sentence
 
-LANE = 0.85  # in
-TOTAL = 1.1  # in
+HEIGHT = 1.6  # in
 BAR = 1.1  # pt; the duration of a pulse would not be visible
+THIN = 0.6  # pt, the line at 0 and that of the remainder
 
 
 def pulse_lengths(pulses: Pulses, result: Result) -> np.ndarray:
@@ -41,59 +44,51 @@ def pulse_section(pulses: Pulses, result: Result, name: str) -> Section:
     lengths = pulse_lengths(pulses, result)
     if not np.any(lengths):
         return Section(title=pulses.title, findings=[Markup("No pulse was fired.")], notes=pulses.notes)
+    description = f"{pulses.title}: a bar for each pulse of {', '.join(pulses.lengths.names)}"
+    panels = [
+        chart_panel(label, f"{name}-{index}", f"{description}; {label}", chart, HEIGHT, HALF_WIDTH)
+        for index, (label, chart) in enumerate(pulse_charts(pulses, result, lengths))
+    ]
     return Section(
         title=pulses.title,
-        plot=_figure(pulses, result, lengths, name),
+        panels=panels,
         findings=[_findings(pulses, lengths)],
         notes=[_caption(pulses, result), *pulses.notes],
     )
 
 
-def _figure(pulses: Pulses, result: Result, lengths: np.ndarray, name: str) -> Widths:
-    heights = [LANE] * len(lengths) + [TOTAL] * (pulses.total is not None)
-    reach = 1.1 * float(np.abs(lengths).max())
-    rests = None if pulses.remainder is None else pulses.remainder.plot_values(result)
-    if rests is not None:
-        reach = max(reach, 1.1 * float(np.nanmax(np.abs(rests), initial=0.0)))
+def pulse_charts(pulses: Pulses, result: Result, lengths: np.ndarray) -> list[tuple[str, Chart]]:
+    """Return a chart of each axis with its heading, and one of the thruster on-time so far, where that is declared.
 
-    def draw(figure: Figure) -> None:
-        all_axes = figure.subplots(len(heights), 1, squeeze=False, sharex=True, height_ratios=heights)[:, 0]
-        for index, axes in enumerate(all_axes[: len(lengths)]):
-            remainder = None if rests is None else rests[index]
-            _draw_lane(axes, result.time, lengths[index], remainder, reach)
-            label = pulses.labels[index] or pulses.lengths.label
-            axes.set_title(f"{label}, s", loc="left", pad=4)
-        if pulses.total is not None:
-            all_axes[-1].plot(result.time, pulses.total.plot_values(result)[0], color=BLUE)
-            all_axes[-1].set_title(label_with_unit(pulses.total.label, pulses.total.unit_name), loc="left", pad=4)
-            plain_ticks(all_axes[-1], y=3)
-        plain_ticks(all_axes[-1], x=5 if is_slim(figure) else 10)
-        all_axes[-1].set_xlim(result.time[0], result.time[-1])
-        all_axes[-1].set_xlabel("time, s")
-
-    description = f"{pulses.title}: a bar for each pulse of {', '.join(pulses.lengths.names)}"
-    return both_widths(name, description, draw, 0.45 + sum(heights))
-
-
-def _draw_lane(axes: Axes, time: np.ndarray, lengths: np.ndarray, rest: np.ndarray | None, reach: float) -> None:
-    axes.axhline(0.0, color=FAINT, linewidth=0.6)
-    for sign, colour in ((1.0, BLUE), (-1.0, VERMILION)):
-        rows = np.flatnonzero(sign * lengths > 0.0)
-        if rows.size:
-            axes.add_patch(_bars(time[rows], lengths[rows], colour))
-    if rest is not None and np.any(rest):
-        axes.plot(time, rest, color=FAINT, linewidth=0.6, zorder=0.9)  # below the bars
-    axes.set_ylim(-reach, reach)
-    plain_ticks(axes, y=3)
+    A bar stands for a pulse, from 0 to its length (s); all axes have the same ends. ``lengths`` as `pulse_lengths`
+    returns them.
+    """
+    time = result.time
+    rests = np.zeros_like(lengths) if pulses.remainder is None else pulses.remainder.plot_values(result)
+    reach = 1.1 * max(float(np.abs(lengths).max()), float(np.nanmax(np.abs(rests), initial=0.0)))
+    charts = []
+    for index, (label, row, rest) in enumerate(zip(pulses.labels, lengths, rests, strict=True)):
+        bars = [_bars(time, row, 1.0, BLUE), _bars(time, row, -1.0, VERMILION)]
+        areas = [each for each in bars if each.x.size]
+        curves = []
+        if pulses.remainder is not None and np.any(rest):
+            line = quantity_curve(time, rest, pulses.remainder.names[index], pulses.remainder.unit_name)
+            curves = [replace(line, colour=FAINT, width=THIN)]
+        rules = [level(0.0, FAINT, THIN)]
+        chart = time_chart(time, curves, (-reach, reach), areas=areas, rules=rules, y_intervals=3)
+        charts.append((f"{label or pulses.lengths.label}, s", chart))
+    if pulses.total is not None:
+        total = quantity_curve(time, pulses.total.values(result)[0], pulses.total.label, pulses.total.unit_name)
+        chart = time_chart(time, [total], axis_ends(displayed([total])), y_intervals=3)
+        charts.append((label_with_unit(pulses.total.label, pulses.total.unit_name), chart))
+    return charts
 
 
-def _bars(time: np.ndarray, lengths: np.ndarray, colour: str) -> PathPatch:
-    """All bars of one sign as a single path; a collection would repeat the style of each."""
-    ends = np.stack([np.stack([time, time]), np.stack([np.zeros_like(lengths), lengths])])  # x and y, foot and head
-    codes = np.tile(np.array([Path.MOVETO, Path.LINETO], dtype=np.uint8), time.size)
-    path = Path(ends.transpose(2, 1, 0).reshape(-1, 2), codes)
-    path.should_simplify = False  # it would drop bars
-    return PathPatch(path, fill=False, edgecolor=colour, linewidth=BAR, capstyle="butt")
+def _bars(time: np.ndarray, lengths: np.ndarray, sign: float, colour: str) -> Area:
+    """Strokes from 0 to the lengths of one sign."""
+    rows = np.flatnonzero(sign * lengths > 0.0)
+    heads = np.stack([np.zeros(rows.size), lengths[rows]], axis=1)
+    return Area(np.repeat(time[rows], 2), heads.ravel(), (False, False), colour.lower(), 1.0, BAR)
 
 
 def _findings(pulses: Pulses, lengths: np.ndarray) -> Markup:

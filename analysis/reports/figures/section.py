@@ -12,10 +12,11 @@ from markupsafe import Markup
 from ...runtime.flight.results import Result
 from ..chart.axes import linear_axis
 from ..chart.panel import chart_panel
+from ..chart.widths import chart_widths
+from ..common.colours import look
 from ..common.page import Table, data, exact
 from ..common.panels import HALF_WIDTH, Panel, Widths, swatch
 from ..common.quantities import MINUS, in_shown_unit
-from ..common.style import WIDTH, look
 from ..interactive.charts import NO_BOX, Area, Chart, Curve, Rule
 from .declared import Rows
 
@@ -51,10 +52,14 @@ def time_chart(
     areas: Sequence[Area] = (),
     rules: Sequence[Rule] = (),
     intervals: int = 6,
+    y_intervals: int = 5,
 ) -> Chart:
-    """Return a chart over time; ``ends`` are those of the ordinate, as displayed."""
+    """Return a chart over time; ``ends`` are those of the ordinate, as displayed.
+
+    There are at most ``intervals`` intervals between the ticks of the abscissa, ``y_intervals`` between the others.
+    """
     abscissa = (float(time[0]), float(time[-1] if time[-1] > time[0] else time[0] + 1.0))
-    x, y = linear_axis(abscissa, intervals, label="time, s"), linear_axis(ends, 5)
+    x, y = linear_axis(abscissa, intervals, label="time, s"), linear_axis(ends, y_intervals)
     return Chart(NO_BOX, x, y, curves=curves, areas=areas, rules=rules)
 
 
@@ -73,9 +78,16 @@ def wide_history(name: str, description: str, unit: str, chart_of: Callable[[int
 
     ``chart_of`` makes the chart with a largest number of intervals between ticks; the ``unit`` stands above its axes.
     """
-    wide = chart_panel("", name, description, chart_of(12), HEIGHT, WIDTH, title=unit, kind="wide")
-    slim = chart_panel("", f"{name}-slim", description, chart_of(6), HEIGHT, HALF_WIDTH, title=unit, kind="slim")
-    return Widths(wide.figure, slim.figure)
+
+    def chart(width: float, _: float) -> Chart:
+        return chart_of(12 if width > HALF_WIDTH else 6)
+
+    return chart_widths(name, description, chart, HEIGHT, title=unit)
+
+
+def intervals_over(width: float) -> int:
+    """Return the largest number of intervals between ticks of an abscissa over this width (in) of a figure."""
+    return 10 if width > HALF_WIDTH else 5
 
 
 def select_rows(rows: Rows | None, result: Result) -> tuple[np.ndarray, slice]:

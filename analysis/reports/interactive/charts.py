@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from markupsafe import Markup
 
 from .columns import Coarse
 
@@ -161,3 +163,13 @@ class Chart:
     areas: Sequence[Area] = ()
     rules: Sequence[Rule] = ()
     notes: Sequence[Note] = ()
+
+
+class Drawing(NamedTuple):
+    """A figure as an <svg> element, and what it shows as data."""
+
+    svg: Markup
+    charts: list[Chart]
+
+    def __html__(self) -> str:
+        return self.svg

@@ -5,16 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import Field, fields, is_dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from markupsafe import Markup
 
 from .bundles import policy, read_bundle
+from .charts import Chart
 from .columns import Coarse, Columns
-
-if TYPE_CHECKING:
-    from .charts import Chart  # which imports matplotlib
 
 
 class Embedded:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...runtime.flight.results import Flight
-from ..common.style import COLOURS
+from ..common.colours import COLOURS
 from ..figures.declared import Signal
 from ..figures.scene.declared import Attitude, Body, Position, Scene, Site
 from .notes import frame_note, size_note

@@ -70,19 +70,23 @@ def texts(figure):
     return {text.strip() for text in etree.fromstring(figure).xpath("//*[local-name()='text']/text()")}
 
 
-def bars(figure):
-    """Foot and head (x, y in points) of all bars by the colour of their sign, a lane after the other."""
+def bars(section):
+    """Time, foot and head of all bars by the colour of their sign, panel after panel; the pictures have as many."""
     actual = {}
-    for path in etree.fromstring(figure).xpath("//*[local-name()='path'][contains(@style, 'stroke-width: 1.1')]"):
-        colour = re.search(r"stroke: (#\w+)", path.get("style"))[1]
-        numbers = [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", path.get("d"))]
-        assert re.sub(r"[^A-Z]", "", path.get("d")) == "ML" * (len(numbers) // 4)
-        actual.setdefault(colour, []).append(np.array(numbers).reshape(-1, 2, 2))
+    for panel in section.panels:
+        (chart,) = panel.figure.charts
+        for area in chart.areas:
+            assert area.stroke == 1.1
+            path = f"//*[local-name()='path'][@stroke='{area.colour}'][@stroke-width='1.1']/@d"
+            (outline,) = etree.fromstring(panel.figure.svg).xpath(path)
+            assert outline.count("M") == area.x.size // 2
+            assert np.array_equal(area.x[::2], area.x[1::2])
+            actual.setdefault(area.colour, []).append(np.stack([area.x[::2], area.y[::2], area.y[1::2]]))
     return actual
 
 
-def count_of(figure):
-    return sum(len(lane) for lanes in bars(figure).values() for lane in lanes)
+def count_of(section):
+    return sum(lane.shape[1] for lanes in bars(section).values() for lane in lanes)
 
 
 def one(figure, result):
@@ -160,17 +164,18 @@ def test_a_bar_for_each_pulse():
     """81 ticks: x fires up in 8 and down in 8 of them, y in the first 4; the last row's tick never acts."""
     actual = one(PULSES, flown(**pulses()))
     assert findings(actual) == ["Total 20 pulses, 2.4 s (x 16 pulses, 1.6 s; y 4 pulses, 0.8 s)."]
-    plotted = bars(actual.plot.wide.svg)
+    plotted = bars(actual)
     (x_up, y_up), (x_down,) = plotted["#0072b2"], plotted["#d55e00"]
-    assert [len(part) for part in (x_up, x_down, y_up)] == [8, 8, 4]
-    heights = {name: part[:, 0, 1] - part[:, 1, 1] for name, part in (("+", x_up), ("-", x_down), ("y", y_up))}
-    scale = heights["y"][0] / 0.2  # points to the second, the same in all lanes
-    assert scale > 50.0
-    np.testing.assert_allclose(heights["+"], 0.05 * scale, atol=0.02)
-    np.testing.assert_allclose(heights["-"], -0.15 * scale, atol=0.02)
-    np.testing.assert_allclose(heights["y"], 0.2 * scale, atol=0.02)
-    np.testing.assert_allclose(np.diff(y_up[:, 0, 0]), np.diff(x_up[:, 0, 0])[0] / 10.0, atol=0.02)  # 2.5 s and 25 s
-    assert {"x, s", "y, s", "ship.spent, s"} <= texts(actual.plot.wide.svg)
+    for part, count, length in ((x_up, 8, 0.05), (x_down, 8, -0.15), (y_up, 4, 0.2)):
+        assert part.shape == (3, count)
+        np.testing.assert_array_equal(part[1], 0.0)
+        np.testing.assert_allclose(part[2], length)
+    np.testing.assert_allclose(np.diff(y_up[0]), 2.5)
+    np.testing.assert_allclose(np.diff(x_up[0])[0], 25.0)
+    assert captions(actual) == ["x, s", "y, s", "ship.spent, s"]
+    charts = [panel.figure.charts[0] for panel in actual.panels]
+    assert charts[0].y.ends == charts[1].y.ends
+    assert all(chart.x.ends == (TIME[0], TIME[-1]) for chart in charts)
     assert "thin line: ship.rest" in notes(actual)[0]
 
 
@@ -181,13 +186,13 @@ def test_without_a_count_every_row_has_new_pulses():
     alone = replace(PULSES, lengths=signal, count=None, remainder=None, total=None, labels=("",))
     actual = one(alone, flown(lengths=lengths))
     assert findings(actual) == ["3 pulses, 0.7 s."]
-    assert {colour: [len(lane) for lane in lanes] for colour, lanes in bars(actual.plot.wide.svg).items()} == {
+    assert {colour: [lane.shape[1] for lane in lanes] for colour, lanes in bars(actual).items()} == {
         "#0072b2": [2],
         "#d55e00": [1],
     }
     still = one(alone, flown(lengths=0.0 * lengths))
     assert findings(still) == ["No pulse was fired."]
-    assert still.plot is None
+    assert still.panels == []
 
 
 def test_many_pulses_stay_small():
@@ -197,8 +202,8 @@ def test_many_pulses_stay_small():
     signals = dict(zip(signal.names, lengths, strict=True))
     result = replace(run_result(), time=0.2 * np.arange(rows), signals=signals)
     actual = one(Pulses("Jets", (), signal, None, None, None, ("x", "y", "z")), result)
-    assert count_of(actual.plot.wide.svg) == 3 * (rows - 1)
-    assert len(actual.plot.wide.svg) < 40 * 3 * rows  # a bar is two points of some ten letters each
+    assert count_of(actual) == 3 * (rows - 1)
+    assert sum(len(panel.figure.svg) for panel in actual.panels) < 20 * 3 * rows  # a bar is two points of few letters
 
 
 def test_an_error_within_its_sigma():
@@ -290,7 +295,7 @@ def test_a_flight_of_the_orbital_attitude(use, parameters):
         assert repr(settled(time, *conditions)) in values
     fired = np.array([result[f"pulses.pulse_lengths[{k}]"] for k in (1, 2, 3)])[:, :-1]
     fired[:, 1:] *= np.diff(result["pulses.pulse_count"])[:-1] != 0
-    assert count_of(sections[2].plot.wide.svg) == np.count_nonzero(fired) > 20
+    assert count_of(sections[2]) == np.count_nonzero(fired) > 20
     (reported,) = re.findall(r'pulses, <data value="([^"]+)">[^<]+</data> s ', sections[2].findings[0])
     assert float(reported) == pytest.approx(result["plant.jet_seconds"][-1], abs=1e-9)  # what is drawn was fired
     later = (time >= 60.0) & (result["observer.yaw_sigma"] > 0.0)
@@ -323,4 +328,15 @@ def test_a_band_less_a_signal_shaded_and_against_another():
     words = " ".join(map(str, section.notes))
     assert "minus ship.target" in words
     assert "grey: ship.clock below" in words
-    assert "mathdefault" not in str(section.panels[-2].figure.svg)
+    (pressure,), (height,) = (panel.figure.charts for panel in section.panels[-2:])
+    assert pressure.x.logarithmic
+    assert not height.x.logarithmic
+    decades = np.log10([at for at, _ in pressure.x.ticks])
+    np.testing.assert_allclose(decades, np.arange(0.0, 9.0, 2.0), atol=1e-12)
+    assert pressure.x.ends[0] < np.exp(0.1 * TIME[0]) < np.exp(0.1 * TIME[-1]) < pressure.x.ends[1]
+    for chart, abscissa in ((pressure, np.exp(0.1 * TIME)), (height, 1e5 - TIME)):
+        (line,) = chart.curves
+        np.testing.assert_allclose(line.x, abscissa)
+        np.testing.assert_array_equal(line.time, TIME)
+        np.testing.assert_allclose(line.displayed, np.degrees(roll))
+        assert [rule.at for rule in chart.rules] == pytest.approx([-0.5, 0.5])

@@ -116,33 +116,44 @@ def test_the_table_of_phases():
 
 
 def bars(figure):
-    """Left and right end (points) of all bars, by the height of their middle."""
-    actual = {}
-    for path in etree.fromstring(figure).xpath("//*[local-name()='path'][contains(@style, 'fill: #0072b2')]"):
-        points = np.array(re.findall(r"-?\d+(?:\.\d+)?", path.get("d")), dtype=float).reshape(-1, 2)
-        ends = (float(points[:, 0].min()), float(points[:, 0].max()))
-        actual.setdefault(round(float(points[:, 1].mean()), 1), []).append(ends)
-    return [actual[height] for height in sorted(actual)]
+    """Begin and end (s) of all bars by their lane."""
+    (chart,) = figure.charts
+    actual = {name: [] for _, name in chart.y.ticks}
+    for area in chart.areas[:-1]:
+        actual[chart.y.ticks[round(area.y.mean())][1]].append((float(area.x.min()), float(area.x.max())))
+    return {name: sorted(lane) for name, lane in actual.items()}
 
 
-def test_the_long_phase_is_cut_and_the_others_are_to_scale():
+def test_the_long_phase_is_cut():
     """From the status at 30 s to the end of the coast, 120 of 200 s, nothing happens; 6 % of the other 80 s is left."""
     section = one(PHASES, mission())
-    assert notes(section) == ["Bars: phases with their duration, s. Axis break: 110.4 s omitted."]
-    lanes = bars(section.plot.wide.svg)
-    assert [len(lane) for lane in lanes] == [1, 2, 1, 1, 1]
-    widths = [sum(right - left for left, right in lane) for lane in lanes]
-    np.testing.assert_allclose(widths[2:], np.array([15.0, 15.0, 20.0]) * widths[0] / 20.0, rtol=0.02)
-    np.testing.assert_allclose(widths[1], (130.0 - 110.4) * widths[0] / 20.0, rtol=0.03)
-    assert {"burn", "coast", "capture", "hover", "descent", "130", "15", "2", "6"} <= set(texts(section.plot.wide.svg))
+    assert notes(section) == [
+        "Bars: phases with their duration, s. Dashed lines: status. Between the panels 110.4 s are omitted."
+    ]
+    before, after = (panel.figure for panel in section.panels)
+    assert [panel.label for panel in section.panels] == ["0 to 34.8 s", "145.2 to 200 s"]
+    assert {name: lane for name, lane in bars(before).items() if lane} == {
+        "burn": [(0.0, 20.0)],
+        "coast": [(20.0, pytest.approx(34.8))],
+    }
+    assert bars(after) == {
+        "burn": [],
+        "coast": [(pytest.approx(145.2), 150.0)],
+        "capture": [(150.0, 165.0)],
+        "hover": [(165.0, 180.0)],
+        "descent": [(180.0, 200.0)],
+    }
+    assert [rule.at for rule in before.charts[0].rules + after.charts[0].rules] == [30.0, 190.0]
+    durations = [[note.text for note in figure.charts[0].notes] for figure in (before, after)]
+    assert durations == [["20", "2"], ["130", "15", "15", "20", "6"]]
+    assert {"burn", "coast", "capture", "hover", "descent", "20", "2"} <= set(texts(before.svg))
 
 
 def test_phases_of_like_length_are_not_cut():
     section = one(PHASES, mission(phase=np.where(TIME < 100.0, 1, 2), status=0.0 * TIME))
     assert notes(section) == ["Bars: phases with their duration, s."]
-    (first,), (second,) = bars(section.plot.wide.svg)
-    assert first[1] - first[0] == pytest.approx(second[1] - second[0], rel=0.01)
-    assert first[1] == pytest.approx(second[0], abs=1.0)
+    for figure in section.plot:
+        assert bars(figure) == {"burn": [(0.0, 100.0)], "coast": [(100.0, 200.0)]}
 
 
 def test_a_budget_beside_its_bound():
@@ -202,12 +213,6 @@ def test_limits_that_are_not_evaluated(changed, ended, why):
     assert findings(landed) == ["1 of 3 limits met; violated: tilt, mass."]
 
 
-def lines_of(figure, colour):
-    """Points of the lines of one colour."""
-    paths = etree.fromstring(figure).xpath(f"//*[local-name()='path'][contains(@style, 'stroke: {colour}')]")
-    return [np.array(re.findall(r"-?\d+(?:\.\d+)?", path.get("d")), dtype=float).reshape(-1, 2) for path in paths]
-
-
 def test_a_path_has_one_scale_and_its_site_twice():
     """From (500, 300) to (8, 0) m, where the phase is 4 or more."""
     section = one(PATH, mission())
@@ -215,12 +220,18 @@ def test_a_path_has_one_scale_and_its_site_twice():
         "Circle: end; marks: site (ship.site_x, ship.site_y), large: final; samples where ship.phase is at least 4; "
         "equal scales."
     ]
-    line = max(lines_of(section.plot.wide.svg, "#0072b2"), key=lambda points: np.ptp(points[:, 0]))
-    width, height = np.ptp(line, axis=0)
-    assert height / width == pytest.approx(300.0 / 492.0, rel=0.01)
-    uses = etree.fromstring(section.plot.wide.svg).xpath("//*[local-name()='use'][contains(@style, '#d55e00')]")
-    assert len(uses) == 2 + 1 + 1  # both places, the last one large, and the legend
-    assert {"ship.x, m", "ship.y, m", "site"} <= set(texts(section.plot.wide.svg))
+    for figure in section.plot:
+        (chart,) = figure.charts
+        width, height = map(float, etree.fromstring(figure.svg).get("viewBox").split()[2:])
+        lengths = [(axis.ends[1] - axis.ends[0]) for axis in (chart.x, chart.y)]
+        assert lengths[0] / (chart.box[2] * width) == pytest.approx(lengths[1] / (chart.box[3] * height), rel=1e-3)
+        line, end, sites, final = chart.curves
+        assert (line.x[0], line.y[0], line.x[-1], line.y[-1]) == pytest.approx((500.0, 300.0, 8.0, 0.0))
+        assert (end.x, end.y) == (line.x[-1:], line.y[-1:])
+        assert [each.x.size for each in (sites, final)] == [2, 1]  # both places, the last one large
+        assert final.marker.size > sites.marker.size
+        assert {"ship.x, m", "ship.y, m"} <= set(texts(figure.svg))
+    assert [label for _, label in section.legend] == ["site"]
 
 
 def test_a_long_path_is_in_km_and_keeps_its_detail():
@@ -228,8 +239,10 @@ def test_a_long_path_is_in_km_and_keeps_its_detail():
     section = one(replace(PATH, rows=None, points=(), equal=False), mission(x=TIME, y=y))
     assert "ship.y, km" in texts(section.plot.wide.svg)
     assert "ship.x, m" in texts(section.plot.wide.svg)
-    line = max(lines_of(section.plot.wide.svg, "#0072b2"), key=len)
-    turns = np.count_nonzero(np.diff(np.sign(np.diff(line[:, 1]))))
+    root = etree.fromstring(section.plot.wide.svg)
+    (path,) = root.xpath("//*[local-name()='g'][@clip-path]/*[local-name()='path'][@stroke='#0072b2']/@d")
+    moves = np.array(re.findall(r"-?(?:\d+(?:\.\d+)?|\.\d+)", path), dtype=float).reshape(-1, 2)[1:]
+    turns = np.count_nonzero(np.diff(np.sign(moves[:, 1])))
     assert turns >= np.count_nonzero(np.diff(np.sign(np.diff(y)))) > 60
 
 
@@ -242,6 +255,12 @@ def test_a_path_over_the_ground():
     np.testing.assert_allclose(arc.plot_values(mission(place=place)), 500.0 * math.pi, rtol=1e-15)
     np.testing.assert_array_equal(arc.plot_values(mission(place=np.stack([0.0 * TIME, 0.0 * TIME, TIME]))), 0.0)
     assert notes(section)[0].endswith("range: ground range of ship.place from the origin.")
+    assert section.plot.wide.charts[0].rules == []
+    surface = one(replace(PATH, x=arc, y=scalar("ship.altitude", METRE), points=(), equal=False),
+                  mission(place=place, altitude=5.0 + TIME))  # fmt: skip
+    (chart,) = surface.plot.wide.charts
+    assert [rule.at for rule in chart.rules] == [0.0]
+    assert chart.y.ends[0] < 0.0
 
 
 def test_a_range_goes_on_beyond_half_the_circumference():

@@ -111,7 +111,7 @@ def write_demo(request, page):
 KINDS = {
     write_run: [],
     write_own: [],
-    write_mission: ["Phases"],
+    write_mission: [],
     write_batch: [],
     write_comparison: [],
     write_stability: MARGINS,
@@ -123,7 +123,7 @@ KINDS = {
     write_differences: [],
 }
 SHIPPED = {  # pages of our systems
-    write_landing: ["Phases"],
+    write_landing: [],
     write_many_trials: [],
     write_recorded: [],
     write_demo: ["A landing from the side"],

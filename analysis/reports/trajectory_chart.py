@@ -1,0 +1,89 @@
+"""A view of trajectories as a chart: paths, times along the first one, their ends, the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from .chart.axes import linear_axis
+from .chart.equal import Ends, to_scale
+from .chart.layout import lay_out
+from .chart.marks import across, level
+from .chart.quantity import quantity_curve
+from .chart.symbols import marker, marks
+from .chart.ticks import axis_ends
+from .common.colours import GRID, INK, look
+from .common.panels import far
+from .interactive.charts import NO_BOX, Chart, Curve
+from .times_on_path import mark_rows, time_notes
+
+MAXIMUM_RATIO = 4.0  # of the ranges of both axes, up to which their scales are equal
+X_MARGIN, Y_MARGIN = 0.1, 0.12  # of the ranges, beyond their ends
+X_INTERVALS, Y_INTERVALS = 5, 6  # between ticks, at most
+WHITE = "#ffffff"
+GROUND = 0.05  # of the height: depth of the grey ground
+
+
+class View(NamedTuple):
+    """A view: heading, identifier, and paths of abscissas and ordinates in m, [2, samples], at times (s), [samples].
+
+    ``labels`` are those of the paths, ``names`` those of the axes; ``has_ground``: the ground is at 0.
+    """
+
+    title: str
+    name: str
+    paths: Sequence[np.ndarray]
+    labels: Sequence[str]
+    time: np.ndarray
+    names: tuple[str, str]
+    has_ground: bool = False
+
+
+def view_chart(view: View, width: float, height: float) -> tuple[Chart, str, str]:
+    """Return the chart of a view in a figure of this size (pt), the label of its ordinate, and the words on its scales.
+
+    Its curves are the paths, then of each the dots at times and the circle at the end.
+    """
+    everything = np.concatenate(view.paths, axis=1)
+    ranges = np.ptp(everything, axis=1)
+    if view.has_ground:
+        ranges[1] = max(ranges[1], float(np.nanmax(everything[1])))
+    is_equal = _is_legible_to_scale(*ranges)
+    both = far(everything)
+    scales, units = zip(*((both, both) if is_equal else map(far, everything)), strict=True)
+    paths = [np.array(scales)[:, None] * path for path in view.paths]
+    rows = mark_rows(view.time)
+    curves, depth = _curves(view, paths, rows), GROUND * scales[1] * ranges[1]
+    areas, rules = ([across(-depth, 0.0, GRID, 1.0)], [level(0.0, INK, 0.8)]) if view.has_ground else ([], [])
+    x, y = np.concatenate(paths, axis=1)
+    ends = axis_ends(x, X_MARGIN), axis_ends(np.append(y, [-depth, 0.0]) if view.has_ground else y, Y_MARGIN)
+    ordinate = f"{view.names[1]}, {units[1]}"
+
+    def chart_of(x_ends: Ends, y_ends: Ends) -> Chart:
+        abscissa = linear_axis(x_ends, X_INTERVALS, label=f"{view.names[0]}, {units[0]}")
+        return Chart(NO_BOX, abscissa, linear_axis(y_ends, Y_INTERVALS), curves=curves, areas=areas, rules=rules)
+
+    if is_equal:
+        chart = to_scale(chart_of, *ends, width, height, title=ordinate)
+    else:
+        chart = lay_out(chart_of(*ends), width, height, title=ordinate)
+    notes = time_notes(chart, (width, height), paths, view.time, rows)
+    return replace(chart, notes=notes), ordinate, "equal scales" if is_equal else "not to scale"
+
+
+def _curves(view: View, paths: Sequence[np.ndarray], rows: np.ndarray) -> list[Curve]:
+    lines, dots = [], []
+    for index, (path, label) in enumerate(zip(paths, view.labels, strict=True)):
+        lines.append(replace(quantity_curve(path[0], path[1], label, None, index), time=view.time))
+        colour = look(index).colour
+        dots.append(marks(path[0, rows], path[1, rows], marker("o", 3.5, colour), name=label))
+        dots.append(marks(path[0, -1:], path[1, -1:], marker("o", 6.0, colour, fill=WHITE), name=label))
+    return [*lines, *dots]
+
+
+def _is_legible_to_scale(width: float, height: float) -> bool:
+    """True if equal scales of both axes leave the path legible."""
+    return height > 0.0 and 1.0 / MAXIMUM_RATIO <= width / height <= MAXIMUM_RATIO
