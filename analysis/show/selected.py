@@ -12,13 +12,13 @@ from .campaign import OpenCampaign
 
 
 def selected_csv(campaign: OpenCampaign, mask: np.ndarray, names: Sequence[str]) -> Iterator[bytes]:
-    """Yield the file in pieces, one for a shard: a head, then the rows of a ``mask`` (rows,).
+    """Yield the file, a chunk for each shard: a head, then the rows of a ``mask`` (rows,).
 
     Raises InputError for damaged files, StoppedError at the server's end.
     """
     has_head = False
     for table in campaign.read_selected(mask, names):
-        piece = io.BytesIO()
-        pyarrow.csv.write_csv(table, piece, pyarrow.csv.WriteOptions(include_header=not has_head))
+        buffer = io.BytesIO()
+        pyarrow.csv.write_csv(table, buffer, pyarrow.csv.WriteOptions(include_header=not has_head))
         has_head = True
-        yield piece.getvalue()
+        yield buffer.getvalue()
