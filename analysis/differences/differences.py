@@ -79,6 +79,11 @@ class RunDifferences:
         """The signals that differ, without copies."""
         return [each for each in self.signals if each.differs and not each.copy_of]
 
+    def split(self, tolerance: float) -> tuple[list[SignalDifference], list[SignalDifference]]:
+        """Return the signals that differ by more than a relative ``tolerance``, and by less, without copies."""
+        beyond = [each for each in self.differing if each.relative > tolerance]
+        return beyond, self.differing[len(beyond) :]
+
 
 def compare_runs(first: RecordedRun, second: RecordedRun) -> RunDifferences:
     """The differences of two runs, matched by the names of signals, units converted into the first's.

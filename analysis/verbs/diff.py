@@ -17,15 +17,19 @@ from ..options.declared.library import DIFF, DiffOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..reports.common.quantities import number
-from ..reports.differences.page import write_differences_page
+from ..reports.differences.page import within_tolerance, write_differences_page
 
 LISTED = 20  # signals that a terminal shows
 NAMED = 6  # signals of one run alone
+LISTING = 1e-9  # relative difference from which a signal is listed
 
 
 @dataclass(frozen=True, eq=False)
 class Differences:
-    """The differences of two runs: ``runs.signals`` by relative difference, each with its values in both."""
+    """The differences of two runs: ``runs.signals`` by relative difference, each with its values in both.
+
+    Those within the ``tolerance``, or `LISTING` without one, are summarised.
+    """
 
     runs: RunDifferences
     tolerance: float | None
@@ -37,7 +41,7 @@ class Differences:
     def lines(self) -> list[str]:
         """What `perilune diff` prints."""
         runs = self.runs
-        differing = runs.differing
+        differing, within = runs.split(self.listing)
         rows = [["signal", "largest difference", "relative", "at, s", "first", "second"]]
         for each in differing[:LISTED]:
             unit = f" {each.unit}" if each.unit else ""
@@ -51,7 +55,13 @@ class Differences:
                 ]
             )
         more = [f"and {len(differing) - LISTED} more"] if len(differing) > LISTED else []
-        return [*self.statements(), *(align_columns(rows) if differing else []), *more]
+        summary = [within_tolerance(within, self.listing)] if within else []
+        return [*self.statements(), *(align_columns(rows) if differing else []), *more, *summary]
+
+    @property
+    def listing(self) -> float:
+        """The relative difference up to which signals are summarised."""
+        return LISTING if self.tolerance is None else self.tolerance
 
     def statements(self) -> list[str]:
         """What was compared, in sentences."""
@@ -77,7 +87,7 @@ class Differences:
         """Signals beyond ``tolerance``, and signals that are not compared; nothing without a tolerance."""
         if self.tolerance is None:
             return []
-        beyond = [each for each in self.runs.differing if each.relative > self.tolerance]
+        beyond, _ = self.runs.split(self.tolerance)
         lines = [f"{each.name}: differs by {number(each.relative, 3)} of its largest magnitude" for each in beyond]
         lines += [f"{name}: in one run only" for names in self.runs.only for name in names]
         return [*lines, *(f"{name}: units {unit} and {other}" for name, unit, other in self.runs.unlike)]
@@ -108,7 +118,7 @@ class Differences:
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune diff --report`: one HTML file."""
-        write_differences_page(self.runs, self.statements(), Path(path))
+        write_differences_page(self.runs, self.statements(), self.listing, Path(path))
 
 
 def _known(sample: float) -> float | None:

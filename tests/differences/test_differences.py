@@ -130,13 +130,15 @@ def tables(tmp_path_factory, fmus):
 
 
 def differing_vectors(one, other, rows):
-    """The vectors and scalars that differ, those with the values of an earlier one left out."""
+    """The vectors and scalars that differ beyond rounding, those with the values of an earlier one left out."""
     values, vectors = set(), set()
     for name in one.column_names[1:]:
-        first, second = (table[name].to_numpy()[:rows].tobytes() for table in (one, other))
-        if first != second and (first, second) not in values:
+        first, second = (table[name].to_numpy()[:rows].astype(float) for table in (one, other))
+        largest = np.max(np.abs([first, second])) or 1.0
+        key = first.tobytes(), second.tobytes()
+        if np.max(np.abs(second - first)) > 1e-9 * largest and key not in values:
             vectors.add(name.partition("[")[0])
-        values.add((first, second))
+        values.add(key)
     return vectors
 
 
@@ -152,7 +154,7 @@ def test_two_runs_of_a_system(tables, tmp_path, capsys):
         first, second = (table[name].to_numpy()[:rows] for table in (one, other))
         assert by_name[name]["difference"] == np.max(np.abs(second - first))
         assert by_name[name]["unit"] == one.schema.field(name).metadata[b"unit"].decode()
-        assert name in printed
+        assert (f"\n{name} " in printed) == (by_name[name]["relative"] > 1e-9)
     page = (tmp_path / "d.html").read_text()
     assert_self_contained(page)
     assert "Differences of two runs" in text_of(page)
@@ -167,6 +169,26 @@ def test_a_tolerance_decides_the_exit_status(tables, capsys):
     assert main(["diff", *map(str, tables), "--tolerance", "1e-6"]) == 1
     assert "plant.mass: differs by" in capsys.readouterr().err
     assert main(["diff", str(tables[0]), str(tables[0]), "--tolerance", "0"]) == 0
+
+
+def test_differences_of_rounding_are_one_line(tmp_path, capsys):
+    """Truth: the fractions by which the tables differ."""
+    (tmp_path / "a.csv").write_text("time,h,v,w\n0,1,2,1\n1,1,2,1\n")
+    (tmp_path / "b.csv").write_text("time,h,v,w\n0,1,2.00000000002,1.5\n1,1.0000000005,2,1\n")
+    files = [str(tmp_path / name) for name in ("a.csv", "b.csv")]
+    page = tmp_path / "d.html"
+    assert main(["diff", *files, "--report", str(page)]) == 0
+    printed = capsys.readouterr().out
+    line = "2 signals differ by at most 5e-10 of the largest magnitude, within the tolerance of 1e-09"
+    assert [each for each in printed.splitlines() if each.startswith(("w ", "h ", "v ", "2 signals differ"))][1:] == [
+        line
+    ]
+    (folded,) = parse(page.read_text()).xpath("//details[contains(summary, 'differ by at most')]")
+    assert " ".join(folded.text_content().split()) == f"{line} h (5e-10), v (1e-11)"
+    assert main(["diff", *files, "--tolerance", "0"]) == 1
+    printed = capsys.readouterr()
+    assert "differ by at most" not in printed.out
+    assert printed.err.count("differs by") == 3
 
 
 def test_a_signal_of_one_run_is_a_problem_under_a_tolerance(tmp_path):

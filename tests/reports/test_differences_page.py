@@ -27,7 +27,7 @@ def page(tmp_path):
         return RecordedRun("run", "", TIME, signals, dict.fromkeys(signals, "m"), frozenset())
 
     path = tmp_path / "page.html"
-    write_differences_page(compare_runs(run(1.0), run(1.5)), [], path)
+    write_differences_page(compare_runs(run(1.0), run(1.5)), [], 1e-9, path)
     return path
 
 
@@ -51,7 +51,7 @@ def test_a_legend_hides_a_run_and_an_element_of_all_plots(browser, page):
         scroll_to_plot(driver, frame)
         at = "document.dispatchEvent(new CustomEvent('perilune-time', {detail: {time: 5.0, from: 'test'}}))"
         driver.execute_script(at)
-        values = frame.find_element(By.CSS_SELECTOR, "output")
+        values = frame.find_element(By.XPATH, "following-sibling::output")
         entries = {entry.text: entry for entry in driver.find_elements(By.CSS_SELECTOR, ".legend .who")}
 
         def named(*toggled):

@@ -130,7 +130,8 @@ class DiffOptions(TypedDict, total=False):
     tolerance: Annotated[
         float | None,
         Option(
-            "a signal may differ by this fraction of its largest magnitude; more, or a missing signal, is a problem",
+            "a signal may differ by this fraction of its largest magnitude; more, or a missing signal, is a problem; "
+            "without it signals up to 1e-9 are summarised",
             metavar="R",
         ),
     ]

@@ -33,13 +33,15 @@ class Row(NamedTuple):
     second: float
 
 
-def write_differences_page(runs: RunDifferences, statements: Sequence[str], path: Path) -> None:
+def write_differences_page(runs: RunDifferences, statements: Sequence[str], tolerance: float, path: Path) -> None:
     """Write one self-contained HTML page about two runs; the same runs give the same bytes.
 
-    ``statements`` are sentences about what was compared. The signals that differ most are plotted.
+    ``statements`` are sentences about what was compared. The signals that differ most are plotted, those within a
+    relative ``tolerance`` are folded.
     """
+    differing, within = runs.split(tolerance)
     vectors: dict[str, list[SignalDifference]] = {}
-    for each in runs.differing:
+    for each in differing:
         vectors.setdefault(vector_of(each.name), []).append(each)
     plotted = list(vectors.items())[:PLOTTED]
     palette = _palette(each.name for _, group in plotted for each in group)
@@ -58,9 +60,19 @@ def write_differences_page(runs: RunDifferences, statements: Sequence[str], path
         left_out=len(vectors) - len(plotted),
         rows=[
             Row(each, float(runs.time[each.row]), float(each.first[each.row]), float(each.second[each.row]))
-            for each in runs.differing
+            for each in differing
         ],
+        within=within,
+        summary=within_tolerance(within, tolerance) if within else "",
         identical=[each.name for each in runs.signals if not each.differs],
+    )
+
+
+def within_tolerance(signals: Sequence[SignalDifference], tolerance: float) -> str:
+    """Return the line for signals that differ by no more than a relative ``tolerance``, the largest first."""
+    count = "1 signal differs" if len(signals) == 1 else f"{len(signals)} signals differ"
+    return (
+        f"{count} by at most {signals[0].relative:.2g} of the largest magnitude, within the tolerance of {tolerance:g}"
     )
 
 
