@@ -14,9 +14,9 @@ from lxml import etree
 from ...common.errors import InputError
 from ...common.machine.room import check_room
 from ...common.visible import first_ones
-from ..runtime.apart.opening import open_simulation
 from ..runtime.flight.interruptible import fly
 from ..runtime.fmi.proposals import proposed_step
+from ..runtime.process.opening import open_simulation
 from ..runtime.ssp.archive import SystemArchive, read_fmu
 from ..runtime.ssp.documents import NAMESPACES, read_document
 from ..runtime.system.alone import describe_alone

@@ -25,9 +25,9 @@ from ...fmus_src.evidence.manifest import (
 from ...fmus_src.evidence.recorded import write_table
 from ...fmus_src.export.archive import read_zip
 from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
-from ..runtime.apart.opening import open_simulation
 from ..runtime.flight.interruptible import fly
 from ..runtime.flight.results import Flight
+from ..runtime.process.opening import open_simulation
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.ssp.names import split_name
 from ..runtime.system.fmu import Fmu

@@ -19,7 +19,7 @@ def start_early(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, 
         options.get("engine") == "processes" or (options.get("flavour") == "python" and options.get("workers") != 1)
     )
     if in_processes or any(has_foreign(Path(file)) for file in files if file is not None):
-        from ..runtime.apart.servers import CAN_FORK, start_server  # imports numpy, which not all verbs need
+        from ..runtime.process.children import CAN_FORK, start_server  # imports numpy, which not all verbs need
 
         if CAN_FORK:
             start_server()

@@ -19,11 +19,11 @@ from ..options.verb import verb
 from ..reports.figures.declared import Band, Figure, Limits
 from ..reports.figures.limits import limit_document, limit_rows
 from ..reports.figures.reading import read_figures
-from ..runtime.apart.opening import open_simulation
 from ..runtime.flight import results
 from ..runtime.flight.interruptible import StuckError, fly
 from ..runtime.flight.selection import find_variables
 from ..runtime.instances.instance import Log
+from ..runtime.process.opening import open_simulation
 from ..runtime.system.inputs import missing_outputs
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system

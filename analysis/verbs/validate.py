@@ -31,7 +31,7 @@ from ..options.declared.library import VALIDATE, ValidateOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..reports.figures.reading import read_figures
-from ..runtime.apart.resets import find_verdict, renewal_note
+from ..runtime.process.resets import find_verdict, renewal_note
 from ..runtime.ssp.archive import DEFAULT_VARIANT, open_system
 from ..runtime.ssp.parameter_sets import read_parameter_file
 from ..runtime.system.fmu import Fmu, load_fmu

@@ -15,7 +15,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.runtime.apart.opening import open_simulation
+from perilune.analysis.runtime.process.opening import open_simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import InputError

@@ -34,9 +34,9 @@ def actual(text):
             yield ast.unparse(node), node.lineno
 
 
-FORKS = (  # where only Unix gets to; `family` asks for the platform, or for a status that a signal alone gives
-    "analysis/runtime/apart/server",
-    "analysis/runtime/apart/system",
+FORKS = (  # where only Unix gets to; some ask for the platform, or for a status that a signal alone gives
+    "analysis/runtime/process/server.py",
+    "analysis/runtime/process/shared_recorder.py",
     "common/family/ending.py",
     "common/family/keeper.py",
 )

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from ....common.errors import InputError
 from ....fmus_src.kernel.functions import VERSION
-from ...runtime.apart.opening import flies_here
 from ...runtime.fused.refusals import check_fused
+from ...runtime.process.opening import may_load_here
 from ...runtime.system.options import FUSED, UNTRUSTED, Trust
 from ...runtime.system.prepared import PreparedSystem
 from ..lost_trials import lost_status
@@ -140,9 +140,9 @@ def open_campaign(
         raise InputError("`flavour`", FUSED, problem, "leave `flavour` out")
     count = worker_count(workers)
     systems = check_plan(plan)
-    apart = needs_children(count, in_threads(systems.values(), engine), engine)
+    in_child = needs_children(count, in_threads(systems.values(), engine), engine)
     for prepared in systems.values():
-        check_fused(prepared, apart=apart or not flies_here(prepared))
+        check_fused(prepared, in_child=in_child or not may_load_here(prepared))
     manifest, contents = gather(plan, systems)
     if output is None:
         return Campaign(plan, plan, systems, manifest, None)

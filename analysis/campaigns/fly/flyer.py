@@ -7,13 +7,13 @@ import warnings
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from ...runtime.apart.opening import flies_here, open_simulation
 from ...runtime.flight.base_simulation import BaseSimulation
 from ...runtime.flight.group import FlightGroup
 from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
 from ...runtime.flight.results import CRASHED, LOST, NONFINITE, Flight, Result
 from ...runtime.instances.instance import Log
 from ...runtime.instances.library import LOADING
+from ...runtime.process.opening import may_load_here, open_simulation
 from ...runtime.ssp.given_values import ParameterValue
 from ...runtime.system.prepared import PreparedSystem
 from ..spec.checks import VariantNames, variant_names
@@ -38,12 +38,12 @@ class TrialResult(NamedTuple):
 class Flyer:
     """Holds the simulations of a plan's variants; made once per worker, not shared between threads.
 
-    ``apart``: all fly in children, also what may fly here. ``trials`` and ``workers`` are as in `Fusing`.
+    ``in_child``: all fly in children, also what may fly here. ``trials`` and ``workers`` are as in `Fusing`.
     """
 
-    def __init__(self, plan: BatchPlan, *, apart: bool = False, trials: int | None = None, workers: int = 1) -> None:
+    def __init__(self, plan: BatchPlan, *, in_child: bool = False, trials: int | None = None, workers: int = 1) -> None:
         self.plan = plan
-        self._apart = apart
+        self._in_child = in_child
         self._drawn: DrawnTrials | None = None
         self.variants = {variant.name: variant for variant in plan.campaign.variants()}
         self._ready: dict[str, tuple[BaseSimulation, VariantNames]] = {}
@@ -57,7 +57,7 @@ class Flyer:
         if variant not in self._ready:
             with LOADING:
                 prepared = self.plan.prepare(self.variants[variant])
-                if prepared.is_alone and not self._apart and flies_here(prepared):
+                if prepared.is_alone and not self._in_child and may_load_here(prepared):
                     self.close()  # other variants may hold the one instance that the process can have
                 names = variant_names(self.plan, prepared)
                 everything = self.plan.campaign.record.traces != "none"
@@ -66,7 +66,7 @@ class Flyer:
                 log = self._log_of(variant)
                 simulation = open_simulation(
                     prepared,
-                    apart=self._apart,
+                    in_child=self._in_child,
                     varied=names.varied,
                     wanted=wanted,
                     more=names.signals,  # a state of an FMU is not among all that is exchanged
@@ -173,7 +173,7 @@ class Flyer:
         faults, log, sampled = self.plan.list_faults(), self._log_of(variant), self.values_for(trial)
         with open_simulation(
             prepared,
-            apart=self._apart,
+            in_child=self._in_child,
             varied=names.varied,
             wanted=wanted,
             more=names.signals,

@@ -17,8 +17,8 @@ import pyarrow.parquet
 from ....common.errors import InputError
 from ....fmus_src.kernel.functions import VERSION
 from ...options.fault import parse_fault
-from ...runtime.apart.resets import find_verdict
 from ...runtime.instances.renewal import Renewal, ResetVerdict, store_verdict
+from ...runtime.process.resets import find_verdict
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.system.options import UNTRUSTED, SystemOptions, Trust, Watch
 from ...runtime.system.prepared import PreparedSystem

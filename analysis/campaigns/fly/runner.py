@@ -119,7 +119,7 @@ def _fly_here(
     tasks = -(-flights // size)
     with (
         FlyerPool(
-            campaign.flown, min(count, max(tasks, 1)), threads, apart=engine == "processes", trials=trials
+            campaign.flown, min(count, max(tasks, 1)), threads, in_child=engine == "processes", trials=trials
         ) as pool,
         closing(fly_shards(campaign.numbering, shards, pool, size)) as flown,
     ):

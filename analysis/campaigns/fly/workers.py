@@ -13,8 +13,8 @@ from typing import TypeVar
 from loky import cpu_count
 
 from ....common.errors import InputError, suggestion
-from ...runtime.apart.opening import flies_here
 from ...runtime.flight.interruptible import PATIENCE, wait
+from ...runtime.process.opening import may_load_here
 from ...runtime.system.prepared import PreparedSystem
 from ..spec.plan import BatchPlan
 from .flyer import Flyer
@@ -27,7 +27,7 @@ WAITING = 4  # tasks that are handed out ahead, for each worker
 def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
     """Whether trials fly in threads: as asked, or wherever they can. Raises InputError where they cannot."""
     systems = list(systems)
-    foreign = not all(map(flies_here, systems))
+    foreign = not all(map(may_load_here, systems))
     can = all(prepared.flies_in_threads for prepared in systems) and not foreign
     if engine is None:
         return can
@@ -60,17 +60,17 @@ class FlyerPool:
 
     Each is a thread; with one worker everything happens in the caller's. Native FMUs of our own fly there. Python FMUs
     hold the interpreter lock, and others' are not to be trusted: what is not for ``threads`` flies in children of the
-    flight server, as soon as there are two workers or it is to be ``apart``. ``trials`` are those of each variant, if
+    flight server, with two workers or more, or ``in_child``. ``trials`` are those of each variant, if
     their number is known.
     """
 
     def __init__(
-        self, plan: BatchPlan, workers: int, threads: bool, *, apart: bool = False, trials: int | None = None
+        self, plan: BatchPlan, workers: int, threads: bool, *, in_child: bool = False, trials: int | None = None
     ) -> None:
         self.plan = plan
         self._workers = workers
         self._trials = trials
-        self._apart = apart or needs_children(workers, threads, None)
+        self._in_child = in_child or needs_children(workers, threads, None)
         self._flyers: list[Flyer] = []
         self._thread = threading.local()
         if workers == 1:
@@ -78,7 +78,7 @@ class FlyerPool:
         self._executor = None if workers == 1 else ThreadPoolExecutor(workers, initializer=self._start)
 
     def _start(self) -> None:
-        self._thread.flyer = Flyer(self.plan, apart=self._apart, trials=self._trials, workers=self._workers)
+        self._thread.flyer = Flyer(self.plan, in_child=self._in_child, trials=self._trials, workers=self._workers)
         self._flyers.append(self._thread.flyer)
 
     def work(self, function: Callable[..., Result], tasks: Iterable[tuple]) -> Iterator[tuple[int, Result]]:

@@ -10,7 +10,7 @@ from ....fmus_src.evidence.check import TIME
 from ....fmus_src.evidence.experiments import Experiment, write_experiments
 from ....fmus_src.evidence.manifest import CSV, EXPERIMENTS, FOLDER, Related
 from ....fmus_src.evidence.recorded import write_table
-from ...runtime.apart.opening import open_simulation
+from ...runtime.process.opening import open_simulation
 from .model import ChoiceProgram
 from .variables import FmuVariable
 

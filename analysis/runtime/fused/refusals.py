@@ -22,14 +22,14 @@ def can_fuse(prepared: PreparedSystem) -> bool:
     return all(map(has_code, prepared.network.fmus.values())) and local_platform() in available_platforms()
 
 
-def check_fused(prepared: PreparedSystem, *, apart: bool = False) -> None:
+def check_fused(prepared: PreparedSystem, *, in_child: bool = False) -> None:
     """Refuse the flavour `FUSED` for a system whose steps would not be compiled. Raises InputError.
 
-    ``apart``: it is simulated in processes of its own.
+    ``in_child``: it is simulated in processes of its own.
     """
     if prepared.options.flavour != FUSED:
         return
-    if apart:
+    if in_child:
         problem = "the system is simulated in processes of its own, where steps are not compiled"
         trust = "" if prepared.is_self_contained else "; or give `in_process` where you trust its FMUs"
         raise InputError("`flavour`", FUSED, problem, f"leave `flavour` out{trust}")

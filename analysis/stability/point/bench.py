@@ -11,9 +11,9 @@ import numpy as np
 
 from ....common.errors import InputError, suggestion
 from ....fmus_src.roles import SAMPLE_PERIOD
-from ...runtime.apart.opening import open_simulation
 from ...runtime.flight.base_memory import Cell
 from ...runtime.flight.results import COMPLETE, NONFINITE
+from ...runtime.process.opening import open_simulation
 from ...runtime.ssp.given_values import ParameterValue
 from ...runtime.system.prepared import PreparedSystem
 from ..request.channels import Channel

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from ....common.errors import InputError
-from ...runtime.apart.opening import open_simulation
 from ...runtime.flight.results import COMPLETE
+from ...runtime.process.opening import open_simulation
 from ...runtime.system.options import Layer
 from ...runtime.system.prepared import PreparedSystem
 from ..loops.curves import Response

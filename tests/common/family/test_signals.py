@@ -30,7 +30,7 @@ distribution = "uniform"
 low = 1.0
 high = 2.0
 """
-SERVER, WORKER, COMPILER = "server.server import main", "loky", "sleep 600"
+SERVER, WORKER, COMPILER = "process.server import main", "loky", "sleep 600"
 # Words of the command, what its processes have in their command lines, and how many of these there are.
 COMMANDS = {
     "run": (["run", *SYSTEM], SERVER, 2),

@@ -12,8 +12,8 @@ from fmpy import simulate_fmu
 
 from perilune import open_results
 from perilune.analysis.cli import main
-from perilune.analysis.runtime.apart.opening import open_simulation
 from perilune.analysis.runtime.flight.selection import find_variables
+from perilune.analysis.runtime.process.opening import open_simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import InputError

@@ -13,7 +13,7 @@ import pyarrow.parquet
 
 from perilune.analysis.campaigns.fly.folder_lock import FILE
 
-SERVER = "apart.server.server import main"  # what the command line of a flight server, and of its children, has
+SERVER = "process.server import main"  # what the command line of a flight server, and of its children, has
 
 
 def bytes_of(folder):

@@ -52,7 +52,7 @@ class Sent:
     """A campaign for a worker that sees nothing of the sender's files.
 
     ``contents`` are the files by hash, ``draws`` is draws.parquet, empty where a counter draws, ``log`` the level of
-    the FMUs' messages; ``apart`` says whether all flights are in children of the workers. ``key`` tells it from others,
+    the FMUs' messages; with ``in_child`` all simulations are in children of the workers. ``key`` tells it from others,
     ``identity`` is of the perilune that sends it.
     """
 
@@ -62,7 +62,7 @@ class Sent:
     contents: Mapping[str, bytes]
     draws: bytes
     log: str | None
-    apart: bool
+    in_child: bool
 
 
 def make_sent(campaign: Campaign) -> Sent:
@@ -77,8 +77,8 @@ def make_sent(campaign: Campaign) -> Sent:
             raise InputError(campaign.plan.system, "", "its files change while it is read", "fly it again")
         draws = b"" if campaign.plan.is_counted else _draws(campaign)
     key = hashlib.sha256(json.dumps(manifest.document(), sort_keys=True).encode() + draws).hexdigest()
-    apart = not in_threads(campaign.systems.values(), None)
-    return Sent(key, identity(), manifest, contents, draws, campaign.plan.watch.log, apart)
+    in_child = not in_threads(campaign.systems.values(), None)
+    return Sent(key, identity(), manifest, contents, draws, campaign.plan.watch.log, in_child)
 
 
 def _draws(campaign: Campaign) -> bytes:

@@ -77,7 +77,7 @@ def _flyer(sent: Sent, folder: Path) -> Iterator[Flyer]:
     """A flyer that no other thread has."""
     with _looking:
         held = _campaign(sent, folder)
-        flyer = held.idle.pop() if held.idle else Flyer(held.plan, apart=sent.apart)
+        flyer = held.idle.pop() if held.idle else Flyer(held.plan, in_child=sent.in_child)
         held.busy.append(flyer)
     try:
         yield flyer

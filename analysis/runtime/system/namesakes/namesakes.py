@@ -16,7 +16,7 @@ from ..fmu import Fmu
 from .bundled import MODULE, Bundled, bundled_by, module_digest
 
 # The process that forks those in which foreign FMUs are loaded: they have its modules.
-SERVER = "perilune.analysis.runtime.apart.server.server"
+SERVER = "perilune.analysis.runtime.process.server"
 MODULES = "import json, sys; print(json.dumps({k: getattr(m, '__file__', None) for k, m in list(sys.modules.items())}))"
 REMEDIES = {
     MODULE: "rename it, or put it into a package of another name",

@@ -12,7 +12,7 @@ import pytest
 
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
-from perilune.analysis.runtime.apart.opening import open_simulation
+from perilune.analysis.runtime.process.opening import open_simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu

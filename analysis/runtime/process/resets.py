@@ -12,10 +12,10 @@ from ..instances.renewal import Renewal, ResetVerdict, store_verdict, verdict_in
 from ..system.fmu import Fmu
 from ..system.options import SystemOptions
 from ..system.prepared import PreparedSystem
-from .connection import ChildEndedError, Connection, Stillness
-from .containment import limits_for
-from .protocol import messages
-from .servers import Subject, begin_child
+from . import messages
+from .children import Subject, begin_child
+from .connection import ChildEndedError, Connection, Watchdog
+from .restriction import limits_for
 
 DIFFERS = "a second process simulates it otherwise than the first"
 _noted: set[str] = set()  # digests of FMUs
@@ -111,7 +111,7 @@ class _Trials:
         self._fmu = fmu
         self._options = options
         self._watch = watch
-        self._formats = True  # of messages, as in `SystemFlights`
+        self._formats = True  # of messages, as in `SystemTask`
         self._digest = ""  # of the first simulation in a new process
 
     def decide(self) -> ResetVerdict:
@@ -125,7 +125,7 @@ class _Trials:
             return verdict
         first, connection = self._digest, self._begin(with_reset=False)
         try:
-            self._digest = connection.hear(messages.Tried).digest
+            self._digest = connection.receive(messages.Tried).digest
         finally:
             connection.kill()
         return (
@@ -145,8 +145,8 @@ class _Trials:
         connection = self._begin(with_reset=with_reset)
         self._digest = ""
         try:
-            self._digest = connection.hear(messages.Tried).digest
-            answer = connection.hear(messages.Verdict)
+            self._digest = connection.receive(messages.Tried).digest
+            answer = connection.receive(messages.Renewed)
             return ResetVerdict(Renewal(answer.renewal), answer.reason)
         except ChildEndedError as error:
             if not self._digest or self._watch.is_given_up:
@@ -160,8 +160,8 @@ class _Trials:
     def _begin(self, *, with_reset: bool) -> Connection:
         """Begin a trial in a child."""
         fmu, options = self._fmu, self._options
-        task = messages.ResetTrial(self._formats, with_reset)
+        task = messages.ResetTask(self._formats, with_reset)
         child = begin_child(Subject(fmu, fmu), task, folder=os.getcwd(), limits=limits_for([fmu], options))
-        connection = Connection(child, lambda line: None, Stillness(lambda: None, options.call_timeout))
+        connection = Connection(child, lambda line: None, Watchdog(lambda: None, options.call_timeout))
         self._watch.begin(connection)
         return connection

@@ -12,10 +12,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from perilune.analysis.runtime.apart import connection as module
-from perilune.analysis.runtime.apart.connection import ChildEndedError, Connection, Stillness
-from perilune.analysis.runtime.apart.protocol import messages
-from perilune.analysis.runtime.apart.protocol.orders import Ended
+from perilune.analysis.runtime.process import channel, messages
+from perilune.analysis.runtime.process import connection as module
+from perilune.analysis.runtime.process.connection import ChildEndedError, Connection, Watchdog
 
 ANSWERS = {
     "no kind": b"x" + bytes(8),
@@ -30,16 +29,16 @@ ANSWERS = {
 @pytest.fixture
 def pair(monkeypatch):
     """A connection whose child the test is, which ends when it is told to."""
-    monkeypatch.setattr(module, "FRAME", 0.2)
+    monkeypatch.setattr(module, "FRAME_TIMEOUT", 0.2)
     ours, theirs = socket.socketpair()
 
     def end(*, kill):
         ours.close()
-        return Ended(9 if kill else 0)
+        return messages.ChildExit(9 if kill else 0)
 
     lines = []
     child = SimpleNamespace(channel=ours, end=end, is_over=False)
-    yield Connection(child, lines.append, Stillness(lambda: None, 0.5)), theirs, lines
+    yield Connection(child, lines.append, Watchdog(lambda: None, 0.5)), theirs, lines
     theirs.close()
 
 
@@ -48,7 +47,7 @@ def test_what_is_no_answer(pair, name):
     connection, theirs, _ = pair
     theirs.sendall(ANSWERS[name])
     with pytest.raises(ChildEndedError, match="answers that cannot be read") as caught:
-        connection.hear(messages.Flown)
+        connection.receive(messages.Simulated)
     assert caught.value.status == "crashed"
     assert not connection.is_open
 
@@ -68,14 +67,14 @@ def test_lines_without_end_are_no_progress(pair):
     def write():
         while not finished.is_set():
             try:
-                messages.send_line(theirs, "still here")
+                channel.send_line(theirs, "still here")
             except OSError:
                 return
 
     writer = threading.Thread(target=write)
     writer.start()
     with pytest.raises(ChildEndedError, match=r"a call did not return for 0.5 s") as caught:
-        connection.hear(messages.Done)
+        connection.receive(messages.Done)
     finished.set()
     writer.join()
     assert caught.value.status == "hung"
@@ -84,6 +83,6 @@ def test_lines_without_end_are_no_progress(pair):
 
 def test_an_answer(pair):
     connection, theirs, _ = pair
-    messages.send_answer(theirs, messages.Flown("stop_time", "", 3))
-    assert connection.hear(messages.Flown).rows == 3
+    channel.send_answer(theirs, messages.Simulated("stop_time", "", 3))
+    assert connection.receive(messages.Simulated).rows == 3
     assert connection.is_open

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.runtime.apart.resets import find_verdict
 from perilune.analysis.runtime.instances.renewal import Renewal
+from perilune.analysis.runtime.process.resets import find_verdict
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.analysis.runtime.system.options import SystemOptions
 from tests.support.foreign.coupled import CAMPAIGN, Trace, coupled_fmu, coupled_module, coupled_system

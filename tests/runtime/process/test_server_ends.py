@@ -7,17 +7,17 @@ from __future__ import annotations
 
 import pytest
 
-from perilune.analysis.runtime.apart import resets, servers, simulation
-from perilune.analysis.runtime.apart.opening import open_simulation
-from perilune.analysis.runtime.apart.resets import find_verdict
-from perilune.analysis.runtime.apart.servers import start_server
 from perilune.analysis.runtime.instances.renewal import verdict_in_cache
+from perilune.analysis.runtime.process import children, resets, system_process
+from perilune.analysis.runtime.process.children import start_server
+from perilune.analysis.runtime.process.opening import open_simulation
+from perilune.analysis.runtime.process.resets import find_verdict
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import EndedError
 from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
 
-pytestmark = [pytest.mark.flies, pytest.mark.skipif(not servers.CAN_FORK, reason="there is no flight server")]
+pytestmark = [pytest.mark.flies, pytest.mark.skipif(not children.CAN_FORK, reason="there is no flight server")]
 OPTIONS = SystemOptions(stop_time=1.0, step=0.25)
 
 
@@ -54,14 +54,14 @@ def test_what_was_under_way_is_simulated_on_another_server(opened, count):
 
 
 def test_servers_that_end_again_and_again_are_reported_without_a_component(opened, monkeypatch):
-    begin = simulation.begin_child
+    begin = system_process.begin_child
 
     def begin_and_kill(*arguments, **options):
         child = begin(*arguments, **options)
         kill_server()
         return child
 
-    monkeypatch.setattr(simulation, "begin_child", begin_and_kill)
+    monkeypatch.setattr(system_process, "begin_child", begin_and_kill)
     kill_server()
     assert flight(opened, 1.0) == ("crashed", "the flight server has ended", [])
     monkeypatch.undo()

@@ -1,4 +1,4 @@
-"""Children where the operating system cannot fork, tried here with processes started anew.
+"""Children where the operating system cannot fork, tried here with spawned processes.
 
 Truth: the same simulations in this process, and the FMU's source. On Windows itself nothing of it is tested.
 """
@@ -11,7 +11,7 @@ import pytest
 import perilune
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
-from perilune.analysis.runtime.apart import servers
+from perilune.analysis.runtime.process import children
 from perilune.analysis.runtime.system.options import SystemOptions
 from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
 from tests.support.lengths import either
@@ -27,8 +27,8 @@ ENDS = {
 
 @pytest.fixture(autouse=True)
 def no_fork(monkeypatch):
-    monkeypatch.setattr(servers, "CAN_FORK", False)
-    monkeypatch.setattr(servers, "start_server", None)
+    monkeypatch.setattr(children, "CAN_FORK", False)
+    monkeypatch.setattr(children, "start_server", None)
 
 
 @pytest.mark.parametrize("deed", either(list(ENDS), ["SEGFAULT"]))

@@ -22,7 +22,6 @@ from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
 from tests.support.lengths import either
 
 pytestmark = [pytest.mark.flies, pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")]
-SERVER = "server.server import main"
 CAMPAIGN = """
 system = "odd"
 trials = 30
@@ -132,8 +131,8 @@ def test_describe_loads_nothing(tmp_path):
 # Who may load FMUs: a child; this process through the door, where they are Perilune's own;
 # the reference loop, which tests alone open.
 LOADERS = {
-    "analysis/runtime/apart/server/child.py",
-    "analysis/runtime/apart/opening.py",
+    "analysis/runtime/process/child.py",
+    "analysis/runtime/process/opening.py",
     "analysis/runtime/flight/simulation.py",
     "analysis/runtime/instances/reset_check.py",
     "analysis/runtime/program/opening.py",

@@ -15,7 +15,7 @@ import perilune
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.cli import main
-from perilune.analysis.runtime.apart import servers
+from perilune.analysis.runtime.process import children
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.common.errors import InputError
 from tests.support.builders import component, document, pack, system
@@ -206,9 +206,9 @@ NAMES = {
 @pytest.fixture
 def heard(monkeypatch, capfd):
     """What is printed, by a flight server of the test's own too."""
-    monkeypatch.setattr(servers, "_server", None)
+    monkeypatch.setattr(children, "_server", None)
     yield lambda: capfd.readouterr().err.splitlines()
-    servers.start_server().close()
+    children.start_server().close()
 
 
 def test_what_fmus_print_never_looks_like_a_line_of_ours(tmp_path, heard):

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from perilune.analysis.runtime.apart.system.restriction import find_missing
+from perilune.analysis.runtime.process.restriction import find_missing
 from tests.support.foreign.odd_fmu import Call, Deed, odd_fmu
 
 pytestmark = [pytest.mark.flies, pytest.mark.skipif(bool(find_missing()), reason="the system restricts no processes")]
@@ -83,17 +83,18 @@ def test_what_is_allowed(tmp_path):
 # Answers ENOSYS to Landlock's calls and to new filters, as an older system does, and becomes the command.
 WITHOUT = """
 import ctypes, errno, os, sys
-from perilune.analysis.runtime.apart.system import restriction as r
+from perilune.analysis.runtime.process import seccomp as r
+from perilune.analysis.runtime.process.restriction import PR_SET_NO_NEW_PRIVS
 ENOSYS = 0x00050000 | errno.ENOSYS
-code = [r._instruction(r.LOAD, r.NUMBER)]
+code = [r.instruction(r.LOAD, r.NUMBER)]
 for number in (444, 445, 446, 317):
-    code += [r._instruction(r.IS_EQUAL, number, 0, 1), r._instruction(r.RETURN, ENOSYS)]
-code += [r._instruction(r.IS_EQUAL, 157, 0, 3), r._instruction(r.LOAD, r.FIRST_ARGUMENT)]
-code += [r._instruction(r.IS_EQUAL, r.PR_SET_SECCOMP, 0, 1), r._instruction(r.RETURN, ENOSYS)]
-code += [r._instruction(r.RETURN, r.ALLOW)]
+    code += [r.instruction(r.IS_EQUAL, number, 0, 1), r.instruction(r.RETURN, ENOSYS)]
+code += [r.instruction(r.IS_EQUAL, 157, 0, 3), r.instruction(r.LOAD, r.FIRST_ARGUMENT)]
+code += [r.instruction(r.IS_EQUAL, r.PR_SET_SECCOMP, 0, 1), r.instruction(r.RETURN, ENOSYS)]
+code += [r.instruction(r.RETURN, r.ALLOW)]
 libc = ctypes.CDLL(None, use_errno=True)
-assert libc.prctl(r.PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0
-whole = r._Filter(len(code), b"".join(code))
+assert libc.prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0
+whole = r.Filter(len(code), b"".join(code))
 assert libc.prctl(r.PR_SET_SECCOMP, r.SECCOMP_MODE_FILTER, ctypes.byref(whole), 0, 0) == 0
 os.execv(sys.executable, [sys.executable, "-m", "perilune", *sys.argv[1:]])
 """
@@ -116,7 +117,7 @@ def test_a_system_without_restrictions(tmp_path, options, status):
 # Becomes the user nobody, restricts itself and tries.
 AS_NOBODY = """
 import ctypes, os, socket, sys
-from perilune.analysis.runtime.apart.system.restriction import Restriction, restrict
+from perilune.analysis.runtime.process.restriction import Restriction, restrict
 mine, others = sys.argv[1:]
 ctypes.CDLL(None), os.setgid(65534), os.setuid(65534)
 restrict(Restriction((mine,), network=False))

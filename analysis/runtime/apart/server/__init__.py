@@ -1,1 +1,0 @@
-"""The flight server and its children, on systems that fork."""

@@ -1,0 +1,231 @@
+"""Children of this process: forked by its flight server, or where the operating system cannot fork, spawned.
+
+A server is started at the first simulation that needs a child, and another one if it has ended.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import pickle
+import shutil
+import socket
+import subprocess
+import sys
+import threading
+import weakref
+from collections import deque
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+import psutil
+
+from ....common.process import at_end
+from ....common.scratch import make_folder
+from ..system.fmu import Fmu
+from ..system.prepared import PreparedSystem
+from . import messages
+from .channel import pack, receive_frame, receive_request, send_request
+from .output import forward_output
+from .restriction import ProcessLimits
+
+PATIENCE = 2.0  # s that a server has to end
+LOADING = 60.0  # s that a spawned child has to load what a simulation needs
+GRACE = 1.0  # s that it has to end after it has closed its channel
+CAN_FORK = hasattr(os, "fork")
+SAME_HASHES = {"PYTHONHASHSEED": "0"}  # so that Python FMUs iterate over sets in one order, in any process
+_lock = threading.RLock()
+_numbers = itertools.count(1)
+
+
+@dataclass(frozen=True)
+class Subject:
+    """System or FMU of a child, as it is sent, and its ``owner`` here: the server keeps it as long as that lives."""
+
+    owner: object
+    content: PreparedSystem | Fmu
+
+
+@dataclass(frozen=True)
+class ForkedChild:
+    """A child of a server, and this end of its channel."""
+
+    server: ServerProcess
+    number: int
+    channel: socket.socket
+
+    @property
+    def is_over(self) -> bool:
+        """True if it has ended, though its channel may still be open."""
+        return bool(self.server.ask(messages.IsOver(self.number), True))
+
+    def end(self, *, kill: bool) -> messages.ChildExit:
+        """Close its channel and wait for its end, or kill it. To be called only one time."""
+        _close_channel(self.channel)
+        child_exit: messages.ChildExit = self.server.ask(
+            messages.End(self.number, kill), messages.ChildExit(0, messages.SERVER_ENDED)
+        )
+        return child_exit
+
+
+class ServerProcess:
+    """A flight server, which ends with this process."""
+
+    def __init__(self) -> None:
+        self._control, theirs = socket.socketpair()
+        with theirs:
+            self._process = subprocess.Popen(
+                _python_command(f"from {__package__}.server import main; main({theirs.fileno()})"),
+                stdin=subprocess.DEVNULL,
+                pass_fds=[theirs.fileno()],
+                env={**os.environ, **SAME_HASHES},
+                start_new_session=True,
+            )
+        self._keys: dict[int, int] = {}  # by identity of the subjects that the server has
+        self._forgotten: deque[int] = deque()  # keys that the server is still to forget
+        self.is_running, self._has_served = True, False
+
+    def close(self) -> None:
+        """End it, with all its children; at once where it never had one, as it may still be loading."""
+        self.is_running = False
+        if not self._has_served:
+            self._process.kill()
+        self._control.close()
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(PATIENCE)
+
+    def fork(
+        self, subject: Subject, task: messages.Task, *, folder: str, limits: ProcessLimits, files: Sequence[int] = ()
+    ) -> ForkedChild:
+        """Fork a child that does a task in a folder. Raises OSError where the server has ended."""
+        ours, theirs = socket.socketpair()
+        with theirs, _lock:
+            self._has_served = True
+            try:
+                while self._forgotten:
+                    send_request(self._control, messages.Forget(self._forgotten.popleft()))
+                number, (key, content) = next(_numbers), self._introduce(subject)
+                order = messages.Begin(number, key, content, task, folder, limits)
+                send_request(self._control, order, [theirs.fileno(), *files])
+            except OSError:
+                ours.close()
+                self.is_running = False
+                raise
+        return ForkedChild(self, number, ours)
+
+    def _introduce(self, subject: Subject) -> tuple[int, bytes | None]:
+        """Return the key of a subject, and its pickle if the server does not have it yet."""
+        identity = id(subject.owner)
+        if identity in self._keys:
+            return self._keys[identity], None
+        self._keys[identity] = next(_numbers)
+        weakref.finalize(subject.owner, self._forget, identity).atexit = False
+        return self._keys[identity], pack(subject.content)
+
+    def _forget(self, identity: int) -> None:
+        """Note that a subject is gone; the garbage collector calls this at any time, also while a request is sent."""
+        self._forgotten.append(self._keys.pop(identity))
+
+    def ask(self, request: messages.IsOver | messages.End, otherwise: Any) -> Any:
+        """Return the server's answer; ``otherwise`` where it has ended."""
+        with _lock, suppress(OSError, EOFError):
+            send_request(self._control, request)
+            return receive_request(self._control)[0]
+        self.is_running = False
+        return otherwise
+
+
+class SpawnedChild:
+    """A child with a new interpreter, which takes a second to load; as `ForkedChild`."""
+
+    def __init__(
+        self, content: PreparedSystem | Fmu, task: messages.Task, folder: str, memory: int, files: Sequence[int]
+    ):
+        self.channel, theirs = socket.socketpair()
+        self._scratch, self._memory, self._reason = make_folder(), memory, ""
+        with theirs:
+            self._process = subprocess.Popen(
+                _python_command(f"from {__package__}.child import main; main()"),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                cwd=folder,
+                env={**os.environ, **SAME_HASHES, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self._scratch))},
+                pass_fds=() if sys.platform == "win32" else [theirs.fileno(), *files],
+            )
+            channel: int | bytes = theirs.fileno()
+            if sys.platform == "win32":
+                channel = theirs.share(self._process.pid)
+            order = messages.SpawnOrder(os.getpid(), channel, list(files), task, pack(content))
+            assert self._process.stdin is not None
+            with suppress(OSError), self._process.stdin as standard_input:  # it may have ended
+                standard_input.write(pickle.dumps(order, pickle.HIGHEST_PROTOCOL))
+        self.channel.settimeout(LOADING)
+        with suppress(OSError, EOFError):  # the first request fails likewise
+            receive_frame(self.channel)  # it is loaded: limits on calls of FMUs hold from here on
+        self._reader = threading.Thread(
+            target=forward_output, args=(self._process.stdout, content.printers), daemon=True
+        )
+        self._reader.start()
+
+    @property
+    def is_over(self) -> bool:
+        """True if it has ended; it is killed if it takes too much memory."""
+        with suppress(psutil.Error):
+            if psutil.Process(self._process.pid).memory_info().rss > self._memory:
+                self._reason = messages.OVER_MEMORY_LIMIT
+                self._process.kill()
+                self._process.wait()
+        return self._process.poll() is not None
+
+    def end(self, *, kill: bool) -> messages.ChildExit:
+        """See `ForkedChild.end`."""
+        _close_channel(self.channel)
+        try:
+            self._process.wait(0.0 if kill else GRACE)
+        except subprocess.TimeoutExpired:
+            self._reason = self._reason or ("" if kill else messages.CHANNEL_CLOSED)
+            self._process.kill()
+            self._process.wait()
+        self._reader.join(GRACE)  # a process that it has started may keep its output open
+        shutil.rmtree(self._scratch, ignore_errors=True)
+        return messages.ChildExit(self._process.returncode, self._reason)
+
+
+Child = ForkedChild | SpawnedChild
+_server: ServerProcess | None = None
+
+
+def start_server() -> ServerProcess:
+    """Return the flight server of this process, which takes some tenths of a second to load after its first call."""
+    global _server
+    with _lock:
+        if _server is None or not _server.is_running:
+            _server = ServerProcess()
+            at_end(_server.close)
+        return _server
+
+
+def begin_child(
+    subject: Subject, task: messages.Task, *, folder: str, limits: ProcessLimits, files: Sequence[int] = ()
+) -> Child:
+    """Return a child that does a task in a folder; a server that has ended is started again."""
+    if not CAN_FORK:
+        return SpawnedChild(subject.content, task, folder, limits.memory, files)
+    try:
+        return start_server().fork(subject, task, folder=folder, limits=limits, files=files)
+    except OSError:
+        return start_server().fork(subject, task, folder=folder, limits=limits, files=files)
+
+
+def _python_command(program: str) -> list[str]:
+    """Return the command of a Python process with the modules of this one."""
+    return [sys.executable, "-c", f"import sys; sys.path[:] = {sys.path!r}; {program}"]
+
+
+def _close_channel(channel: socket.socket) -> None:
+    with suppress(OSError):
+        channel.shutdown(socket.SHUT_RDWR)
+    channel.close()

@@ -1,0 +1,26 @@
+"""Choice between this process and a child for the simulation of a system, through which all verbs go.
+
+Perilune's own FMUs are loaded into this process, foreign ones and those with external state into a child.
+"""
+
+from __future__ import annotations
+
+from typing import Unpack
+
+from ..flight.base_simulation import BaseSimulation, Choices
+from ..flight.simulation import Simulation
+from ..fused.refusals import check_fused
+from ..system.prepared import PreparedSystem
+from .simulation import ProcessSimulation
+
+
+def may_load_here(prepared: PreparedSystem) -> bool:
+    """Return True if a system's FMUs may be loaded into this process."""
+    return prepared.is_self_contained or prepared.options.in_process
+
+
+def open_simulation(prepared: PreparedSystem, *, in_child: bool = False, **choices: Unpack[Choices]) -> BaseSimulation:
+    """Return a simulation, in a child where the FMUs need it or ``in_child``; see `Choices`. Raises InputError."""
+    in_child = in_child or not may_load_here(prepared)
+    check_fused(prepared, in_child=in_child)
+    return ProcessSimulation(prepared, **choices) if in_child else Simulation(prepared, **choices)

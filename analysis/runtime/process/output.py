@@ -1,0 +1,99 @@
+"""Printed output of children, which is passed on to standard error: a limited number of lines, safe for a terminal."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import IO
+
+from ....common.visible import visible_line
+
+BLOCK = 65536  # bytes read at a time
+LONGEST_LINE = 4096  # bytes
+LINE_LIMIT = 1000  # of a child
+NAME_LIMIT, LONGEST_NAMES = 3, 200  # components, and characters
+OURS = ("perilune", "log")  # beginnings of Perilune's lines, before a colon
+
+
+class PrintedLines:
+    """Output of one child, split into lines; ``printers`` are the components that may have printed them.
+
+    They share standard output and error and the C library's buffer of it, so that the source of a line is unknown.
+    """
+
+    def __init__(self, printers: Sequence[str]) -> None:
+        self._label = _label(printers)
+        self._partial = b""
+        self._lines = 0
+
+    def add(self, block: bytes) -> None:
+        """Pass on the lines that are complete."""
+        *lines, self._partial = (self._partial + block).split(b"\n")
+        for line in lines:
+            self._write(line)
+        if len(self._partial) > LONGEST_LINE:
+            self._write(self._partial)
+            self._partial = b""
+
+    def finish(self) -> None:
+        """Pass on the last line, and say how many were left out."""
+        if self._partial:
+            self._write(self._partial)
+        if self._lines > LINE_LIMIT:
+            self._print(f"... and {self._lines - LINE_LIMIT} lines more")
+
+    def _write(self, line: bytes) -> None:
+        self._lines += 1
+        if self._lines <= LINE_LIMIT:
+            self._print(visible_line(line[:LONGEST_LINE].decode(errors="replace"), LONGEST_LINE))
+
+    def _print(self, line: str) -> None:
+        with suppress(OSError, ValueError):
+            sys.stderr.write(f"{self._label}: {line}\n")
+            sys.stderr.flush()
+
+
+class OutputPipe:
+    """Reading end of the pipe that a forked child prints into; the server reads it between other work."""
+
+    def __init__(self, descriptor: int, printers: Sequence[str]) -> None:
+        os.set_blocking(descriptor, False)
+        self.descriptor = descriptor
+        self.is_closed = False
+        self._lines = PrintedLines(printers)
+
+    def read(self) -> bool:
+        """Pass on the output so far; return True if more may follow."""
+        while True:
+            try:
+                block = os.read(self.descriptor, BLOCK)
+            except BlockingIOError:
+                return True
+            if not block:
+                return False
+            self._lines.add(block)
+
+    def close(self) -> None:
+        """Close the pipe, and pass on the last line."""
+        self.is_closed = True
+        os.close(self.descriptor)
+        self._lines.finish()
+
+
+def forward_output(output: IO[bytes], printers: Sequence[str]) -> None:
+    """Pass on the output of a child that was not forked, until it ends."""
+    lines = PrintedLines(printers)
+    with output:
+        while block := os.read(output.fileno(), BLOCK):
+            lines.add(block)
+    lines.finish()
+
+
+def _label(printers: Sequence[str]) -> str:
+    """Return the beginning of lines: names of components, and never a beginning of Perilune's lines."""
+    names = visible_line(", ".join(printers[:NAME_LIMIT]), LONGEST_NAMES)
+    if len(printers) > NAME_LIMIT:
+        names += f" and {len(printers) - NAME_LIMIT} more"
+    return f"component {names}" if names.partition(":")[0].strip().casefold() in OURS else names

@@ -1,0 +1,167 @@
+"""A child that simulates one system: what it is sent, what it already has, and the memory that it writes to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+
+from ....common.errors import InputError
+from ....common.machine.room import check_room
+from ...options.fault import Fault
+from ..flight.recorder import Phase, rows_between
+from ..flight.selection import Selection
+from ..instances.instance import Log
+from ..instances.renewal import ResetVerdict
+from ..ssp.given_values import ParameterValue
+from ..system.prepared import PreparedSystem
+from . import messages
+from .children import Subject, begin_child
+from .connection import ChildEndedError, Connection, Watchdog
+from .restriction import limits_for
+from .shared_recorder import SharedRecorder, make_recorder
+
+RECORDERS = 2  # the caller reads one simulation while the next one is under way
+SEE_LOG = "perilune run --log info shows what it logs"
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """Inputs of one simulation, see `BaseSimulation.advance`; ``values`` of all parameters that were set so far."""
+
+    first: int
+    last: int
+    every: int
+    excitation: np.ndarray
+    values: Mapping[str, ParameterValue]
+    faults: tuple[Fault | None, ...]
+
+    def equals(self, other: Scenario) -> bool:
+        """Return True if both are the same and without excitation."""
+        span, other_span = ((each.first, each.last, each.every) for each in (self, other))
+        is_same = span == other_span and not self.excitation.size and not other.excitation.size
+        return is_same and self.values == other.values and self.faults == other.faults
+
+
+class SystemProcess:
+    """Child with instances of a system's FMUs, of which it records a number of ``signals``; see `wait_until_ready`.
+
+    ``formats`` is as in `SystemTask`.
+    """
+
+    def __init__(
+        self, prepared: PreparedSystem, selection: Selection, signals: int, log: Log | None, *, formats: bool
+    ) -> None:
+        self.prepared = prepared
+        self._signals, self._log = signals, log
+        self.turn = 0  # the number of a recorder
+        self.recorders = [self._make_recorder(rows_between(-1, prepared.steps))]
+        self.recorder.enter(Phase.INSTANTIATION)
+        self.last: Scenario | None = None  # that was sent
+        self.has_verdicts, self._is_ready = False, False
+        self.connection = self._begin(selection, formats=formats)
+
+    @property
+    def recorder(self) -> SharedRecorder:
+        """Recorder of the simulation that is under way, or of the last one."""
+        return self.recorders[self.turn]
+
+    @property
+    def is_open(self) -> bool:
+        """True if it is instantiated and has not been ended."""
+        return self._is_ready and self.connection.is_open
+
+    def _make_recorder(self, rows: int) -> SharedRecorder:
+        check_room(self._signals, rows, self.prepared.step)
+        return make_recorder(self._signals, rows)
+
+    def _begin(self, selection: Selection, *, formats: bool) -> Connection:
+        prepared, options, recorder = self.prepared, self.prepared.options, self.recorder
+        level = None if self._log is None else self._log.level
+        try:
+            child = begin_child(
+                Subject(prepared, prepared.of_flights()),
+                messages.SystemTask(selection, level, formats, self._signals, recorder.times.size, recorder.name),
+                folder=options.folder,
+                limits=limits_for(prepared.network.fmus.values(), options),
+                files=recorder.files,
+            )
+        except BaseException:
+            recorder.close()
+            raise
+        watchdog = Watchdog(lambda: self.recorder.measure_progress(), options.call_timeout)
+        return Connection(child, self._write, watchdog)
+
+    def wait_until_ready(self) -> None:
+        """Wait until all is instantiated. Raises InputError where that fails, and ServerEndedError."""
+        recorder, network = self.recorder, self.prepared.network
+        with closing(recorder):
+            try:
+                self.connection.receive(messages.Done)
+            except ChildEndedError as error:
+                component = recorder.component_in_phase(self.prepared)
+                fmu = network.fmus.get(component)
+                label = fmu.label if fmu is not None else network.file
+                raise InputError(label, component, f"cannot be instantiated: {error.how}", SEE_LOG) from None
+            recorder.seal()
+        self._is_ready = True
+
+    def _write(self, line: str) -> None:
+        if self._log is not None:
+            self._log.write_line(line)
+
+    def send_verdicts(self, verdicts: Mapping[str, ResetVerdict]) -> None:
+        """Send the child what renews FMUs, by their SHA-256."""
+        self.has_verdicts = True
+        self.connection.send(messages.StoreVerdicts(dict(verdicts)))
+
+    def send(self, scenario: Scenario, after: int, *, is_halted: bool) -> int:
+        """Send a scenario to be simulated after that of recorder ``after``; return the number of its own recorder.
+
+        The child is sent values and faults only where they differ from those that it has.
+        """
+        number = self._next_recorder(after, rows_between(scenario.first, scenario.last, scenario.every))
+        self.recorders[number].halt[0] = is_halted
+        values: Mapping[str, ParameterValue] = scenario.values
+        faults: tuple[Fault | None, ...] | None = scenario.faults
+        if self.last is not None:
+            known = self.last.values
+            values = {name: value for name, value in values.items() if known.get(name, self) != value}
+            faults = None if faults == self.last.faults else faults
+        excitation = scenario.excitation if scenario.excitation.size else None
+        self.connection.send(
+            messages.Simulate(number, scenario.first, scenario.last, scenario.every, dict(values), faults, excitation)
+        )
+        self.last = scenario
+        return number
+
+    def _next_recorder(self, before: int, rows: int) -> int:
+        """Return the number of the next recorder, which is sent to the child if it is new or too small so far."""
+        number = (before + 1) % RECORDERS
+        if number == len(self.recorders) or self.recorders[number].times.size < rows:
+            fresh = self._make_recorder(max(rows, self.recorder.times.size))
+            with closing(fresh):
+                request = messages.AddRecorder(number, fresh.times.size, fresh.name)
+                self.connection.ask(request, messages.Done, fresh.files)
+                fresh.seal()
+            self.recorders[number : number + 1] = [fresh]
+        return number
+
+    def describe_end(self, error: ChildEndedError) -> str:
+        """Return component, time and reason of its end."""
+        return f"{self.recorder.describe_progress(self.prepared)}: {error.how}"
+
+    @contextmanager
+    def refusing_end(self) -> Iterator[Connection]:
+        """Yield the connection for requests other than simulations. Raises InputError where the child ends."""
+        try:
+            yield self.connection
+        except ChildEndedError as error:
+            raise InputError(self.prepared.network.file, "", self.describe_end(error), SEE_LOG) from None
+
+    def give_up(self, why: str) -> None:
+        """End the child for a thread that waits for a simulation."""
+        if self._is_ready:
+            self.connection.give_up(why)
