@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | web | docs | wheel | release | notebooks | explore | gains | checks | figures | screenshots | bench | sizes | bench-basilisk | crosscheck | basilisk | sanitize | fuzz | lowest | newest | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | check ROOM=... | long | long-campaigns | build | web | docs | wheel | release | notebooks | explore | gains | checks | figures | screenshots | bench | sizes | bench-basilisk | crosscheck | basilisk | sanitize | fuzz | lowest | newest | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # Basilisk: an environment of its own for cross-checks, and a folder next to ours for a plant.
@@ -28,6 +28,10 @@ QUICK := tests/campaigns/spec tests/campaigns/compare tests/export/judge tests/d
 quick: .venv/ready
 	$(BIN)/ruff check .
 	$(BIN)/python -m pytest -n 2 --dist loadfile -m 'not flies' $(QUICK)
+
+# The tests for a change of one room in two minutes: make check ROOM=analysis/campaigns/draws.
+check: build
+	$(BIN)/python -m tests.times.check $(ROOM)
 
 # The checks that take their whole size: every published start, system and noise, of which `make test` takes a part.
 long: build
@@ -235,4 +239,4 @@ INSTALL = $(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --no
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long long-campaigns build web docs wheel release notebooks explore gains checks figures screenshots bench font sizes guidance-cost bench-basilisk large importers crosscheck basilisk sanitize fuzz lowest newest processors emulator windows browser browser-firefox lint clean
+.PHONY: demo test quick check long long-campaigns build web docs wheel release notebooks explore gains checks figures screenshots bench font sizes guidance-cost bench-basilisk large importers crosscheck basilisk sanitize fuzz lowest newest processors emulator windows browser browser-firefox lint clean

@@ -25,6 +25,7 @@ from tests.support.lengths import LONG, either
 from tests.support.locks import made_once, one_process_at_a_time
 from tests.support.pages.browser import NO_BROWSER, find_browser
 from tests.support.pages.scripts import NO_SCRIPTS
+from tests.times.recording import pytest_runtest_makereport, pytest_runtest_protocol, write_times  # noqa: F401 -- hooks
 
 # The same examples in every run, so that main is not red by chance; `make explore` draws new ones.
 hypothesis.settings.register_profile("same", derandomize=True, deadline=None, max_examples=either(100, 25))
@@ -75,7 +76,8 @@ def pytest_collection_finish() -> None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_terminal_summary(terminalreporter: Any) -> None:
-    """In the last lines: what was left out for want of a browser or an emulator, and what to do."""
+    """In the last lines: what was left out for want of a browser or an emulator, and what to do. Times are written."""
+    write_times(terminalreporter)
     skipped = [str(report.longrepr) for report in terminalreporter.stats.get("skipped", [])]
     for reason, tests, missing, remedy in (
         (NO_BROWSER, "of the HTML pages", "chromium", "Install it (Debian: `make browser` as root)"),
