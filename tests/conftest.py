@@ -25,7 +25,7 @@ from tests.support.lengths import LONG, either
 from tests.support.locks import made_once, one_process_at_a_time
 from tests.support.pages.browser import NO_BROWSER, find_browser
 from tests.support.pages.scripts import NO_SCRIPTS
-from tests.times.recording import pytest_runtest_makereport, pytest_runtest_protocol, write_times  # noqa: F401 -- hooks
+from tests.times.recording import pytest_runtest_logreport, pytest_runtest_logstart, write_times  # noqa: F401 -- hooks
 
 # The same examples in every run, so that main is not red by chance; `make explore` draws new ones.
 hypothesis.settings.register_profile("same", derandomize=True, deadline=None, max_examples=either(100, 25))

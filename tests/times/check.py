@@ -68,9 +68,9 @@ def main() -> int:
     if not (ROOT / room).is_dir() or room.split("/")[0] not in ("analysis", "common", "fmus_src"):
         print(f"make check: {room}: no folder of analysis, common or fmus_src", file=sys.stderr)
         return 2
-    own = tests_of([room], inside=True)
+    local = tests_of([room], inside=True)
     importing = tests_of(importers_of(room), inside=False)
-    chosen, left = select([ALWAYS, own, importing], wall_times(), WORKERS * BUDGET)
+    chosen, left = select([ALWAYS, local, importing], wall_times(), WORKERS * BUDGET)
     print(f"{room}: {len(chosen)} test files of {len(chosen) + len(left)}", flush=True)
     status = subprocess.run([sys.executable, "-m", "pytest", "-n", str(WORKERS), *chosen], cwd=ROOT).returncode
     with tempfile.TemporaryDirectory() as folder:

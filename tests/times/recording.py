@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 import os
 from collections import defaultdict
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,21 +17,18 @@ from perilune.common.atomic import write_atomically
 from perilune.common.paths import BUILD
 
 TIMES = BUILD / "test_times.json"
-BEGIN = pytest.StashKey[float]()
+_begin: list[float] = []  # processor time (s) at which the current test has begun
 
 
-@pytest.hookimpl(wrapper=True, tryfirst=True)
-def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
-    item.stash[BEGIN] = _processor_time()
-    return (yield)
+def pytest_runtest_logstart() -> None:
+    _begin[:] = [_processor_time()]
 
 
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> Iterator[None]:
-    report = yield
-    if call.when == "teardown":
-        report.user_properties.append(("processor", _processor_time() - item.stash[BEGIN]))
-    return report  # type: ignore[return-value]
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """Add the processor time where the test ran: a process that only collects reports has it from there."""
+    if report.when == "teardown" and "processor" not in dict(report.user_properties):
+        report.user_properties.append(("processor", _processor_time() - _begin[0]))
 
 
 def write_times(terminalreporter: Any) -> None:

@@ -18,14 +18,14 @@ TIMES = st.dictionaries(st.sampled_from("abcdefgh"), st.floats(0.1, 100.0), min_
 
 
 @given(TIMES, st.floats(0.0, 300.0))
-def test_what_fits_is_taken_and_the_dearest_is_last(times, budget):
+def test_files_fill_the_budget_and_the_dearest_is_last(times, budget):
     first, second = sorted(times)[::2], sorted(times)[1::2]
     chosen, left = select([first, second], times, budget)
     assert sorted(chosen + left) == sorted(times)
     assert sum(times[each] for each in chosen) <= budget + 1e-9
     for group in (first, second):
-        taken = [times[each] for each in chosen if each in group]
-        assert taken == sorted(taken)
+        costs = [times[each] for each in chosen if each in group]
+        assert costs == sorted(costs)
     if left:
         assert sum(times[each] for each in chosen) + min(times[each] for each in left) > budget - 1e-9
 
