@@ -61,7 +61,7 @@ class Widths(NamedTuple):
     """A figure as wide as the page, and the same for a narrow screen unless it is fit for both."""
 
     wide: Drawing
-    slim: Drawing | None
+    slim: Drawing | None = None
 
 
 def both_widths(

@@ -74,7 +74,7 @@ def history_panel(label: str, name: str, description: str, unit: str, chart: Cha
 
 def wide_history(name: str, description: str, unit: str, chart: Chart) -> Widths:
     """Return a plot over time as wide as the page, with the ``unit`` above its axes."""
-    return Widths(fluid_figure(name, description, chart, HEIGHT, title=unit), None)
+    return Widths(fluid_figure(name, description, chart, HEIGHT, title=unit))
 
 
 def intervals_over(width: float) -> int:

@@ -27,30 +27,31 @@ def text_offset(axis: Axis) -> float:
 
 def draw_axes(frame: Frame) -> Iterator[str]:
     """Yield the elements of both axes."""
+    ticks, few = list(enumerate(frame.x.ticks)), set(frame.x.few)
     y = frame.down(np.array([at for at, _ in frame.y.ticks]))
     level = "".join(f"M{frame.left:.2f} {at:.2f}h{frame.width:.2f}" for at in y if frame.y.grid)
-    yield frame.stretch(_grid(level))
-    few = set(frame.x.few)
-    ticks = list(enumerate(frame.x.ticks))
-    if few:
-        fine = "".join(_abscissa(frame, [tick for index, tick in ticks if index not in few]))
-        yield f'<g class="{FINE}">{fine}</g>'
-    yield from _abscissa(frame, [tick for index, tick in ticks if not few or index in few])
+    edges = f"M{frame.left:.2f} {frame.top:.2f}v{frame.height:.2f}h{frame.width:.2f}"
     strokes = "".join(f"M{frame.left:.2f} {at:.2f}h-{STROKE:g}" for at in y if frame.y.marked)
-    yield _edge(strokes)
-    yield frame.stretch(_edge(f"M{frame.left:.2f} {frame.top:.2f}v{frame.height:.2f}h{frame.width:.2f}"))
+    if few:
+        fine = _abscissa(frame, [tick for index, tick in ticks if index not in few], "", "")
+        yield f'<g class="{FINE}">{fine}</g>'
+    if frame.is_fluid:  # which would stretch them
+        yield _edge(strokes)
+        strokes = ""
+    yield _abscissa(frame, [tick for index, tick in ticks if not few or index in few], level, edges + strokes)
     left, rise = frame.left - text_offset(frame.y), MIDDLE * frame.y.size
     texts = [(f"{left:.2f}", at + rise, text) for at, (_, text) in zip(y, frame.y.ticks, strict=True)]
     yield _texts(frame.y, "end", texts)
 
 
-def _abscissa(frame: Frame, ticks: list[tuple[float, str]]) -> Iterator[str]:
-    """Some ticks of the abscissa: their lines, strokes and texts."""
+def _abscissa(frame: Frame, ticks: list[tuple[float, str]], grid: str, edges: str) -> str:
+    """Some ticks of the abscissa: their texts, their lines as those of a ``grid``, their strokes as ``edges``."""
     x = frame.across(np.array([at for at, _ in ticks]))
-    yield frame.stretch(_grid("".join(f"M{at:.2f} {frame.bottom:.2f}v-{frame.height:.2f}" for at in x if frame.x.grid)))
-    yield frame.stretch(_edge("".join(f"M{at:.2f} {frame.bottom:.2f}v{STROKE:g}" for at in x if frame.x.marked)))
+    grid += "".join(f"M{at:.2f} {frame.bottom:.2f}v-{frame.height:.2f}" for at in x if frame.x.grid)
+    edges += "".join(f"M{at:.2f} {frame.bottom:.2f}v{STROKE:g}" for at in x if frame.x.marked)
     base = frame.bottom + text_offset(frame.x) + ASCENT * frame.x.size
-    yield _texts(frame.x, "middle", [(frame.along(at), base, text) for at, (_, text) in zip(x, ticks, strict=True)])
+    texts = [(frame.along(at), base, text) for at, (_, text) in zip(x, ticks, strict=True)]
+    return frame.stretch(_grid(grid) + _edge(edges)) + _texts(frame.x, "middle", texts)
 
 
 def _grid(path: str) -> str:
