@@ -26,8 +26,7 @@ export class Figure {
     private readonly charts: Chart[],
     readonly plots: Plot[],
   ) {
-    const kinds = ["slim", "wide"].filter((kind) => picture.classList.contains(kind));
-    this.frame.className = ["live", ...kinds].join(" ");
+    this.frame.className = `live ${picture.classList.contains("slim") ? "slim" : picture.classList.contains("wide") ? "wide" : ""}`;
     picture.before(this.frame);
     this.frame.append(picture, ...plots.map((plot) => plot.root));
     this.values.className = "values";
@@ -73,7 +72,7 @@ export class Figure {
       const boxes = this.charts.map((chart) => boxOf(chart, width, height));
       this.plots.forEach((plot, index) => {
         const point = this.charts[index]!.fluid?.point ?? width / viewBox.baseVal.width;
-        plot.place(placeOf(this.charts[index]!, boxes, index, width, height, point));
+        plot.place(placeOf(this.charts[index]!, boxes, index, width, point));
       });
     }
     this.isDrawn = true;
@@ -122,7 +121,7 @@ function boxOf({ box, fluid }: Chart, width: number, height: number): Box {
 }
 
 // Where a chart's element lies in the figure: the axes' area is that of the picture, the margins reach to its neighbours.
-function placeOf(chart: Chart, boxes: Box[], index: number, width: number, height: number, point: number): Place {
+function placeOf(chart: Chart, boxes: Box[], index: number, width: number, point: number): Place {
   const { x, y } = chart;
   const [left, top, right, bottom] = boxes[index]!;
   const before = boxes.map((box) => box[2]).filter((end) => end <= left);
