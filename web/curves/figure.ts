@@ -69,8 +69,11 @@ export class Figure {
     if (this.isDrawn) for (const plot of this.plots) plot.redraw();
     else {
       const { viewBox } = this.picture as SVGSVGElement;
-      const point = width / viewBox.baseVal.width;
-      this.plots.forEach((plot, index) => plot.place(placeOf(this.charts, index, width, height, point)));
+      const boxes = this.charts.map((chart) => boxOf(chart, width, height));
+      this.plots.forEach((plot, index) => {
+        const point = this.charts[index]!.fluid?.point ?? width / viewBox.baseVal.width;
+        plot.place(placeOf(this.charts[index]!, boxes, index, width, point));
+      });
     }
     this.isDrawn = true;
     this.frame.classList.add("drawn"); // from now on the picture is hidden
@@ -108,15 +111,24 @@ export class Figure {
 
 const measuring = document.createElement("canvas").getContext("2d")!;
 
+type Box = [left: number, top: number, right: number, bottom: number]; // px in the figure
+
+// The area of the axes in a figure of this size (px).
+function boxOf({ box, fluid }: Chart, width: number, height: number): Box {
+  if (!fluid) return [box[0] * width, box[1] * height, (box[0] + box[2]) * width, (box[1] + box[3]) * height];
+  const [left, top, right, bottom] = fluid.margins;
+  return [left, top, width - right, height - bottom];
+}
+
 // Where a chart's element lies in the figure: the axes' area is that of the picture, the margins reach to its neighbours.
-function placeOf(charts: Chart[], index: number, width: number, height: number, point: number): Place {
-  const { box, x, y } = charts[index]!;
-  const [left, top, right, bottom] = [box[0] * width, box[1] * height, (box[0] + box[2]) * width, (box[1] + box[3]) * height];
-  const before = charts.filter(({ box: other }) => other[0] + other[2] <= box[0]).map(({ box: other }) => (other[0] + other[2]) * width);
+function placeOf(chart: Chart, boxes: Box[], index: number, width: number, point: number): Place {
+  const { x, y } = chart;
+  const [left, top, right, bottom] = boxes[index]!;
+  const before = boxes.map((box) => box[2]).filter((end) => end <= left);
   const names = widthOf(y, measuring, point) + 2 * BESIDE;
   const margins: Place["margins"] = [
     Math.min(GAP, top),
-    Math.min(Math.max(GAP, widthOf(x, measuring, point) / 2 + BESIDE, reachOf(charts[index]!, point)), width - right + 2 * BESIDE),
+    Math.min(Math.max(GAP, widthOf(x, measuring, point) / 2 + BESIDE, reachOf(chart, point)), width - right + 2 * BESIDE),
     x.bare ? BESIDE * point : Math.max(TICKS, 2 * x.size * point),
     y.bare ? BESIDE : Math.max(LABELS, names, Math.min(left - Math.max(0, ...before), 1.5 * LABELS)),
   ];

@@ -22,6 +22,11 @@ export function markCursor(picture: SVGElement, charts: Chart[], sharing: (axis:
     if (!chart) return;
     const [low, high, here] = [...chart.x.ends, at!].map((each) => (chart.x.logarithmic ? Math.log10(each) : each)) as [number, number, number];
     const fraction = (here - low) / (high - low);
+    if (chart.fluid) {
+      const [left, top, right, bottom] = chart.fluid.margins;
+      Object.assign(line.style, { left: `calc(${left}px + ${fraction} * (100% - ${left + right}px))`, top: `${top}px`, bottom: `${bottom}px` });
+      return;
+    }
     const [left, top, width, height] = chart.box;
     Object.assign(line.style, percent({ left: left + fraction * width, top, height }));
   }

@@ -3,7 +3,8 @@
 // An axis: its ends as drawn, the first at the left or the bottom, and its ticks in between with their texts.
 //
 // ``label`` is what figures that share an abscissa have in common; ``named`` where texts are no numbers, ``bare``
-// where ticks have none; ``size`` (pt) is that of the texts; ``grid`` and ``marked`` where ticks have lines, strokes.
+// where ticks have none; ``size`` (pt) is that of the texts; ``grid`` and ``marked`` where ticks have lines, strokes;
+// ``few`` are the numbers of those ticks that a narrow screen has, where it has not all.
 export interface Axis {
   label?: string;
   ends: [number, number];
@@ -14,6 +15,7 @@ export interface Axis {
   size: number;
   grid?: boolean;
   marked?: boolean;
+  few?: number[];
 }
 
 // A mark at points of a line: a circle of diameter ``size`` (pt), or the strokes ``outline`` in units of it.
@@ -99,7 +101,17 @@ export interface Note {
   backing?: Backing;
 }
 
+// A figure as wide as the page: its axes keep their distances (px) from its left, top, right and bottom.
+//
+// ``point``: px of a pt.
+export interface Fluid {
+  margins: [number, number, number, number];
+  point: number;
+}
+
 // A pair of axes; ``box`` is left, top, width and height of their area as fractions of the figure.
+//
+// With ``fluid`` margins they are those of a figure as wide as the page's column.
 //
 // A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it.
 export interface Chart<Column = number> {
@@ -107,6 +119,7 @@ export interface Chart<Column = number> {
   x: Axis;
   y: Axis;
   picture?: boolean;
+  fluid?: Fluid;
   curves?: Curve<Column>[];
   dots?: Dots[];
   areas?: Area<Column>[];

@@ -10,7 +10,7 @@ from ..common.panels import PANEL_HEIGHT, PANEL_WIDTH, Panel
 from ..interactive.charts import NO_BOX, Chart, Curve, Drawing
 from ..interactive.columns import Coarse, has_enough_digits
 from ..interactive.envelope import envelope
-from .layout import lay_out
+from .layout import BROAD, lay_out, lay_out_fluid
 from .write_svg import TrialPositions, no_trials, write_svg
 
 POINTS = 72.0  # in an inch
@@ -40,15 +40,39 @@ def chart_panel(
     across, up = POINTS * width, POINTS * height
     placed = chart if chart.box != NO_BOX else lay_out(chart, across, up, title=title, left=left)
     svg = write_svg(placed, name, description, across, up, title=title, kind=kind, trials=trials)
-    if not all(_is_exact(placed, curve) for curve in placed.curves):
-        return Panel(label, Drawing(svg, [Chart(placed.box, placed.x, placed.y, picture=True)]))
+    if not _is_exact(placed):
+        return Panel(label, Drawing(svg, [_picture(placed)]))
     curves = [_reduce(curve) for curve in placed.curves] if reduced else placed.curves
     return Panel(label, Drawing(svg, [replace(placed, curves=curves)]))
 
 
-def _is_exact(chart: Chart, curve: Curve) -> bool:
+def fluid_figure(
+    name: str,
+    description: str,
+    chart: Chart,
+    height: float,
+    *,
+    title: str = "",
+    left: float = 0.0,
+    trials: TrialPositions = no_trials,
+) -> Drawing:
+    """Return the figure of a ``chart`` as wide as the page, ``height`` in inches; text has one size at any width.
+
+    Other arguments are those of `chart_panel`.
+    """
+    placed = lay_out_fluid(chart, POINTS * height, title=title, left=left)
+    svg = write_svg(placed, name, description, BROAD, POINTS * height, title=title, trials=trials)
+    return Drawing(svg, [placed if _is_exact(placed) else _picture(placed)])
+
+
+def _picture(chart: Chart) -> Chart:
+    return Chart(chart.box, chart.x, chart.y, picture=True, fluid=chart.fluid)
+
+
+def _is_exact(chart: Chart) -> bool:
     return all(
         axis.logarithmic or has_enough_digits(axis.ends, numbers)
+        for curve in chart.curves
         for axis, numbers in ((chart.x, curve.x), (chart.y, curve.displayed))
     )
 

@@ -58,10 +58,10 @@ def panel(
 
 
 class Widths(NamedTuple):
-    """A figure as wide as the page, and the same for a narrow screen; the page shows one of the two."""
+    """A figure as wide as the page, and the same for a narrow screen unless it is fit for both."""
 
     wide: Drawing
-    slim: Drawing
+    slim: Drawing | None = None
 
 
 def both_widths(

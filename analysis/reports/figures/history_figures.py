@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 
 import numpy as np
 from markupsafe import Markup
@@ -156,7 +155,7 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
     notes = [_curve_caption(curve, unit), *curve.notes]
     if len(values) == 1 or curve.together:
         names = ", ".join(signal.label for signal in curve.signals)
-        plot = wide_history(name, f"{curve.title}: {names} over time", unit, partial(chart, range(len(values))))
+        plot = wide_history(name, f"{curve.title}: {names} over time", unit, chart(range(len(values)), 12))
         return Section(title=curve.title, plot=plot, legend=legend_of(curve.labels), notes=notes)
     panels = []
     for index, (label, signal) in enumerate(zip(curve.labels, curve.signals, strict=True)):

@@ -13,15 +13,16 @@ from ...runtime.flight.results import Result
 from ..chart.axes import linear_axis
 from ..chart.equal import Ends, to_scale
 from ..chart.marks import level
-from ..chart.panel import POINTS
+from ..chart.panel import POINTS, fluid_figure
 from ..chart.quantity import quantity_curve
 from ..chart.symbols import marker, marks
 from ..chart.ticks import axis_ends
 from ..chart.widths import chart_widths
 from ..common.colours import BLUE, INK, look
-from ..common.panels import far, mark_swatch
+from ..common.panels import Widths, far, mark_swatch
 from ..common.quantities import display_unit, label_with_unit
 from ..interactive.charts import NO_BOX, Chart, Curve, Marker
+from ..interactive.measures import WIDTH
 from .declared import Arc, Path, Signal
 from .section import Section, intervals_over, select_rows
 from .words import condition_text, sentence
@@ -54,10 +55,13 @@ def path_section(path: Path, result: Result, name: str) -> Section:
 
     beyond = isinstance(path.x, Arc) and bool(np.nanmax(x, initial=0.0) > 0.5 * np.pi * path.x.radius)
     description = f"{path.title}: {path.y.label} over {path.x.label}"
-    height = EQUAL_HEIGHT if path.equal else HEIGHT
+    if path.equal:
+        plot = chart_widths(name, description, chart, EQUAL_HEIGHT, SLIM_HEIGHT, title=title)
+    else:
+        plot = Widths(fluid_figure(name, description, chart(WIDTH, HEIGHT), HEIGHT, title=title))
     return Section(
         title=path.title,
-        plot=chart_widths(name, description, chart, height, SLIM_HEIGHT, title=title),
+        plot=plot,
         legend=[(mark_swatch(_final_mark(index)), each.name) for index, each in enumerate(path.points, 1)],
         notes=[_caption(path, beyond), *path.notes],
     )

@@ -12,14 +12,13 @@ from markupsafe import Markup
 from ...runtime.flight.results import Flight, Result
 from ..chart.axes import lane_axis, linear_axis
 from ..chart.marks import SQUARE, instant
-from ..chart.panel import chart_panel
-from ..chart.widths import chart_widths
+from ..chart.panel import chart_panel, fluid_figure
 from ..common.colours import BLUE, INK, VERMILION
 from ..common.page import Table, exact
 from ..common.panels import HALF_WIDTH, Panel, Widths
 from ..common.quantities import display_unit, label_with_unit, number
 from ..interactive.charts import NO_BOX, Area, Chart, Note
-from ..interactive.measures import TICK_SIZE
+from ..interactive.measures import TICK_SIZE, WIDTH
 from .declared import BoundValues, Budget, Item, Phase, Phases
 from .section import Section, align, intervals_over
 from .words import seconds, sentence
@@ -184,11 +183,8 @@ def _panels(
     lanes = dict.fromkeys(span.name for span in spans)
     height, description = 0.75 + LANE * len(lanes), f"{phases.title}: {', '.join(lanes)} over time"
     if len(windows) == 1:
-
-        def chart(width: float, _: float) -> Chart:
-            return phase_chart(spans, statuses, windows[0], intervals_over(width))
-
-        return [], chart_widths(name, description, chart, height)
+        timeline = phase_chart(spans, statuses, windows[0], intervals_over(WIDTH))
+        return [], Widths(fluid_figure(name, description, timeline, height))
     panels = []
     for index, window in enumerate(windows):
         begin, end = (number(each, 5) for each in window)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,8 +11,7 @@ from markupsafe import Markup
 
 from ...runtime.flight.results import Result
 from ..chart.axes import linear_axis
-from ..chart.panel import chart_panel
-from ..chart.widths import chart_widths
+from ..chart.panel import chart_panel, fluid_figure
 from ..common.colours import look
 from ..common.page import Table, data, exact
 from ..common.panels import HALF_WIDTH, Panel, Widths, swatch
@@ -73,16 +72,9 @@ def history_panel(label: str, name: str, description: str, unit: str, chart: Cha
     return chart_panel(label, name, description, chart, HEIGHT, HALF_WIDTH, title=unit)
 
 
-def wide_history(name: str, description: str, unit: str, chart_of: Callable[[int], Chart]) -> Widths:
-    """Return a plot over time as wide as the page's column, and one for narrow screens.
-
-    ``chart_of`` makes the chart with a largest number of intervals between ticks; the ``unit`` stands above its axes.
-    """
-
-    def chart(width: float, _: float) -> Chart:
-        return chart_of(12 if width > HALF_WIDTH else 6)
-
-    return chart_widths(name, description, chart, HEIGHT, title=unit)
+def wide_history(name: str, description: str, unit: str, chart: Chart) -> Widths:
+    """Return a plot over time as wide as the page, with the ``unit`` above its axes."""
+    return Widths(fluid_figure(name, description, chart, HEIGHT, title=unit))
 
 
 def intervals_over(width: float) -> int:

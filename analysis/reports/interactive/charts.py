@@ -25,7 +25,8 @@ class Axis:
     """An axis: its ends as drawn, the first at the left or the bottom, and its ticks in between with their texts.
 
     ``label`` is what figures that share an abscissa have in common; ``named`` where texts are no numbers, ``bare``
-    where ticks have none; ``size`` (pt) is that of the texts; ``grid`` and ``marked`` where ticks have lines, strokes.
+    where ticks have none; ``size`` (pt) is that of the texts; ``grid`` and ``marked`` where ticks have lines, strokes;
+    ``few`` are the numbers of those ticks that a narrow screen has, where it has not all.
     """
 
     label: str = ""
@@ -37,6 +38,7 @@ class Axis:
     size: float
     grid: bool = False
     marked: bool = False
+    few: Sequence[int] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -144,12 +146,25 @@ class Note:
     backing: Backing | None = None
 
 
+@dataclass(frozen=True)
+class Fluid:
+    """A figure as wide as the page: its axes keep their distances (px) from its left, top, right and bottom.
+
+    ``point``: px of a pt.
+    """
+
+    margins: tuple[float, float, float, float]
+    point: float
+
+
 NO_BOX = (0.0, 0.0, 0.0, 0.0)  # of a chart that has not been laid out
 
 
 @dataclass(frozen=True)
 class Chart:
     """A pair of axes; ``box`` is left, top, width and height of their area as fractions of the figure.
+
+    With ``fluid`` margins they are those of a figure as wide as the page's column.
 
     A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it.
     """
@@ -158,6 +173,7 @@ class Chart:
     x: Axis
     y: Axis
     picture: bool = False
+    fluid: Fluid | None = None
     curves: Sequence[Curve] = ()
     dots: Sequence[Dots] = ()
     areas: Sequence[Area] = ()

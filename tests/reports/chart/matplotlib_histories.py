@@ -70,7 +70,7 @@ def error_charts(error: Error, run: Result) -> list[Chart]:
 
 
 def curve_charts(curve: Curve, run: Result) -> list[Chart]:
-    """The wide and the narrow plot of curves, or their panels."""
+    """The plot of curves as wide as the page, or their panels."""
     chosen, rows = select_rows(curve.rows, run)
     time = run.time[rows]
     values = [np.where(chosen, signal.values(run)[0], np.nan)[rows] for signal in curve.signals]
@@ -85,7 +85,7 @@ def curve_charts(curve: Curve, run: Result) -> list[Chart]:
 
     if len(values) == 1 or curve.together:
         whole = range(len(values))
-        return [_read(display_unit(name), time, lambda axes: draw(axes, whole), width) for width in (WIDTH, HALF_WIDTH)]
+        return [_read(display_unit(name), time, lambda axes: draw(axes, whole), WIDTH)]
     return [
         _read(display_unit(name), time, lambda axes, index=index: draw(axes, range(index, index + 1)))  # type: ignore[misc]
         for index in range(len(values))

@@ -67,6 +67,9 @@ def clip_spikes(axes, values):
     axes.text(0.98 if early else 0.02, 0.98, text, transform=axes.transAxes, **style)
 
 
+LAID_OUT = ("box", "fluid", "few")
+
+
 def plain(node):
     """Numbers and texts alone, rounded as pages have them; a box is laid out by either in its own way."""
     if isinstance(node, Coarse):
@@ -78,7 +81,7 @@ def plain(node):
     if isinstance(node, list | tuple):
         return [plain(each) for each in node]
     if hasattr(node, "__dataclass_fields__"):
-        return {each.name: plain(getattr(node, each.name)) for each in fields(node) if each.name != "box"}
+        return {each.name: plain(getattr(node, each.name)) for each in fields(node) if each.name not in LAID_OUT}
     return node
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from lxml import etree
 from perilune.analysis.reports.chart.axes import bare_axis, lane_axis, linear_axis, logarithmic_axis
 from perilune.analysis.reports.chart.equal import to_scale
 from perilune.analysis.reports.chart.layout import lay_out
-from perilune.analysis.reports.chart.panel import chart_panel
+from perilune.analysis.reports.chart.panel import chart_panel, fluid_figure
 from perilune.analysis.reports.chart.quantity import quantity_curve
 from perilune.analysis.reports.chart.symbols import arrow, marker, marks
 from perilune.analysis.reports.chart.write_svg import write_svg
@@ -221,3 +222,53 @@ def test_arrows_point(degrees):
     assert tip == pytest.approx(
         [20.0 * math.cos(math.radians(degrees)), 20.0 * math.sin(math.radians(degrees))], abs=0.01
     )
+
+
+WIDTHS = (366.0, 700.0, 1000.0)  # px, of a page's column
+
+
+@given(axes(), axes(), st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(0.0, 1.0)), min_size=1, max_size=4))
+def test_a_fluid_chart_at_any_width(x, y, fractions):
+    assume(all(len(axis.ticks) > 1 for axis in (x, y)))
+    points = [(between(x, across), between(y, up)) for across, up in fractions]
+    abscissas, ordinates = (np.array(each) for each in zip(*points, strict=True))
+    circles = marks(abscissas, ordinates, marker("o", 4.0, "#0072B2", fill="#ffffff"))
+    figure = fluid_figure("a", "a", Chart(NO_BOX, x, y, curves=[circles]), 2.5)
+    (chart,) = figure.charts
+    root = etree.fromstring(str(figure.svg))
+    left, top, right, bottom = chart.fluid.margins
+    height = 2.5 * 72.0 * chart.fluid.point
+    assert f"height:{height:g}px;padding:{top:g}px {right:g}px {bottom:g}px {left:g}px" in root.get("style")
+    elements = root.findall(".//{*}circle")
+    assert len(elements) == len(points)
+    texts = [each for group in root.iter("{*}g") for each in group.findall("{*}text") if "%" in each.get("x")]
+    fine = {each.text for group in root.iter("{*}g") if group.get("class") == "fine" for each in group.iter("{*}text")}
+    for width in WIDTHS:
+        length = width - left - right
+
+        def px(attribute, left=left, length=length):
+            return left + float(attribute.removesuffix("%")) / 100.0 * length
+
+        for element, (across, up) in zip(elements, points, strict=True):
+            assert px(element.get("cx")) == pytest.approx(expected(x, across, left, length), abs=0.2)
+            assert top + float(element.get("cy")) == pytest.approx(
+                expected(y, up, height - bottom, top + bottom - height), abs=0.06
+            )
+        spans = sorted(
+            (px(each.get("x")), text_width(each.text, x.size * chart.fluid.point) / 2.0)
+            for each in texts
+            if width > 640.0 or each.text not in fine
+        )
+        assert len(spans) == len(chart.x.few if chart.x.few and width <= 640.0 else x.ticks)
+        for at, half in spans:
+            assert at - half >= -0.1
+            assert at + half <= width + 0.1
+        for (before, one), (after, other) in pairwise(spans):
+            assert after - before >= one + other + 2.0
+
+
+def test_few_ticks_are_at_whole_multiples():
+    axis = linear_axis((3450.0, 4020.0), 12)
+    (chart,) = fluid_figure("a", "a", Chart(NO_BOX, axis, UNIT), 2.5).charts
+    assert [chart.x.ticks[index][1] for index in chart.x.few] == ["3500", "3600", "3700", "3800", "3900", "4000"]
+    assert fluid_figure("a", "a", Chart(NO_BOX, linear_axis((0.0, 4.0), 5), UNIT), 2.5).charts[0].x.few == []

@@ -19,7 +19,7 @@ def draw_marks(frame: Frame, curve: Curve) -> str:
     if curve.marker is None:
         return ""
     positions = _within(frame, frame.across(curve.x), frame.down(curve.displayed))
-    elements = _draw(curve.marker, positions)
+    elements = _draw(frame, curve.marker, positions)
     return f'<g opacity="{curve.opacity:g}">{elements}</g>' if elements and curve.opacity < 1.0 else elements
 
 
@@ -27,9 +27,9 @@ def draw_dots(frame: Frame, dots: Dots, x: np.ndarray, y: np.ndarray) -> str:
     """Return marks of trials at abscissas and ordinates, [trials], as one path; those that coincide are one."""
     positions = np.unique(_within(frame, frame.across(x), frame.down(y)), axis=0)
     if not dots.cross:
-        return _round(positions, dots.size, dots.colour)
-    path = _shapes(positions, CROSS, dots.size)
-    return f'<path d="{path}" stroke="{dots.colour}" stroke-width="{CROSS_WIDTH * dots.size:.3g}"/>' if path else ""
+        return frame.stretch(_round(positions, dots.size, dots.colour))
+    paint = f'stroke="{dots.colour}" stroke-width="{CROSS_WIDTH * dots.size:.3g}"'
+    return _shapes(frame, positions, CROSS, dots.size, paint)
 
 
 def _within(frame: Frame, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -37,20 +37,20 @@ def _within(frame: Frame, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return np.rint(10.0 * np.stack([x, y], axis=1)[frame.has(x, y)]).astype(np.int64)
 
 
-def _draw(marker: Marker, positions: np.ndarray) -> str:
+def _draw(frame: Frame, marker: Marker, positions: np.ndarray) -> str:
     if not positions.size:
         return ""
     width = marker.width if marker.edge else 0.0
     if not marker.outline and marker.edge in ("", marker.fill):
-        return _round(positions, marker.size + width, marker.fill)
+        return frame.stretch(_round(positions, marker.size + width, marker.fill))
     edge = f' stroke="{marker.edge}" stroke-width="{width:g}"' if width else ""
     paint = f'fill="{marker.fill or "none"}"{edge}'
     if not marker.outline:
         return "".join(
-            f'<circle cx="{x / 10:g}" cy="{y / 10:g}" r="{marker.size / 2.0:g}" {paint}/>'
+            f'<circle cx="{frame.along(x / 10)}" cy="{y / 10:g}" r="{marker.size / 2.0:g}" {paint}/>'
             for x, y in positions.tolist()
         )
-    return f'<path d="{_shapes(positions, marker.outline, marker.size)}" {paint}/>'
+    return _shapes(frame, positions, marker.outline, marker.size, paint)
 
 
 def _round(positions: np.ndarray, diameter: float, colour: str) -> str:
@@ -62,13 +62,21 @@ def _round(positions: np.ndarray, diameter: float, colour: str) -> str:
     return f'<path d="{path}" stroke="{colour}" stroke-width="{diameter:.3g}" {style}/>' if path else ""
 
 
-def _shapes(positions: np.ndarray, outline: Sequence[Sequence[float]], size: float) -> str:
-    """The path of an outline at all positions."""
+def _shapes(frame: Frame, positions: np.ndarray, outline: Sequence[Sequence[float]], size: float, paint: str) -> str:
+    """An outline at all positions, in one path where it has a size in the units of the frame."""
     strokes = [np.rint(10.0 * size * np.reshape(stroke, (-1, 2)) * (1.0, -1.0)).astype(np.int64) for stroke in outline]
     moves = [in_tenths(np.diff(stroke, axis=0).ravel().tolist()) for stroke in strokes]
     ends = ["z" if np.array_equal(stroke[0], stroke[-1]) else "" for stroke in strokes]
-    return "".join(
-        f"M{in_tenths((position + stroke[0]).tolist())}l{move}{end}"
-        for position in positions
-        for stroke, move, end in zip(strokes, moves, ends, strict=True)
-    )
+
+    def path(positions: np.ndarray) -> str:
+        lines = (
+            f"M{in_tenths((position + stroke[0]).tolist())}l{move}{end}"
+            for position in positions
+            for stroke, move, end in zip(strokes, moves, ends, strict=True)
+        )
+        return f'<path d="{"".join(lines)}" {paint}/>'
+
+    if not frame.is_fluid:
+        return path(positions) if positions.size else ""
+    origin = path(np.zeros((1, 2), dtype=np.int64))
+    return "".join(frame.put(x / 10.0, y / 10.0, lambda *_: origin) for x, y in positions.tolist())

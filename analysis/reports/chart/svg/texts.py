@@ -20,6 +20,10 @@ def draw_note(frame: Frame, note: Note) -> str:
     of_data = (frame.left if note.of_axes[0] else x, frame.top if note.of_axes[1] else y)
     if not frame.has(*np.array(of_data)[:, np.newaxis]).all():
         return ""
+    return frame.put(x, y, lambda x, y: _write(note, x, y))
+
+
+def _write(note: Note, x: float, y: float) -> str:
     x, y = x + note.offset[0], y - note.offset[1] + RISES[note.align[1]] * note.size
     bold = ' font-weight="700"' if note.bold else ""
     return (

@@ -1,0 +1,55 @@
+"""Figures as wide as the page in a real browser, on a telephone and on a wide screen.
+
+Truth: what the browser lays out, the texts and the area of the axes that the script draws over.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import pytest
+from selenium.webdriver.common.by import By
+
+from tests.support.pages.driven import driven, scroll_to_plot
+
+MEASURE = """
+const picture = arguments[0], style = getComputedStyle(picture);
+const plain = ({left, top, right, bottom}) => [left, top, right, bottom];
+const [left, top, right, bottom] = plain(picture.getBoundingClientRect());
+const padding = ["Left", "Top", "Right", "Bottom"].map((side) => parseFloat(style["padding" + side]));
+const texts = [...picture.querySelectorAll("text")].filter((text) => text.getClientRects().length);
+return {
+  figure: [left, top, right, bottom],
+  axes: [left + padding[0], top + padding[1], right - padding[2], bottom - padding[3]],
+  live: plain(picture.parentElement.querySelector(".u-over").getBoundingClientRect()),
+  texts: texts.map((text) => plain(text.getBoundingClientRect())),
+  sizes: texts.map((text) => parseFloat(getComputedStyle(text).fontSize) * text.getScreenCTM().a),
+  words: texts.map((text) => text.textContent),
+};
+"""
+
+
+@pytest.mark.parametrize("phone", [False, True])
+def test_texts_and_axes(browser, flight, phone):
+    with driven(browser, flight / "page.html", phone=phone) as driver:
+        frames = driver.find_elements(By.CSS_SELECTOR, ".live:has(> svg.fluid)")
+        assert len(frames) > 3
+        for frame in frames:
+            scroll_to_plot(driver, frame)
+            measured = driver.execute_script(MEASURE, frame.find_element(By.CSS_SELECTOR, "svg.fluid"))
+            assert measured["live"] == pytest.approx(measured["axes"], abs=1.0)
+            assert min(measured["sizes"]) == pytest.approx(11.0)
+            assert max(measured["sizes"]) == pytest.approx(9.0 * 11.0 / 8.0)
+            left, top, right, bottom = measured["figure"]
+            assert right - left > (300.0 if phone else 950.0)
+            for box in measured["texts"]:
+                assert left - 1.0 <= box[0] <= box[2] <= right + 1.0
+                assert top - 1.0 <= box[1] <= box[3] <= bottom + 1.0
+            for one, other in combinations(zip(measured["words"], measured["texts"], strict=True), 2):
+                assert are_apart(one[1], other[1]), (one, other)
+
+
+def are_apart(one, other):
+    """Lines of text are higher than their letters, by 3 px above and below."""
+    gaps = [max(other[side] - one[side + 2], one[side] - other[side + 2]) for side in (0, 1)]
+    return gaps[0] >= 0.0 or gaps[1] >= -6.0
