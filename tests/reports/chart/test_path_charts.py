@@ -11,7 +11,7 @@ import pytest
 from perilune.analysis.reports.common.panels import HALF_WIDTH
 from perilune.analysis.reports.figures.band_figure import against_chart
 from perilune.analysis.reports.figures.figure_sections import figure_sections
-from perilune.analysis.reports.figures.path_figure import HEIGHT, SLIM_HEIGHT
+from perilune.analysis.reports.figures.path_figure import HEIGHT, WIDE_INTERVALS
 from perilune.analysis.reports.figures.section import HEIGHT as PANEL_HEIGHT
 from perilune.analysis.reports.interactive.measures import WIDTH
 from tests.reports.chart import matplotlib_paths
@@ -28,14 +28,11 @@ def test_a_path(rows, factor):
     run = mission()
     run = replace(run, signals=run.signals | {name: factor * run[name] for name in names})
     (section,) = figure_sections([path], run)
-    for figure, height, width, intervals in zip(
-        section.plot, (HEIGHT, SLIM_HEIGHT), (WIDTH, HALF_WIDTH), (10, 5), strict=True
-    ):
-        (chart,) = figure.charts
-        assert [curve.name for curve in chart.curves] == ["ship.y", "", "site", "site"]
-        unnamed = [chart.curves[0], *(replace(curve, name="") for curve in chart.curves[1:])]
-        expected = matplotlib_paths.path_chart(path, run, height, width, intervals)
-        assert plain(replace(chart, curves=unnamed)) == plain(expected)
+    (chart,) = section.plot.wide.charts
+    assert [curve.name for curve in chart.curves] == ["ship.y", "", "site", "site"]
+    unnamed = [chart.curves[0], *(replace(curve, name="") for curve in chart.curves[1:])]
+    expected = matplotlib_paths.path_chart(path, run, HEIGHT, WIDTH, WIDE_INTERVALS)
+    assert plain(replace(chart, curves=unnamed)) == plain(expected)
 
 
 def test_a_band_over_another_signal():
