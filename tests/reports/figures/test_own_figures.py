@@ -179,7 +179,7 @@ def test_a_bar_for_each_pulse():
     (line, *_), remainders = charts[0].areas, 0.01 * np.sin(TIME)
     np.testing.assert_array_equal([line.y[::2], line.y[1::2]], [remainders[:-1], remainders[1:]])
     assert len(charts[1].areas) == 1  # the other remainder is 0
-    gap = {**pulses(), "rest": [np.where(TIME[7] == TIME, np.nan, rests), 0.0 * TIME]}
+    gap = {**pulses(), "rest": [np.where(TIME[7] == TIME, np.nan, remainders), 0.0 * TIME]}
     (line, *_) = one(PULSES, flown(**gap)).panels[0].figure.charts[0].areas
     assert line.x.size == 2 * (TIME.size - 1) - 4
     assert TIME[7] not in line.x
