@@ -13,25 +13,22 @@ from ...runtime.flight.results import Result
 from ..chart.axes import linear_axis
 from ..chart.equal import Ends, to_scale
 from ..chart.marks import level
-from ..chart.panel import POINTS, fluid_figure
+from ..chart.panel import POINTS, chart_panel, fluid_figure
 from ..chart.quantity import quantity_curve
 from ..chart.symbols import marker, marks
 from ..chart.ticks import axis_ends
-from ..chart.widths import chart_widths
 from ..common.colours import BLUE, INK, look
-from ..common.panels import Widths, far, mark_swatch
+from ..common.panels import HALF_WIDTH, Widths, far, mark_swatch
 from ..common.quantities import display_unit, label_with_unit
 from ..interactive.charts import NO_BOX, Chart, Curve, Marker
-from ..interactive.measures import WIDTH
 from .declared import Arc, Path, Signal
-from .section import Section, intervals_over, select_rows
+from .section import Section, select_rows
 from .words import condition_text, sentence
 
 HEIGHT = 3.6  # in
-EQUAL_HEIGHT = 4.6  # in, with equal scales
-SLIM_HEIGHT = 3.4  # in
+EQUAL_HEIGHT = 3.4  # in, with equal scales, half as wide as the page's column
 Y_MARGIN = 0.08  # of the range of the ordinate, beyond its ends
-Y_INTERVALS = 6
+WIDE_INTERVALS, Y_INTERVALS = 10, 6  # between ticks, at most
 WHITE = "#ffffff"
 
 
@@ -47,20 +44,20 @@ def path_section(path: Path, result: Result, name: str) -> Section:
     others = [np.stack([scales[0] * plotted(each.x), scales[1] * plotted(each.y)]) for each in path.points]
     position, title = np.stack([scales[0] * x, scales[1] * y]), _axis(path.y, scales[1])
 
-    def chart(width: float, height: float) -> Chart:
-        chart_of = partial(path_chart, path, result.time[rows], position, others, _axis(path.x, scales[0]), width)
-        ends = path_ends(path, position, others)
-        size = (POINTS * width, POINTS * height)
-        return to_scale(chart_of, *ends, *size, title=title) if path.equal else chart_of(*ends)
-
+    ends = path_ends(path, position, others)
+    chart_of = partial(path_chart, path, result.time[rows], position, others, _axis(path.x, scales[0]))
     beyond = isinstance(path.x, Arc) and bool(np.nanmax(x, initial=0.0) > 0.5 * np.pi * path.x.radius)
     description = f"{path.title}: {path.y.label} over {path.x.label}"
+    panels, plot = [], None
     if path.equal:
-        plot = chart_widths(name, description, chart, EQUAL_HEIGHT, SLIM_HEIGHT, title=title)
+        chart = to_scale(chart_of, *ends, POINTS * HALF_WIDTH, POINTS * EQUAL_HEIGHT)
+        panels = [chart_panel(title, name, description, chart, EQUAL_HEIGHT, HALF_WIDTH)]
     else:
-        plot = Widths(fluid_figure(name, description, chart(WIDTH, HEIGHT), HEIGHT, title=title))
+        chart = chart_of(*ends, WIDE_INTERVALS)
+        plot = Widths(fluid_figure(name, description, chart, HEIGHT, title=title))
     return Section(
         title=path.title,
+        panels=panels,
         plot=plot,
         legend=[(mark_swatch(_final_mark(index)), each.name) for index, each in enumerate(path.points, 1)],
         notes=[_caption(path, beyond), *path.notes],
@@ -82,21 +79,21 @@ def path_chart(
     position: np.ndarray,
     others: Sequence[np.ndarray],
     label: str,
-    width: float,
     x_ends: Ends,
     y_ends: Ends,
+    intervals: int = 5,
 ) -> Chart:
     """Return the chart of a path at times (s), [n], through ``position``, [2, n] in units of the axes.
 
     Its curves are the path, its end, and for each of its points, ``others``, [2, n], all positions and the last one.
-    ``label`` is that of the abscissa, ``width`` (in) that of the figure.
+    ``label`` is that of the abscissa; between its ticks are at most ``intervals`` intervals.
     """
     line = quantity_curve(position[0], position[1], path.y.label, None)
     end = marks(position[0, -1:], position[1, -1:], marker("o", 6.0, BLUE, fill=WHITE))
     curves = [replace(line, time=time), end]
     for index, (point, positions) in enumerate(zip(path.points, others, strict=True), 1):
         curves += _point_curves(point.name, positions, index)
-    x, y = linear_axis(x_ends, intervals_over(width), label=label), linear_axis(y_ends, Y_INTERVALS)
+    x, y = linear_axis(x_ends, intervals, label=label), linear_axis(y_ends, Y_INTERVALS)
     rules = [level(0.0, INK, 0.8)] if _over_ground(path) else []
     return Chart(NO_BOX, x, y, curves=curves, rules=rules)
 

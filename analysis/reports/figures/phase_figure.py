@@ -18,9 +18,9 @@ from ..common.page import Table, exact
 from ..common.panels import HALF_WIDTH, Panel, Widths
 from ..common.quantities import display_unit, label_with_unit, number
 from ..interactive.charts import NO_BOX, Area, Chart, Note
-from ..interactive.measures import TICK_SIZE, WIDTH
+from ..interactive.measures import TICK_SIZE
 from .declared import BoundValues, Budget, Item, Phase, Phases
-from .section import Section, align, intervals_over
+from .section import Section, align
 from .words import seconds, sentence
 
 
@@ -183,13 +183,12 @@ def _panels(
     lanes = dict.fromkeys(span.name for span in spans)
     height, description = 0.75 + LANE * len(lanes), f"{phases.title}: {', '.join(lanes)} over time"
     if len(windows) == 1:
-        timeline = phase_chart(spans, statuses, windows[0], intervals_over(WIDTH))
-        return [], Widths(fluid_figure(name, description, timeline, height))
+        return [], Widths(fluid_figure(name, description, phase_chart(spans, statuses, windows[0], 10), height))
     panels = []
     for index, window in enumerate(windows):
         begin, end = (number(each, 5) for each in window)
         label = f"{begin} to {end} s"
-        timeline = phase_chart(spans, statuses, window, intervals_over(HALF_WIDTH))
+        timeline = phase_chart(spans, statuses, window, 5)
         panels.append(chart_panel(label, f"{name}-{index}", f"{description}; {label}", timeline, height, HALF_WIDTH))
     return panels, None
 

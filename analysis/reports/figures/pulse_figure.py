@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from markupsafe import Markup
 
@@ -64,24 +62,28 @@ def pulse_charts(pulses: Pulses, result: Result, lengths: np.ndarray) -> list[tu
     returns them.
     """
     time = result.time
-    rests = np.zeros_like(lengths) if pulses.remainder is None else pulses.remainder.plot_values(result)
-    reach = 1.1 * max(float(np.abs(lengths).max()), float(np.nanmax(np.abs(rests), initial=0.0)))
+    remainders = np.zeros_like(lengths) if pulses.remainder is None else pulses.remainder.plot_values(result)
+    reach = 1.1 * max(float(np.abs(lengths).max()), float(np.nanmax(np.abs(remainders), initial=0.0)))
     charts = []
-    for index, (label, row, rest) in enumerate(zip(pulses.labels, lengths, rests, strict=True)):
-        bars = [_bars(time, row, 1.0, BLUE), _bars(time, row, -1.0, VERMILION)]
-        areas = [each for each in bars if each.x.size]
-        curves = []
-        if pulses.remainder is not None and np.any(rest):
-            line = quantity_curve(time, rest, pulses.remainder.names[index], pulses.remainder.unit_name)
-            curves = [replace(line, colour=FAINT, width=THIN)]
+    for label, row, remainder in zip(pulses.labels, lengths, remainders, strict=True):
+        lines = [_line(time, remainder)] if np.any(remainder) else []
+        lines += [_bars(time, row, 1.0, BLUE), _bars(time, row, -1.0, VERMILION)]
+        areas = [each for each in lines if each.x.size]
         rules = [level(0.0, FAINT, THIN)]
-        chart = time_chart(time, curves, (-reach, reach), areas=areas, rules=rules, y_intervals=3)
+        chart = time_chart(time, [], (-reach, reach), areas=areas, rules=rules, y_intervals=3)
         charts.append((f"{label or pulses.lengths.label}, s", chart))
     if pulses.total is not None:
         total = quantity_curve(time, pulses.total.values(result)[0], pulses.total.label, pulses.total.unit_name)
         chart = time_chart(time, [total], axis_ends(displayed([total])), y_intervals=3)
         charts.append((label_with_unit(pulses.total.label, pulses.total.unit_name), chart))
     return charts
+
+
+def _line(time: np.ndarray, numbers: np.ndarray) -> Area:
+    """Strokes from sample to sample, which bars may cover as they could not cover a curve; none where one is nan."""
+    begins = np.flatnonzero(np.isfinite(numbers[:-1]) & np.isfinite(numbers[1:]))
+    rows = np.stack([begins, begins + 1], axis=1).ravel()
+    return Area(time[rows], numbers[rows], (False, False), FAINT, 1.0, THIN)
 
 
 def _bars(time: np.ndarray, lengths: np.ndarray, sign: float, colour: str) -> Area:

@@ -77,11 +77,6 @@ def wide_history(name: str, description: str, unit: str, chart: Chart) -> Widths
     return Widths(fluid_figure(name, description, chart, HEIGHT, title=unit))
 
 
-def intervals_over(width: float) -> int:
-    """Return the largest number of intervals between ticks of an abscissa over this width (in) of a figure."""
-    return 10 if width > HALF_WIDTH else 5
-
-
 def select_rows(rows: Rows | None, result: Result) -> tuple[np.ndarray, slice]:
     """Whether each sample belongs to a figure, and from the first of them to the last; at least one does."""
     chosen = np.ones(result.time.size, dtype=bool) if rows is None else rows.select(result)

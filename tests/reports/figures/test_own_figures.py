@@ -75,8 +75,7 @@ def bars(section):
     actual = {}
     for panel in section.panels:
         (chart,) = panel.figure.charts
-        for area in chart.areas:
-            assert area.stroke == 1.1
+        for area in [each for each in chart.areas if each.stroke == 1.1]:
             path = f"//*[local-name()='path'][@stroke='{area.colour}'][@stroke-width='1.1']/@d"
             (outline,) = etree.fromstring(panel.figure.svg).xpath(path)
             assert outline.count("M") == area.x.size // 2
@@ -177,6 +176,13 @@ def test_a_bar_for_each_pulse():
     assert charts[0].y.ends == charts[1].y.ends
     assert all(chart.x.ends == (TIME[0], TIME[-1]) for chart in charts)
     assert "thin line: ship.rest" in notes(actual)[0]
+    (line, *_), remainders = charts[0].areas, 0.01 * np.sin(TIME)
+    np.testing.assert_array_equal([line.y[::2], line.y[1::2]], [remainders[:-1], remainders[1:]])
+    assert len(charts[1].areas) == 1  # the other remainder is 0
+    gap = {**pulses(), "rest": [np.where(TIME[7] == TIME, np.nan, remainders), 0.0 * TIME]}
+    (line, *_) = one(PULSES, flown(**gap)).panels[0].figure.charts[0].areas
+    assert line.x.size == 2 * (TIME.size - 1) - 4
+    assert TIME[7] not in line.x
 
 
 def test_without_a_count_every_row_has_new_pulses():
