@@ -6,11 +6,10 @@ import os
 import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyarrow.compute
-from matplotlib.figure import Figure as Plot
 
 from ...common.errors import InputError, suggestion
 from ..campaigns.fly.results import BatchResult
@@ -21,9 +20,12 @@ from ..campaigns.spec.expressions import Expression
 from ..campaigns.trials import whole_column
 from ..options.option import FilePath
 from ..reports.campaign.distributions import distribution_plot
+from ..reports.common.colours import look
 from ..reports.common.notebook import Grid, notebook_view
-from ..reports.common.style import look
 from ..runtime.flight.results import require_pandas
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Plot
 
 Results = OpenedResults | BatchResult
 

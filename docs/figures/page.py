@@ -10,7 +10,7 @@ import numpy as np
 from perilune.analysis.campaigns.fly.results import BatchResult
 from perilune.analysis.reports.campaign.distributions import distribution_panels, legend_of, rates_figure
 from perilune.analysis.reports.campaign.embedded_trials import trials_document
-from perilune.analysis.reports.campaign.scatters import failure_panels
+from perilune.analysis.reports.campaign.scatters import failure_panels, legend_of_outcomes
 from perilune.analysis.reports.common.page import write_page
 from perilune.analysis.reports.common.panels import both_widths
 from perilune.analysis.runtime.flight.results import Result
@@ -67,5 +67,6 @@ def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, p
         looks=legend_of(batch),
         distributions=distribution_panels(batch, [m for m in campaign.metrics if m.name in COMPARED]),
         failures=failure_panels(batch),
+        outcomes=legend_of_outcomes(),
         trials=trials_document(batch),
     )

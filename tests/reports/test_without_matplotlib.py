@@ -1,4 +1,4 @@
-"""The page of a run needs no matplotlib.
+"""Pages of runs, campaigns and comparisons need no matplotlib.
 
 Truth: the page that a process writes in which it can be imported.
 """
@@ -7,6 +7,9 @@ import subprocess
 import sys
 
 import pytest
+
+from perilune.analysis.cli import main
+from tests.support.pages.comparison_samples import write_sample
 
 SYSTEM = "orbital_attitude"
 REFUSE = """
@@ -22,14 +25,32 @@ sys.meta_path.insert(0, Refuse())
 RUN = "from perilune.analysis.cli import run; run()"
 
 
+PAGES = [
+    (["run", SYSTEM, "--stop-time", "60"], b"<h2>System-specific plots"),
+    (["batch", "lunar_terminal_guidance", "--campaign", "paper", "--trials", "4"], b"<h2>Failure region"),
+]
+
+
+def both(arguments, folder):
+    """The bytes of a page that this process writes, and those of a process without matplotlib."""
+    page, other = folder / "page.html", folder / "without.html"
+    assert main([*arguments, "--report", str(page)]) in (0, 1)  # 1: a trial failed
+    command = [sys.executable, "-c", REFUSE + RUN, *arguments, "--report", str(other)]
+    finished = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert finished.returncode in (0, 1), finished.stderr
+    return page.read_bytes().replace(page.name.encode(), other.name.encode()), other.read_bytes()
+
+
 @pytest.mark.usefixtures("fmus")
-def test_a_page_is_the_same_without_matplotlib(tmp_path):
-    pages = []
-    for name, before in (("with", "import matplotlib.pyplot\n"), ("without", REFUSE)):
-        page = tmp_path / name / "page.html"
-        command = [sys.executable, "-c", before + RUN, "run", SYSTEM, "--stop-time", "60", "--report", str(page)]
-        finished = subprocess.run(command, capture_output=True, text=True, check=False)
-        assert finished.returncode == 0, finished.stderr
-        pages.append(page.read_bytes())
-    assert pages[0] == pages[1]
-    assert b"<h2>System-specific plots" in pages[0]
+@pytest.mark.parametrize(("arguments", "heading"), PAGES, ids=[arguments[0] for arguments, _ in PAGES])
+def test_a_page_is_the_same_without_matplotlib(tmp_path, arguments, heading):
+    page, other = both(arguments, tmp_path)
+    assert page == other
+    assert heading in page
+
+
+def test_a_comparison_is_the_same_without_matplotlib(tmp_path):
+    write_sample(tmp_path / "out")
+    page, other = both(["compare", str(tmp_path / "out")], tmp_path)
+    assert page == other
+    assert b"<h2>Trajectories" in page

@@ -160,7 +160,9 @@ export class Plot {
   // Whether a line is one whose values are shown at the cursor.
   isShown(series: Series): boolean {
     const isLane = this.chart.y.named && !series.curve.name; // of an ordinate without quantity
-    return !series.hidden && series.x.length > 1 && !isLane && (!this.isPath || series.time !== null);
+    const isAlong = series.time !== null || !(this.isPath || series.isPath); // no outline, no unordered points
+    const isNameless = !series.curve.name && this.series.some((each) => each.curve.name); // next to what has one
+    return !series.hidden && series.x.length > 1 && !isLane && !isNameless && isAlong;
   }
 
   private ranges(): [Range, Range] {

@@ -11,7 +11,7 @@ from ..common.page import write_page
 from .distributions import distribution_panels, legend_of, rates_figure, sort_metrics
 from .embedded_flights import embedded_flights
 from .embedded_trials import trials_document, trials_notes
-from .scatters import failure_panels, influence_on_success, scatter_figures
+from .scatters import failure_panels, influence_on_success, legend_of_outcomes, scatter_figures
 from .tables import (
     HEADINGS,
     component_statuses,
@@ -53,6 +53,7 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         empty=empty,
         scatters=scatter_figures(result),
         failures=failure_panels(result),
+        outcomes=legend_of_outcomes(),
         failed=failures_to_replay(result),
         extremes=extremes_to_replay(result),
         stored=result.folder is not None,

@@ -12,9 +12,9 @@ import numpy as np
 from ....common.errors import InputError
 from ...campaigns.fly.metadata import Provenance
 from ...campaigns.fly.results import BatchResult
+from ..common.colours import COLOURS
 from ..common.quantities import display_factor, display_unit
 from ..common.signals import vector_of
-from ..common.style import COLOURS
 from ..figures.reading import read_figures
 from ..figures.scene.declared import Scene
 from ..scene.flights import FlightsView, RecordedFlight, flights_view

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...campaigns.fly.results import BatchResult
 from ...runtime.flight.results import Flight
-from ..common.style import look
+from ..common.colours import look
 from ..scene.flights import RecordedFlight
 from ..scene.view import FlightName
 

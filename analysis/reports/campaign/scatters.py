@@ -2,57 +2,59 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.axes import Axes
-from matplotlib.patches import Circle
 
 from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.spec.campaign import Metric, Scatter
+from ..chart.axes import linear_axis
+from ..chart.equal import Ends, to_scale
+from ..chart.marks import dashed_circle
+from ..chart.panel import POINTS, chart_panel
+from ..chart.symbols import mark, marker
+from ..chart.ticks import axis_ends
+from ..chart.write_svg import TrialPositions
+from ..common.colours import INK, VERMILION
 from ..common.page import exact
-from ..common.panels import Panel, panel
+from ..common.panels import PANEL_WIDTH, Panel, mark_swatch
 from ..common.quantities import display_factor, display_unit, label_with_unit, number
-from ..common.style import INK, VERMILION, plain_ticks
-from ..interactive.lines import TrialDots
+from ..interactive.charts import NO_BOX, Chart, Dots
 
 SIDE = 3.4  # in, of a panel over metrics
 HEIGHT = 3.2  # in, of a panel over inputs
 SUCCESS = "#9a9a9a"
-MANY = 3000  # points of a panel from which they are stored as an image
+CROSS, DOT = 4.5, 3.2  # pt
 
 
-def plot_outcomes(
-    axes: Axes,
-    variant: str,
-    points: tuple[np.ndarray, np.ndarray],
-    names: tuple[str, str],
-    success: np.ndarray,
-    minimum_size: float,
-) -> None:
-    """Successes as dots and failures as crosses, with their numbers in a legend; marks shrink as points grow many.
+def outcome_dots(variant: str, names: tuple[str, str], success: np.ndarray, minimum_size: float) -> list[Dots]:
+    """Return the marks of the trials of a ``variant``: dots of successes, crosses of failures, small where many are.
 
-    ``points`` are abscissas and ordinates of the trials of a ``variant``, ``names`` the columns that they are from.
+    ``names`` are the columns of their abscissa and ordinate.
     """
     size = max(minimum_size, min(1.0, (500.0 / success.size) ** 0.5))
-    for outcome, marker, diameter, edge, colour, text in (
-        (True, "o", 3.2, 0.0, SUCCESS, "successes"), (False, "x", 4.5, 1.3, VERMILION, "failures")
-    ):  # fmt: skip
-        rows = success if outcome else ~success
-        dots = TrialDots(
-            points[0][rows], points[1][rows], variant=variant, names=names, success=outcome, color=colour, linestyle="",
-            marker=marker, markersize=diameter * size, markeredgewidth=edge * size, rasterized=success.size > MANY,
-            label=f"{int(rows.sum())} {text}",
-        )  # fmt: skip
-        axes.add_line(dots)
-    axes.autoscale_view()
-    plain_ticks(axes, x=5, y=6)
-    axes.legend(
-        loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2, borderpad=0.2, handletextpad=0.2, columnspacing=1.0,
-        markerscale=1.0 / size,
-    )  # fmt: skip
+    good = Dots(variant=variant, names=names, success=True, colour=SUCCESS, size=DOT * size)
+    return [good, Dots(variant=variant, names=names, colour=VERMILION.lower(), size=CROSS * size, cross=True)]
+
+
+def legend_of_outcomes() -> Markup:
+    """Return the marks of successes and failures with their names."""
+    success, failure = marker("o", DOT, SUCCESS), marker("x", CROSS, VERMILION, width=1.3)
+    return Markup("{}success {}failure").format(mark_swatch(success), mark_swatch(failure))
+
+
+def positions(x: np.ndarray, y: np.ndarray, success: np.ndarray) -> TrialPositions:
+    """Return the function of abscissas and ordinates of successes or failures; all of them, [trials], as displayed."""
+    return lambda dots: (x[success == dots.success], y[success == dots.success])
+
+
+def count_failures(variant: str, success: np.ndarray) -> str:
+    """Return the label of a panel: a variant with the number of its failures."""
+    return f"{variant}: {number(int(np.count_nonzero(~success)))} of {number(success.size)} failed"
 
 
 @dataclass(frozen=True)
@@ -64,75 +66,78 @@ class ScatterFigure:
     notes: list[Markup]
 
 
-def scatter_figures(result: BatchResult) -> list[ScatterFigure]:
+def scatter_figures(batch: BatchResult) -> list[ScatterFigure]:
     """The plots of [scatter] in the order of the campaign."""
-    return [_scatter_figure(result, scatter) for scatter in result.plan.campaign.scatters]
+    return [_scatter_figure(batch, scatter) for scatter in batch.plan.campaign.scatters]
 
 
-def _scatter_figure(result: BatchResult, scatter: Scatter) -> ScatterFigure:
-    metrics = {metric.name: metric for metric in result.plan.campaign.metrics}
+def _scatter_figure(batch: BatchResult, scatter: Scatter) -> ScatterFigure:
+    metrics = {metric.name: metric for metric in batch.plan.campaign.metrics}
     pair = (metrics[scatter.x], metrics[scatter.y])
     points = {
         variant: np.stack([sample.dots.metrics[metric.name] * display_factor(metric.unit) for metric in pair])
-        for variant, sample in result.plotted.items()
+        for variant, sample in batch.plotted.items()
     }
     title = scatter.title or f"{scatter.y} vs. {scatter.x}"
-    everything = np.concatenate(list(points.values()), axis=1)
-    limits = _limits(everything, 0.0 if scatter.circle is None else display_factor(pair[0].unit) * scatter.circle)
-    to_scale = pair[0].unit == pair[1].unit
-    if to_scale and limits is not None:
-        limits = _square(limits)
-
+    ordinate = label_with_unit(pair[1].name, pair[1].unit)
+    x_ends, y_ends = _limits(np.concatenate(list(points.values()), axis=1), _radius(scatter, pair[0]))
     panels = []
     for index, (variant, values) in enumerate(points.items()):
-
-        def draw(axes: Axes, variant: str = variant, values: np.ndarray = values) -> None:
-            success = result.plotted[variant].dots.success
-            columns = (f"metric.{scatter.x}", f"metric.{scatter.y}")
-            plot_outcomes(axes, variant, (values[0], values[1]), columns, success, minimum_size=0.5)
-            _frame(axes, pair, scatter, limits, to_scale)
-
-        panels.append(panel(variant, f"scatter-{scatter.name}-{index}", f"{title}: {variant}", draw, SIDE))
+        success = batch.plotted[variant].dots.success
+        chart_of = partial(scatter_chart, variant, success, scatter, pair)
+        if pair[0].unit == pair[1].unit:
+            chart = to_scale(chart_of, x_ends, y_ends, POINTS * PANEL_WIDTH, POINTS * SIDE, title=ordinate)
+        else:
+            chart = chart_of(x_ends, y_ends)
+        panels.append(
+            chart_panel(
+                count_failures(variant, success),
+                f"scatter-{scatter.name}-{index}",
+                f"{title}: {variant}",
+                chart,
+                SIDE,
+                title=ordinate,
+                trials=positions(values[0], values[1], success),
+            )
+        )
     return ScatterFigure(title, panels, _notes(scatter, pair[0], points))
 
 
-def _limits(points: np.ndarray, radius: float) -> np.ndarray | None:
-    """Limits of both axes, a row each, that contain all finite points and the circle; None without any."""
+def scatter_chart(
+    variant: str, success: np.ndarray, scatter: Scatter, pair: tuple[Metric, Metric], x_ends: Ends, y_ends: Ends
+) -> Chart:
+    """Return the trials of a ``variant`` over two metrics, with the ends of the axes as displayed."""
+    radius = _radius(scatter, pair[0])
+    columns = (f"metric.{scatter.x}", f"metric.{scatter.y}")
+    return Chart(
+        NO_BOX,
+        linear_axis(x_ends, 5, label=label_with_unit(pair[0].name, pair[0].unit)),
+        linear_axis(y_ends, 6),
+        dots=outcome_dots(variant, columns, success, minimum_size=0.5),
+        areas=[dashed_circle(radius, INK, 1.0)] if radius else [],
+        curves=[mark(0.0, 0.0, marker("+", 8.0, INK))] if radius else [],
+    )
+
+
+def _radius(scatter: Scatter, metric: Metric) -> float:
+    """The radius of the circle as displayed; 0 without one."""
+    return 0.0 if scatter.circle is None else display_factor(metric.unit) * scatter.circle
+
+
+def _limits(points: np.ndarray, radius: float) -> tuple[Ends, Ends]:
+    """Ends of both axes that contain all finite points and the circle."""
     points = points[:, np.all(np.isfinite(points), axis=0)]
-    ends = np.array([[-radius, radius]] * 2) if radius else np.empty((2, 0))
-    everything = np.concatenate([points, ends], axis=1)
-    if not everything.size:
-        return None
+    circle = np.array([[-radius, radius]] * 2) if radius or not points.size else np.empty((2, 0))
+    everything = np.concatenate([points, circle], axis=1)
     low, high = everything.min(axis=1), everything.max(axis=1)
     margin = np.where(high > low, 0.05 * (high - low), 0.5)
-    return np.stack([low - margin, high + margin], axis=1)
-
-
-def _square(limits: np.ndarray) -> np.ndarray:
-    """Limits of equal length."""
-    middle, half = limits.mean(axis=1), 0.5 * float(np.max(np.ptp(limits, axis=1)))
-    return np.stack([middle - half, middle + half], axis=1)
-
-
-def _frame(
-    axes: Axes, pair: tuple[Metric, Metric], scatter: Scatter, limits: np.ndarray | None, to_scale: bool
-) -> None:
-    if scatter.circle is not None:
-        radius = scatter.circle * display_factor(pair[0].unit)
-        axes.add_patch(Circle((0.0, 0.0), radius, fill=False, edgecolor=INK, linewidth=1.0, linestyle=(0, (4, 2))))
-        axes.plot(0.0, 0.0, "+", color=INK, markersize=8)
-    axes.set_xlabel(label_with_unit(pair[0].name, pair[0].unit))
-    axes.set_ylabel(label_with_unit(pair[1].name, pair[1].unit))
-    if limits is not None:
-        axes.set_xlim(*limits[0])
-        axes.set_ylim(*limits[1])
-    if to_scale:
-        axes.set_aspect("equal")
+    x, y = np.stack([low - margin, high + margin], axis=1).tolist()
+    return tuple(x), tuple(y)
 
 
 def _notes(scatter: Scatter, metric: Metric, points: dict[str, np.ndarray]) -> list[Markup]:
-    """The caption of the circle, and the number of trials without a point."""
-    notes = []
+    """The captions of the marks and of the circle, and the number of trials without a point."""
+    notes = [legend_of_outcomes()]
     if scatter.circle is not None:
         radius = exact(scatter.circle, metric.unit)
         notes.append(Markup("Dashed: {} {} around the origin.").format(radius, display_unit(metric.unit)))
@@ -144,41 +149,60 @@ def _notes(scatter: Scatter, metric: Metric, points: dict[str, np.ndarray]) -> l
     return notes
 
 
-def influence_on_success(result: BatchResult, variant: str) -> dict[str, float]:
+def influence_on_success(batch: BatchResult, variant: str) -> dict[str, float]:
     """The influence of each dispersed input on success, 0 to 1, largest first.
 
     It is the larger absolute correlation with success, of the input or of its distance from its mean; the latter sees
     failures at both ends. Inputs that do not vary and derived values are left out; so are all inputs without both
     failures and successes.
     """
-    success = result.plotted[variant].dots.success.astype(float)
+    success = batch.plotted[variant].dots.success.astype(float)
     if success.min() == success.max():
         return {}
     influence = {}
-    for name in input_names(result.plan.campaign):
-        values = result.plotted[variant].dots.draws[name]
+    for name in input_names(batch.plan.campaign):
+        values = batch.plotted[variant].dots.draws[name]
         columns = [column for column in (values, np.abs(values - values.mean())) if np.ptp(column) > 0.0]
         if columns:
             influence[name] = max(abs(float(np.corrcoef(success, column)[0, 1])) for column in columns)
     return dict(sorted(influence.items(), key=lambda item: -item[1]))
 
 
-def failure_panels(result: BatchResult) -> list[Panel]:
-    """Failures and successes over the two most influential inputs of each variant that has both."""
+def failure_panels(batch: BatchResult) -> list[Panel]:
+    """Return failures and successes over the two most influential inputs of each variant that has both."""
     panels = []
-    for index, variant in enumerate(result.rows):
-        names = list(influence_on_success(result, variant))[:2]
-
-        def draw(axes: Axes, variant: str = variant, names: list[str] = names) -> None:
-            sample = result.plotted[variant]
-            draws, success = sample.dots.draws, sample.dots.success
-            columns = (f"draw.{names[0]}", f"draw.{names[1]}" if len(names) > 1 else "trial")
-            points = (draws[names[0]], draws[names[1]] if len(names) > 1 else sample.numbers.astype(float))
-            plot_outcomes(axes, variant, points, columns, success, minimum_size=0.35)
-            axes.set_xlabel(names[0])
-            axes.set_ylabel(names[1] if len(names) > 1 else "trial")
-
+    for index, variant in enumerate(batch.rows):
+        names = list(influence_on_success(batch, variant))[:2]
         if names:
-            description = f"Failures of {variant} over {' and '.join(names)}"
-            panels.append(panel(variant, f"failures-{index}", description, draw, HEIGHT))
+            success = batch.plotted[variant].dots.success
+            panels.append(
+                chart_panel(
+                    count_failures(variant, success),
+                    f"failures-{index}",
+                    f"Failures of {variant} over {' and '.join(names)}",
+                    failure_chart(batch, variant, names),
+                    HEIGHT,
+                    title=names[1] if len(names) > 1 else "trial",
+                    trials=positions(*_inputs(batch, variant, names), success),
+                )
+            )
     return panels
+
+
+def _inputs(batch: BatchResult, variant: str, names: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
+    """Abscissas and ordinates of the trials over one or two inputs; over one the trial's number is the ordinate."""
+    sample = batch.plotted[variant]
+    draws = sample.dots.draws
+    return draws[names[0]], draws[names[1]] if len(names) > 1 else sample.numbers.astype(float)
+
+
+def failure_chart(batch: BatchResult, variant: str, names: Sequence[str]) -> Chart:
+    """Return the trials of a variant over one or two dispersed inputs."""
+    x, y = _inputs(batch, variant, names)
+    columns = (f"draw.{names[0]}", f"draw.{names[1]}" if len(names) > 1 else "trial")
+    return Chart(
+        NO_BOX,
+        linear_axis(axis_ends(x), 5, label=names[0]),
+        linear_axis(axis_ends(y), 6),
+        dots=outcome_dots(variant, columns, batch.plotted[variant].dots.success, minimum_size=0.35),
+    )

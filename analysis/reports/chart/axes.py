@@ -16,6 +16,11 @@ def linear_axis(ends: tuple[float, float], intervals: int, *, label: str = "", i
     return _axis(ends, [(at, tick(at)) for at in axis_ticks(*ends, intervals, integer=integer)], label, named=False)
 
 
+def ticked_axis(ends: tuple[float, float], ticks: Sequence[float], *, label: str = "") -> Axis:
+    """Return a linear axis with these ticks."""
+    return _axis(ends, [(at, tick(at)) for at in ticks], label, named=False)
+
+
 def logarithmic_axis(
     ends: tuple[float, float], limit: int, *, label: str = "", multiples: tuple[float, ...] = (1.0,)
 ) -> Axis:

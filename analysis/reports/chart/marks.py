@@ -1,21 +1,31 @@
-"""Areas and rules of charts: bands between curves, spans across the axes, levels and instants."""
+"""Areas, rules and notes of charts: bands between curves, spans across the axes, levels and instants."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from ..interactive.charts import Area, Rule
+from ..common.colours import FAINT
+from ..interactive.charts import Area, Note, Rule
+from ..interactive.measures import TICK_SIZE
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
+CIRCLE_DASHES, DASH = 72, 2.0 / 3.0  # strokes of a circle, and what they are of it
 
 
-def band_areas(x: np.ndarray, low: np.ndarray, high: np.ndarray, colour: str, opacity: float) -> list[Area]:
-    """Return the areas between two ordinates, [rows]: one for each run of rows in which both are finite."""
+def band_areas(
+    x: np.ndarray, low: np.ndarray, high: np.ndarray, colour: str, opacity: float, *, steps: bool = False
+) -> list[Area]:
+    """Return the areas between two ordinates, [rows]: one for each run of rows in which both are finite.
+
+    ``steps``: ordinates hold until the next row.
+    """
     finite = np.isfinite(low) & np.isfinite(high)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], finite, [False]]).astype(np.int8)))
     areas = []
     for first, end in zip(edges[::2], edges[1::2], strict=True):
         times, lower, upper = x[first:end], low[first:end], high[first:end]
+        if steps:
+            times, lower, upper = np.repeat(times, 2)[1:], np.repeat(lower, 2)[:-1], np.repeat(upper, 2)[:-1]
         around_x = np.concatenate([times[:1], times, times[-1:], times[::-1], times[:1]])
         around_y = np.concatenate([upper[:1], lower, upper[-1:], upper[::-1], upper[:1]])
         areas.append(Area(around_x, around_y, (False, False), colour.lower(), opacity, 0.0))
@@ -32,6 +42,13 @@ def during(begin: float, end: float, colour: str, opacity: float) -> Area:
     return Area(begin + (end - begin) * SQUARE[:, 0], SQUARE[:, 1], (False, True), colour.lower(), opacity, 0.0)
 
 
+def dashed_circle(radius: float, colour: str, width: float) -> Area:
+    """Return a circle around the origin, as `CIRCLE_DASHES` chords."""
+    angle = 2.0 * np.pi / CIRCLE_DASHES * (np.arange(CIRCLE_DASHES)[:, np.newaxis] + [-DASH / 2.0, DASH / 2.0])
+    x, y = radius * np.cos(angle.ravel()), radius * np.sin(angle.ravel())
+    return Area(x, y, (False, False), colour.lower(), 1.0, width)
+
+
 def level(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Rule:
     """Return a line across the axes at an ordinate; dashes in widths of the line."""
     return Rule(at=at, colour=colour.lower(), width=width, dashes=dashes)
@@ -40,3 +57,8 @@ def level(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) 
 def instant(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Rule:
     """Return a line across the axes at an abscissa; dashes in widths of the line."""
     return Rule(at=at, upright=True, colour=colour.lower(), width=width, dashes=dashes)
+
+
+def note_above(text: str) -> Note:
+    """Return a faint text above the right end of the axes."""
+    return Note(text, (1.0, 1.0), (True, True), (0.0, 5.0), ("right", "baseline"), FAINT, TICK_SIZE)

@@ -17,6 +17,7 @@ from .svg.axes import STROKE, TITLE_GAP
 from .write_svg import TrialPositions, no_trials
 
 POINTS = 72.0  # in an inch
+KEY_LINE = 0.22  # in
 
 
 def plot_charts(
@@ -27,25 +28,31 @@ def plot_charts(
     columns: int = 1,
     titles: Sequence[str] = (),
     legends: Sequence[Sequence[str]] = (),
+    key: Sequence[str] = (),
     trials: TrialPositions = no_trials,
 ) -> Figure:
     """Return a figure of charts, row by row; ``height`` and ``width`` (in) are those of one.
 
     A chart that has its box keeps it, others are laid out, in one column with their axes above each other. ``titles``
-    stand above the axes; so do ``legends``, for each chart the labels of its first curves. ``trials`` returns the
-    positions of marks of trials.
+    stand above the axes; so do ``legends``, for each chart the labels of its first curves; ``key`` are those of the
+    first curves of all charts, above the figure. ``trials`` returns the positions of marks of trials.
     """
     texts = [*titles, *[""] * (len(charts) - len(titles))]
     labels = [*legends, *[()] * (len(charts) - len(legends))]
     rows = -(-len(charts) // columns)
     with house_style():
-        figure = Picture(figsize=(columns * width, rows * height))
+        strip = KEY_LINE * -(-len(key) // columns)
+        figure = Picture(figsize=(columns * width, rows * height + strip))
+        whole = rows + strip / height
         placed = _lay_out(charts, POINTS * width, POINTS * height, texts, aligned=columns == 1)
         for index, (chart, text, legend) in enumerate(zip(placed, texts, labels, strict=True)):
             row, column = divmod(index, columns)
             left, top, wide, high = chart.box
-            bounds = ((column + left) / columns, 1.0 - (row + top + high) / rows, wide / columns, high / rows)
+            below = (rows - row - top - high) / whole
+            bounds = ((column + left) / columns, below, wide / columns, high / whole)
             _plot(figure.add_axes(bounds), chart, text, legend, trials)
+        if key:
+            figure.legend(figure.axes[0].lines[: len(key)], key, loc="upper left", ncols=columns, handlelength=3.2)
     return figure
 
 

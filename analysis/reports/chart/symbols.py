@@ -65,6 +65,11 @@ def marks(
     return replace(curve, colour=colour, dashes=(), joined=False, marker=mark, opacity=opacity, beyond=beyond)
 
 
+def mark(x: float, y: float, symbol: Marker, *, beyond: bool = False) -> Curve:
+    """Return a mark at one point."""
+    return marks(np.array([x]), np.array([y]), symbol, beyond=beyond)
+
+
 def arrow(at: tuple[float, float], angle: float, length: float, colour: str, width: float = SHAFT) -> Curve:
     """Return an arrow from a point of the data at an ``angle`` (rad, from the right to the top of the figure).
 

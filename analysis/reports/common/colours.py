@@ -93,6 +93,11 @@ class Look(NamedTuple):
     dashes: LineStyleType
     marker: str
 
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Lengths of dashes and gaps in widths of the line."""
+        return () if isinstance(self.dashes, str) else tuple(self.dashes[1] or ())
+
 
 def look(index: int) -> Look:
     """The look of the index-th series."""

@@ -96,7 +96,7 @@ def far(values: np.ndarray) -> tuple[float, str]:
 
 def swatch(look: Look) -> Markup:
     """A look as a short line for legends in text."""
-    lengths = "" if isinstance(look.dashes, str) else " ".join(f"{1.7 * length:g}" for length in look.dashes[1])
+    lengths = " ".join(f"{1.7 * length:g}" for length in look.lengths)
     return Markup(
         '<svg class="swatch" viewBox="0 0 26 8" aria-hidden="true">'
         '<line x1="0" y1="4" x2="26" y2="4" stroke="{}" stroke-width="3.2" stroke-dasharray="{}"/></svg>'

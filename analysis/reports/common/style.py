@@ -50,7 +50,10 @@ class LineStyle(TypedDict, total=False):
     zorder: float
 
 
-FAILED: LineStyle = {"color": INK, "linestyle": (0, (4, 2))}  # flights that failed, and what is to be expected
+FAILED: LineStyle = {
+    "color": INK,
+    "linestyle": (0, measures.FAILED_DASHES),
+}  # flights that failed, and what is to be expected
 SETTINGS: Any = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],

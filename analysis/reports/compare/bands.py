@@ -6,14 +6,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.axes import Axes
 from scipy.stats import chi2, norm
 
 from ...campaigns.verdicts.order_statistics import quantiles
 from ..campaign.recorded_names import RATIO
-from ..common.panels import Panel, far, panel
+from ..chart.axes import linear_axis
+from ..chart.lines import line
+from ..chart.marks import band_areas, level, note_above
+from ..chart.panel import chart_panel
+from ..common.colours import FAINT, INK, Look
+from ..common.panels import Panel, far
 from ..common.quantities import display_factor, display_unit, number
-from ..common.style import FAILED, FAINT, Look, plain_ticks
+from ..interactive.charts import NO_BOX, Area, Chart, Curve
+from ..interactive.measures import FAILED_DASHES
 from .recorded import ALL, Flight, Quantity, doubling
 
 LEVELS = (5.0, 25.0, 50.0, 75.0, 95.0)  # %
@@ -103,17 +108,19 @@ class Frame:
     expected: tuple[float, ...]
     held: bool
 
-    def dress(self, axes: Axes) -> None:
-        """Limits, labels, and where the errors of a consistent filter would lie."""
-        for value in self.expected:
-            axes.axhline(self.factor * value, linewidth=0.9, **FAILED)
+    def chart(self, curves: Sequence[Curve], areas: Sequence[Area], note: str = "") -> Chart:
+        """Return the chart of ``curves``, and where the errors of a consistent filter would lie."""
         start, end = self.time
         margin = 0.06 * (self.high - self.low) or 0.06 * abs(self.high) or 1.0
-        axes.set_xlim(start, end + 0.02 * (end - start))
-        axes.set_ylim(self.factor * (self.low - margin), self.factor * (self.high + margin))
-        axes.set_xlabel("time, s")
-        axes.set_ylabel(self.unit)
-        plain_ticks(axes, x=5, y=5, whole_y=self.held)
+        return Chart(
+            NO_BOX,
+            linear_axis((start, end + 0.02 * (end - start)), 5, label="time, s"),
+            linear_axis((self.factor * (self.low - margin), self.factor * (self.high + margin)), 5, integer=self.held),
+            curves=curves,
+            areas=areas,
+            rules=[level(self.factor * at, INK, 0.9, FAILED_DASHES) for at in self.expected],
+            notes=[note_above(note)] if note else [],
+        )
 
 
 def frame_of(quantity: Quantity, bands: Mapping[str, Bands]) -> Frame:
@@ -132,37 +139,41 @@ def frame_of(quantity: Quantity, bands: Mapping[str, Bands]) -> Frame:
     return Frame(factor, unit, (float(start), float(end)), low, high, expected, quantity.held)
 
 
-def band_panels(quantity: Quantity, bands: Mapping[str, Bands], looks: Mapping[str, Look], name: str) -> list[Panel]:
-    """A panel per contender, all to one scale; one whose errors over sigma leave it says how far they go."""
+def band_panels(quantity: Quantity, bands: Mapping[str, Bands], styles: Mapping[str, Look], name: str) -> list[Panel]:
+    """Return a panel per contender, all to one scale; a note states the range of one that exceeds it."""
     frame = frame_of(quantity, bands)
-    panels = []
-    for index, (label, band) in enumerate(bands.items()):
-
-        def draw(axes: Axes, band: Bands = band, colour: str = looks[label].colour) -> None:
-            _draw(axes, band, frame.factor, colour, quantity.held)
-            frame.dress(axes)
-            ends = (band.finite_values().min(), band.finite_values().max())
-            if not all(frame.low <= value <= frame.high for value in ends):
-                low, high = (number(frame.factor * float(value), 3) for value in ends)
-                axes.set_title(f"clipped; full range {low} to {high}", loc="right", fontsize=8.0, color=FAINT)
-
-        description = f"{quantity.label} of {label} over time: percentiles over {band.flights} flights"
-        panels.append(panel(label, f"{name}-{index}", description, draw, HEIGHT))
-    return panels
-
-
-def _draw(axes: Axes, bands: Bands, factor: float, colour: str, held: bool) -> None:
-    rows = factor * bands.percentiles
-    style = "steps-post" if held else "default"
-    for low, high, shade in ((0, 4, 0.18), (1, 3, 0.32)):
-        axes.fill_between(
-            bands.time, rows[low], rows[high], color=colour, alpha=shade, linewidth=0.0, step="post" if held else None
+    return [
+        chart_panel(
+            label,
+            f"{name}-{index}",
+            f"{quantity.label} of {label} over time: percentiles over {band.flights} flights",
+            band_chart(quantity, band, styles[label].colour, frame),
+            HEIGHT,
+            title=frame.unit,
         )
-    for time, values in bands.failed:
-        axes.plot(time, factor * values, linewidth=0.6, alpha=0.45, zorder=0.9, drawstyle=style, **FAILED)
-    for time, values in bands.singles:
-        axes.plot(time, factor * values, color=FAINT, linewidth=0.6, drawstyle=style)
-    axes.plot(bands.time, rows[2], color=colour, linewidth=1.8, drawstyle=style)
+        for index, (label, band) in enumerate(bands.items())
+    ]
+
+
+def band_chart(quantity: Quantity, band: Bands, colour: str, frame: Frame) -> Chart:
+    """Return the median of a contender's flights over time with the bands of 50 and 90 %, and some flights."""
+    rows, steps = frame.factor * band.percentiles, quantity.held
+    areas = [
+        area
+        for low, high, opacity in ((0, 4, 0.18), (1, 3, 0.32))
+        for area in band_areas(band.time, rows[low], rows[high], colour, opacity, steps=steps)
+    ]
+    failed = [
+        line(time, frame.factor * numbers, INK, width=0.6, dashes=FAILED_DASHES, opacity=0.45, steps=steps)
+        for time, numbers in band.failed
+    ]
+    singles = [line(time, frame.factor * numbers, FAINT, width=0.6, steps=steps) for time, numbers in band.singles]
+    median = line(band.time, rows[2], colour, width=1.8, steps=steps, name="median", unit=frame.unit)
+    ends = (float(band.finite_values().min()), float(band.finite_values().max()))
+    is_clipped = not all(frame.low <= end <= frame.high for end in ends)
+    low, high = (number(frame.factor * end, 3) for end in ends)
+    note = f"clipped; full range {low} to {high}" if is_clipped else ""
+    return frame.chart([*failed, *singles, median], areas, note)
 
 
 def expectation(quantity: Quantity) -> tuple[float, ...]:
@@ -175,27 +186,32 @@ def expectation(quantity: Quantity) -> tuple[float, ...]:
     return ()
 
 
-def overlaid_bands(quantity: Quantity, bands: Mapping[str, Bands], looks: Mapping[str, Look], name: str) -> list[Panel]:
+def overlaid_bands(
+    quantity: Quantity, bands: Mapping[str, Bands], styles: Mapping[str, Look], name: str
+) -> list[Panel]:
     """Medians with the bands of nine tenths, to the scale of the contenders' own panels; none of a single one.
 
     Bands of errors over sigma would hide each other, since all are to be the same.
     """
     if len(bands) < 2:
         return []
-    frame = frame_of(quantity, bands)
-    shaded = bands if quantity.kind != "consistency" else {}
-
-    def draw(axes: Axes) -> None:
-        for label, band in shaded.items():
-            rows, style = frame.factor * band.percentiles, looks[label]
-            axes.fill_between(
-                band.time, rows[0], rows[-1], color=style.colour, alpha=FAINT_BAND, linewidth=0.0,
-                step="post" if quantity.held else None,
-            )  # fmt: skip
-        for label, band in bands.items():
-            median, style = frame.factor * band.percentiles[2], looks[label]
-            steps = "steps-post" if quantity.held else "default"
-            axes.plot(band.time, median, color=style.colour, linestyle=style.dashes, drawstyle=steps)
-        frame.dress(axes)
-
-    return [panel(f"{quantity.label}, {ALL}", name, f"Medians of {quantity.label} over time, {ALL}", draw, HEIGHT)]
+    frame, steps = frame_of(quantity, bands), quantity.held
+    rows = {label: frame.factor * band.percentiles for label, band in bands.items()}
+    areas = [
+        area
+        for label, band in bands.items()
+        if quantity.kind != "consistency"
+        for area in band_areas(
+            band.time, rows[label][0], rows[label][-1], styles[label].colour, FAINT_BAND, steps=steps
+        )
+    ]
+    medians = [
+        line(band.time, rows[label][2], styles[label].colour, dashes=styles[label].lengths, steps=steps)
+        for label, band in bands.items()
+    ]  # without names: at the cursor, those of six variants would take six lines; the legend has them
+    description = f"Medians of {quantity.label} over time, {ALL}"
+    return [
+        chart_panel(
+            f"{quantity.label}, {ALL}", name, description, frame.chart(medians, areas), HEIGHT, title=frame.unit
+        )
+    ]

@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from ...campaigns.compare.comparison import Contender
 from ...campaigns.verdicts.order_statistics import quantiles
 from ..campaign.recorded_names import find_vector, variable_of, vectors
-from ..common.panels import Panel, far, panel
-from ..common.style import FAINT, INK, LineStyle, Look, plain_ticks
+from ..chart.axes import linear_axis
+from ..chart.equal import Ends as Pair
+from ..chart.equal import to_scale
+from ..chart.lines import line
+from ..chart.marks import note_above
+from ..chart.panel import POINTS, chart_panel
+from ..chart.symbols import mark, marker, marks
+from ..common.colours import FAINT, INK, Look
+from ..common.panels import PANEL_WIDTH, Panel, far
+from ..interactive.charts import NO_BOX, Chart, Curve
 from .recorded import ALL
 
-TARGET: LineStyle = {
-    "linestyle": "", "marker": "o", "markersize": 6, "markerfacecolor": "white", "markeredgecolor": INK,
-    "markeredgewidth": 1.3, "zorder": 4,
-}  # fmt: skip
+TARGET = marker("o", 6.0, INK, fill="#ffffff", width=1.3)
 UNITS = {"position": "m", "velocity": "m/s"}
 
 
@@ -32,7 +37,7 @@ class Target:
 
 @dataclass(frozen=True)
 class Ends:
-    """What a contender's flights missed by at the end: final less target, trials by elements, SI."""
+    """What a contender's flights each by at the end: final less target, trials by elements, SI."""
 
     signal: str
     variable: str
@@ -70,7 +75,6 @@ SIGMAS = (1.0, 2.0, 3.0)
 RADII = (0.5, 0.99)  # fractions of the trials that end within the distances shown
 UNEVEN = 4.0  # scales that differ by more are shown a second time, each contender to its own
 HEIGHT = 3.1  # in
-MANY = 1000  # points from which on they are stored as an image, not one by one
 
 
 @dataclass(frozen=True)
@@ -117,16 +121,16 @@ def ellipse(good: np.ndarray, sigma: float) -> np.ndarray:
 
 
 def dispersion_panels(
-    ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str, name: str
+    ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: str, name: str
 ) -> tuple[list[Panel], list[Panel]]:
     """Panels to one scale; and, where these differ much, each to its own."""
     reaches = {label: reach_of(points) for label, points in ends.items()}
     maximum = max(reaches.values())
     uneven = maximum > UNEVEN * min(reaches.values())
     numbered = [(i, *item) for i, item in enumerate(ends.items())]
-    common = [_panel(label, points, looks[label], maximum, unit, f"{name}-{i}") for i, label, points in numbered]
+    common = [_panel(label, points, styles[label], maximum, unit, f"{name}-{i}") for i, label, points in numbered]
     own = [
-        _panel(label, points, looks[label], reaches[label], unit, f"{name}-own-{i}")
+        _panel(label, points, styles[label], reaches[label], unit, f"{name}-own-{i}")
         for i, label, points in numbered
         if uneven
     ]
@@ -152,64 +156,71 @@ def reach_of(ends: Ends) -> float:
 
 def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: str) -> Panel:
     factor, displayed = far(np.array([reach])) if unit == "m" else (1.0, unit)
-    good, bad = (factor * points for points in select_ends(ends))
-    reach *= factor
-
-    def draw(axes: Axes) -> None:
-        size = max(1.6, min(4.0, 40.0 / max(1, len(bad)) ** 0.5))
-        axes.plot(
-            bad[:, 0], bad[:, 1], "x", color=FAINT, markersize=size, markeredgewidth=0.2 * size, alpha=0.6,
-            rasterized=len(bad) > MANY,
-        )  # fmt: skip
-        size = max(0.8, min(2.6, 40.0 / max(1, len(good)) ** 0.5))
-        axes.plot(
-            good[:, 0], good[:, 1], "o", color=style.colour, markersize=size, markeredgewidth=0.0, alpha=0.65,
-            rasterized=len(good) > MANY,
-        )  # fmt: skip
-        if len(good) > 1:
-            for sigma in SIGMAS:
-                axes.plot(*ellipse(good, sigma), color=INK, linewidth=0.9)
-            axes.plot(*good[:, :2].mean(axis=0), "+", color=INK, markersize=8, markeredgewidth=1.4)
-        axes.plot(0.0, 0.0, **TARGET)
-        outside = int(np.sum(np.any(np.abs(bad[:, :2]) > reach, axis=1)))
-        missing = len(ends.errors) - len(good) - len(bad)
-        notes = [f"{outside} failed outside"] if outside else []
-        notes += [f"{missing} without an end"] if missing else []
-        axes.set_title(", ".join(notes), loc="right", fontsize=8.0, color=FAINT)
-        _dress(axes, reach, displayed)
-
     description = f"Final {ends.variable} of {label} about the target, with covariance ellipses"
-    return panel(label, name, description, draw, HEIGHT)
+    chart_of = partial(dispersion_chart, ends, style.colour, factor, displayed)
+    chart = _about_target(chart_of, factor * reach, displayed)
+    return chart_panel(label, name, description, chart, HEIGHT, title=f"y, {displayed}")
 
 
-def _dress(axes: Axes, reach: float, unit: str) -> None:
-    """A square about the target."""
-    axes.set_xlim(-reach, reach)
-    axes.set_ylim(-reach, reach)
-    axes.set_box_aspect(1.0)
-    axes.set_xlabel(f"x, {unit}")
-    axes.set_title(f"y, {unit}", loc="left", fontsize=8.5)
-    plain_ticks(axes, x=4, y=4)
+def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: Pair, y_ends: Pair) -> Chart:
+    """Return where a contender's trials end about the target, with the ellipses of the successful ones.
+
+    ``factor`` from SI to the displayed ``unit``, in which the ends of the axes are.
+    """
+    good, bad = (factor * errors for errors in select_ends(ends))
+    size = max(1.6, min(4.0, 40.0 / max(1, len(bad)) ** 0.5))
+    curves = [marks(bad[:, 0], bad[:, 1], marker("x", size, FAINT, width=0.2 * size), opacity=0.6)]
+    size = max(0.8, min(2.6, 40.0 / max(1, len(good)) ** 0.5))
+    curves.append(marks(good[:, 0], good[:, 1], marker("o", size, colour, width=0.0), opacity=0.65))
+    if len(good) > 1:
+        for sigma in SIGMAS:
+            x, y = ellipse(good, sigma)
+            curves.append(line(x, y, INK, width=0.9))
+        curves.append(_mean(good, INK))
+    limit = np.array([x_ends[1], y_ends[1]])
+    outside = int(np.sum(np.any(np.abs(bad[:, :2]) > limit, axis=1)))
+    missing = len(ends.errors) - len(good) - len(bad)
+    notes = [f"{outside} failed outside"] if outside else []
+    notes += [f"{missing} without an end"] if missing else []
+    return _chart(curves, unit, x_ends, y_ends, ", ".join(notes))
 
 
-def overlaid_ends(ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str, name: str) -> list[Panel]:
+def _mean(good: np.ndarray, colour: str) -> Curve:
+    x, y = good[:, :2].mean(axis=0)
+    return mark(x, y, marker("+", 8.0, colour, width=1.4))
+
+
+def _chart(curves: Sequence[Curve], unit: str, x_ends: Pair, y_ends: Pair, note: str = "") -> Chart:
+    return Chart(
+        NO_BOX,
+        linear_axis(x_ends, 4, label=f"x, {unit}"),
+        linear_axis(y_ends, 4),
+        curves=[*curves, mark(0.0, 0.0, TARGET)],
+        notes=[note_above(note)] if note else [],
+    )
+
+
+def _about_target(chart_of: Callable[[Pair, Pair], Chart], reach: float, unit: str) -> Chart:
+    """Return a chart to scale that contains a square about the target, ``reach`` in ``unit``."""
+    square = (-reach, reach)
+    return to_scale(chart_of, square, square, POINTS * PANEL_WIDTH, POINTS * HEIGHT, title=f"y, {unit}")
+
+
+def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: str, name: str) -> list[Panel]:
     """Mean and 3-sigma ellipse of each contender about the target; none of a single one."""
     if len(ends) < 2:
         return []
-    reach = max(map(reach_of, ends.values()))
+    with_ellipse = [each for each in ends.values() if len(select_ends(each)[0]) > 1] or ends.values()
+    reach = max(map(reach_of, with_ellipse))
     factor, displayed = far(np.array([reach])) if unit == "m" else (1.0, unit)
-    reach *= factor
-
-    def draw(axes: Axes) -> None:
-        for label, points in ends.items():
-            good, style = factor * select_ends(points)[0], looks[label]
-            if len(good) > 1:
-                axes.plot(*ellipse(good, SIGMAS[-1]), color=style.colour, linestyle=style.dashes)
-                axes.plot(*good[:, :2].mean(axis=0), "+", color=style.colour, markersize=8, markeredgewidth=1.4)
-        axes.plot(0.0, 0.0, **TARGET)
-        _dress(axes, reach, displayed)
-
+    ellipses, means = [], []
+    for label, each in ends.items():
+        good, style = factor * select_ends(each)[0], styles[label]
+        x, y = ellipse(good, SIGMAS[-1]) if len(good) > 1 else np.full((2, 1), np.nan)
+        ellipses.append(line(x, y, style.colour, dashes=style.lengths))  # by index, as the legend hides them
+        if len(good) > 1:
+            means.append(_mean(good, style.colour))
     what = next(iter(ends.values())).variable
-    return [
-        panel(f"final {what}, {ALL}", name, f"Final {what} about the target: 3-sigma ellipses, {ALL}", draw, HEIGHT)
-    ]
+    chart = _about_target(partial(_chart, [*ellipses, *means], displayed), factor * reach, displayed)
+    description = f"Final {what} about the target: 3-sigma ellipses, {ALL}"
+    return [chart_panel(f"final {what}, {ALL}", name, description, chart, HEIGHT, title=f"y, {displayed}")]

@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from scipy.stats import norm
 
 from ...campaigns.compare.comparison import Comparison
 from ...campaigns.spec.campaign import Metric
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.summary import success_interval
-from ..campaign.distributions import distribution_plot, draw_distribution
+from ..campaign.distributions import CUMULATIVE, distribution_chart, distribution_plot
 from ..campaign.recorded_names import RATIO, variable_of
-from ..common.panels import Panel, panel
-from ..common.style import COLOURS, DASHES, FAILED, MARKERS, Look, look
+from ..chart.lines import line
+from ..chart.panel import chart_panel
+from ..common.colours import COLOURS, DASHES, INK, MARKERS, Look, look
+from ..common.panels import Panel
+from ..interactive.measures import FAILED_DASHES
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 MASS = "kg"
 NORMAL_REACH = 3.5  # deviations that are shown at least
@@ -82,21 +87,17 @@ def sort_metrics(
     return plotted, still, empty
 
 
-def distribution_panel(metric: Metric, values: dict[str, np.ndarray], looks: Mapping[str, Look]) -> Panel:
+def distribution_panel(metric: Metric, values: Mapping[str, np.ndarray], styles: Mapping[str, Look]) -> Panel:
     """The empirical distribution of a metric in every contender; with the normal one for errors over sigma."""
-
-    some = {label: column for label, column in values.items() if np.any(np.isfinite(column))}
-
-    def draw(axes: Axes) -> None:
-        draw_distribution(axes, metric, some, [looks[label] for label in some])
-        if is_over_sigma(metric):
-            x = np.linspace(min(-NORMAL_REACH, axes.get_xlim()[0]), max(NORMAL_REACH, axes.get_xlim()[1]), 121)
-            axes.set_xlim(x[0], x[-1])
-            axes.plot(x, 100.0 * norm.cdf(x), linewidth=1.0, **FAILED)
-        axes.set_title("cumulative probability, %", loc="left", fontsize=8.5)
-
+    half_range = NORMAL_REACH if is_over_sigma(metric) else 0.0
+    chart = distribution_chart(metric, values, [styles[label] for label in values], half_range)
+    if half_range:
+        x = np.linspace(*chart.x.ends, 121)
+        normal = line(x, 100.0 * norm.cdf(x), INK, width=1.0, dashes=FAILED_DASHES, name="normal", unit="%")
+        chart = replace(chart, curves=[*chart.curves, normal])
     slug = "".join(letter if letter.isalnum() else "-" for letter in metric.name)
-    return panel(metric.name, f"distribution-{slug}", f"Distributions of {metric.name}", draw)
+    description = f"Distributions of {metric.name}"
+    return chart_panel(metric.name, f"distribution-{slug}", description, chart, title=CUMULATIVE)
 
 
 def varying_metrics(comparison: Comparison) -> list[Metric]:

@@ -13,9 +13,9 @@ from ...campaigns.compare.comparison import Comparison, name_of
 from ...campaigns.summary import SummaryRow
 from ..campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, names_of_record, variable_of
 from ..campaign.tables import HEADINGS, fmu_rows, group_rows, variant_rows
+from ..common.colours import Look
 from ..common.page import write_page
 from ..common.panels import Panel, swatch
-from ..common.style import Look
 from .bands import band_panels, bands_of, expectation, overlaid_bands
 from .dispersions import UNITS, Dispersion, dispersion, dispersion_panels, ends_of, overlaid_ends
 from .metrics import (

@@ -3,22 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from ...campaigns.compare.comparison import Contender
 from ..campaign.recorded_names import find_vector, names_of_record, owner_of, variable_of
-from ..common.panels import Panel, far, panel
+from ..chart.axes import linear_axis
+from ..chart.equal import Ends, to_scale
+from ..chart.lines import line
+from ..chart.marks import across, instant, level, note_above
+from ..chart.panel import POINTS, chart_panel
+from ..chart.symbols import mark
+from ..common.colours import GRID, INK, Look
+from ..common.panels import PANEL_HEIGHT, PANEL_WIDTH, Panel, far
 from ..common.round_body import radius_of, track_angles
-from ..common.style import FAILED, FAINT, GRID, INK, Look, plain_ticks
+from ..interactive.charts import NO_BOX, Axis, Chart, Curve
+from ..interactive.measures import FAILED_DASHES
 from .dispersions import TARGET, target_of
 from .recorded import Flight
 
 DRAWN = 40  # flights of a panel
-SHAPE = 1.45  # width over height of a panel's axes
 STRETCH = 4.0  # a plan whose sides differ by less is drawn to one scale both ways
+Polyline = tuple[np.ndarray, np.ndarray, bool]  # abscissas and ordinates of a path as displayed, True if it succeeded
 ROOM = 0.12  # of the successful flights' extent, around them; failed flights may leave it
 
 
@@ -91,73 +99,71 @@ def _along(plan: np.ndarray, target: np.ndarray) -> np.ndarray:
     return direction @ (plan - target[:, np.newaxis])
 
 
-def side_panels(bundles: Mapping[str, Bundle], looks: Mapping[str, Look]) -> list[Panel]:
+def side_panels(bundles: Mapping[str, Bundle], styles: Mapping[str, Look]) -> list[Panel]:
     """Height over downrange distance, one scale in all panels, with the surface below altitudes; not to scale."""
     framed = _frame(bundles)
-    ground = all(bundle.over_ground for bundle in bundles.values())
+    has_ground = all(bundle.over_ground for bundle in bundles.values())
     along = np.concatenate([path.along for path in framed] + [np.zeros(1)])
-    height = np.concatenate([path.height for path in framed] + ([np.zeros(1)] if ground else []))
+    height = np.concatenate([path.height for path in framed] + ([np.zeros(1)] if has_ground else []))
     x_scale, x_unit = far(along)
     y_scale, y_unit = far(height)
+    x_axis = linear_axis(_limits(x_scale * along), 5, label=f"downrange from the target, {x_unit}")
+    y_axis = linear_axis(_limits(y_scale * height), 5)
     panels = []
     for index, (label, bundle) in enumerate(bundles.items()):
-
-        def draw(axes: Axes, bundle: Bundle = bundle, colour: str = looks[label].colour) -> None:
-            for path in bundle.paths:
-                _line(axes, x_scale * path.along, y_scale * path.height, colour, path.success)
-            axes.axvline(0.0, color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
-            if ground:
-                axes.axhspan(
-                    -ROOM * y_scale * float(np.nanmax(height)), 0.0, facecolor=GRID, edgecolor="none", zorder=0.8
-                )
-                axes.axhline(0.0, color=INK, linewidth=0.8, zorder=0.9)
-            axes.set_xlim(*_limits(x_scale * along))
-            axes.set_ylim(*_limits(y_scale * height))
-            axes.set_xlabel(f"downrange from the target, {x_unit}")
-            axes.set_title(f"{bundle.height}, {y_unit}", loc="left", fontsize=8.5)
-            plain_ticks(axes, x=5, y=5)
-
-        panels.append(panel(label, f"side-{index}", f"Side view of {len(bundle.paths)} flights of {label}", draw))
+        paths = [(x_scale * path.along, y_scale * path.height, path.success) for path in bundle.paths]
+        chart = side_chart(paths, styles[label].colour, x_axis, y_axis, has_ground=has_ground)
+        description = f"Side view of {len(bundle.paths)} flights of {label}"
+        panels.append(chart_panel(label, f"side-{index}", description, chart, title=f"{bundle.height}, {y_unit}"))
     return panels
 
 
-def plan_panels(bundles: Mapping[str, Bundle], looks: Mapping[str, Look]) -> list[Panel]:
+def side_chart(paths: Sequence[Polyline], colour: str, x: Axis, y: Axis, *, has_ground: bool) -> Chart:
+    """Return paths from the side, with the place of the target and the surface at height 0."""
+    return Chart(
+        NO_BOX,
+        x,
+        y,
+        curves=[_line(path, colour) for path in paths],
+        areas=[across(min(y.ends[0], 0.0), 0.0, GRID, 1.0)] if has_ground else [],
+        rules=[instant(0.0, INK, 0.8, (1.0, 2.0)), *([level(0.0, INK, 0.8)] if has_ground else [])],
+    )
+
+
+def plan_panels(bundles: Mapping[str, Bundle], styles: Mapping[str, Look]) -> list[Panel]:
     """Paths from above with the target, one scale in all panels."""
     plans = [path.plan for path in _frame(bundles)]
     x, y = np.concatenate(plans + [bundle.target[:, np.newaxis] for bundle in bundles.values()], axis=1)
-    equal = 1.0 / STRETCH <= (np.ptp(x) or 1e-9) / (np.ptp(y) or 1e-9) <= STRETCH
-    x_scale, x_unit = far(np.concatenate([x, y]) if equal else x)
-    y_scale, y_unit = (x_scale, x_unit) if equal else far(y)
-    x_limits, y_limits = _limits(x_scale * x), _limits(y_scale * y)
-    if equal:
-        x_limits, y_limits = _to_shape(x_limits, y_limits)
+    is_to_scale = 1.0 / STRETCH <= (np.ptp(x) or 1e-9) / (np.ptp(y) or 1e-9) <= STRETCH
+    x_scale, x_unit = far(np.concatenate([x, y]) if is_to_scale else x)
+    y_scale, y_unit = (x_scale, x_unit) if is_to_scale else far(y)
+    x_ends, y_ends = _limits(x_scale * x), _limits(y_scale * y)
+    title = f"y, {y_unit}"
     panels = []
     for index, (label, bundle) in enumerate(bundles.items()):
-
-        def draw(axes: Axes, bundle: Bundle = bundle, colour: str = looks[label].colour) -> None:
-            for path in bundle.paths:
-                _line(axes, x_scale * path.plan[0], y_scale * path.plan[1], colour, path.success)
-            axes.plot(x_scale * bundle.target[0], y_scale * bundle.target[1], **TARGET)
-            axes.set_xlim(*x_limits)
-            axes.set_ylim(*y_limits)
-            if equal:
-                axes.set_aspect("equal")
-            else:
-                axes.set_title("not to scale", loc="right", fontsize=8.0, color=FAINT)
-            axes.set_xlabel(f"x, {x_unit}")
-            axes.set_title(f"y, {y_unit}", loc="left", fontsize=8.5)
-            plain_ticks(axes, x=5, y=5)
-
-        panels.append(panel(label, f"plan-{index}", f"Plan view of {len(bundle.paths)} flights of {label}", draw))
+        paths = [(x_scale * path.plan[0], y_scale * path.plan[1], path.success) for path in bundle.paths]
+        target = mark(x_scale * bundle.target[0], y_scale * bundle.target[1], TARGET)
+        curves = [*(_line(path, styles[label].colour) for path in paths), target]
+        chart_of = partial(_plan_chart, curves, x_unit)
+        if is_to_scale:
+            chart = to_scale(chart_of, x_ends, y_ends, POINTS * PANEL_WIDTH, POINTS * PANEL_HEIGHT, title=title)
+        else:
+            chart = replace(chart_of(x_ends, y_ends), notes=[note_above("not to scale")])
+        description = f"Plan view of {len(bundle.paths)} flights of {label}"
+        panels.append(chart_panel(label, f"plan-{index}", description, chart, title=title))
     return panels
 
 
-def _line(axes: Axes, x: np.ndarray, y: np.ndarray, colour: str, success: bool) -> None:
+def _plan_chart(curves: Sequence[Curve], unit: str, x_ends: Ends, y_ends: Ends) -> Chart:
+    return Chart(NO_BOX, linear_axis(x_ends, 5, label=f"x, {unit}"), linear_axis(y_ends, 5), curves=curves)
+
+
+def _line(path: Polyline, colour: str) -> Curve:
     """A flight; one that failed is dark and dashed."""
+    x, y, success = path
     if success:
-        axes.plot(x, y, color=colour, linewidth=0.7, alpha=0.6)
-    else:
-        axes.plot(x, y, linewidth=0.8, alpha=0.8, **FAILED)
+        return line(x, y, colour, width=0.7, opacity=0.6)
+    return line(x, y, INK, width=0.8, dashes=FAILED_DASHES, opacity=0.8)
 
 
 def _frame(bundles: Mapping[str, Bundle]) -> list[Path]:
@@ -170,10 +176,3 @@ def _limits(values: np.ndarray) -> tuple[float, float]:
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     margin = ROOM * (high - low) or 1.0
     return low - margin, high + margin
-
-
-def _to_shape(x: tuple[float, float], y: tuple[float, float]) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Limits widened one way, so that axes with one scale fill their panel."""
-    width, height = x[1] - x[0], y[1] - y[0]
-    more_x, more_y = max(0.0, SHAPE * height - width) / 2, max(0.0, width / SHAPE - height) / 2
-    return (x[0] - more_x, x[1] + more_x), (y[0] - more_y, y[1] + more_y)

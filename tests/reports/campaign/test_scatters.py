@@ -3,6 +3,7 @@
 Truth: outcomes made by hand, whose marks are counted in the figure and whose places follow from its ticks.
 """
 
+import contextlib
 import math
 import re
 from collections import Counter
@@ -33,60 +34,60 @@ x = "east"
 y = "north"
 {2}
 """
+NUMBER = re.compile(r"-?(?:\d+\.?\d*|\.\d+)")
 NEAR = [(True, 1.0, 2.0), (True, -3.0, 0.5), (False, 12.0, 0.0), (False, math.nan, 0.0)]
 FAR = [(True, 5.0, 5.0)] * 4
-ASKED = PLANE.format("m", "m", 'circle = 10\ntitle = "Contact points"')
+CONTACTS = PLANE.format("m", "m", 'circle = 10\ntitle = "Contact points"')
 
 
-def marks(figure):
-    """How often each marker stands in the figure, by its colour; legends have one of each."""
-    actual = {}
-    for use in etree.fromstring(figure).xpath("//*[local-name()='use'][contains(@style, 'fill') or @style]"):
-        colour = re.search(r"#(9a9a9a|d55e00)", use.get("style"))
-        if colour:
-            actual[colour[0]] = actual.get(colour[0], 0) + 1
-    return actual
+def paths(figure):
+    """The paths of the figure of each colour of marks: successes as strokes without length, failures as crosses."""
+    root = etree.fromstring(figure)
+    return {
+        colour: " ".join(root.xpath(f"//*[local-name()='path'][@stroke='{colour}']/@d"))
+        for colour in ("#9a9a9a", "#d55e00")
+    }
 
 
 def test_every_finite_trial_has_its_mark():
-    (actual,) = scatter_figures(batch_result({"near": NEAR, "far": FAR}, DRAWS + ASKED))
+    (actual,) = scatter_figures(batch_result({"near": NEAR, "far": FAR[:1]}, DRAWS + CONTACTS))
     assert actual.title == "Contact points"
-    near, far = (marks(panel.figure.svg) for panel in actual.panels)
-    assert near == {"#9a9a9a": 2 + 1, "#d55e00": 1 + 1}  # a legend in each panel
-    assert far == {"#9a9a9a": 4 + 1, "#d55e00": 1}
+    assert [panel.label for panel in actual.panels] == ["near: 2 of 4 failed", "far: 0 of 1 failed"]
+    near, far = (paths(panel.figure.svg) for panel in actual.panels)
+    assert (near["#9a9a9a"].count("h0"), near["#d55e00"].count("M")) == (2, 2)  # a cross has two strokes
+    assert (far["#9a9a9a"].count("h0"), far["#d55e00"]) == (1, "")
     words = [str(note) for note in actual.notes]
-    assert words[0] == 'Dashed: <data value="10.0">10</data> m around the origin.'
-    assert words[1:] == ["near: 1 of 4 trials have no finite value and are not plotted."]
+    assert words[1] == 'Dashed: <data value="10.0">10</data> m around the origin.'
+    assert words[2:] == ["near: 1 of 4 trials have no finite value and are not plotted."]
 
 
 def test_the_circle_is_round_and_to_scale():
-    (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + ASKED))
+    (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + CONTACTS))
     root = etree.fromstring(actual.panels[0].figure.svg)
-    round_ones = [path.get("d") for path in root.xpath("//*[local-name()='path']") if path.get("d").count("C") == 8]
-    points = [np.array(re.findall(r"-?\d+(?:\.\d+)?", path), dtype=float).reshape(-1, 2) for path in round_ones]
-    width, height = max((np.ptp(actual, axis=0) for actual in points), key=max)  # the others are marks
-    np.testing.assert_allclose(width, height, rtol=1e-3)
-    places = {}  # of the ticks of the abscissa, in points
-    for group in root.xpath("//*[local-name()='g'][contains(@id, 'xtick')]"):
-        (text,) = group.xpath(".//*[local-name()='text']")
-        places[float(text.text.replace("\N{MINUS SIGN}", "-"))] = float(group.xpath(".//*[local-name()='use']/@x")[0])
+    (path,) = root.xpath("//*[local-name()='g'][@clip-path]/*[local-name()='path'][@stroke='#222222'][1]/@d")
+    starts = np.array([re.findall(NUMBER, stroke)[:2] for stroke in path.split("M")[1:]], dtype=float)
+    width, height = np.ptp(starts, axis=0)
+    places = {}  # of the texts at the abscissa's ticks, in points
+    for text in root.xpath("//*[local-name()='g'][@text-anchor='middle']/*[local-name()='text']"):
+        with contextlib.suppress(ValueError):
+            places[float(text.text.replace("\N{MINUS SIGN}", "-"))] = float(text.get("x"))
     low, high = min(places), max(places)
     scale = (places[high] - places[low]) / (high - low)
-    np.testing.assert_allclose(width, 20.0 * scale, rtol=1e-3)
+    np.testing.assert_allclose([width, height], 20.0 * scale, rtol=5e-3)
 
 
 def test_angles_are_in_degrees():
     requested = PLANE.format("rad", "rad", f"circle = {math.pi / 6}")
     (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + requested))
     assert actual.title == "north vs. east"
-    assert ">30</data> deg around the origin." in actual.notes[0]
+    assert ">30</data> deg around the origin." in actual.notes[1]
     assert "east, deg" in actual.panels[0].figure.svg
 
 
 def test_units_that_differ_and_nothing_finite(tmp_path):
     (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + PLANE.format("m", "kg", "")))
     assert "north, kg" in actual.panels[0].figure.svg
-    nothing = batch_result({"lost": [(False, math.nan, math.inf)] * 3}, DRAWS + ASKED)
+    nothing = batch_result({"lost": [(False, math.nan, math.inf)] * 3}, DRAWS + CONTACTS)
     write_batch_report(nothing, tmp_path / "page.html", "Lost")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert_self_contained(page)
@@ -94,7 +95,7 @@ def test_units_that_differ_and_nothing_finite(tmp_path):
 
 
 def test_statuses_are_counted_by_component_where_trials_saw_several(tmp_path):
-    result = batch_result({"near": NEAR, "far": FAR}, DRAWS + ASKED)
+    result = batch_result({"near": NEAR, "far": FAR}, DRAWS + CONTACTS)
     assert component_statuses(result) == []  # the table of ends says it all
     texts = ["finished (hover.status 2, sequencer.status 4)", "finished (hover.status 2)", "finished", "stop_time"]
     result.summary["near"] = replace(result.summary["near"], statuses=Counter(texts))

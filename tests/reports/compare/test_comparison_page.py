@@ -220,7 +220,7 @@ def test_every_variant_has_one_colour_everywhere(folder, page):
         label = figure.xpath("figcaption")[0].text_content().strip()
         if label in colours:
             seen.append(label)
-            plotted = set(re.findall(r"#[0-9a-f]{6}", " ".join(figure.xpath(".//@style")).lower()))
+            plotted = set(re.findall(r"#[0-9a-f]{6}", " ".join(figure.xpath(".//@stroke | .//@fill")).lower()))
             assert colours[label].lower() in plotted
             assert not plotted & {colour.lower() for other, colour in colours.items() if other != label}
     assert len(seen) == 3 * 11  # paths from the side and in plan, two ends, seven quantities

@@ -1,0 +1,137 @@
+"""Charts of the comparison: bands over time, ends about the target, paths.
+
+Truth: percentiles and covariances by numpy, the chi-square distribution by scipy; the same bands drawn by matplotlib.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.stats import chi2
+
+from perilune.analysis.reports.common.style import FAINT, INK, look
+from perilune.analysis.reports.compare.bands import LEVELS, band_chart, bands_of, frame_of, overlaid_bands
+from perilune.analysis.reports.compare.dispersions import Ends, dispersion_chart, overlaid_ends
+from perilune.analysis.reports.compare.recorded import Flight, Quantity
+from perilune.analysis.reports.compare.trajectories import Bundle, Path, plan_panels, side_panels
+from tests.reports.chart.matplotlib_bands import read_bands
+from tests.reports.chart.test_history_charts import plain
+
+STYLES = {"one": look(0), "two": look(1)}
+ENDS = (-20.0, 20.0)
+STEPS = np.arange(30.0)
+
+
+def quantity(kind="motion", unit="m", name="a.b", *, is_stepped=False):
+    return Quantity(name, name.rpartition(".")[2], unit, kind, (name,), lambda signals: signals[name], is_stepped)
+
+
+def flights(name="a.b", *, is_stepped=False, scale=1.0):
+    rows = scale * np.random.default_rng(3).normal(size=(9, STEPS.size)).cumsum(axis=1)
+    rows = np.round(rows) if is_stepped else rows
+    return [Flight(trial, trial < 7, STEPS, {name: row}, True) for trial, row in enumerate(rows)]
+
+
+@pytest.mark.parametrize("is_stepped", [False, True])
+def test_bands_are_those_of_matplotlib(is_stepped):
+    measured = quantity(is_stepped=is_stepped)
+    bands = bands_of(measured, flights(is_stepped=is_stepped))
+    frame = frame_of(measured, {"one": bands})
+    chart = band_chart(measured, bands, STYLES["one"].colour, frame)
+    expected = read_bands(bands, frame, STYLES["one"].colour, is_stepped=is_stepped)
+    for field in ("x", "y", "areas", "rules", "notes"):
+        assert plain(getattr(chart, field)) == plain(getattr(expected, field)), field
+    assert [(plain(each.x), plain(each.y), each.colour, each.width, each.opacity) for each in chart.curves] == [
+        (plain(each.x), plain(each.y), each.colour, each.width, each.opacity) for each in expected.curves
+    ]
+    assert chart.curves[-1].name == "median"
+
+
+def test_median_and_bands_are_percentiles():
+    actual = flights(scale=1e6)
+    bands = bands_of(quantity(), actual)
+    chart = band_chart(quantity(), bands, "#000000", frame_of(quantity(), {"one": bands}))
+    good = 1e-3 * np.stack([flight.signals["a.b"] for flight in actual if flight.success])  # km: the way is long
+    rows = np.percentile(good, LEVELS, axis=0, method="inverted_cdf")
+    np.testing.assert_allclose(chart.curves[-1].y, rows[2], rtol=1e-12)
+    for area, low, high in zip(chart.areas, rows[:2], rows[:2:-1], strict=True):
+        corners = {*zip(np.round(area.x, 9).tolist(), np.round(area.y, 6).tolist(), strict=True)}
+        assert corners == {
+            *zip(STEPS.tolist(), np.round(low, 6).tolist(), strict=True),
+            *zip(STEPS.tolist(), np.round(high, 6).tolist(), strict=True),
+        }
+    assert [curve.colour for curve in chart.curves] == [INK] * 2 + [FAINT] * 4 + ["#000000"]
+
+
+def test_errors_over_sigma_have_the_lines_of_a_consistent_filter():
+    name = "checker.normalised_error_square"
+    measured = quantity("consistency", None, name)
+    bands = bands_of(measured, flights(name))
+    chart = band_chart(measured, bands, "#000000", frame_of(measured, {"one": bands}))
+    assert [rule.at for rule in chart.rules] == pytest.approx(chi2.ppf([0.05, 0.5, 0.95], 6))
+    assert not overlaid_bands(measured, {"one": bands, "two": bands}, STYLES, "x")[0].figure.charts[0].areas
+
+
+def test_overlaid_lines_are_in_the_order_of_the_legend():
+    bands = {"one": bands_of(quantity(), flights()), "two": bands_of(quantity(), flights(scale=2.0))}
+    (panel,) = overlaid_bands(quantity(), bands, STYLES, "x")
+    (chart,) = panel.figure.charts
+    assert [curve.colour for curve in chart.curves] == [STYLES[name].colour.lower() for name in ("one", "two")]
+    for curve, band in zip(chart.curves, bands.values(), strict=True):
+        np.testing.assert_array_equal(curve.y, band.percentiles[2])
+
+
+def is_to_scale(chart, width, height):
+    """True if a unit is equally long on both axes."""
+    _, _, across, up = chart.box
+    along_x, along_y = width * across / np.ptp(chart.x.ends), height * up / np.ptp(chart.y.ends)
+    return along_x == pytest.approx(along_y, rel=1e-4)
+
+
+def ends(seed, trials=60, spread=1.0):
+    errors = spread * np.random.default_rng(seed).normal(size=(trials, 3)) @ np.diag([3.0, 1.0, 1.0]) + [1.0, 2.0, 0.0]
+    errors[0] = np.nan
+    errors[-1] = [1e3, 0.0, 0.0]
+    return Ends("ship.position", "position", "target", errors, np.arange(trials) < trials - 4)
+
+
+def test_ends_have_their_ellipses_and_marks():
+    errors = ends(1)
+    chart = dispersion_chart(errors, "#0072B2", 1.0, "m", ENDS, ENDS)
+    good = errors.errors[1:-4, :2]
+    failed, successful, *ellipses, mean, target = chart.curves
+    np.testing.assert_array_equal(np.stack([successful.x, successful.y], axis=1), good)
+    assert failed.x.size == 4
+    for sigma, curve in enumerate(ellipses, 1):
+        away = np.stack([curve.x, curve.y]) - good.mean(axis=0)[:, np.newaxis]
+        distance = np.sqrt(np.sum(away * np.linalg.solve(np.cov(good.T), away), axis=0))
+        np.testing.assert_allclose(distance, sigma, rtol=1e-9)
+    np.testing.assert_allclose([mean.x[0], mean.y[0]], good.mean(axis=0), rtol=1e-12)
+    assert (target.x[0], target.y[0]) == (0.0, 0.0)
+    assert chart.notes[0].text == "1 failed outside, 1 without an end"
+
+
+def test_overlaid_ellipses_are_in_the_order_of_the_legend():
+    lost = Ends("ship.position", "position", "target", np.full((3, 3), np.nan), np.full(3, True))
+    (panel,) = overlaid_ends({"one": lost, "two": ends(2)}, STYLES, "m", "x")
+    (chart,) = panel.figure.charts
+    assert [curve.colour for curve in chart.curves[:2]] == [STYLES[name].colour.lower() for name in STYLES]
+    assert np.isnan(chart.curves[0].x).all()
+    assert is_to_scale(chart, 3.4, 3.1)
+
+
+def test_paths_are_to_scale_where_their_sides_are_alike():
+    path = Path(True, np.linspace(-5e4, 0.0, 9), np.linspace(9e3, 0.0, 9), np.stack([STEPS[:9], 2.0 * STEPS[:9]]))
+    failed = Path(False, path.along, 2.0 * path.height, path.plan)
+    bundle = Bundle([path, failed], np.array([1.0, 1.0]), "ship.altitude", None)
+    (side,) = side_panels({"one": bundle}, STYLES)
+    (chart,) = side.figure.charts
+    assert chart.x.label == "downrange from the target, km"
+    np.testing.assert_allclose(chart.curves[0].x, 1e-3 * path.along, rtol=1e-12)
+    assert [curve.dashes for curve in chart.curves] == [(), (4.0, 2.0)]
+    assert [(rule.at, rule.upright) for rule in chart.rules] == [(0.0, True), (0.0, False)]
+    assert (chart.areas[0].y.min(), chart.areas[0].y.max()) == (chart.y.ends[0], 0.0)
+    (plan,) = plan_panels({"one": bundle}, STYLES)
+    (chart,) = plan.figure.charts
+    assert is_to_scale(chart, 3.4, 2.5)
+    assert (chart.curves[-1].x[0], chart.curves[-1].y[0]) == (1.0, 1.0)
