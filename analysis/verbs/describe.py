@@ -22,10 +22,11 @@ from ..options.verb import verb
 from ..runtime.fmi.terminals import read_terminals
 from ..runtime.ssp.archive import system_names
 from ..runtime.system.alone import describe_alone
+from ..runtime.system.component_fmus import locate_fmu
 from ..runtime.system.fmu import load_fmu
 from ..runtime.system.options import SystemOptions as System
 from ..runtime.system.options import system_options
-from ..runtime.system.prepared import PreparedSystem, locate_fmu, prepare_system
+from ..runtime.system.prepared import PreparedSystem, prepare_system
 from .common.description_text import description_lines
 from .result import NoProblems
 

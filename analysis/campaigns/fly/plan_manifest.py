@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import chdir
 from dataclasses import asdict, fields, replace
 from importlib.metadata import version
 from pathlib import Path, PurePath
-from typing import cast
+from typing import Any, cast
 
 import msgspec
 import numpy as np
@@ -24,6 +24,7 @@ from ...runtime.system.options import UNTRUSTED, SystemOptions, Trust, Watch
 from ...runtime.system.prepared import PreparedSystem
 from ...runtime.system.series import InputSeries
 from ..draws.given import GivenDraws, part_streams
+from ..spec.campaign import Campaign
 from ..spec.file import parse_campaign
 from ..spec.plan import BatchPlan
 from ..spec.source import CampaignSource
@@ -38,6 +39,7 @@ from .manifest import (
     Manifest,
     ResetDocument,
     SourceDocument,
+    SystemDocument,
     TableDocument,
     content_name,
     content_path,
@@ -51,68 +53,45 @@ REFUSE = "refuse"
 NOT_STORED = ("places", "folder", *UNTRUSTED.trust)
 
 
-def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Manifest, dict[str, bytes]]:
-    """The manifest of a plan that was read from a campaign's file, and the contents that it names.
+class _Contents(dict[str, bytes]):
+    """Contents of files by the names under which a campaign's folder has them."""
 
-    ``systems`` are those of `check_plan`, by variant. FMUs that are not ours have their reset tried here, once.
-    """
-    assert plan.source is not None  # a plan that was read from a file has one
-    first = next(iter(systems.values()))
-    contents: dict[str, bytes] = {}
-
-    def keep(content: bytes, name: str) -> str:
+    def keep(self, content: bytes, name: str) -> str:
+        """Add the content of a file; return the name."""
         stored = content_name(content, PurePath(name).suffix)
-        contents[stored] = content
+        self[stored] = content
         return stored
 
-    archive = first.archive
-    unlisted = dict.fromkeys(name for prepared in systems.values() for name in prepared.archive.besides)
+    def keep_table(self, label: str, sha256: str, columns: Mapping[str, np.ndarray]) -> TableDocument:
+        """Add columns as Parquet, every bit of them."""
+        sink = pyarrow.BufferOutputStream()
+        pyarrow.parquet.write_table(pyarrow.table(dict(columns)), sink)
+        return {"label": label, "sha256": sha256, "content": self.keep(bytes(sink.getvalue()), ".parquet")}
+
+
+def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Manifest, dict[str, bytes]]:
+    """Return the manifest of a plan that was read from a campaign's file, and the contents that it names.
+
+    ``systems`` are those of `check_plan`, by variant. FMUs that are not ours have their reset tried here, at first use.
+    """
+    campaign, contents, given, series = plan.campaign, _Contents(), plan.given, plan.series
+    fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
     with chdir(plan.options.folder):  # from which paths are meant
-        files = {name: keep(archive.read(name, name), name) for name in (*archive.files, *unlisted)}
+        system = _system_document([prepared.archive for prepared in systems.values()], contents)
         elsewhere = {
-            requested: keep(read(), requested)
+            requested: contents.keep(read(), requested)
             for prepared in systems.values()
             for requested, read in prepared.elsewhere.items()
         }
-    series: TableDocument | None = None
-    if plan.series is not None:
-        content = keep(_table({"time": plan.series.time, **plan.series.columns}), ".parquet")
-        series = {"label": plan.series.file, "sha256": plan.series.sha256, "content": content}
-    draws: TableDocument | None = None
-    if plan.given is not None:
-        content = keep(_table(plan.given.table), ".parquet")
-        draws = {"label": plan.given.file, "sha256": plan.given.sha256, "content": content}
-    campaign = plan.campaign
-    options = {name: value for name, value in asdict(plan.options).items() if name not in NOT_STORED}
-    # Native FMUs are the default, and their fused steps have the same bits: these may change under way.
-    options["flavour"] = "python" if plan.options.flavour == "python" else None
-    options["open_inputs"] = plan.options.open_inputs or REFUSE  # as folders had it before there was None
-    fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
-    document: CampaignDocument = {
-        **_source(plan.source, campaign.file, keep),
-        "compare": {slot: list(names) for slot, names in campaign.compare.items()},
-        "compared_by": plan.compared_by,
-    }
-    if campaign.selected is not None:
-        document["selected"] = campaign.selected
-    if campaign.sweeps:
-        document["sweep"] = dict(campaign.sweeps)
     manifest = Manifest(
         perilune=version("perilune"),
-        system={
-            "name": archive.name,
-            "label": archive.label,
-            "description": archive.description,
-            "sha256": archive.digest,
-            "fmu": archive.path.name if archive.is_fmu else None,
-            "files": files,
-        },
+        system=system,
         elsewhere=elsewhere,
-        campaign=document,
-        options=options,
+        campaign=_campaign_document(plan, contents),
+        options=_options_document(plan.options),
         faults=[str(fault) for fault in plan.faults],
-        series=series,
-        draws=draws,
+        series=None if series is None else _keep_series(series, contents),
+        draws=None if given is None else contents.keep_table(given.file, given.sha256, given.table),
         timeout=plan.watch.timeout,
         fmus={
             variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
@@ -133,12 +112,41 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
     return manifest, contents
 
 
-def _source(source: CampaignSource, label: str, keep: Callable[[bytes, str], str]) -> SourceDocument:
-    """The contents of a campaign's file, and of those that it extends."""
-    extends = [_source(part, part.label, keep) for part in source.extends]
-    document: SourceDocument = {"label": label, "content": keep(source.raw, source.label)}
+def _system_document(archives: Sequence[SystemArchive], contents: _Contents) -> SystemDocument:
+    """Return the document of a system, read for each variant; its list of files may lack some that variants read."""
+    archive = archives[0]
+    unlisted = dict.fromkeys(name for each in archives for name in each.besides)
+    return {
+        "name": archive.name,
+        "label": archive.label,
+        "description": archive.description,
+        "sha256": archive.digest,
+        "fmu": archive.path.name if archive.is_fmu else None,
+        "files": {name: contents.keep(archive.read(name, name), name) for name in (*archive.files, *unlisted)},
+    }
+
+
+def _campaign_document(plan: BatchPlan, contents: _Contents) -> CampaignDocument:
+    assert plan.source is not None  # a plan that was read from a file has one
+    campaign = plan.campaign
+    document: CampaignDocument = {
+        **_source_document(plan.source, campaign.file, contents),
+        "compare": {slot: list(names) for slot, names in campaign.compare.items()},
+        "compared_by": plan.compared_by,
+    }
+    if campaign.selected is not None:
+        document["selected"] = campaign.selected
+    if campaign.sweeps:
+        document["sweep"] = dict(campaign.sweeps)
+    return document
+
+
+def _source_document(source: CampaignSource, label: str, contents: _Contents) -> SourceDocument:
+    """Return the contents of a campaign's file, and of those that it extends."""
+    extends = [_source_document(part, part.label, contents) for part in source.extends]
+    document: SourceDocument = {"label": label, "content": contents.keep(source.raw, source.label)}
     attached: dict[str, AttachedDocument] = {
-        name: {"label": label, "content": keep(content, name)}
+        name: {"label": label, "content": contents.keep(content, name)}
         for name, (label, content) in source.attached.items()
         if content is not None
     }
@@ -147,49 +155,35 @@ def _source(source: CampaignSource, label: str, keep: Callable[[bytes, str], str
     return {**document, "extends": extends, "position": source.position} if extends else document
 
 
-def _table(columns: Mapping[str, np.ndarray]) -> bytes:
-    """Columns as Parquet, every bit of them."""
-    sink = pyarrow.BufferOutputStream()
-    pyarrow.parquet.write_table(pyarrow.table(dict(columns)), sink)
-    return bytes(sink.getvalue())
+def _keep_series(series: InputSeries, contents: _Contents) -> TableDocument:
+    return contents.keep_table(series.file, series.sha256, {"time": series.time, **series.columns})
+
+
+def _options_document(options: SystemOptions) -> dict[str, Any]:
+    document = {name: each for name, each in asdict(options).items() if name not in NOT_STORED}
+    # Native FMUs are the default, and their fused steps have the same bits: these may change under way.
+    document["flavour"] = "python" if options.flavour == "python" else None
+    document["open_inputs"] = options.open_inputs or REFUSE  # as folders had it before there was None
+    return document
 
 
 def restore(
     folder: Path, manifest: Manifest, log: str | None = None, *, draws: Path | None = None, trust: Trust = UNTRUSTED
 ) -> BatchPlan:
-    """The plan of a campaign's folder, with the draws that are stored there. Raises InputError.
+    """Return the plan of a campaign's folder, with the draws that are stored there. Raises InputError.
 
     ``log`` is the level of the FMUs' messages, which changes no result; ``draws`` is the folder of the table of draws
     where that is another; ``trust`` is what foreign FMUs may do.
     """
     contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
     source = _restore_source(contents, manifest.campaign)
-    parsed, compare = parse_campaign(source.table()), manifest.campaign["compare"]
-    read = replace(
-        parsed,
-        trials=manifest.trials,
-        seed=manifest.seed,
-        compare={slot: tuple(names) for slot, names in compare.items()},
-        configurations=() if compare else parsed.configurations,
-        selected=manifest.campaign.get("selected"),
-    )
-    campaign = with_sweeps(read, manifest.campaign.get("sweep", {}))
-    if not campaign.variants():
-        raise InputError(
-            folder / FILE, "campaign", "it compares nothing, or has selected no variant of it", SAME_VERSION
-        )
-    options = _restore_options(manifest, folder)
-    series = None
-    if manifest.series is not None:
-        columns = _read_columns(contents, manifest.series)
-        series = InputSeries(manifest.series["label"], manifest.series["sha256"], columns.pop("time"), columns)
     plan = BatchPlan(
         manifest.system["label"],
-        campaign,
-        replace(options, folder=str(contents), **trust.trust),
+        _restore_campaign(source, manifest, folder),
+        replace(_restore_options(manifest, folder), folder=str(contents), **trust.trust),
         source.sha256,
         faults=tuple(parse_fault(text) for text in manifest.faults),
-        series=series,
+        series=_restore_series(contents, manifest),
         watch=Watch(manifest.timeout, log),
         compared_by=manifest.campaign["compared_by"],
         source=source,
@@ -206,6 +200,33 @@ def restore(
     for digest, verdict in manifest.resets.items():
         store_verdict(digest, _restore_verdict(verdict))
     return plan
+
+
+def _restore_campaign(source: CampaignSource, manifest: Manifest, folder: Path) -> Campaign:
+    """Return the campaign of a file with the changes of its manifest. Raises InputError."""
+    parsed, compare = parse_campaign(source.table()), manifest.campaign["compare"]
+    read = replace(
+        parsed,
+        trials=manifest.trials,
+        seed=manifest.seed,
+        compare={slot: tuple(names) for slot, names in compare.items()},
+        configurations=() if compare else parsed.configurations,
+        selected=manifest.campaign.get("selected"),
+    )
+    campaign = with_sweeps(read, manifest.campaign.get("sweep", {}))
+    if not campaign.variants():
+        raise InputError(
+            folder / FILE, "campaign", "it compares nothing, or has selected no variant of it", SAME_VERSION
+        )
+    return campaign
+
+
+def _restore_series(contents: Path, manifest: Manifest) -> InputSeries | None:
+    """Return the inputs over time, None without."""
+    if manifest.series is None:
+        return None
+    columns = _read_columns(contents, manifest.series)
+    return InputSeries(manifest.series["label"], manifest.series["sha256"], columns.pop("time"), columns)
 
 
 def _restore_verdict(document: ResetDocument) -> ResetVerdict:

@@ -234,21 +234,8 @@ def read_plan(
     is_its = archive.path.suffix == ".ssp" and label.startswith(f"{archive.label}!")  # whatever the archive is called
     if not is_called(read.system, archive.name) and not is_its:
         raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
-    changes: dict = {}
-    if trials is not None:
-        if trials < 1:
-            raise InputError("`trials`", str(trials), "not a positive number", "give 1 or more")
-        changes["trials"] = trials
-    if seed is not None:
-        changes["seed"] = seed
-    if compare is not None:
-        changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
-        changes["configurations"] = ()
-    if draws is not None and trials is not None:
-        raise InputError("`trials`", str(trials), "the file of `draws` says how many", "leave one of the two out")
-    if draws is not None and sweeps:
-        raise InputError("`set`", "=".join(next(iter(sweeps.items()))), "a sweep beside `draws`", "leave one out")
-    changed = with_sweeps(replace(read, **changes), sweeps or {})
+    _check_changes(trials, draws, sweeps or {})
+    changed = _change(read, trials, seed, compare, sweeps or {})
     if configuration is not None:
         changed = changed.select(configuration)
     if until_decided and not changed.requirements:
@@ -267,3 +254,31 @@ def read_plan(
         until_decided=until_decided,
     )
     return plan if draws is None else plan.of_samples(read_given(draws, changed))
+
+
+def _check_changes(trials: int | None, draws: Path | None, sweeps: Mapping[str, str]) -> None:
+    """Refuse changes that exclude each other. Raises InputError."""
+    if trials is not None and trials < 1:
+        raise InputError("`trials`", str(trials), "not a positive number", "give 1 or more")
+    if draws is not None and trials is not None:
+        raise InputError("`trials`", str(trials), "the file of `draws` says how many", "leave one of the two out")
+    if draws is not None and sweeps:
+        raise InputError("`set`", "=".join(next(iter(sweeps.items()))), "a sweep beside `draws`", "leave one out")
+
+
+def _change(
+    campaign: Campaign,
+    trials: int | None,
+    seed: int | None,
+    compare: Mapping[str, Sequence[str]] | None,
+    sweeps: Mapping[str, str],
+) -> Campaign:
+    """Return a campaign with the changes of the command line, as in `read_plan`. Raises InputError."""
+    changed = replace(
+        campaign,
+        trials=campaign.trials if trials is None else trials,
+        seed=campaign.seed if seed is None else seed,
+        compare=campaign.compare if compare is None else {slot: tuple(fmus) for slot, fmus in compare.items()},
+        configurations=campaign.configurations if compare is None else (),
+    )
+    return with_sweeps(changed, sweeps)

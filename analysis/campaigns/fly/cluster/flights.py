@@ -39,45 +39,16 @@ class Cluster:
 
         Raises WorkersDiedError, and what ends a flight's preparation in a worker.
         """
-        from distributed import KilledWorker
         from distributed.comm import CommClosedError
 
         if not shards:
             return
         client = self._client
-        variants = [variant.name for variant in campaign.plan.campaign.variants()]
-        parts = Parts(campaign.numbering, variants)
-        portions = Portions(campaign.numbering, shards, variants)
-        repeated = Again()
-        sent = make_sent(campaign)
-        here = client.submit(_itself, sent, pure=False)  # the workers pass it on, and make it again where all lose it
-        under_way: dict[Any, Task] = {}
+        tasks = ShardTasks(client, campaign, shards)
         try:
-            while True:
-                threads = self._threads()
-                for _ in range(WAITING * max(threads, 1) - len(under_way)):
-                    task = tuple(portions.next(max(threads, 1))) or repeated.next()
-                    if task:
-                        under_way[client.submit(work.fly, here, task, pure=False)] = task
-                if not under_way:
-                    return
-                for future in self._finish(under_way):
-                    task = under_way.pop(future)
-                    try:
-                        shard_trials = future.result()
-                    except KilledWorker as error:
-                        if error.task == here.key:
-                            here = client.submit(_itself, sent, pure=False)
-                        repeated.add(task)
-                        left = [] if portions.trials else repeated.hopeless(under_way.values())
-                        if left:
-                            raise WorkersDiedError(_what_ends_them(left)) from error
-                        continue
-                    for piece, (trials, seconds) in zip(task, shard_trials, strict=True):
-                        portions.record_duration(piece, seconds)
-                        whole = parts.add(piece.shard, piece.variant, trials)
-                        if whole is not None:
-                            yield piece.shard, whole
+            while tasks.submit(self._threads()):
+                for future in self._finish(tasks.under_way):
+                    yield from tasks.collect(future)
         except ImportError as error:
             problem = f"a worker cannot load perilune: {error}"
             raise InputError("`scheduler`", "", problem, "install the same in its environment") from error
@@ -86,8 +57,8 @@ class Cluster:
                 raise  # a worker's disk is full, say
             raise WorkersDiedError(f"the scheduler {self._address} is gone") from error
         finally:
-            if under_way:
-                self._end(list(under_way), sent.key)
+            if tasks.under_way:
+                self._end(list(tasks.under_way), tasks.key)
 
     def _threads(self) -> int:
         """How many flights the workers that are there can fly at once."""
@@ -118,6 +89,58 @@ class Cluster:
     def _halt(self, key: str) -> None:
         with suppress(Exception):
             self._client.run(work.halt, key, on_error="ignore")
+
+
+class ShardTasks:
+    """Tasks of some shards of a campaign: those that are under way, by future, those that follow, and their trials."""
+
+    def __init__(self, client: Any, campaign: Campaign, shards: Sequence[int]) -> None:
+        variants = [variant.name for variant in campaign.plan.campaign.variants()]
+        self.under_way: dict[Any, Task] = {}
+        self._client = client
+        self._parts = Parts(campaign.numbering, variants)
+        self._portions = Portions(campaign.numbering, shards, variants)
+        self._repeated = Again()
+        self._sent = make_sent(campaign)
+        self.key = self._sent.key
+        self._send()
+
+    def _send(self) -> None:
+        """Send the campaign, which workers pass on to others; it is lost where all workers lose it."""
+        self._campaign = self._client.submit(_itself, self._sent, pure=False)
+
+    def submit(self, threads: int) -> bool:
+        """Submit tasks for a number of threads; return True if any are under way."""
+        for _ in range(WAITING * max(threads, 1) - len(self.under_way)):
+            task = tuple(self._portions.next(max(threads, 1))) or self._repeated.next()
+            if task:
+                self.under_way[self._client.submit(work.fly, self._campaign, task, pure=False)] = task
+        return bool(self.under_way)
+
+    def collect(self, future: Any) -> Iterator[tuple[int, dict[str, Trials]]]:
+        """Yield the shards that are complete with a finished task. Raises WorkersDiedError."""
+        from distributed import KilledWorker
+
+        task = self.under_way.pop(future)
+        try:
+            shard_trials = future.result()
+        except KilledWorker as error:
+            self._repeat(task, error)
+            return
+        for piece, (trials, seconds) in zip(task, shard_trials, strict=True):
+            self._portions.record_duration(piece, seconds)
+            whole = self._parts.add(piece.shard, piece.variant, trials)
+            if whole is not None:
+                yield piece.shard, whole
+
+    def _repeat(self, task: Task, error: Any) -> None:
+        """Repeat a task whose workers died. Raises WorkersDiedError where only tasks that kill workers are left."""
+        if error.task == self._campaign.key:
+            self._send()
+        self._repeated.add(task)
+        left = [] if self._portions.trials else self._repeated.hopeless(self.under_way.values())
+        if left:
+            raise WorkersDiedError(_what_ends_them(left)) from error
 
 
 def _itself(sent: Any) -> Any:
