@@ -236,7 +236,7 @@ def _restore_verdict(document: ResetDocument) -> ResetVerdict:
 
 
 def _restore_options(manifest: Manifest, folder: Path) -> SystemOptions:
-    """The system options of a manifest, whose types are checked. Raises InputError."""
+    """Return the system options of a manifest, whose types are checked. Raises InputError."""
     known = {field.name for field in fields(SystemOptions)} - {*NOT_STORED}
     unknown = sorted(set(manifest.options) - known)
     if unknown:

@@ -67,7 +67,10 @@ def do_task(task: messages.Task, subject: Any, channel: socket.socket, files: Se
         try:
             _settle(subject)
             if isinstance(task, messages.ResetTask):
-                _try_fmu(task, subject, channel)
+                verdict = try_renewals(
+                    subject, lambda digest: send_answer(channel, messages.Tried(digest)), with_reset=task.with_reset
+                )
+                send_answer(channel, messages.Renewed(verdict.renewal, verdict.reason))
                 return 0
             handler = RequestHandler(channel, task, subject, files)
         except InputError as error:
@@ -106,11 +109,6 @@ def _copy_files(fmu: Fmu) -> Path:
         reason = error.args[0][0][2] if isinstance(error, shutil.Error) else reason_of(error)  # of the first file
         problem, remedy = f"its files cannot be copied to it: {reason}", "free some space there, or set TMPDIR"
         raise InputError(fmu.label, str(folder), problem, remedy) from error
-
-
-def _try_fmu(task: messages.ResetTask, fmu: Fmu, channel: socket.socket) -> None:
-    verdict = try_renewals(fmu, lambda digest: send_answer(channel, messages.Tried(digest)), with_reset=task.with_reset)
-    send_answer(channel, messages.Renewed(verdict.renewal, verdict.reason))
 
 
 class RequestHandler:

@@ -38,14 +38,7 @@ CAN_FORK = hasattr(os, "fork")
 SAME_HASHES = {"PYTHONHASHSEED": "0"}  # so that Python FMUs iterate over sets in one order, in any process
 _lock = threading.RLock()
 _numbers = itertools.count(1)
-
-
-@dataclass(frozen=True)
-class Subject:
-    """System or FMU of a child, as it is sent, and its ``owner`` here: the server keeps it as long as that lives."""
-
-    owner: object
-    content: PreparedSystem | Fmu
+Subject = PreparedSystem | Fmu  # of a child; a server keeps it as long as it lives here
 
 
 @dataclass(frozen=True)
@@ -65,7 +58,7 @@ class ForkedChild:
         """Close its channel and wait for its end, or kill it. To be called only one time."""
         _close_channel(self.channel)
         child_exit: messages.ChildExit = self.server.ask(
-            messages.End(self.number, kill), messages.ChildExit(0, messages.SERVER_ENDED)
+            messages.EndChild(self.number, kill), messages.ChildExit(0, messages.SERVER_ENDED)
         )
         return child_exit
 
@@ -117,18 +110,18 @@ class ServerProcess:
 
     def _introduce(self, subject: Subject) -> tuple[int, bytes | None]:
         """Return the key of a subject, and its pickle if the server does not have it yet."""
-        identity = id(subject.owner)
+        identity = id(subject)
         if identity in self._keys:
             return self._keys[identity], None
         self._keys[identity] = next(_numbers)
-        weakref.finalize(subject.owner, self._forget, identity).atexit = False
-        return self._keys[identity], pack(subject.content)
+        weakref.finalize(subject, self._forget, identity).atexit = False
+        return self._keys[identity], _pack_subject(subject)
 
     def _forget(self, identity: int) -> None:
         """Note that a subject is gone; the garbage collector calls this at any time, also while a request is sent."""
         self._forgotten.append(self._keys.pop(identity))
 
-    def ask(self, request: messages.IsOver | messages.End, otherwise: Any) -> Any:
+    def ask(self, request: messages.IsOver | messages.EndChild, otherwise: Any) -> Any:
         """Return the server's answer; ``otherwise`` where it has ended."""
         with _lock, suppress(OSError, EOFError):
             send_request(self._control, request)
@@ -140,9 +133,7 @@ class ServerProcess:
 class SpawnedChild:
     """A child with a new interpreter, which takes a second to load; as `ForkedChild`."""
 
-    def __init__(
-        self, content: PreparedSystem | Fmu, task: messages.Task, folder: str, memory: int, files: Sequence[int]
-    ):
+    def __init__(self, subject: Subject, task: messages.Task, folder: str, memory: int, files: Sequence[int]):
         self.channel, theirs = socket.socketpair()
         self._scratch, self._memory, self._reason = make_folder(), memory, ""
         with theirs:
@@ -158,7 +149,7 @@ class SpawnedChild:
             channel: int | bytes = theirs.fileno()
             if sys.platform == "win32":
                 channel = theirs.share(self._process.pid)
-            order = messages.SpawnOrder(os.getpid(), channel, list(files), task, pack(content))
+            order = messages.SpawnOrder(os.getpid(), channel, list(files), task, _pack_subject(subject))
             assert self._process.stdin is not None
             with suppress(OSError), self._process.stdin as standard_input:  # it may have ended
                 standard_input.write(pickle.dumps(order, pickle.HIGHEST_PROTOCOL))
@@ -166,7 +157,7 @@ class SpawnedChild:
         with suppress(OSError, EOFError):  # the first request fails likewise
             receive_frame(self.channel)  # it is loaded: limits on calls of FMUs hold from here on
         self._reader = threading.Thread(
-            target=forward_output, args=(self._process.stdout, content.printers), daemon=True
+            target=forward_output, args=(self._process.stdout, subject.printers), daemon=True
         )
         self._reader.start()
 
@@ -213,11 +204,16 @@ def begin_child(
 ) -> Child:
     """Return a child that does a task in a folder; a server that has ended is started again."""
     if not CAN_FORK:
-        return SpawnedChild(subject.content, task, folder, limits.memory, files)
+        return SpawnedChild(subject, task, folder, limits.memory, files)
     try:
         return start_server().fork(subject, task, folder=folder, limits=limits, files=files)
     except OSError:
         return start_server().fork(subject, task, folder=folder, limits=limits, files=files)
+
+
+def _pack_subject(subject: Subject) -> bytes:
+    """Return the pickle of what a child needs of it."""
+    return pack(subject.of_flights() if isinstance(subject, PreparedSystem) else subject)
 
 
 def _python_command(program: str) -> list[str]:

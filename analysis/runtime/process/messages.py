@@ -48,7 +48,7 @@ class ResetTask:
 Task = SystemTask | ResetTask
 
 
-# Orders to a flight server, which answers `IsOver` and `End`
+# Orders to a flight server, which answers `IsOver` and `EndChild`
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ class IsOver:
 
 
 @dataclass(frozen=True)
-class End:
+class EndChild:
     """End of a child, which may be a ``kill``; the answer is a `ChildExit`."""
 
     number: int
@@ -249,4 +249,4 @@ class Freed(msgspec.Struct, tag=True, forbid_unknown_fields=True):
 
 Answer = Done | Simulated | Refused | CellList | Tried | Renewed | Freed
 Kind = TypeVar("Kind", bound=msgspec.Struct)
-Order = Begin | Forget | IsOver | End
+Order = Begin | Forget | IsOver | EndChild

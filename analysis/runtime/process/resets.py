@@ -13,7 +13,7 @@ from ..system.fmu import Fmu
 from ..system.options import SystemOptions
 from ..system.prepared import PreparedSystem
 from . import messages
-from .children import Subject, begin_child
+from .children import begin_child
 from .connection import ChildEndedError, Connection, Watchdog
 from .restriction import limits_for
 
@@ -33,7 +33,7 @@ class TrialWatch:
         return bool(self._why)
 
     def begin(self, connection: Connection) -> None:
-        """A trial begins, which ends at once after `give_up`."""
+        """Note the child of a trial, which ends at once after `give_up`."""
         self._connection = connection
         if self._why:
             connection.give_up(self._why)
@@ -161,7 +161,7 @@ class _Trials:
         """Begin a trial in a child."""
         fmu, options = self._fmu, self._options
         task = messages.ResetTask(self._formats, with_reset)
-        child = begin_child(Subject(fmu, fmu), task, folder=os.getcwd(), limits=limits_for([fmu], options))
+        child = begin_child(fmu, task, folder=os.getcwd(), limits=limits_for([fmu], options))
         connection = Connection(child, lambda line: None, Watchdog(lambda: None, options.call_timeout))
         self._watch.begin(connection)
         return connection

@@ -108,7 +108,7 @@ class FlightServer:
                 del self._subjects[order.key]
             case messages.IsOver():
                 send_request(self._control, self._children[order.number].check_end())
-            case messages.End():
+            case messages.EndChild():
                 send_request(self._control, self._end(order))
 
     def _begin(self, order: messages.Begin, descriptors: list[int]) -> None:
@@ -123,7 +123,7 @@ class FlightServer:
         self._children[order.number] = ServedChild(pid, output, scratch, order.limits.memory + _resident_memory(pid))
         self._selector.register(read, selectors.EVENT_READ, output)
 
-    def _end(self, order: messages.End) -> messages.ChildExit:
+    def _end(self, order: messages.EndChild) -> messages.ChildExit:
         child = self._children.pop(order.number)
         deadline = time.monotonic() + (0.0 if order.kill else GRACE)
         while not child.check_end():
@@ -171,7 +171,7 @@ class FlightServer:
     def close(self) -> None:
         """End all children."""
         for number in list(self._children):
-            self._end(messages.End(number, kill=True))
+            self._end(messages.EndChild(number, kill=True))
 
 
 def main(control: int) -> None:

@@ -18,7 +18,7 @@ from ..instances.renewal import ResetVerdict
 from ..ssp.given_values import ParameterValue
 from ..system.prepared import PreparedSystem
 from . import messages
-from .children import Subject, begin_child
+from .children import begin_child
 from .connection import ChildEndedError, Connection, Watchdog
 from .restriction import limits_for
 from .shared_recorder import SharedRecorder, make_recorder
@@ -82,7 +82,7 @@ class SystemProcess:
         level = None if self._log is None else self._log.level
         try:
             child = begin_child(
-                Subject(prepared, prepared.of_flights()),
+                prepared,
                 messages.SystemTask(selection, level, formats, self._signals, recorder.times.size, recorder.name),
                 folder=options.folder,
                 limits=limits_for(prepared.network.fmus.values(), options),

@@ -86,3 +86,13 @@ def test_an_answer(pair):
     channel.send_answer(theirs, messages.Simulated("stop_time", "", 3))
     assert connection.receive(messages.Simulated).rows == 3
     assert connection.is_open
+
+
+def test_a_watchdog_counts_from_the_last_progress(monkeypatch):
+    clock, progress = SimpleNamespace(seconds=0.0), iter([b"0", b"0", b"1", b"1", b"1"])
+    monkeypatch.setattr(module.time, "monotonic", lambda: clock.seconds)
+    watchdog = Watchdog(lambda: next(progress), 1.0)
+    expired = []
+    for clock.seconds in (0.9, 1.8, 2.7, 2.9):
+        expired.append(watchdog.has_expired())
+    assert expired == [False, False, False, True]  # progress at 1.8 s, and none in the 1.1 s after it
