@@ -7,10 +7,15 @@ from __future__ import annotations
 
 from itertools import combinations
 
+import numpy as np
 import pytest
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 
+from perilune.analysis.reports.figures.declared import Curve
+from perilune.analysis.reports.run_report import write_run_report
 from tests.support.pages.driven import driven, scroll_to_plot
+from tests.support.pages.own_samples import TIME, flown, scalar
 
 MEASURE = """
 const picture = arguments[0], style = getComputedStyle(picture);
@@ -53,3 +58,34 @@ def are_apart(one, other):
     """Lines of text are higher than their letters, by 3 px above and below."""
     gaps = [max(other[side] - one[side + 2], one[side] - other[side + 2]) for side in (0, 1)]
     return gaps[0] >= 0.0 or gaps[1] >= -6.0
+
+
+def test_the_cursor_over_a_figure_that_remains_a_picture(browser, tmp_path):
+    """Its numbers have more digits than a page; the cursor is where the other figure has it."""
+    curves = [
+        Curve(title, (), (scalar(f"ship.{title}"),), (title,), None, None, True, None) for title in ("level", "height")
+    ]
+    run = flown(level=1e9 + np.sin(TIME), height=np.sin(TIME))
+    write_run_report(run, tmp_path / "page.html", "Two", curves)
+    with driven(browser, tmp_path / "page.html") as driver:
+        picture = driver.find_element(By.CSS_SELECTOR, ".pictured:has(> svg.fluid)")
+        area = scroll_to_plot(driver, driver.find_element(By.CSS_SELECTOR, ".live:has(> svg.fluid)"))
+        ActionChains(driver).move_to_element_with_offset(area, area.size["width"] // 4, 0).perform()
+        beyond, cursor, axes = driver.execute_script(CURSORS, picture, area)
+        assert cursor > 0.7
+        assert beyond == pytest.approx([cursor, axes[0], axes[1]], abs=0.002)
+
+
+CURSORS = """
+const [picture, area] = arguments;
+const box = (element) => element.getBoundingClientRect();
+const svg = picture.querySelector("svg"), style = getComputedStyle(svg);
+const padding = (side) => parseFloat(style["padding" + side]);
+const [outer, line, live] = [box(svg), box(picture.querySelector(".cursor")), box(area)];
+const width = outer.width - padding("Left") - padding("Right");
+return [
+  [(line.left - outer.left - padding("Left")) / width, line.top - outer.top, outer.bottom - line.bottom],
+  (box(area.querySelector(".cursor")).left - live.left) / live.width,
+  [padding("Top"), padding("Bottom")],
+];
+"""
