@@ -15,14 +15,13 @@ from ...campaigns.spec.campaign import Metric
 from ...campaigns.verdicts.order_statistics import quantiles
 from ..chart.axes import lane_axis, linear_axis, logarithmic_axis, ticked_axis
 from ..chart.lines import line
-from ..chart.panel import chart_panel
+from ..chart.panel import chart_panel, fluid_figure
 from ..chart.symbols import mark, marker, marks
-from ..chart.widths import chart_widths
 from ..common.colours import INK, Look, look
 from ..common.panels import Panel, Widths, swatch
 from ..common.quantities import display_factor, label_with_unit
 from ..interactive.charts import NO_BOX, Chart, Note
-from ..interactive.measures import LABEL_SIZE, WIDTH
+from ..interactive.measures import TICK_SIZE, WIDTH
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -143,28 +142,23 @@ def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], styles
     return plot_charts(charts, HEIGHT, WIDTH / COLUMNS, columns=columns, titles=titles, key=list(styles))
 
 
-AXES_HEIGHT, LANE, SLIM_LANE = 0.75, 0.36, 0.52  # in
+AXES_HEIGHT, LANE = 0.75, 0.52  # in
 CAP = 9.0  # pt, the end of an interval
-SMALL = 8.5  # pt, the text above a lane
 RING = marker("o", 11.0, INK, fill="", width=1.2)
 
 
 def rates_figure(batch: BatchResult, published: Mapping[str, float] | None = None) -> Widths:
     """Return the success probabilities of variants with their intervals, `rates_chart`."""
     names = list(batch.summary)
-    return chart_widths(
-        "rates",
-        "Success probabilities of " + ", ".join(names),
-        lambda width, _: rates_chart(batch, published or {}, is_slim=width < WIDTH),
-        AXES_HEIGHT + LANE * len(names),
-        AXES_HEIGHT + SLIM_LANE * len(names),
-    )
+    description = "Success probabilities of " + ", ".join(names)
+    height = AXES_HEIGHT + LANE * len(names)
+    return Widths(fluid_figure("rates", description, rates_chart(batch, published or {}), height))
 
 
-def rates_chart(batch: BatchResult, published: Mapping[str, float], *, is_slim: bool) -> Chart:
+def rates_chart(batch: BatchResult, published: Mapping[str, float]) -> Chart:
     """Return a lane for each variant: a mark at its success probability (%), a line over the interval, their text.
 
-    ``published`` are rates to compare with, as fractions of 1, in rings. ``is_slim``: texts are above the lanes.
+    ``published`` are rates to compare with, as fractions of 1, in rings.
     """
     names = list(batch.summary)
     rates = {name: (entry.success_rate, *entry.success_interval) for name, entry in batch.summary.items()}
@@ -178,23 +172,18 @@ def rates_chart(batch: BatchResult, published: Mapping[str, float], *, is_slim: 
         curves.append(mark(100.0 * rate, lane, marker(style.marker, 7.0, style.colour), beyond=True))
         if name in published:
             curves.append(mark(100.0 * published[name], lane, RING, beyond=True))
-        text = f"{percent(rate)} % ({percent(low)} to {percent(high)})"
-        notes += _above(lane, name, text) if is_slim else [_note(text, (1.02, lane), ("left", "center"), LABEL_SIZE)]
+        notes.append(_above(lane, name, 0.01, "left"))
+        notes.append(_above(lane, f"{percent(rate)} % ({percent(low)} to {percent(high)})", 1.0, "right"))
     confidence = batch.summary[names[0]].confidence
     abscissa = linear_axis(
         (max(-2.0, lowest - 0.06 * (100.0 - lowest) - 1.0), 100.0),
-        5 if is_slim else 8,
+        5,
         label=f"success probability, %, with {100.0 * confidence:g} % confidence interval",
     )
-    lanes = lane_axis([""] * len(names), (len(names) - 0.4, -0.8)) if is_slim else lane_axis(names)
+    lanes = lane_axis([""] * len(names), (len(names) - 0.4, -0.8))
     return Chart(NO_BOX, abscissa, lanes, curves=curves, notes=notes)
 
 
-def _above(lane: int, name: str, text: str) -> list[Note]:
-    """Name and text above a lane."""
-    y = lane - 0.32
-    return [_note(name, (0.01, y), ("left", "bottom"), SMALL), _note(text, (1.0, y), ("right", "bottom"), SMALL)]
-
-
-def _note(text: str, at: tuple[float, float], align: tuple[str, str], size: float) -> Note:
-    return Note(text, at, (True, False), (0.0, 0.0), align, INK, size)
+def _above(lane: int, text: str, x: float, side: str) -> Note:
+    """A text above a lane, at a fraction of the abscissa."""
+    return Note(text, (x, lane - 0.32), (True, False), (0.0, 0.0), (side, "bottom"), INK, TICK_SIZE)

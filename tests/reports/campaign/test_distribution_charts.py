@@ -78,13 +78,12 @@ def test_errors_over_sigma_have_an_abscissa_of_both_signs():
     assert (chart.curves[0].x[0], chart.curves[0].x[-1]) == chart.x.ends
 
 
-@pytest.mark.parametrize("is_slim", [False, True])
-def test_success_probabilities_have_their_intervals_and_texts(is_slim):
+def test_success_probabilities_have_their_intervals_and_texts():
     batch = batch_result({
         "steady": [(True, 0.0, 0.0)] * 30,
         "shaky": [(k % 3 > 0, 0.0, 0.0) for k in range(30)],
     })  # fmt: skip
-    chart = rates_chart(batch, {"shaky": 0.5}, is_slim=is_slim)
+    chart = rates_chart(batch, {"shaky": 0.5})
     for lane, (name, successes) in enumerate((("steady", 30), ("shaky", 20))):
         interval = binomtest(successes, 30).proportion_ci(0.95, "exact")
         bar, mark, *_ = [curve for curve in chart.curves if curve.y[0] == lane]
@@ -93,7 +92,7 @@ def test_success_probabilities_have_their_intervals_and_texts(is_slim):
         assert chart.x.ends[0] <= bar.x[0] <= bar.x[1] <= chart.x.ends[1]
         texts = [note.text for note in chart.notes if abs(note.at[1] - lane) < 0.5]
         assert texts[-1].startswith(f"{100.0 * successes / 30:.2f} % ({100.0 * interval.low:.2f} to ")
-        assert (texts[0] if is_slim else chart.y.ticks[lane][1]) == name
+        assert texts[0] == name
     (published,) = [curve for curve in chart.curves if curve.marker is not None and not curve.marker.fill and
                     curve.x.size == 1]  # fmt: skip
     assert (published.x[0], published.y[0]) == (50.0, 1.0)
