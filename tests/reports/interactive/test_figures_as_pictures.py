@@ -87,7 +87,7 @@ def write_differences(request, page):
     for turn in (1.0, 1.1):
         signals = {"h": np.sin(turn * time), "v[1]": 0.0 * time, "v[2]": turn * time, "v[3]": turn - time}
         runs.append(RecordedRun("run", "", time, signals, dict.fromkeys(signals, "m"), frozenset()))
-    write_differences_page(compare_runs(*runs), [], page)
+    write_differences_page(compare_runs(*runs), [], 1e-9, page)
 
 
 def write_landing(request, page):

@@ -123,16 +123,29 @@
     return context;
   };
 
+  // A picture whose sizes are px at any width, its padding as a place, in one that can be enlarged.
+  const inside = (copy, picture, { width, height }) => {
+    const [top, right, bottom, left] = ["Top", "Right", "Bottom", "Left"].map((side) => parseFloat(getComputedStyle(picture)[`padding${side}`]));
+    const place = { x: left, y: top, width: width - left - right, height: height - top - bottom, overflow: "visible" };
+    for (const [name, each] of Object.entries(place)) copy.setAttribute(name, each);
+    copy.removeAttribute("style");
+    const whole = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    whole.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    whole.append(copy);
+    return whole;
+  };
+
   // The pixels that one of picture and canvases has and the other one nowhere near: without texts and what is still.
   const ink = async (picture, canvases, origin) => {
     const [width, height] = [Math.round(origin.width * SIZE), Math.round(origin.height * SIZE)];
     const copy = picture.cloneNode(true);
     for (const each of copy.querySelectorAll("text, .still")) each.remove();
-    copy.setAttribute("width", width);
-    copy.setAttribute("height", height);
-    copy.setAttribute("style", "stroke-linecap: butt; stroke-linejoin: round");
+    const whole = picture.classList.contains("fluid") ? inside(copy, picture, origin) : copy;
+    whole.setAttribute("width", width);
+    whole.setAttribute("height", height);
+    whole.setAttribute("style", "stroke-linecap: butt; stroke-linejoin: round");
     const image = new Image();
-    image.src = `data:image/svg+xml,${encodeURIComponent(new XMLSerializer().serializeToString(copy))}`;
+    image.src = `data:image/svg+xml,${encodeURIComponent(new XMLSerializer().serializeToString(whole))}`;
     await image.decode();
     const static_ = bitmap(width, height);
     static_.drawImage(image, 0, 0, width, height);
