@@ -20,6 +20,7 @@ from ..chart.symbols import mark, marker, marks
 from ..common.colours import INK, Look, look
 from ..common.panels import Panel, Widths, swatch
 from ..common.quantities import display_factor, label_with_unit
+from ..font.text import text_width
 from ..interactive.charts import NO_BOX, Chart, Note
 from ..interactive.measures import TICK_SIZE, WIDTH
 
@@ -143,6 +144,7 @@ def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], styles
 
 
 AXES_HEIGHT, LANE = 0.75, 0.52  # in
+NARROW = 242.0  # pt, for two texts above a lane on a telephone
 CAP = 9.0  # pt, the end of an interval
 RING = marker("o", 11.0, INK, fill="", width=1.2)
 
@@ -158,11 +160,16 @@ def rates_figure(batch: BatchResult, published: Mapping[str, float] | None = Non
 def rates_chart(batch: BatchResult, published: Mapping[str, float]) -> Chart:
     """Return a lane for each variant: a mark at its success probability (%), a line over the interval, their text.
 
-    ``published`` are rates to compare with, as fractions of 1, in rings.
+    ``published`` are rates to compare with, as fractions of 1, in rings. With long names the text has no interval.
     """
     names = list(batch.summary)
     rates = {name: (entry.success_rate, *entry.success_interval) for name, entry in batch.summary.items()}
     lowest = 100.0 * min([low for _, low, _ in rates.values()] + list(published.values()))
+    texts = {
+        name: f"{percent(rate)} % ({percent(low)} to {percent(high)})" for name, (rate, low, high) in rates.items()
+    }
+    if any(text_width(name + text, TICK_SIZE) > NARROW for name, text in texts.items()):
+        texts = {name: f"{percent(rate)} %" for name, (rate, _, _) in rates.items()}
     curves, notes = [], []
     for lane, (name, (rate, low, high)) in enumerate(rates.items()):
         style = look(lane)
@@ -173,7 +180,7 @@ def rates_chart(batch: BatchResult, published: Mapping[str, float]) -> Chart:
         if name in published:
             curves.append(mark(100.0 * published[name], lane, RING, beyond=True))
         notes.append(_above(lane, name, 0.01, "left"))
-        notes.append(_above(lane, f"{percent(rate)} % ({percent(low)} to {percent(high)})", 1.0, "right"))
+        notes.append(_above(lane, texts[name], 1.0, "right"))
     confidence = batch.summary[names[0]].confidence
     abscissa = linear_axis(
         (max(-2.0, lowest - 0.06 * (100.0 - lowest) - 1.0), 100.0),

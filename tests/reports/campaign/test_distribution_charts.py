@@ -16,7 +16,9 @@ from scipy.stats import binomtest
 from perilune.analysis.campaigns.spec.campaign import Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.reports.campaign.distributions import distribution_chart, rates_chart
-from perilune.analysis.reports.common.style import look
+from perilune.analysis.reports.chart.svg.fluid import POINT
+from perilune.analysis.reports.common.colours import look
+from perilune.analysis.reports.font.text import text_width
 from tests.reports.chart.matplotlib_distributions import read_distribution
 from tests.reports.chart.test_history_charts import plain
 from tests.support.pages.samples import batch_result
@@ -97,3 +99,11 @@ def test_success_probabilities_have_their_intervals_and_texts():
                     curve.x.size == 1]  # fmt: skip
     assert (published.x[0], published.y[0]) == (50.0, 1.0)
     assert chart.y.ends[0] > 1.0 > 0.0 > chart.y.ends[1]  # the first lane is at the top
+
+
+def test_texts_of_long_names_have_room_on_a_telephone():
+    name = "analytic_exact_guidance__thrust_allocation"
+    chart = rates_chart(batch_result({name: [(True, 0.0, 0.0)] * 4, "short": [(False, 0.0, 0.0)] * 4}), {})
+    assert [note.text for note in chart.notes] == [name, "100.00 %", "short", "0.00 %"]
+    for lane in (chart.notes[:2], chart.notes[2:]):
+        assert sum(text_width(note.text, note.size) for note in lane) < (366.0 - 24.0) / POINT  # px of 390, in pt
