@@ -6,9 +6,12 @@ Truth: the page's own figures and colours; the widths that the browser lays out.
 import numpy as np
 import pytest
 from matplotlib import image
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
 
 from tests.support.lengths import either
 from tests.support.pages.browser import start
+from tests.support.pages.driven import driven, scroll_to_plot
 
 COLOURS = ((0, 114, 178), (213, 94, 0), (0, 158, 115))  # of the three variants
 
@@ -36,3 +39,13 @@ def test_every_figure_is_laid_out(browser, page, tmp_path):
     dom = start(browser, page, tmp_path, "--dump-dom")
     assert dom.count('class="figure"') == page.read_text().count('class="figure"') == 46
     assert "3 variants on the same trials" in dom
+
+
+def test_the_cursor_has_the_median_alone_and_nothing_of_ellipses(browser, page):
+    with driven(browser, page) as driver:
+        for label, count in (("ship.mass of alpha over time", 1), ("Final position of alpha about the target", 0)):
+            frame = driver.find_element(By.XPATH, f"//*[starts-with(@aria-label, '{label}')]/..")
+            area = scroll_to_plot(driver, frame)
+            ActionChains(driver).move_to_element(area).perform()
+            dots = [each for each in area.find_elements(By.CSS_SELECTOR, "i") if each.is_displayed()]
+            assert len(dots) == count, label
