@@ -11,6 +11,7 @@ from typing import Unpack
 from matplotlib.figure import Figure as Plot
 
 from ..campaigns.spec.plan import BatchPlan
+from ..commands.stability import study_command
 from ..options.declared.studies import WORST, WorstOptions
 from ..options.option import FilePath
 from ..options.verb import verb
@@ -18,11 +19,12 @@ from ..reports.common.notebook import Grid, notebook_view
 from ..reports.studies.worst_figures import worst_plot
 from ..reports.studies.worst_page import metric_table, parameter_table, worst_flight, write_worst_page
 from ..runtime.system.options import system_options
+from ..studies.flown import Commands
 from ..studies.worst import outcome
-from ..studies.worst.request import check_options, margin_asked
+from ..studies.worst.request import MarginAsked, check_options, margin_asked
 from ..studies.worst.study import MARGIN, worst_case, worst_margin
 from .common.arguments import read_requirements
-from .common.campaigns import commands_of, commands_of_margin, read_campaign
+from .common.campaigns import commands_of, read_campaign
 from .common.studies import Conditions, Required, condition_lines, conditions, results_folder, store_result
 
 NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # on which requirements are
@@ -115,6 +117,15 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
                 seed=options["seed"],
             )
             result = replace(
-                worst_margin(request, options["margin"] or MARGIN, **search), commands=commands_of_margin(request)
+                worst_margin(request, options["margin"] or MARGIN, **search), commands=_commands_of_margin(request)
             )
     return store_result(WorstResult, result, folder, plan=plan, requirements=requirements)
+
+
+def _commands_of_margin(search: MarginAsked) -> Commands:
+    """Return the commands for the studies of a search for the worst margin."""
+
+    def replay(draws: Path, trial: int) -> str:
+        return study_command(replace(search.request, draws=draws), search.loop.name, trial)
+
+    return Commands(replay)

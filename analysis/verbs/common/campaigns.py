@@ -22,13 +22,11 @@ from ...campaigns.spec.file import parse_campaign
 from ...campaigns.spec.plan import BatchPlan, read_plan
 from ...campaigns.spec.sweeps import part_sweeps
 from ...commands.campaigns import campaign_command, replay_command
-from ...commands.stability import study_command
 from ...options.fault import faults_of
 from ...options.option import FilePath
 from ...runtime.system.options import Watch, system_options
 from ...runtime.system.series import read_series
 from ...studies.flown import Commands
-from ...studies.worst.request import MarginAsked
 
 
 def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, Any]) -> BatchPlan:
@@ -84,15 +82,6 @@ def commands_of(plan: BatchPlan) -> Commands:
         return campaign_command(replace(plan, campaign=replace(plan.campaign, trials=trials)), variant)
 
     return Commands(replay, monte_carlo)
-
-
-def commands_of_margin(search: MarginAsked) -> Commands:
-    """Return the commands for the studies of a search for the worst margin."""
-
-    def replay(draws: Path, trial: int) -> str:
-        return study_command(replace(search.request, draws=draws), search.loop.name, trial)
-
-    return Commands(replay)
 
 
 def name_foreign(campaign: Campaign) -> None:
