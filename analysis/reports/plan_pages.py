@@ -4,21 +4,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import partial
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ..design.trajectories.landing_study import LandingStudy
 from ..design.trajectories.path import PlannedPath
 from ..design.transfers.hover_study import Curve, HoverStudy
+from .chart.axes import linear_axis
+from .chart.equal import Ends, to_scale
+from .chart.lines import line
+from .chart.panel import POINTS, chart_panel, fluid_figure
+from .chart.symbols import arrow, mark, marker
+from .chart.ticks import axis_ends
+from .common.colours import FAINT, INK, Look, look
 from .common.page import write_page
-from .common.panels import HALF_WIDTH, Panel, Widths, both_widths, far, is_slim, panel, swatch
+from .common.panels import HALF_WIDTH, Panel, Widths, far, swatch
 from .common.quantities import number
-from .common.style import FAINT, INK, LineStyle, Look, look, plain_ticks
+from .interactive import charts
+from .interactive.charts import NO_BOX, Axis, Chart, Note
 
 OTHERS = ("finite switches", "turn in free fall")
 NAMES = ("simplified programme", "true optimum", "point-mass bound")
@@ -30,9 +36,9 @@ def write_hover_page(study: HoverStudy, path: Path) -> None:
     assert study.distances is not None
     plans = zip(NAMES, (study.path, study.optimum, study.bound), strict=True)
     series = [Series(name, plan, look(index)) for index, (name, plan) in enumerate(plans) if plan is not None]
-    own = Point(NAMES[0], study.programme.duration, study.programme.propellant_fraction, look(0))
+    point = Point(NAMES[0], study.programme.duration, study.programme.propellant_fraction, look(0))
     compared = [Point(one.name, one.path.duration, one.path.propellant_fraction, one.look) for one in series[1:]]
-    here = Point(NAMES[0], study.transfer.distance, own.propellant, look(0))
+    here = Point(NAMES[0], study.transfer.distance, point.propellant, look(0))
     displayed = [np.stack([*one.path.position.T, np.append(one.path.pitch, one.path.pitch[-1])]) for one in series]
     write_page(
         path,
@@ -49,7 +55,7 @@ def write_hover_page(study: HoverStudy, path: Path) -> None:
         track=[path_panel(series, displayed, ("along", "up"))],
         over_time=time_panels(series, "Pitch from the horizontal, deg"),
         curves=[
-            curve_panel("Propellant over t7", "durations", study.durations, "t7, s", [own, *compared]),
+            curve_panel("Propellant over t7", "durations", study.durations, "t7, s", [point, *compared]),
             curve_panel("Least propellant over distance", "distances", study.distances, "distance, m", [here]),
         ],
     )
@@ -80,6 +86,8 @@ LOWEST, HIGHEST = 3.0, 6.5  # in, of a path to one scale
 LOW = 3.8  # in, of one to two
 ARROWS = 14  # along a path
 ARROW = 0.8  # in, at full throttle
+MARK = 6.0  # pt
+MARGINS = (0.14, 0.08)  # of the ranges of a path, at the ends of the axes
 
 
 class Series(NamedTuple):
@@ -100,112 +108,117 @@ class Point(NamedTuple):
 
 
 def time_panels(series: Sequence[Series], pitch: str) -> list[Panel]:
-    """Pitch, called so, and throttle against time."""
+    """Return pitch, called so, and throttle against time."""
     words = "; ".join(f"{one.name} {number(one.path.duration)} s" for one in series)
     label, description = "Throttle, share of the largest thrust", f"Throttle over time: {words}"
-    draw = partial(_draw_throttle, series=series)
     return [
-        panel(pitch, "pitch", f"{pitch} over time: {words}", partial(_draw_pitch, series=series), width=HALF_WIDTH),
-        panel(label, "throttle", description, draw, width=HALF_WIDTH),
+        chart_panel(pitch, "pitch", f"{pitch} over time: {words}", pitch_chart(series), width=HALF_WIDTH),
+        chart_panel(label, "throttle", description, throttle_chart(series), width=HALF_WIDTH),
     ]
 
 
+def pitch_chart(series: Sequence[Series]) -> Chart:
+    """Return the angle of thrust of each plan."""
+    curves = [
+        line(one.path.middle, np.degrees(one.path.pitch), one.look.colour, dashes=one.look.lengths, name=one.name,
+             unit="deg")
+        for one in series
+    ]  # fmt: skip
+    ends = axis_ends(np.concatenate([curve.displayed for curve in curves]))
+    return Chart(NO_BOX, _time_axis(series), linear_axis(ends, 5, label="deg"), curves=curves)
+
+
+def throttle_chart(series: Sequence[Series]) -> Chart:
+    """Return the throttle of each plan, which holds over an interval."""
+    curves = [
+        line(one.path.time, np.append(one.path.throttle, one.path.throttle[-1]), one.look.colour,
+             dashes=one.look.lengths, name=one.name, steps=True)
+        for one in series
+    ]  # fmt: skip
+    return Chart(NO_BOX, _time_axis(series), linear_axis((-0.04, 1.08), 5), curves=curves)
+
+
+def _time_axis(series: Sequence[Series]) -> Axis:
+    return linear_axis((0.0, 1.01 * max(one.path.duration for one in series)), 6, label="time, s")
+
+
 def curve_panel(label: str, name: str, curve: Curve, quantity: str, points: Sequence[Point]) -> Panel:
-    """Propellant over one quantity, and where the plans lie."""
-
-    def draw(axes: Axes) -> None:
-        axes.plot(curve.at, curve.propellant, color=INK)
-        for point in points:
-            axes.plot(point.at, point.propellant, linestyle="", marker=point.look.marker, color=point.look.colour)
-        axes.set_xlabel(quantity)
-        axes.set_ylabel("propellant fraction")
-        plain_ticks(axes, x=6, y=5)
-
+    """Return propellant over one quantity, and where the plans lie."""
     known = curve.propellant[np.isfinite(curve.propellant)]
     words = f"{label}: {number(float(known.min()))} to {number(float(known.max()))}"
-    return panel(label, name, words, draw, width=HALF_WIDTH)
+    return chart_panel(label, name, words, curve_chart(curve, quantity, points), width=HALF_WIDTH)
+
+
+def curve_chart(curve: Curve, quantity: str, points: Sequence[Point]) -> Chart:
+    """Return propellant over one quantity, with a mark for each plan."""
+    abscissas = np.append(curve.at, [point.at for point in points])
+    ordinates = np.append(curve.propellant, [point.propellant for point in points])
+    marks = [mark(one.at, one.propellant, marker(one.look.marker, MARK, one.look.colour)) for one in points]
+    return Chart(
+        NO_BOX,
+        linear_axis(axis_ends(abscissas), 6, label=quantity),
+        linear_axis(axis_ends(ordinates), 5, label="propellant fraction"),
+        curves=[line(curve.at, curve.propellant, INK), *marks],
+    )
 
 
 def path_panel(series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str]) -> Panel:
-    """The paths to one scale; ``shown`` are places and thrust angles in what is drawn, a row each: along (m), up (m),
-    angle (rad). Arrows are thrust along the first one.
+    """Return the paths to one scale; ``shown`` are positions and thrust angles in what is drawn, a row each: along (m),
+    up (m), angle (rad). Arrows are thrust along the first one.
     """
     spans = [max(float(np.ptp(rows[axis])) for rows in shown) for axis in (0, 1)]
     upright = min(max(LOWEST, HALF_WIDTH * spans[1] / max(spans[0], 1.0)), HIGHEST)
+    chart = path_chart(series, shown, names, "one scale", 5)
 
-    def draw(axes: Axes) -> None:
-        _draw_paths(axes, series, shown, names, "one scale")
-        axes.set_aspect("equal", adjustable="datalim")
+    def chart_of(x: Ends, y: Ends) -> Chart:
+        abscissa, ordinate = (linear_axis(ends, 5, label=axis.label) for ends, axis in ((x, chart.x), (y, chart.y)))
+        return replace(chart, x=abscissa, y=ordinate)
 
-    return panel("Path", "path", _path_words(series), draw, upright, HALF_WIDTH)
+    scaled = to_scale(chart_of, chart.x.ends, chart.y.ends, POINTS * HALF_WIDTH, POINTS * upright)
+    return chart_panel("Path", "path", _path_words(series), scaled, upright, HALF_WIDTH)
 
 
 def path_widths(series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str]) -> Widths:
-    """Likewise, each axis to its own scale, as wide as the page."""
-
-    def draw(figure: Figure) -> None:
-        _draw_paths(figure.subplots(), series, shown, names, "different scales", 5 if is_slim(figure) else 7)
-
-    return both_widths("path", _path_words(series), draw, LOW)
+    """Return the same, each axis to its own scale, as wide as the page."""
+    chart = path_chart(series, shown, names, "different scales", 7)
+    return Widths(fluid_figure("path", _path_words(series), chart, LOW))
 
 
 def _path_words(series: Sequence[Series]) -> str:
     return f"Path of {', '.join(one.name for one in series)}, with thrust as arrows"
 
 
-def _draw_paths(
-    axes: Axes,
-    series: Sequence[Series],
-    shown: Sequence[np.ndarray],
-    names: tuple[str, str],
-    scaled: str,
-    intervals: int = 5,
-) -> None:
+def path_chart(
+    series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str], scaled: str, intervals: int
+) -> Chart:
+    """Return the paths as `path_panel` has them, over time; the dot is the end of the first, along which arrows are."""
     scales = [far(np.concatenate([rows[axis] for rows in shown])) for axis in (0, 1)]
-    for one, rows in zip(series, shown, strict=True):
-        along, up = scales[0][0] * rows[0], scales[1][0] * rows[1]
-        axes.plot(along, up, color=one.look.colour, linestyle=one.look.dashes)
-    axes.plot(scales[0][0] * shown[0][0, -1], scales[1][0] * shown[0][1, -1], "o", markersize=6, color=INK)
-    _draw_arrows(axes, series[0], shown[0], (scales[0][0], scales[1][0]))
-    axes.set_xlabel(f"{names[0]}, {scales[0][1]}")
-    axes.set_ylabel(f"{names[1]}, {scales[1][1]}")
-    axes.margins(0.14, 0.08)
-    plain_ticks(axes, x=intervals, y=6)
-    axes.set_title(f"axes to {scaled}", loc="right", fontsize=8.0, color=FAINT)
+    factors = (scales[0][0], scales[1][0])
+    paths = [(factors[0] * rows[0], factors[1] * rows[1]) for rows in shown]
+    curves = [
+        replace(line(*path, one.look.colour, dashes=one.look.lengths, name=one.name), time=one.path.time)
+        for one, path in zip(series, paths, strict=True)
+    ]
+    ends = [axis_ends(np.concatenate([path[axis] for path in paths]), MARGINS[axis]) for axis in (0, 1)]
+    texts = [f"{name}, {unit}" for name, (_, unit) in zip(names, scales, strict=True)]
+    end = mark(float(paths[0][0][-1]), float(paths[0][1][-1]), marker("o", MARK, INK))
+    about = Note(f"axes to {scaled}", (1.0, 1.0), (True, True), (0.0, 4.0), ("right", "bottom"), FAINT, 8.0)
+    return Chart(
+        NO_BOX,
+        linear_axis(ends[0], intervals, label=texts[0]),
+        linear_axis(ends[1], 6, label=texts[1]),
+        curves=[*curves, end, *_arrows(series[0].path, shown[0], factors)],
+        notes=[about],
+    )
 
 
-def _draw_arrows(axes: Axes, one: Series, rows: np.ndarray, scale: tuple[float, float]) -> None:
+def _arrows(path: PlannedPath, rows: np.ndarray, factors: tuple[float, float]) -> list[charts.Curve]:
     """Thrust at even times, its angle as it is whatever the scales; an engine at its least has a short arrow."""
-    path = one.path
     times = (np.arange(ARROWS) + 0.5) * path.duration / ARROWS
     interval = np.minimum(np.searchsorted(path.time, times, side="right") - 1, path.throttle.size - 1)
-    angle, throttle = rows[2][interval], path.throttle[interval]
-    burning = np.isfinite(angle)
-    at = [np.interp(times, path.time, factor * row)[burning] for factor, row in zip(scale, rows[:2], strict=True)]
-    length = np.maximum(throttle, 0.25)[burning]
-    axes.quiver(
-        *at, length * np.cos(angle[burning]), length * np.sin(angle[burning]), angles="uv", units="inches",
-        scale_units="inches", scale=1.0 / ARROW, width=0.018, headwidth=4.5, headlength=5.5, color=FAINT, zorder=3,
-    )  # fmt: skip
-
-
-def _draw_pitch(axes: Axes, series: Sequence[Series]) -> None:
-    for one in series:
-        axes.plot(one.path.middle, np.degrees(one.path.pitch), color=one.look.colour, linestyle=one.look.dashes)
-    axes.set_ylabel("deg")
-    _finish(axes, series)
-
-
-def _draw_throttle(axes: Axes, series: Sequence[Series]) -> None:
-    for one in series:
-        style: LineStyle = {"color": one.look.colour, "linestyle": one.look.dashes, "linewidth": 1.3}
-        axes.stairs(one.path.throttle, one.path.time, baseline=None, **style)
-    axes.set_ylim(-0.04, 1.08)
-    _finish(axes, series)
-
-
-def _finish(axes: Axes, series: Sequence[Series]) -> None:
-    axes.set_xlabel("time, s")
-    longest = max(one.path.duration for one in series)
-    axes.set_xlim(0.0, longest * 1.01 if math.isfinite(longest) else None)
-    plain_ticks(axes, x=6, y=5)
+    angles, throttles = rows[2][interval], np.maximum(path.throttle[interval], 0.25)
+    x, y = (np.interp(times, path.time, factor * row) for factor, row in zip(factors, rows[:2], strict=True))
+    return [
+        arrow((x[row], y[row]), float(angles[row]), POINTS * ARROW * float(throttles[row]), FAINT)
+        for row in np.flatnonzero(np.isfinite(angles))
+    ]

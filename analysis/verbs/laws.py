@@ -5,16 +5,14 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Unpack
-
-from matplotlib.figure import Figure as Plot
+from typing import TYPE_CHECKING, Unpack
 
 from ...common.atomic import write_atomically
 from ...common.errors import InputError
 from ...common.targets import check_folder
 from ..design.laws import law as laws
 from ..design.laws.formula import formula, formula_text
-from ..design.laws.graph import law_figure, law_svg
+from ..design.laws.graph import INCH, law_chart, law_svg
 from ..design.laws.law import find_law, parameter_set
 from ..design.synthesis.outcome import SynthesisResult
 from ..design.synthesis.synthesis import run_synthesis
@@ -22,9 +20,11 @@ from ..design.synthesis.synthesis_file import find_search, read_synthesis
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..reports.common.notebook import Grid, notebook_view
-from ..reports.common.style import house_style
 from .options.design import LAW, SEARCH, LawOptions, SearchOptions
 from .result import NoProblems
+
+if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
+    from matplotlib.figure import Figure as Plot
 
 
 @dataclass(frozen=True)
@@ -58,8 +58,10 @@ class Law(NoProblems, laws.Law):
 
     def plot(self) -> Plot:
         """The law's graph."""
-        with house_style():
-            return law_figure(self)
+        from ..reports.chart.plot import plot_charts
+
+        chart, width, height = law_chart(self)
+        return plot_charts([chart], height / INCH, width / INCH)
 
     def _repr_html_(self) -> str:
         lines = [(line,) for line in self.lines() if line.strip()]

@@ -5,21 +5,23 @@ from __future__ import annotations
 from contextlib import chdir
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Unpack
-
-from matplotlib.figure import Figure as Plot
+from typing import TYPE_CHECKING, Unpack
 
 from ..options.declared.studies import RARE, RareOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..reports.common.notebook import Grid, notebook_view
-from ..reports.studies.rare_figures import rare_plot
+from ..reports.common.panels import HALF_WIDTH
+from ..reports.studies.rare_figures import HEIGHT, rare_charts
 from ..reports.studies.rare_page import design_table, level_table, write_rare_page
 from ..studies.rare import outcome
 from ..studies.rare.study import rare_failure
 from .common.arguments import read_requirements
 from .common.campaigns import commands_of, read_campaign
 from .common.studies import Required, condition_lines, conditions, results_folder, store_result
+
+if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
+    from matplotlib.figure import Figure as Plot
 
 NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # on which requirements are
 
@@ -44,7 +46,10 @@ class RareResult(Required, outcome.RareResult):
 
     def plot(self) -> Plot:
         """Limit state over simulations, exceedance probability, failures over the two most influential parameters."""
-        return rare_plot(self)
+        from ..reports.chart.plot import plot_charts
+
+        charts = rare_charts(self)
+        return plot_charts(charts, HEIGHT, HALF_WIDTH, columns=2, titles=[chart.title for chart in charts])
 
     def _repr_html_(self) -> str:
         grids = [Grid(table.heads, table.rows) for table in (level_table(self), design_table(self))]

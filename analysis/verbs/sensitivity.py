@@ -6,19 +6,27 @@ import sys
 from contextlib import chdir
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Unpack
-
-from matplotlib.figure import Figure as Plot
+from typing import TYPE_CHECKING, Unpack
 
 from ...common.errors import suggestion
 from ..options.declared.studies import SENSITIVITY, SensitivityOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..reports.common.notebook import Grid, notebook_view
-from ..reports.studies.sensitivity_page import driver_table, rank_table, sensitivity_plot, write_sensitivity_page
+from ..reports.common.panels import HALF_WIDTH
+from ..reports.studies.sensitivity_page import (
+    LANE,
+    driver_table,
+    rank_table,
+    sensitivity_charts,
+    write_sensitivity_page,
+)
 from ..studies import sensitivity as study
 from .common.campaigns import commands_of, read_campaign
 from .common.studies import Stored, condition_lines, conditions, results_folder, store_result
+
+if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
+    from matplotlib.figure import Figure as Plot
 
 MOST_PLOTTED = 4  # metrics, in a notebook
 
@@ -48,7 +56,12 @@ class SensitivityResult(Stored, study.SensitivityResult):
                 raise KeyError(f"no indices of {name}; {suggestion(name, self.told)}")
         if not self.told:
             raise ValueError("no metric has indices")
-        return sensitivity_plot(self, list(metrics or self.told))
+        from ..reports.chart.plot import plot_charts
+
+        charts = sensitivity_charts(self, metrics or self.told)
+        height = 1.0 + LANE * max(len(chart.y.ticks) for chart in charts)
+        titles = [f"{chart.title}: total, below it first order" for chart in charts]
+        return plot_charts(charts, height, HALF_WIDTH, columns=min(2, len(charts)), titles=titles)
 
     def _repr_html_(self) -> str:
         grids = [Grid(table.heads, table.rows) for table in (driver_table(self), rank_table(self))]

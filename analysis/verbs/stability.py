@@ -5,9 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Unpack
-
-from matplotlib.figure import Figure as Plot
+from typing import TYPE_CHECKING, Any, Unpack
 
 from ...common.errors import suggestion
 from ..commands.stability import study_command
@@ -15,7 +13,7 @@ from ..options.declared.studies import STABILITY, StabilityOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..reports.common.notebook import Grid, notebook_view
-from ..reports.stability.figures import Diagram, loop_plot
+from ..reports.stability.figures import SIZE, Diagram, loop_charts
 from ..reports.stability.orders import order_sentences
 from ..reports.stability.page import write_stability_page
 from ..reports.stability.words import gain_margin, phase_margin, size, verdict
@@ -29,6 +27,9 @@ from ..stability.results.report import LoopReport
 from ..stability.results.requirement import Verdict
 from ..stability.study import study
 from .common.stability_text import stability_lines, stability_problems
+
+if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
+    from matplotlib.figure import Figure as Plot
 
 
 @dataclass(repr=False)
@@ -118,7 +119,13 @@ class StabilityReport(report.StabilityReport):
         return self._plot(Diagram.STEP, loop, point)
 
     def _plot(self, diagram: Diagram, name: str | None, point: str | None) -> Plot:
-        return loop_plot(self._decisive() if name is None else self.loop(name, point), diagram)
+        from ..reports.chart.plot import plot_charts
+
+        loop = self._decisive() if name is None else self.loop(name, point)
+        charts = loop_charts(loop, diagram)
+        first, *others = (chart.title for chart in charts)
+        titles = [f"{loop.name} at {loop.point}; {first}", *others]
+        return plot_charts(charts, SIZE / len(charts), 1.2 * SIZE if diagram is Diagram.BODE else SIZE, titles=titles)
 
     def _decisive(self) -> LoopReport:
         return next((loop for loop in self.loops if loop.verdict is Verdict.FAIL), self.loops[0])
@@ -141,7 +148,7 @@ class StabilityReport(report.StabilityReport):
             *order_sentences(self),
             *(f"{item.name} at {item.point} not studied" for item in self.unstudied),
         ]
-        plot = loop_plot(self._decisive(), Diagram.BODE) if self.loops else None
+        plot = self.plot_bode() if self.loops else None
         return notebook_view(f"{self.system}: stability", words, [Grid(head, rows)], plot)
 
 

@@ -6,9 +6,7 @@ import os
 from contextlib import chdir
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Unpack
-
-from matplotlib.figure import Figure as Plot
+from typing import TYPE_CHECKING, Unpack
 
 from ..campaigns.spec.plan import BatchPlan
 from ..commands.stability import study_command
@@ -16,7 +14,8 @@ from ..options.declared.studies import WORST, WorstOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..reports.common.notebook import Grid, notebook_view
-from ..reports.studies.worst_figures import worst_plot
+from ..reports.common.panels import HALF_WIDTH
+from ..reports.studies.worst_figures import HEIGHT, worst_charts
 from ..reports.studies.worst_page import metric_table, parameter_table, worst_flight, write_worst_page
 from ..runtime.system.options import system_options
 from ..studies.flown import Commands
@@ -26,6 +25,9 @@ from ..studies.worst.study import MARGIN, worst_case, worst_margin
 from .common.arguments import read_requirements
 from .common.campaigns import commands_of, read_campaign
 from .common.studies import Conditions, Required, condition_lines, conditions, results_folder, store_result
+
+if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
+    from matplotlib.figure import Figure as Plot
 
 NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # on which requirements are
 
@@ -55,7 +57,10 @@ class WorstResult(Required, outcome.WorstResult):
 
     def plot(self) -> Plot:
         """The search over simulations, and the random trials with the worst case."""
-        return worst_plot(self)
+        from ..reports.chart.plot import plot_charts
+
+        charts = worst_charts(self)
+        return plot_charts(charts, HEIGHT, HALF_WIDTH, columns=2, titles=[chart.title for chart in charts])
 
     def _repr_html_(self) -> str:
         grids = [Grid(table.heads, table.rows) for table in (parameter_table(self), metric_table(self))]

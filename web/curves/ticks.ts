@@ -29,6 +29,11 @@ export function axisOptions(axis: Axis, size: number, space: number, point: numb
     const most = Math.max(2, Math.floor(length / devicePixelRatio / space));
     return axis.logarithmic ? logarithmicSplits(low, high, most) : linearSplits(low, high, most);
   };
+  // Of ticks with texts and without, as a logarithmic axis has them, the former alone have lines.
+  const lined = (_: uPlot, at: number[]): (number | null)[] => {
+    const isPlain = !isFixed() || !at.some((each) => drawn.get(each));
+    return isPlain ? at : at.map((each) => (drawn.get(each) ? each : null));
+  };
   const values = (_: uPlot, at: number[]): string[] => {
     if (axis.bare) return at.map(() => "");
     if (isFixed()) return at.map((each) => drawn.get(each) ?? "");
@@ -43,7 +48,7 @@ export function axisOptions(axis: Axis, size: number, space: number, point: numb
     splits,
     filter: all, // uPlot's would leave out what is no power of ten
     values,
-    grid: { filter: all, show: axis.grid ?? false, stroke: GRID, width: 0.6 * point },
+    grid: { filter: lined, show: axis.grid ?? false, stroke: GRID, width: 0.6 * point },
     ticks: { filter: all, show: axis.marked ?? false, stroke: FAINT, width: 0.8 * point, size: 3.5 * point },
     border: { show: false }, // `drawAbove` strokes them over grids and lines
   };

@@ -111,13 +111,14 @@ export interface Fluid {
 
 // A pair of axes; ``box`` is left, top, width and height of their area as fractions of the figure.
 //
-// With ``fluid`` margins they are those of a figure as wide as the page's column.
+// With ``fluid`` margins they are those of a figure as wide as the page's column. The ``title`` stands above the axes.
 //
 // A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it.
 export interface Chart<Column = number> {
   box: [number, number, number, number];
   x: Axis;
   y: Axis;
+  title?: string;
   picture?: boolean;
   fluid?: Fluid;
   curves?: Curve<Column>[];

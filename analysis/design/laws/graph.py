@@ -2,86 +2,113 @@
 
 from __future__ import annotations
 
-import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.patches import FancyArrowPatch
-from matplotlib.path import Path
+import math
+from collections.abc import Iterator
 
+import numpy as np
+
+from ...reports.chart.lines import line
+from ...reports.chart.marks import outline, rectangle
+from ...reports.chart.symbols import BARB, arrow, mark, marker
+from ...reports.chart.write_svg import write_svg
+from ...reports.common.colours import BLUE, FAINT, INK, VERMILION
 from ...reports.common.quantities import MINUS
-from ...reports.common.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure
-from ...reports.common.svg import svg_bytes
+from ...reports.font.text import text_width
+from ...reports.interactive.charts import Area, Axis, Backing, Chart, Curve, Note
 from .expression_tree import BINARY, IDENTITY, OUTPUT_NUMBERS, UNARY, Node, expression_tree, nodes_of
 from .law import Law
 from .layers import Edge, Layout
 
-COLUMN, ROW = 1.75, 0.66  # in, between layers and between neighbours
-RADIUS = 0.13  # in, of a node
-LABEL = (0.95, 0.2)  # in, about the size of an edge's label
+INCH = 72.0  # pt
+COLUMN, ROW = 1.75 * INCH, 0.66 * INCH  # pt, between layers and between neighbours
+RADIUS = 0.13 * INCH  # pt, of a node
+LABEL = (0.95 * INCH, 0.2 * INCH)  # pt, about the size of an edge's label
+LOWEST = 1.5 * INCH  # pt, the height of a drawing
+HEAD = 4.5  # pt, of an arrow
+TEXT, SMALL = 9.0, 8.0  # pt
+ROOM = 3.2  # pt, around the name of a source
+POINTS = np.linspace(0.0, 1.0, 17)[1:, np.newaxis]  # along a piece of an edge, of the parameter of Bezier's curve
+WHOLE = (0.0, 0.0, 1.0, 1.0)  # box of axes as large as the picture
+CENTRED, BELOW = ("center", "center"), ("center", "top")
 OUTPUT_NAMES = dict(zip(OUTPUT_NUMBERS, ("u1", "u2"), strict=True))
 
 Point = tuple[float, float]
 
 
 def law_svg(law: Law) -> bytes:
-    with house_style():
-        return svg_bytes(law_figure(law), law.name, text_as_paths=True)
+    """Return the graph of a law as an SVG document; the same law gives the same bytes."""
+    chart, width, height = law_chart(law)
+    svg = write_svg(chart, "law", f"Graph of {law.name}", width, height)
+    return f'<svg width="{width:g}pt" height="{height:g}pt" {svg.removeprefix("<svg ")}\n'.encode()
 
 
-def law_figure(law: Law) -> Figure:
-    """The graph of what the outputs depend on. Call it inside `house_style`."""
+def law_chart(law: Law) -> tuple[Chart, float, float]:
+    """Return the graph of what the outputs depend on, without axes; and its width and height, pt."""
     nodes = {node.number: node for node in nodes_of(expression_tree(law.matrix))}
     edges = [(other.number, node.number) for node in nodes.values() for _, other in node.terms]
     layout = Layout(list(nodes), edges)
     heights = [y for path in layout.paths.values() for _, y in path] + [y for _, y in layout.nodes.values()]
     columns = max(x for x, _ in layout.nodes.values())
-    width, height = COLUMN * (columns + 1.2), ROW * (max(heights) - min(heights) + 1.6)
-    figure = new_figure(max(height, 1.5), width)
-    axes = figure.add_subplot()
-    axes.set_axis_off()
-    axes.set_xlim(-0.7, columns + 0.5)
-    axes.set_ylim(max(heights) + 0.8, min(heights) - 0.8)
-    curves = {edge: _curve(path) for edge, path in layout.paths.items()}
-    style = "-|>,head_length=0.45,head_width=0.22"
-    for curve in curves.values():
-        axes.add_patch(FancyArrowPatch(path=curve, arrowstyle=style, mutation_scale=10, color=FAINT, linewidth=0.9))
+    width, height = COLUMN * (columns + 1.2), max(ROW * (max(heights) - min(heights) + 1.6), LOWEST)
+    traces = {edge: _trace(path, _half_width(nodes[edge[0]])) for edge, path in layout.paths.items()}
     labels = {
         (other.number, node.number): UNARY[operation].edge
         for node in nodes.values()
         for operation, other in node.terms
         if operation != IDENTITY
     }
-    for edge, (x, y) in _label_places(curves, list(labels), list(layout.nodes.values())).items():
-        _label(axes, x, y, labels[edge])
-    for number, (x, y) in layout.nodes.items():
-        _node(axes, nodes[number], x, y)
-    return figure
+    label_points = _label_points(traces, list(labels), list(layout.nodes.values()))
+    backing = Backing("#ffffff", 1.0, 0.9)
+    notes = [_note(labels[edge], at, BLUE, SMALL, backing=backing) for edge, at in label_points.items()]
+    curves = [curve for trace in traces.values() for curve in _edge(trace)]
+    areas: list[Area] = []
+    for number, at in layout.nodes.items():
+        areas += _box(nodes[number], at)
+        curves += _circle(nodes[number], at)
+        notes += _names(nodes[number], at)
+    middle, half = (max(heights) + min(heights)) / 2.0, height / ROW / 2.0
+    x, y = Axis(ends=(-0.7, columns + 0.5), size=0.0), Axis(ends=(middle + half, middle - half), size=0.0)
+    return Chart(WHOLE, x, y, curves=curves, areas=areas, notes=notes), width, height
 
 
-def _curve(points: list[Point]) -> Path:
-    """A smooth line through the points, level at each of them, up to the rim of the last node."""
-    vertices, codes = [points[0]], [Path.MOVETO]
+def _trace(points: list[Point], offset: float) -> np.ndarray:
+    """A smooth line through the points, level at each of them, [points, 2].
+
+    It begins ``offset`` columns right of the first, and ends at the rim of the last node.
+    """
+    begins = [(points[0][0] + offset, points[0][1]), *points[1:-1]]
     ends = [*points[1:-1], (points[-1][0] - RADIUS / COLUMN, points[-1][1])]
-    for (x0, y0), (x1, y1) in zip(points, ends, strict=False):
-        middle = 0.5 * (x0 + x1)
-        vertices += [(middle, y0), (middle, y1), (x1, y1)]
-        codes += [Path.CURVE4] * 3
-    return Path(vertices, codes)
+    spans = [np.array(begins[:1])]
+    for begin, end in zip(begins, ends, strict=True):
+        x, y = ((1.0 - POINTS) ** 3, 3.0 * POINTS * (1.0 - POINTS) ** 2), (3.0 * POINTS**2 * (1.0 - POINTS), POINTS**3)
+        middle = 0.5 * (begin[0] + end[0])
+        spans.append(
+            x[0] * begin + x[1] * np.array([middle, begin[1]]) + y[0] * np.array([middle, end[1]]) + y[1] * end
+        )
+    return np.concatenate(spans)
 
 
-def _label_places(curves: dict[Edge, Path], labelled: list[Edge], nodes: list[Point]) -> dict[Edge, Point]:
-    """Where the labels of edges stand: each on its edge, as far as can be from nodes, labels and other edges."""
+def _edge(trace: np.ndarray) -> list[Curve]:
+    """Its line, and the head of an arrow at its end."""
+    step = (trace[-1] - trace[-2]) * (COLUMN, -ROW)
+    angle = math.atan2(step[1], step[0])
+    begin = trace[-1] - HEAD * np.array([math.cos(angle) / COLUMN, -math.sin(angle) / ROW])
+    head = arrow((float(begin[0]), float(begin[1])), angle, HEAD, FAINT, HEAD / BARB)
+    return [line(trace[:, 0], trace[:, 1], FAINT, width=0.9), head]
+
+
+def _label_points(traces: dict[Edge, np.ndarray], labelled: list[Edge], nodes: list[Point]) -> dict[Edge, Point]:
+    """The centres of the labels of edges: each on its edge, as far as can be from nodes, labels and other edges."""
     sizes = np.array([COLUMN / LABEL[0], ROW / LABEL[1]])
-    traces = {edge: np.array(curve.to_polygons(closed_only=False)[0]) for edge, curve in curves.items()}
     positions: dict[Edge, Point] = {}
-    for edge in sorted(labelled, key=lambda edge: (len(np.asarray(curves[edge].vertices)), edge)):
+    for edge in sorted(labelled, key=lambda edge: (len(traces[edge]), edge)):
         trace = traces[edge]
         candidates = [np.array([x, np.interp(x, trace[:, 0], trace[:, 1])]) for x in _columns(trace)]
-        taken = np.array([*nodes, *positions.values()])
+        occupied = np.array([*nodes, *positions.values()])
         others = np.concatenate([traces[other] for other in traces if other != edge] or [trace[:1] + 99.0])
 
-        def room(point: np.ndarray, taken: np.ndarray = taken, others: np.ndarray = others) -> float:
-            to_labels = np.abs((taken - point) * sizes).max(axis=1).min()
+        def room(point: np.ndarray, occupied: np.ndarray = occupied, others: np.ndarray = others) -> float:
+            to_labels = np.abs((occupied - point) * sizes).max(axis=1).min()
             to_edges = np.abs((others - point) * sizes).max(axis=1).min()
             return float(min(to_labels, 1.0) + 0.5 * min(to_edges, 1.0))
 
@@ -94,36 +121,56 @@ def _columns(trace: np.ndarray) -> np.ndarray:
     return np.linspace(trace[0, 0] + 0.3, trace[-1, 0] - 0.3, 9 * int(np.ceil(trace[-1, 0] - trace[0, 0])))
 
 
-def _label(axes: Axes, x: float, y: float, text: str) -> None:
-    box = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none"}
-    axes.text(x, y, text, color=BLUE, fontsize=7.5, ha="center", va="center", zorder=3, bbox=box)
+def _source(node: Node) -> str:
+    return (node.source or "").replace("pi", "π").replace("theta", "θ").replace("-", MINUS)
 
 
-def _node(axes: Axes, node: Node, x: float, y: float) -> None:
-    """A source with its name, or a circle with the operation that gathers, and the node's number."""
-    source = (node.source or "").replace("pi", "π").replace("theta", "θ").replace("-", MINUS)
+def _half_width(node: Node) -> float:
+    """That of the box of a source that gathers nothing, 0 of other nodes; in columns."""
+    return 0.0 if node.terms or not node.source else (text_width(_source(node), TEXT) / 2.0 + ROOM) / COLUMN
+
+
+def _box(node: Node, at: Point) -> list[Area]:
+    """The box of a source that gathers nothing."""
+    across, down = _half_width(node), (TEXT / 2.0 + ROOM) / ROW
+    if not across:
+        return []
+    x, y = at
+    box = rectangle(x - across, x + across, y - down, y + down, "#f2f2f2", 1.0)
+    return [box, outline(box.x, box.y, FAINT, 0.8)]
+
+
+def _circle(node: Node, at: Point) -> list[Curve]:
+    """The circle of a node that gathers, or is an output."""
+    if node.source and not node.terms:
+        return []
+    colour = VERMILION if node.number in OUTPUT_NAMES else INK
+    return [mark(*at, marker("o", 2.0 * RADIUS - 1.0, colour, fill="#ffffff"))]
+
+
+def _names(node: Node, at: Point) -> Iterator[Note]:
+    """The name of a source in its box; or the operation in a circle, and below it the node's number."""
+    source = _source(node)
     if source and not node.terms:
-        box = {"boxstyle": "round,pad=0.35", "facecolor": "#f2f2f2", "edgecolor": FAINT, "linewidth": 0.8}
-        axes.text(x, y, source, ha="center", va="center", bbox=box, zorder=4)
+        yield _note(source, at, INK, TEXT)
         return
-    is_output = node.number in OUTPUT_NAMES
-    colour = VERMILION if is_output else INK
-    size = 2.0 * 72.0 * RADIUS - 1.0
-    axes.plot(x, y, "o", markersize=size, markerfacecolor="white", markeredgecolor=colour, zorder=4)
     if len(node.terms) > 1 or source:
-        axes.text(x, y, BINARY[node.operation], ha="center", va="center", zorder=5)
+        yield _note(BINARY[node.operation], at, INK, TEXT)
+    is_output = node.number in OUTPUT_NAMES
     name = f"{OUTPUT_NAMES[node.number]} = z{node.number}" if is_output else f"z{node.number}"
     if source:
         name += f", from {source}"
-    offset = (0.0, -72.0 * RADIUS - 1.0)
-    axes.annotate(
-        name,
-        (x, y),
-        offset,
-        textcoords="offset points",
-        ha="center",
-        va="top",
-        fontsize=7.5,
-        color=colour if is_output else FAINT,
-        zorder=5,
-    )
+    offset = (0.0, -RADIUS - 1.0)
+    yield _note(name, at, VERMILION if is_output else FAINT, SMALL, offset, BELOW)
+
+
+def _note(
+    text: str,
+    at: Point,
+    colour: str,
+    size: float,
+    offset: Point = (0.0, 0.0),
+    align: tuple[str, str] = CENTRED,
+    backing: Backing | None = None,
+) -> Note:
+    return Note(text, at, (False, False), offset, align, colour.lower(), size, backing=backing)

@@ -8,12 +8,23 @@ from dataclasses import replace
 from ..common.quantities import log_tick, tick
 from ..interactive.charts import Axis
 from ..interactive.measures import LABEL_SIZE, TICK_SIZE
-from .ticks import axis_ticks, decade_ticks
+from .ticks import MULTIPLES, STEPS, axis_ticks, decade_ticks, power_ticks, text_ticks
 
 
-def linear_axis(ends: tuple[float, float], intervals: int, *, label: str = "", integer: bool = False) -> Axis:
-    """Return a linear axis with at most ``intervals`` intervals between ticks, at integers if ``integer``."""
-    return _axis(ends, [(at, tick(at)) for at in axis_ticks(*ends, intervals, integer=integer)], label, named=False)
+def linear_axis(
+    ends: tuple[float, float],
+    intervals: int,
+    *,
+    label: str = "",
+    integer: bool = False,
+    multiples: Sequence[float] = STEPS,
+) -> Axis:
+    """Return a linear axis with at most ``intervals`` intervals between ticks, at integers if ``integer``.
+
+    The intervals are ``multiples`` of a power of ten.
+    """
+    ticks = axis_ticks(*ends, intervals, integer=integer, multiples=multiples)
+    return _axis(ends, [(at, tick(at)) for at in ticks], label, named=False)
 
 
 def ticked_axis(ends: tuple[float, float], ticks: Sequence[float], *, label: str = "") -> Axis:
@@ -28,6 +39,17 @@ def logarithmic_axis(
     low, high = min(ends), max(ends)
     ticks = [(at, log_tick(at)) for at in decade_ticks(low, high, limit, multiples)]
     return replace(_axis(ends, ticks, label, named=False), logarithmic=True)
+
+
+def fine_axis(ends: tuple[float, float], limit: int = 6, *, label: str = "") -> Axis:
+    """Return a logarithmic axis with ticks at k 10^n, k = 1 to 9, of which few have texts.
+
+    Beyond ``limit`` decades ticks are at whole decades alone.
+    """
+    texts = {at: log_tick(at) for at in text_ticks(*ends, limit)}
+    decades = power_ticks(*ends, MULTIPLES[0])
+    ticks = sorted({*(decades if len(decades) > limit else power_ticks(*ends, MULTIPLES[-1])), *texts})
+    return replace(_axis(ends, [(at, texts.get(at, "")) for at in ticks], label, named=False), logarithmic=True)
 
 
 def named_axis(ends: tuple[float, float], ticks: Sequence[tuple[float, str]], *, label: str = "") -> Axis:

@@ -44,7 +44,7 @@ def lay_out_fluid(chart: Chart, height: float, *, title: str = "", left: float =
 
 def _few(axis: Axis) -> list[int]:
     """Each second tick, if all are too many for a narrow screen: that of 0 and others are at whole multiples."""
-    length = sum(text_width(text, axis.size) + SPACE for _, text in axis.ticks)
+    length = sum(text_width(text, axis.size) + SPACE for _, text in axis.ticks if text)
     if len(axis.ticks) < FEWEST or length <= NARROW - MARGIN - LABELS:
         return []
     (first, _), (second, _) = axis.ticks[:2]
@@ -75,7 +75,7 @@ def _room(chart: Chart, title: str) -> tuple[float, float, float, float]:
     widest = max((text_width(text, y.size) for _, text in y.ticks), default=0.0)
     left_label, label = (LABEL_GAP + LINE * LABEL_SIZE if axis.label else 0.0 for axis in (y, x))
     left = MARGIN + text_offset(y) + widest + left_label
-    bottom = MARGIN + text_offset(x) + (0.0 if x.bare else LINE * x.size) + label
+    bottom = MARGIN + text_offset(x) + (0.0 if x.bare else LINE * x.size + label)
     top = MARGIN + (TITLE_GAP + LINE * LABEL_SIZE if title else MIDDLE * y.size)
     return left, top, MARGIN, bottom
 
@@ -85,5 +85,5 @@ def _ends_of_ticks(chart: Chart, width: float) -> tuple[float, float]:
     if not chart.x.ticks:
         return 0.0, 0.0
     at = width * fraction(chart.x, np.array([each for each, _ in chart.x.ticks]))
-    half = np.array([text_width(text, chart.x.size) for _, text in chart.x.ticks]) / 2.0
+    half = np.array([text_width("" if chart.x.bare else text, chart.x.size) for _, text in chart.x.ticks]) / 2.0
     return float(np.max(half - at)), float(np.max(at + half) - width)

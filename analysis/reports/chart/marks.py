@@ -10,6 +10,7 @@ from ..interactive.measures import TICK_SIZE
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
 CIRCLE_DASHES, DASH = 72, 2.0 / 3.0  # strokes of a circle, and what they are of it
+HATCHES = 8  # strokes in half a polygon
 
 
 def band_areas(
@@ -47,6 +48,32 @@ def dashed_circle(radius: float, colour: str, width: float) -> Area:
     angle = 2.0 * np.pi / CIRCLE_DASHES * (np.arange(CIRCLE_DASHES)[:, np.newaxis] + [-DASH / 2.0, DASH / 2.0])
     x, y = radius * np.cos(angle.ravel()), radius * np.sin(angle.ravel())
     return Area(x, y, (False, False), colour.lower(), 1.0, width)
+
+
+def rectangle(left: float, right: float, low: float, high: float, colour: str, opacity: float) -> Area:
+    """Return a rectangle between two abscissas and two ordinates."""
+    x, y = left + (right - left) * SQUARE[:, 0], low + (high - low) * SQUARE[:, 1]
+    return Area(x, y, (False, False), colour.lower(), opacity, 0.0)
+
+
+def outline(x: np.ndarray, y: np.ndarray, colour: str, width: float) -> Area:
+    """Return strokes from each of the points, [rows], to the next."""
+    between = np.stack([x, y]).repeat(2, axis=1)[:, 1:-1]
+    return Area(between[0], between[1], (False, False), colour.lower(), 1.0, width)
+
+
+def hatch(x: np.ndarray, y: np.ndarray, colour: str, width: float) -> Area:
+    """Return strokes in a closed convex polygon, [rows], parallel to a diagonal of the rectangle around it."""
+    low, size = np.array([x.min(), y.min()]), np.array([np.ptp(x), np.ptp(y)])
+    corners = (np.stack([x, y], axis=1) - low) / size
+    offsets = corners[:, 1] - corners[:, 0]  # of parallels through the corners
+    ends = []
+    for offset in np.arange(1, 2 * HATCHES) / HATCHES - 1.0:
+        edges = np.flatnonzero((offsets[:-1] - offset) * (offsets[1:] - offset) < 0.0)
+        ratio = ((offset - offsets[edges]) / (offsets[edges + 1] - offsets[edges]))[:, np.newaxis]
+        ends += [*(corners[edges] + ratio * (corners[edges + 1] - corners[edges]))] if edges.size == 2 else []
+    placed = low + size * np.array(ends)
+    return Area(placed[:, 0], placed[:, 1], (False, False), colour.lower(), 1.0, width)
 
 
 def level(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Rule:

@@ -14,6 +14,7 @@ from .layout import BROAD, lay_out, lay_out_fluid
 from .write_svg import TrialPositions, no_trials, write_svg
 
 POINTS = 72.0  # in an inch
+ABSCISSA = 0.36  # in, of the texts of an abscissa and its label
 
 
 def chart_panel(
@@ -63,6 +64,34 @@ def fluid_figure(
     placed = lay_out_fluid(chart, POINTS * height, title=title, left=left)
     svg = write_svg(placed, name, description, BROAD, POINTS * height, title=title, trials=trials)
     return Drawing(svg, [placed if _is_exact(placed) else _picture(placed)])
+
+
+def stack_panel(
+    label: str, name: str, description: str, charts: tuple[Chart, Chart], height: float, width: float = PANEL_WIDTH
+) -> Panel:
+    """Return the panel of two charts over the same abscissa, whose texts the lower one has; sizes in inches."""
+    upper, lower = charts
+    bare = replace(upper, x=replace(upper.x, bare=True))
+    heights = [(height - ABSCISSA) / 2.0, (height + ABSCISSA) / 2.0]
+    placed = [
+        lay_out(chart, POINTS * width, POINTS * high, title=chart.title)
+        for chart, high in zip((bare, lower), heights, strict=True)
+    ]
+    left = max(chart.box[0] for chart in placed)
+    wide = round(min(chart.box[0] + chart.box[2] for chart in placed) - left, 5)
+    above, below = (
+        chart_panel(
+            label,
+            f"{name}-{order}",
+            f"{description}; {chart.title}",
+            replace(chart, box=(left, chart.box[1], wide, chart.box[3])),
+            high,
+            width,
+            title=chart.title,
+        )
+        for order, (chart, high) in enumerate(zip(placed, heights, strict=True))
+    )
+    return Panel(label, above.figure._replace(below=below.figure))
 
 
 def _picture(chart: Chart) -> Chart:

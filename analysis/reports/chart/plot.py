@@ -6,11 +6,13 @@ from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator
+from matplotlib.ticker import FixedLocator, NullFormatter
 
+from ..common.colours import FAINT
 from ..common.style import house_style
 from ..common.svg import Picture
 from ..interactive.charts import NO_BOX, Axis, Chart
+from ..interactive.measures import AXES_WIDTH
 from .layout import lay_out
 from .plot_marks import line_style, plot_area, plot_curve, plot_dots, plot_note
 from .svg.axes import STROKE, TITLE_GAP
@@ -82,6 +84,8 @@ def _plot(axes: Axes, chart: Chart, title: str, legend: Sequence[str], trials: T
         plot_curve(axes, curve, legend[index] if index < len(legend) else "_")
     for note in chart.notes:
         plot_note(axes, note)
+    if not chart.x.size and not chart.y.size:
+        axes.set_axis_off()
     axes.set_title(title, loc="left", pad=TITLE_GAP)
     if legend:
         axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(legend), borderaxespad=0.0)
@@ -91,10 +95,15 @@ def _set_axis(axes: Axes, which: str, stated: Axis) -> None:
     axis = axes.xaxis if which == "x" else axes.yaxis
     if stated.logarithmic:
         getattr(axes, f"set_{which}scale")("log")
-    axis.set_ticks([at for at, _ in stated.ticks], [text for _, text in stated.ticks])
-    axis.set_minor_locator(NullLocator())
+    named = [(at, text) for at, text in stated.ticks if text] or list(stated.ticks)
+    others = [at for at, text in stated.ticks if not text] if named != list(stated.ticks) else []
+    axis.set_ticks([at for at, _ in named], [text for _, text in named])
+    axis.set_minor_locator(FixedLocator(others))
     axis.grid(visible=stated.grid)
-    axis.set_tick_params(labelsize=stated.size, length=STROKE if stated.marked else 0.0)
+    axis.grid(visible=False, which="minor")
+    axis.set_tick_params(which="both", labelsize=stated.size, length=STROKE if stated.marked else 0.0)
+    axis.set_tick_params(which="minor", color=FAINT, width=AXES_WIDTH)
+    axis.set_minor_formatter(NullFormatter())
     if stated.bare and which == "x":
         axis.set_tick_params(labelbottom=False)
     elif stated.bare:

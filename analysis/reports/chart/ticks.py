@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 MARGIN = 0.05  # of the range of the data, at either end
-STEPS = np.array([0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 2.5, 5.0, 10.0, 20.0])  # of ticks, times a power of ten
+STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)  # of ticks, times a power of ten
+DECADES = 150.0  # ratio of the ends of a logarithmic axis from which on whole decades alone have texts
+MULTIPLES = ((1.0,), (1.0, 2.0, 5.0), tuple(map(float, range(1, 10))))  # of powers of ten, at which there are texts
 FEWEST = 2  # ticks
 FAR = 100.0  # from 0, in ranges: ticks then count from a round number near by
 TINY = 1e-15  # relative width of a range that is none
@@ -36,18 +39,21 @@ def _widen(low: float, high: float) -> tuple[float, float]:
     return low, high
 
 
-def axis_ticks(low: float, high: float, intervals: int, *, integer: bool = False) -> list[float]:
+def axis_ticks(
+    low: float, high: float, intervals: int, *, integer: bool = False, multiples: Sequence[float] = STEPS
+) -> list[float]:
     """Return the ticks between two ends: at most ``intervals`` intervals, at integers if ``integer``.
 
-    The steps are 1, 2, 2.5 or 5 times a power of ten; ends between which there are less than two ticks get smaller
-    steps.
+    The steps are ``multiples`` of a power of ten, from 1 to 10; ends between which there are less than two ticks get
+    smaller steps.
     """
     width, centre = high - low, (high + low) / 2.0
     offset = 0.0
     if abs(centre) / width >= FAR:
         offset = math.copysign(10.0 ** (math.log10(abs(centre)) // 1), centre)
     low, high = low - offset, high - offset
-    steps = STEPS * 10.0 ** (math.log10(width / intervals) // 1)
+    stairs = [*(0.1 * each for each in multiples[:-1]), *multiples, 10.0 * multiples[1]]
+    steps = np.array(stairs) * 10.0 ** (math.log10(width / intervals) // 1)
     if integer:
         steps = steps[(steps < 1.0) | (np.abs(steps - np.round(steps)) < 0.001)]
     first = int(np.flatnonzero(steps >= (high - low) / intervals)[0])
@@ -87,6 +93,23 @@ def decade_ticks(low: float, high: float, limit: int, multiples: tuple[float, ..
     factors = multiples if step == 1 or decades <= 1 else (1.0,)
     powers = range(begin, last + 1, step)
     return [tick for power in powers for factor in factors if low <= (tick := factor * 10.0**power) <= high]
+
+
+def power_ticks(low: float, high: float, multiples: Sequence[float]) -> list[float]:
+    """Return ``multiples`` of powers of ten, ascending, between two positive ends."""
+    powers = [10.0**exponent for exponent in range(math.floor(math.log10(low)) - 1, math.ceil(math.log10(high)) + 1)]
+    ticks = [multiple * power for power in powers for multiple in multiples]
+    return [tick for tick in ticks if low * (1.0 - ROUNDING) <= tick <= high * (1.0 + ROUNDING)]
+
+
+def text_ticks(low: float, high: float, limit: int) -> list[float]:
+    """Return the ticks of a logarithmic axis that have texts: decades, or where these are few more multiples."""
+    if high >= DECADES * low:
+        return decade_ticks(low, high, limit)
+    for multiples in MULTIPLES[1:]:
+        if len(ticks := power_ticks(low, high, multiples)) >= FEWEST:
+            return ticks
+    return axis_ticks(low, high, FEWEST + 1)
 
 
 def _floor(number: float, step: float, offset: float) -> float:

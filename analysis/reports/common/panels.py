@@ -6,7 +6,7 @@ Text is never below 8 pt of a figure's own size. A figure fills what it stands i
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -28,10 +28,11 @@ KILOMETRES = 1e4  # m, from which on lengths are in km
 
 
 class Panel(NamedTuple):
-    """A figure with its heading: a label, which has a look where it is a contender's."""
+    """A figure with its heading: a label, which has a look where it is a contender's; and a legend of its own."""
 
     label: str
     figure: Drawing
+    legend: Sequence[tuple[Markup, str]] = ()
 
 
 def panel(

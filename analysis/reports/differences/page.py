@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import cycle
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.axes import Axes
 
 from ...differences.differences import RunDifferences, SignalDifference
+from ..chart.axes import linear_axis
+from ..chart.panel import chart_panel
+from ..chart.quantity import quantity_curve
+from ..chart.ticks import axis_ends
+from ..common.colours import COLOURS, DASHES, INK, Look
 from ..common.page import write_page
-from ..common.panels import HALF_WIDTH, Panel, panel, swatch
-from ..common.quantities import display_factor, display_unit, label_with_unit
+from ..common.panels import HALF_WIDTH, Panel, swatch
+from ..common.quantities import label_with_unit
 from ..common.signals import INDEXED, vector_of
-from ..common.style import COLOURS, DASHES, INK, Look, plain_ticks
-from ..interactive.lines import QuantityLine
+from ..interactive.charts import NO_BOX, Chart, Curve
 
 PLOTTED = 24  # signals and vectors that are plotted
 HEIGHT = 1.9  # in, of a panel
@@ -98,45 +102,42 @@ def _panels(
     """A signal or a vector in both runs, and its difference."""
     ordered = sorted(elements, key=lambda each: each.name)
     unit = ordered[0].unit
-
-    def draw_both(axes: Axes) -> None:
-        for each in ordered:
-            colour = palette.get(_index(each.name), COLOURS[0])
-            for which, values, dashes in (("first", each.first, DASHES[0]), ("second", each.second, DASHES[1])):
-                _add_line(axes, time, values, f"{which} {each.name.removeprefix(name)}".strip(), unit, colour, dashes)
-        _finish(axes)
-
-    def draw_difference(axes: Axes) -> None:
-        for each in ordered:
-            colour = palette.get(_index(each.name), COLOURS[0])
-            _add_line(axes, time, each.difference, each.name, unit, colour, DASHES[0])
-        _finish(axes)
-
-    label = label_with_unit(name, unit)
+    both = [
+        _curve(time, values, f"{which} {each.name.removeprefix(name)}".strip(), unit, each.name, palette, look)
+        for each in ordered
+        for which, values, look in (("first", each.first, 0), ("second", each.second, 1))
+    ]
+    differences = [_curve(time, each.difference, each.name, unit, each.name, palette) for each in ordered]
+    label, words = label_with_unit(name, unit), f"{label_with_unit(name, unit)}: second less first"
     return [
-        panel(label, f"both-{index}", f"{name} in both runs over time", draw_both, HEIGHT, HALF_WIDTH),
-        panel(
-            f"{label}: second less first", f"difference-{index}", f"Difference of {name} over time",
-            draw_difference, HEIGHT, HALF_WIDTH,
-        ),
-    ]  # fmt: skip
+        _panel(label, f"both-{index}", f"{name} in both runs over time", both),
+        _panel(words, f"difference-{index}", f"Difference of {name} over time", differences),
+    ]
+
+
+def _curve(
+    time: np.ndarray,
+    values: np.ndarray,
+    name: str,
+    unit: str | None,
+    element: str,
+    palette: Mapping[str, str],
+    look: int = 0,
+) -> Curve:
+    """A line in the colour of an element and the dashes of a look."""
+    colour = palette.get(_index(element), COLOURS[0]).lower()
+    return replace(quantity_curve(time, values, name, unit, look), colour=colour, marker=None)
+
+
+def _panel(label: str, name: str, description: str, curves: Sequence[Curve]) -> Panel:
+    finite = [np.isfinite(curve.displayed) for curve in curves]
+    times = np.concatenate([curve.x[rows] for curve, rows in zip(curves, finite, strict=True)])
+    ordinates = np.concatenate([curve.displayed for curve in curves])
+    abscissa = linear_axis(axis_ends(times), 6, label="time, s")
+    chart = Chart(NO_BOX, abscissa, linear_axis(axis_ends(ordinates), 5), curves=curves)
+    return chart_panel(label, name, description, chart, HEIGHT, HALF_WIDTH)
 
 
 def _index(name: str) -> str:
     indexed = INDEXED.fullmatch(name)
     return indexed[2] if indexed else ""
-
-
-def _add_line(
-    axes: Axes, time: np.ndarray, values: np.ndarray, name: str, unit: str | None, colour: str, dashes: object
-) -> None:
-    finite = np.where(np.isfinite(values), values, np.nan)
-    displayed, factor = display_unit(unit), display_factor(unit)
-    line = QuantityLine(time, finite, name=name, unit=displayed, factor=factor, color=colour, linestyle=dashes)
-    axes.add_line(line)
-
-
-def _finish(axes: Axes) -> None:
-    axes.autoscale_view()
-    axes.set_xlabel("time, s")
-    plain_ticks(axes, x=6, y=5)

@@ -164,7 +164,7 @@ NO_BOX = (0.0, 0.0, 0.0, 0.0)  # of a chart that has not been laid out
 class Chart:
     """A pair of axes; ``box`` is left, top, width and height of their area as fractions of the figure.
 
-    With ``fluid`` margins they are those of a figure as wide as the page's column.
+    With ``fluid`` margins they are those of a figure as wide as the page's column. The ``title`` stands above the axes.
 
     A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it.
     """
@@ -172,6 +172,7 @@ class Chart:
     box: tuple[float, float, float, float]
     x: Axis
     y: Axis
+    title: str = ""
     picture: bool = False
     fluid: Fluid | None = None
     curves: Sequence[Curve] = ()
@@ -182,10 +183,16 @@ class Chart:
 
 
 class Drawing(NamedTuple):
-    """A figure as an <svg> element, and what it shows as data."""
+    """A figure as an <svg> element, and what it shows as data; ``below`` is one below it over the same abscissa."""
 
     svg: Markup
     charts: list[Chart]
+    below: Drawing | None = None
 
     def __html__(self) -> str:
         return self.svg
+
+    @property
+    def drawings(self) -> list[Drawing]:
+        """The figure and those below it."""
+        return [self, *([] if self.below is None else self.below.drawings)]

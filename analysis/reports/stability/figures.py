@@ -4,26 +4,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from enum import StrEnum
 from functools import partial
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from ...stability.loops.margin_values import MARGINS, UNSTABLE, Quantity
+from ...stability.loops.margin_values import MARGINS, UNSTABLE
 from ...stability.loops.readings import decibels
 from ...stability.results.report import JointReport, LoopReport, StabilityReport
 from ...stability.results.varied import SweepReport
-from ..common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, panel
+from ..chart.axes import linear_axis
+from ..chart.equal import Ends, to_scale
+from ..chart.panel import POINTS, chart_panel, stack_panel
+from ..common.panels import HALF_WIDTH, PANEL_WIDTH, Panel
 from ..common.quantities import number
-from ..common.style import house_style, new_figure
-from ..common.svg import inline_svg
-from .bode import draw_bode
-from .frequency import Limits, draw_sensitivity, limits_of, margin_words
-from .nyquist import INVERSE, draw_harmonic_balance, draw_nichols, draw_nyquist
-from .poles import are_crowded, draw_cloud, draw_poles, poles_of
-from .sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
+from ..interactive.charts import Chart
+from .bode import bode_charts
+from .frequency import Limits, margin_words, sensitivity_chart
+from .nyquist import INVERSE, balance_chart, nichols_chart, nyquist_chart
+from .poles import are_crowded, cloud_chart, intervals, pole_chart, poles_of
+from .sets import amplitude_charts, describing_chart, joint_chart, margin_chart, step_chart, sweep_charts
 from .shared import Panels
 
 HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels
@@ -32,20 +33,25 @@ LOW = 2.4  # in; of histograms, sensitivities and joint margins
 SIGHT = "sight"  # key of the figures that are seen at first sight
 
 
-def stack(
-    label: str,
-    name: str,
-    description: str,
-    draw: Callable[[Axes, Axes], None],
-    height: float = HEIGHT,
-    width: float = PANEL_WIDTH,
+def _panel(
+    label: str, name: str, description: str, chart: Chart, height: float = HEIGHT, width: float = PANEL_WIDTH
 ) -> Panel:
-    """A panel of two axes above each other, over the same abscissa; sizes in inches."""
-    with house_style():
-        figure = new_figure(height, width)
-        upper, lower = figure.subplots(2, 1, sharex=True)
-        draw(upper, lower)
-        return Panel(label, inline_svg(figure, name, description))
+    """A panel with the title of the chart above its axes."""
+    return chart_panel(label, name, description, chart, height, width, title=chart.title)
+
+
+def _plane_panel(label: str, name: str, description: str, chart: Chart, height: float = HEIGHT) -> Panel:
+    """A panel of a complex plane, whose axes have one scale."""
+    return _panel(label, name, description, _to_scale(chart, PANEL_WIDTH, height), height)
+
+
+def _to_scale(chart: Chart, width: float, height: float) -> Chart:
+
+    def chart_of(x: Ends, y: Ends) -> Chart:
+        abscissa = linear_axis(x, intervals(x[1] - x[0]), label=chart.x.label)
+        return replace(chart, x=abscissa, y=linear_axis(y, 5))
+
+    return to_scale(chart_of, chart.x.ends, chart.y.ends, POINTS * width, POINTS * height, title=chart.title)
 
 
 def sight_panels(loop: LoopReport, name: str) -> list[Panel]:
@@ -53,8 +59,8 @@ def sight_panels(loop: LoopReport, name: str) -> list[Panel]:
     margins = margin_words(loop)
     bode, nichols = f"Bode diagram of {loop.name}: {margins}", f"Nichols diagram of {loop.name}: {margins}"
     return [
-        stack("Bode", f"{name}-bode", bode, lambda g, p: draw_bode(loop, g, p), SIGHT_HEIGHT, HALF_WIDTH),
-        panel("Nichols", f"{name}-nichols", nichols, lambda axes: draw_nichols(loop, axes), SIGHT_HEIGHT, HALF_WIDTH),
+        stack_panel("Bode", f"{name}-bode", bode, bode_charts(loop), SIGHT_HEIGHT, HALF_WIDTH),
+        _panel("Nichols", f"{name}-nichols", nichols, nichols_chart(loop), SIGHT_HEIGHT, HALF_WIDTH),
     ]
 
 
@@ -63,20 +69,19 @@ def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
     unstable = loop.margins.unstable
     modulus = margin_words(loop) if unstable else f"modulus margin {number(float(loop.robust.modulus_margin), 3)}"
     words = f"Nyquist diagram of {loop.name}: {modulus}"
-    panels = [panel("Nyquist", f"{name}-nyquist", words, lambda axes: draw_nyquist(loop, axes), HEIGHT)]
+    panels = [_plane_panel("Nyquist", f"{name}-nyquist", words, nyquist_chart(loop))]
     poles = poles_of(loop)
     if poles.size:
         outside = int(np.sum(np.abs(poles) >= 1.0))
         words = f"{poles.size} closed-loop poles of {loop.name}, {outside} on or outside the unit circle"
-        panels.append(panel("Poles", f"{name}-poles", words, lambda axes: draw_poles(loop, axes, near=False), HEIGHT))
+        panels.append(_plane_panel("Poles", f"{name}-poles", words, pole_chart(loop, near=False)))
         if are_crowded(poles):
             words = f"Closed-loop poles of {loop.name} near z = 1"
-            draw = partial(draw_poles, loop, near=True)
-            panels.append(panel("Poles near z = 1", f"{name}-poles-near", words, draw, HEIGHT))
+            panels.append(_plane_panel("Poles near z = 1", f"{name}-poles-near", words, pole_chart(loop, near=True)))
     if loop.step is not None:
         last = float(loop.step[1][-1])
         words = f"Step response of {loop.name}, {number(last, 3)} at {number(float(loop.step[0][-1]))} s"
-        panels.append(panel("Step response", f"{name}-step", words, lambda axes: draw_step(loop, axes), HEIGHT))
+        panels.append(_panel("Step response", f"{name}-step", words, step_chart(loop)))
     return panels
 
 
@@ -95,8 +100,7 @@ def sensitivity_panel(loop: LoopReport, name: str) -> Panel:
     """Sensitivity and complementary sensitivity."""
     peaks = [number(decibels(peak), 3) for peak in (loop.robust.sensitivity_peak, loop.robust.complementary_peak)]
     words = f"Sensitivities of {loop.name}: peaks {peaks[0]} dB and {peaks[1]} dB"
-    draw = partial(draw_sensitivity, loop, modulus_limit=limits_of(loop).modulus)
-    return panel("Sensitivities", f"{name}-sensitivity", words, draw, LOW)
+    return _panel("Sensitivities", f"{name}-sensitivity", words, sensitivity_chart(loop), LOW)
 
 
 def dispersion_panels(loop: LoopReport, name: str) -> list[Panel]:
@@ -107,23 +111,18 @@ def dispersion_panels(loop: LoopReport, name: str) -> list[Panel]:
     limits = {item.quantity: item.limit for item in dispersion.requirements}
     panels = []
     for quantity in MARGINS:
-        sizes = dispersion.sizes(quantity)
-
-        def draw(axes: Axes, sizes: np.ndarray = sizes, quantity: Quantity = quantity) -> None:
-            unit = "" if quantity.unit == "1" else f", {quantity.unit}"
-            draw_histogram(sizes, axes, f"{quantity}{unit}", limits.get(quantity), dispersion.worst)
-
-        words = f"Histogram of the {quantity} of {loop.name} over {dispersion.trials} trials, {_least(sizes)}"
-        label = f"{quantity.capitalize()} over trials"
-        panels.append(panel(label, f"{name}-trials-{quantity.replace(' ', '-')}", words, draw, LOW))
+        smallest = _smallest_size(dispersion.sizes(quantity))
+        words = f"Histogram of the {quantity} of {loop.name} over {dispersion.trials} trials, {smallest}"
+        label, key = f"{quantity.capitalize()} over trials", f"{name}-trials-{quantity.replace(' ', '-')}"
+        panels.append(_panel(label, key, words, margin_chart(dispersion, quantity, limits.get(quantity)), LOW))
     if np.any(np.isfinite(dispersion.poles)):
         words = f"Closed-loop poles of {loop.name} in {dispersion.trials} trials"
         near = ", near z = 1" if are_crowded(poles_of(loop)) else ""
-        panels.append(panel(f"Poles over trials{near}", f"{name}-cloud", words, partial(draw_cloud, loop), LOW))
+        panels.append(_plane_panel(f"Poles over trials{near}", f"{name}-cloud", words, cloud_chart(loop), LOW))
     return panels
 
 
-def _least(sizes: np.ndarray) -> str:
+def _smallest_size(sizes: np.ndarray) -> str:
     finite = sizes[np.isfinite(sizes)]
     words = [f"least {number(float(finite.min()), 3)}"] if finite.size else []
     unstable = int(np.sum(sizes == UNSTABLE))
@@ -135,7 +134,7 @@ def amplitude_panels(loop: LoopReport, name: str) -> list[Panel]:
     if len(loop.amplitudes) < 2:
         return []
     words = f"Gain and phase of {loop.name} over {len(loop.amplitudes)} amplitudes at the cut"
-    return [stack("Gain and phase", f"{name}-amplitudes", words, lambda g, p: draw_amplitudes(loop, g, p))]
+    return [stack_panel("Gain and phase", f"{name}-amplitudes", words, amplitude_charts(loop), HEIGHT)]
 
 
 def nonlinear_panels(loop: LoopReport, name: str, index: int) -> list[Panel]:
@@ -143,11 +142,10 @@ def nonlinear_panels(loop: LoopReport, name: str, index: int) -> list[Panel]:
     element = loop.nonlinearities[index]
     cycles = len(element.cycles)
     words = f"Describing function of {element.name} with {cycles} predicted limit cycle{'s' if cycles != 1 else ''}"
-    draw_balance = partial(draw_harmonic_balance, loop, element)
     balance = f"L of {loop.name} and {INVERSE} of {element.name} in the complex plane"
     return [
-        panel("Describing function", f"{name}-describing-{index}", words, partial(draw_describing, element), HEIGHT),
-        panel("Harmonic balance", f"{name}-balance-{index}", balance, draw_balance, HEIGHT),
+        _panel("Describing function", f"{name}-describing-{index}", words, describing_chart(element)),
+        _plane_panel("Harmonic balance", f"{name}-balance-{index}", balance, balance_chart(loop, element)),
     ]
 
 
@@ -158,7 +156,7 @@ def joint_panel(joint: JointReport, name: str) -> Panel:
         words = f"Distance of {joint.name} from the critical point over frequency; the closed loop is unstable"
     elif math.isfinite(joint.disk_frequency):
         words += f" at {number(float(joint.disk_frequency))} rad/s"
-    return panel(f"{joint.name}, {joint.point}", name, words, lambda axes: draw_joint(joint, axes), LOW)
+    return _panel(f"{joint.name}, {joint.point}", name, words, joint_chart(joint), LOW)
 
 
 def sweep_panel(sweep: SweepReport, report: StabilityReport, name: str) -> Panel:
@@ -168,10 +166,10 @@ def sweep_panel(sweep: SweepReport, report: StabilityReport, name: str) -> Panel
     if unstable := sum(item.unstable for item in sweep.margins):
         words += f", {unstable} of them unstable"
     label = f"{sweep.loop} over {sweep.parameter}"
-    return stack(label, name, words, lambda g, p: draw_sweep(sweep, limits, g, p))
+    return stack_panel(label, name, words, sweep_charts(sweep, limits), HEIGHT)
 
 
-SIZE = 4.6  # in
+SIZE = 4.6  # in, of a single diagram
 
 
 class Diagram(StrEnum):
@@ -185,29 +183,25 @@ class Diagram(StrEnum):
     STEP = "step"
 
 
-SINGLE: dict[Diagram, Callable[[LoopReport, Axes], None]] = {
-    Diagram.NYQUIST: draw_nyquist,
-    Diagram.NICHOLS: draw_nichols,
-    Diagram.SENSITIVITY: lambda loop, axes: draw_sensitivity(loop, axes, limits_of(loop).modulus),
-    Diagram.POLES: lambda loop, axes: draw_poles(loop, axes, near=False),
-    Diagram.STEP: draw_step,
-}
+def loop_charts(loop: LoopReport, diagram: Diagram) -> list[Chart]:
+    """Return the charts of one diagram of a loop, for figures of `SIZE`.
 
-
-def loop_plot(loop: LoopReport, diagram: Diagram) -> Figure:
-    """One diagram of a loop. Raises ValueError where the study has not what it takes."""
+    Raises ValueError where the study has not what it takes.
+    """
     lacking = {
         Diagram.POLES: "no poles: it has no linear model" if not poles_of(loop).size else "",
         Diagram.STEP: "no step response: it is unstable or has no linear model" if loop.step is None else "",
     }
     if words := lacking.get(diagram):
         raise ValueError(f"{loop.name} at {loop.point}: {words}")
-    with house_style():
-        if diagram is Diagram.BODE:
-            figure = new_figure(SIZE, 1.2 * SIZE)
-            draw_bode(loop, *figure.subplots(2, 1, sharex=True))
-        else:
-            figure = new_figure(SIZE, SIZE)
-            SINGLE[diagram](loop, figure.subplots())
-        figure.suptitle(f"{loop.name} at {loop.point}", fontsize=9.0)
-    return figure
+    single: dict[Diagram, Callable[[LoopReport], Chart]] = {
+        Diagram.NYQUIST: nyquist_chart,
+        Diagram.NICHOLS: nichols_chart,
+        Diagram.SENSITIVITY: sensitivity_chart,
+        Diagram.POLES: partial(pole_chart, near=False),
+        Diagram.STEP: step_chart,
+    }
+    if diagram is Diagram.BODE:
+        return list(bode_charts(loop))
+    chart = single[diagram](loop)
+    return [_to_scale(chart, SIZE, SIZE) if diagram in (Diagram.NYQUIST, Diagram.POLES) else chart]

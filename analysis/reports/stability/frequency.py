@@ -1,6 +1,6 @@
 """Responses over frequency in dB over rad/s: what diagrams of a loop share, the limits they show, and sensitivities.
 
-The axes are ours and not python-control's `bode_plot`, `nyquist_plot` and the like: those draw through pyplot's
+The charts are ours and not python-control's `bode_plot`, `nyquist_plot` and the like: those draw through pyplot's
 current figure, which is global, bring titles, legends and mathematical type of their own, cannot show a measured
 response beside a computed one, and know no exclusion zone. What is drawn are the study's own numbers.
 """
@@ -9,28 +9,32 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter, LogLocator
 
 from ...stability.loops.margin_values import Quantity
 from ...stability.loops.readings import Classical, Curve, decibel_size, decibels, degree_size
 from ...stability.results.report import LoopReport
-from ..common.quantities import log_tick, number, tick
-from ..common.style import BLUE, FAINT, GREEN, INK, VERMILION, LineStyle, log_ticks_x
+from ..chart.axes import fine_axis, linear_axis
+from ..chart.lines import line
+from ..chart.marks import level
+from ..chart.symbols import mark, marker
+from ..common.colours import BLUE, FAINT, GREEN, INK, VERMILION
+from ..common.quantities import number
+from ..interactive import charts
+from ..interactive.charts import NO_BOX, Axis, Backing, Chart, Marker
 
-MEASURED: LineStyle = {
-    "linestyle": "", "marker": "o", "markersize": 3.0, "markerfacecolor": "none", "markeredgecolor": INK,
-    "markeredgewidth": 0.7, "zorder": 3,
-}  # fmt: skip
-MARGIN: LineStyle = {"color": VERMILION, "linewidth": 1.8, "zorder": 4, "solid_capstyle": "butt"}
-DECISIVE: LineStyle = {"markersize": 6.0}  # the nearest crossing; others are hollow
-OTHER: LineStyle = {"markerfacecolor": "white"}
-GAIN_MARK: LineStyle = {"linestyle": "", "marker": "D", "markersize": 4.5, "color": VERMILION, "zorder": 5}
-PHASE_MARK: LineStyle = {"linestyle": "", "marker": "s", "markersize": 4.5, "color": VERMILION, "zorder": 5}
+MEASURED = marker("o", 3.0, INK, fill="", width=0.7)
+MARGIN_WIDTH = 1.8  # pt, of the bar of a margin
+MARK, DECISIVE = 4.5, 6.0  # pt, of a crossing and of the nearest, which is filled
+DOTS = (1.2, 1.6)  # line widths
+REQUIRED = (4.0, 2.0)
+COMPLEMENTARY = (5.0, 1.6)  # T
 FLOOR = 1e-12  # of a gain, for its logarithm
+WHITE = "#ffffff"
+PEAK = marker("s", MARK, VERMILION)
+FORBIDDEN = "#f6d5c0"  # fill of where a response or a margin must not be
+BEHIND = Backing(WHITE, 0.8, 0.8)  # of words over a line
 
 
 def in_db(values: np.ndarray) -> np.ndarray:
@@ -45,20 +49,26 @@ def phase_of(curve: Curve, at: float | None) -> np.ndarray:
     return phase - 360.0 * math.ceil(reference / 360.0)
 
 
-def beside(curve: Curve, phase: np.ndarray, measured: Curve) -> np.ndarray:
+def nearest_phase(curve: Curve, phase: np.ndarray, measured: Curve) -> np.ndarray:
     """The phase (deg) of measured points, each on the branch nearest to the curve's."""
     expected = np.interp(measured.frequency, curve.frequency, phase)
     degrees = np.degrees(np.angle(measured.value))
     return degrees + 360.0 * np.round((expected - degrees) / 360.0)
 
 
-def frequency_axis(axes: Axes, low: float, high: float) -> None:
-    """Angular frequencies over a logarithmic abscissa, marked also where it has no whole decade."""
-    log_ticks_x(axes)
-    axes.set_xlim(low, high)
-    if high < 150.0 * low:
-        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=8))
-        axes.xaxis.set_major_formatter(FuncFormatter(log_tick))
+def frequency_axis(low: float, high: float) -> Axis:
+    """Return the axis of angular frequencies."""
+    return fine_axis((low, high), label="rad/s")
+
+
+def gain_mark(*, is_decisive: bool) -> Marker:
+    """Return the mark of a phase crossover."""
+    return marker("D", DECISIVE, VERMILION) if is_decisive else marker("D", MARK, VERMILION, fill=WHITE)
+
+
+def phase_mark(*, is_decisive: bool) -> Marker:
+    """Return the mark of a gain crossover, and of a peak."""
+    return marker("s", DECISIVE, VERMILION) if is_decisive else marker("s", MARK, VERMILION, fill=WHITE)
 
 
 def has_measurement(loop: LoopReport) -> Curve | None:
@@ -73,30 +83,27 @@ def margin_crossings(loop: LoopReport) -> Classical:
     return replace(loop.classical, gain=(), phase=()) if loop.margins.unstable else loop.classical
 
 
-def draw_sensitivity(loop: LoopReport, axes: Axes, modulus_limit: float | None) -> None:
-    """Sensitivity and complementary sensitivity with their peaks, and the limit on the former's."""
-    curve, peaks = loop.curve, loop.robust
+def sensitivity_chart(loop: LoopReport) -> Chart:
+    """Return sensitivity and, dashed, complementary sensitivity with their peaks, and the limit on the former's."""
+    curve, peaks, limit = loop.curve, loop.robust, limits_of(loop).modulus
     sensitivity = 1.0 / (1.0 + curve.value)
     s, t = in_db(sensitivity), in_db(curve.value * sensitivity)
-    axes.plot(curve.frequency, s, color=BLUE, label="S")
-    axes.plot(curve.frequency, t, color=GREEN, linestyle=(0, (5, 1.6)), label="T")
+    curves = [line(curve.frequency, s, BLUE), line(curve.frequency, t, GREEN, dashes=COMPLEMENTARY)]
     for frequency, peak in (
         (peaks.sensitivity_frequency, peaks.sensitivity_peak),
         (peaks.complementary_frequency, peaks.complementary_peak),
     ):
         if not loop.margins.unstable and math.isfinite(frequency) and math.isfinite(peak) and peak > 0.0:
-            axes.plot(frequency, decibels(peak), **PHASE_MARK)
+            curves.append(mark(frequency, float(decibels(peak)), PEAK))
     top = max(float(np.max(s)), float(np.max(t)))
-    if modulus_limit:
-        axes.axhline(-decibels(modulus_limit), color=VERMILION, linewidth=1.0, linestyle=(0, (4, 2)))
-        top = max(top, -decibels(modulus_limit))
-    axes.axhline(0.0, color=INK, linewidth=0.8)
-    axes.set_ylim(-40.0, 1.15 * top + 2.0)
-    frequency_axis(axes, float(curve.frequency[0]), float(curve.frequency[-1]))
-    axes.yaxis.set_major_formatter(FuncFormatter(tick))
-    axes.set_title("gain, dB", loc="left", fontsize=8.5)
-    axes.set_xlabel("rad/s")
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, handlelength=2.6, borderaxespad=0.0)
+    rules = [level(0.0, INK, 0.8)]
+    if limit:
+        required = -float(decibels(limit))
+        rules.append(level(required, VERMILION, 1.0, REQUIRED))
+        top = max(top, required)
+    abscissa = frequency_axis(float(curve.frequency[0]), float(curve.frequency[-1]))
+    ordinate = linear_axis((-40.0, 1.15 * top + 2.0), 6)
+    return Chart(NO_BOX, abscissa, ordinate, title="S and, dashed, T, dB", curves=curves, rules=rules)
 
 
 def margin_words(loop: LoopReport) -> str:
@@ -118,7 +125,7 @@ def gain_words(loop: LoopReport) -> str:
     if gain is None:
         return "unstable: no margins" if loop.margins.unstable else "no phase crossover"
     side = "upper" if gain.value >= 1.0 else "lower"
-    return f"{side} gain margin {number(decibel_size(gain.value), 3)} dB at {number(gain.frequency, 3)} rad/s"
+    return f"{side} margin {number(decibel_size(gain.value), 3)} dB at {number(gain.frequency, 3)} rad/s"
 
 
 def phase_words(loop: LoopReport) -> str:
@@ -127,17 +134,12 @@ def phase_words(loop: LoopReport) -> str:
     if phase is None:
         return "" if loop.margins.unstable else "no gain crossover"
     lead = " (lead)" if phase.value < 0.0 else ""
-    return f"phase margin {number(degree_size(phase.value), 3)}°{lead} at {number(phase.frequency, 3)} rad/s"
+    return f"margin {number(degree_size(phase.value), 3)}°{lead} at {number(phase.frequency, 3)} rad/s"
 
 
-def faint_line(axes: Axes, x: np.ndarray, y: np.ndarray) -> None:
-    """A line in the background: circles, lines of damping."""
-    axes.plot(x, y, color=FAINT, linewidth=0.7, linestyle=(0, (1.2, 1.6)), zorder=1.5)
-
-
-LIMIT: LineStyle = {"color": VERMILION, "linewidth": 1.0, "linestyle": (0, (4, 2))}
-FORBIDDEN = "#f6d5c0"  # fill of where a response or a margin must not be
-BEHIND: Any = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.8}  # of words over a line
+def faint_line(x: np.ndarray, y: np.ndarray) -> charts.Curve:
+    """Return a line in the background: circles, lines of damping."""
+    return line(x, y, FAINT, width=0.7, dashes=DOTS)
 
 
 @dataclass(frozen=True)

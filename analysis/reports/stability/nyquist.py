@@ -1,168 +1,188 @@
-"""The frequency response in the complex plane and in the Nichols diagram: how near it comes to the critical point."""
+"""The frequency response in the complex plane and in the Nichols diagram: how near it is to the critical point."""
 
 from __future__ import annotations
 
+import cmath
 import math
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.patches import Polygon
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
-from ...stability.loops.readings import Crossing, decibel_size, decibels
+from ...stability.loops.readings import Classical, Crossing, decibel_size, decibels
 from ...stability.results.report import LoopReport
 from ...stability.results.responses import Nonlinearity
-from ..common.quantities import MINUS, number, tick
-from ..common.style import BLUE, GREEN, INK, PURPLE, VERMILION, LineStyle, plain_ticks
+from ..chart.axes import linear_axis, ticked_axis
+from ..chart.lines import line
+from ..chart.marks import hatch, instant, level, outline
+from ..chart.symbols import BARB, arrow, mark, marker, marks
+from ..common.colours import BLUE, GREEN, INK, PURPLE, VERMILION
+from ..common.quantities import MINUS, number
+from ..interactive.charts import NO_BOX, Area, Chart, Curve, Note
 from .frequency import (
     BEHIND,
-    DECISIVE,
+    COMPLEMENTARY,
     FORBIDDEN,
-    GAIN_MARK,
-    LIMIT,
-    MARGIN,
+    MARGIN_WIDTH,
     MEASURED,
-    OTHER,
-    PHASE_MARK,
+    REQUIRED,
+    WHITE,
+    Limits,
     faint_line,
+    gain_mark,
     has_measurement,
     in_db,
     limits_of,
     margin_crossings,
+    phase_mark,
 )
 
 INVERSE = f"{MINUS}1/N"
-SHAPE = 1.2  # width over height of a panel's axes
-CRITICAL: LineStyle = {
-    "linestyle": "", "marker": "+", "markersize": 9, "markeredgewidth": 1.6, "color": INK, "zorder": 6,
-}  # fmt: skip
-ARROW: Any = {
-    "arrowstyle": "-|>", "color": BLUE, "linewidth": 0.1, "mutation_scale": 12, "shrinkA": 0, "shrinkB": 0,
-}  # fmt: skip
+SHAPE = 1.2  # width over height of the axes, about
+CRITICAL = marker("+", 9.0, INK, width=1.6)
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 361)
+NEGATIVE = (1.2, 1.2)  # line widths, dashes of negative frequencies
+ARROW = 7.0  # pt, of the head of an arrow
+ALONG = 0.35  # of the visible length of the curve, where its arrow is
 
 
-def _complex_plane(axes: Axes, left: float, right: float) -> None:
-    half = (right - left) / SHAPE / 2.0
-    axes.set_aspect("equal")
-    axes.set_xlim(left, right)
-    axes.set_ylim(-half, half)
-    plain_ticks(axes, x=5, y=5)
-    axes.axhline(0.0, color=INK, linewidth=0.5)
-    axes.axvline(0.0, color=INK, linewidth=0.5)
-    axes.plot(-1.0, 0.0, **CRITICAL)
-    axes.set_title("imaginary", loc="left", fontsize=8.5)
-    axes.set_xlabel("real")
-
-
-def _direction(axes: Axes, value: np.ndarray, left: float, right: float) -> None:
-    """An arrow along the curve towards higher frequencies, in the middle of what is seen of it."""
-    half = (right - left) / SHAPE / 2.0
-    inside = (value.real > left) & (value.real < right) & (np.abs(value.imag) < half)
-    seen = np.flatnonzero(inside)
-    if seen.size < 4:
-        return
-    way = np.cumsum(np.abs(np.diff(value[seen], prepend=value[seen[0]])))
-    middle = int(seen[np.searchsorted(way, 0.35 * way[-1])])
-    tail, head = value[max(middle - 1, 0)], value[min(middle + 1, len(value) - 1)]
-    axes.annotate("", (head.real, head.imag), (tail.real, tail.imag), arrowprops=ARROW)
-
-
-def draw_nyquist(loop: LoopReport, axes: Axes) -> None:
-    """L near -1 with the unit circle, the circle of the modulus margin and that of its limit."""
+def nyquist_chart(loop: LoopReport) -> Chart:
+    """Return L near -1 with the unit circle, the circle of the modulus margin and that of its limit."""
     value, crossings, limits = loop.curve.value, margin_crossings(loop), limits_of(loop)
     furthest = max([1.0 / item.value for item in loop.classical.gain if item.value > 0.0], default=1.0)
     left, right = -min(max(2.6, 1.15 * furthest), 8.0), 1.4
-    axes.plot(value.real, value.imag, color=BLUE)
-    axes.plot(value.real, -value.imag, color=BLUE, linewidth=0.8, linestyle=(0, (1.2, 1.2)))
+    curves = [
+        faint_line(np.cos(ANGLES), np.sin(ANGLES)),
+        line(value.real, value.imag, BLUE),
+        line(value.real, -value.imag, BLUE, width=0.8, dashes=NEGATIVE),
+    ]
+    if not loop.margins.unstable:
+        curves.append(_circle(loop.robust.modulus_margin, GREEN, 1.2))
+    if limits.modulus is not None:
+        curves.append(_circle(limits.modulus, VERMILION, 1.0, REQUIRED))
     measured = has_measurement(loop)
     if measured is not None:
-        axes.plot(measured.value.real, measured.value.imag, **MEASURED)
-    faint_line(axes, np.cos(ANGLES), np.sin(ANGLES))
-    if not loop.margins.unstable:
-        around = loop.robust.modulus_margin
-        axes.plot(-1.0 + around * np.cos(ANGLES), around * np.sin(ANGLES), color=GREEN, linewidth=1.2)
-    if limits.modulus is not None:
-        axes.plot(-1.0 + limits.modulus * np.cos(ANGLES), limits.modulus * np.sin(ANGLES), **LIMIT)
+        curves.append(marks(measured.value.real, measured.value.imag, MEASURED))
     for crossing in crossings.gain:
-        axes.plot(-1.0 / crossing.value, 0.0, **GAIN_MARK)
+        curves.append(mark(-1.0 / crossing.value, 0.0, gain_mark(is_decisive=crossing is crossings.gain_margin)))
     for crossing in crossings.phase:
-        axes.plot(-math.cos(crossing.value), -math.sin(crossing.value), **PHASE_MARK)
-    _complex_plane(axes, left, right)
-    _direction(axes, value, left, right)
+        at = -math.cos(crossing.value), -math.sin(crossing.value)
+        curves.append(mark(*at, phase_mark(is_decisive=crossing is crossings.phase_margin)))
+    return _complex_plane([*curves, *_direction(value, left, right)], left, right)
 
 
-def draw_harmonic_balance(loop: LoopReport, element: Nonlinearity, axes: Axes) -> None:
-    """L and -1/N(a): a limit cycle is predicted where they meet."""
+def balance_chart(loop: LoopReport, element: Nonlinearity) -> Chart:
+    """Return L and -1/N(a): a limit cycle is predicted where they meet."""
     value = loop.curve.value
-    retained = np.abs(element.gain) > 0.0
-    inverse = -1.0 / element.gain[retained]
+    inverse = -1.0 / element.gain[np.abs(element.gain) > 0.0]
     meets = [np.interp(2.0 * math.pi / cycle.period, loop.curve.frequency, value) for cycle in element.cycles]
-    furthest = max([1.0, *(-point.real for point in meets), *([-float(np.max(inverse.real))] if inverse.size else [])])
+    furthest = max([1.0, *(-each.real for each in meets), *([-float(np.max(inverse.real))] if inverse.size else [])])
     left = -2.2 * min(furthest, 1e6)
-    right = -0.45 * left
-    axes.plot(value.real, value.imag, color=BLUE, label="L")
-    axes.plot(inverse.real, inverse.imag, color=PURPLE, linewidth=2.2, linestyle=(0, (5, 1.6)), label=INVERSE)
-    for cycle, point in zip(element.cycles, meets, strict=True):
-        fill = INK if cycle.stable else "white"
-        axes.plot(point.real, point.imag, "o", markersize=6, markerfacecolor=fill, markeredgecolor=INK, zorder=6)
-    _complex_plane(axes, left, right)
-    axes.legend(loc="lower right", handlelength=2.6)
+    curves = [
+        line(value.real, value.imag, BLUE),
+        line(inverse.real, inverse.imag, PURPLE, width=2.2, dashes=COMPLEMENTARY),
+    ]
+    for cycle, each in zip(element.cycles, meets, strict=True):
+        symbol = marker("o", 6.0, INK, fill=INK if cycle.stable else WHITE)
+        curves.append(mark(float(each.real), float(each.imag), symbol))
+    return _complex_plane(curves, left, -0.45 * left)
+
+
+def _circle(radius: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Curve:
+    """A circle about the critical point."""
+    return line(-1.0 + radius * np.cos(ANGLES), radius * np.sin(ANGLES), colour, width=width, dashes=dashes)
+
+
+def _complex_plane(curves: Sequence[Curve], left: float, right: float) -> Chart:
+    """The plane between two real parts, symmetric about the real axis, with the critical point."""
+    half = (right - left) / SHAPE / 2.0
+    return Chart(
+        NO_BOX,
+        linear_axis((left, right), 5, label="real"),
+        linear_axis((-half, half), 5),
+        title="imaginary",
+        curves=[*curves, mark(-1.0, 0.0, CRITICAL)],
+        rules=[level(0.0, INK, 0.5), instant(0.0, INK, 0.5)],
+    )
+
+
+def _direction(value: np.ndarray, left: float, right: float) -> list[Curve]:
+    """The head of an arrow along the curve towards higher frequencies, in the middle of its visible part."""
+    half = (right - left) / SHAPE / 2.0
+    visible = np.flatnonzero((value.real > left) & (value.real < right) & (np.abs(value.imag) < half))
+    if visible.size < 4:
+        return []
+    way = np.cumsum(np.abs(np.diff(value[visible], prepend=value[visible[0]])))
+    middle = int(visible[np.searchsorted(way, ALONG * way[-1])])
+    step = complex(value[min(middle + 1, len(value) - 1)] - value[max(middle - 1, 0)])
+    tail = complex(value[middle])
+    return [arrow((tail.real, tail.imag), cmath.phase(step), ARROW, BLUE, ARROW / BARB)]
 
 
 LOW, HIGH = 20.0, 90.0  # dB up and down that are shown at least and at most
+GAINS = (1.0, 2.0, 5.0, 10.0)  # dB, of ticks, times a power of ten
+PHASES = (-360.0, -270.0, -180.0, -90.0, 0.0)  # deg
 
 
-def draw_nichols(loop: LoopReport, axes: Axes) -> None:
-    """L in gain over phase (-360 to 0 deg) with the exclusion zone of the limits and the oval of the modulus limit."""
-    value, limits = loop.curve.value, limits_of(loop)
-    if limits.gain is not None and limits.phase is not None:
-        corners = [
-            (-180.0 - limits.phase, 0.0),
-            (-180.0, limits.gain),
-            (-180.0 + limits.phase, 0.0),
-            (-180.0, -limits.gain),
-        ]
-        zone: Any = {"facecolor": FORBIDDEN, "edgecolor": VERMILION, "linewidth": 1.0, "hatch": "////", "zorder": 1.6}
-        axes.add_patch(Polygon(corners, **zone))
-        label: Any = {"fontsize": 8.0, "color": VERMILION, "bbox": BEHIND, "zorder": 3.5}
-        axes.text(-186.0, limits.gain, f"{number(limits.gain)} dB", ha="right", va="bottom", **label)
-        axes.text(-184.0 - limits.phase, 0.0, f"{number(limits.phase)}°", ha="right", va="center", **label)
+def nichols_chart(loop: LoopReport) -> Chart:
+    """Return L in gain over phase (-360 to 0 deg), with the exclusion zone and the oval of the modulus limit."""
+    limits, crossings = limits_of(loop), margin_crossings(loop)
+    curves = []
     if limits.modulus is not None and limits.modulus < 1.0:
         oval = -1.0 + limits.modulus * np.exp(1j * ANGLES)
-        axes.plot(np.degrees(np.angle(-oval)) - 180.0, in_db(oval), **LIMIT)
-    axes.plot(*_wrap_phase(value), color=BLUE)
+        curves.append(line(np.degrees(np.angle(-oval)) - 180.0, in_db(oval), VERMILION, width=1.0, dashes=REQUIRED))
+    curves.append(line(*_wrap_phase(loop.curve.value), BLUE))
     measured = has_measurement(loop)
     if measured is not None:
-        axes.plot(np.degrees(np.angle(-measured.value)) - 180.0, in_db(measured.value), **MEASURED)
-    height = _draw_margins(loop, axes)
-    axes.plot(-180.0, 0.0, **CRITICAL)
-    axes.set_xlim(-360.0, 0.0)
-    axes.set_ylim(-height, height)
-    axes.xaxis.set_major_locator(FixedLocator([-360, -270, -180, -90, 0]))
-    axes.xaxis.set_major_formatter(FuncFormatter(tick))
-    axes.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
-    axes.yaxis.set_major_formatter(FuncFormatter(tick))
-    axes.set_title("gain, dB", loc="left", fontsize=8.5)
-    axes.set_title(_modulus_words(loop), loc="right", fontsize=8.5)
-    axes.set_xlabel("phase, deg")
+        phase = np.degrees(np.angle(-measured.value)) - 180.0
+        curves.append(marks(phase, in_db(measured.value), MEASURED))
+    reach = decibel_size(crossings.gain_margin.value) if crossings.gain_margin is not None else 0.0
+    height = min(max(LOW, 1.2 * reach), HIGH)
+    areas, notes = _zone(limits)
+    return Chart(
+        NO_BOX,
+        ticked_axis((-360.0, 0.0), PHASES, label="phase, deg"),
+        linear_axis((-height, height), 6, multiples=GAINS),
+        title=f"gain, dB: {_modulus_words(loop)}",
+        curves=[*curves, *_margins(crossings), mark(-180.0, 0.0, CRITICAL)],
+        areas=areas,
+        notes=notes,
+    )
 
 
-def _draw_margins(loop: LoopReport, axes: Axes) -> float:
-    """All crossings, those that decide with a bar to the critical point; returns the height that shows them (dB)."""
-    crossings = margin_crossings(loop)
+def _zone(limits: Limits) -> tuple[list[Area], list[Note]]:
+    """The diamond with its corners at the required margins (dB, deg), and their sizes; nothing where one is missing."""
+    gain, phase = limits.gain, limits.phase
+    if gain is None or phase is None:
+        return [], []
+    x = -180.0 + phase * np.array([-1.0, 0.0, 1.0, 0.0, -1.0])
+    y = gain * np.array([0.0, 1.0, 0.0, -1.0, 0.0])
+    fill = Area(x, y, (False, False), FORBIDDEN, 1.0, 0.0)
+    areas = [fill, hatch(x, y, VERMILION, 1.0), outline(x, y, VERMILION, 1.0)]
+    top = Note(
+        f"{number(gain)} dB", (-186.0, gain), (False, False), (0.0, 0.0), ("right", "bottom"), VERMILION.lower(), 8.0,
+        backing=BEHIND,
+    )  # fmt: skip
+    side = Note(
+        f"{number(phase)}°", (-184.0 - phase, 0.0), (False, False), (0.0, 0.0), ("right", "center"), VERMILION.lower(),
+        8.0, backing=BEHIND,
+    )  # fmt: skip
+    return areas, [top, side]
+
+
+def _margins(crossings: Classical) -> list[Curve]:
+    """All crossings, those that decide with a bar to the critical point."""
     gain, phase = crossings.gain_margin, crossings.phase_margin
+    curves = []
     if gain is not None:
-        axes.plot([-180.0] * 2, [0.0, -decibels(gain.value)], **MARGIN)
+        bar = np.array([0.0, -float(decibels(gain.value))])
+        curves.append(line(np.full(2, -180.0), bar, VERMILION, width=MARGIN_WIDTH))
     if phase is not None:
-        axes.plot([-180.0, _phase_at(phase)], [0.0] * 2, **MARGIN)
+        curves.append(line(np.array([-180.0, _phase_at(phase)]), np.zeros(2), VERMILION, width=MARGIN_WIDTH))
     for crossing in crossings.gain:
-        axes.plot(-180.0, -decibels(crossing.value), **(GAIN_MARK | (DECISIVE if crossing is gain else OTHER)))
+        curves.append(mark(-180.0, -float(decibels(crossing.value)), gain_mark(is_decisive=crossing is gain)))
     for crossing in crossings.phase:
-        axes.plot(_phase_at(crossing), 0.0, **(PHASE_MARK | (DECISIVE if crossing is phase else OTHER)))
-    reach = decibel_size(gain.value) if gain is not None else 0.0
-    return min(max(LOW, 1.2 * reach), HIGH)
+        curves.append(mark(_phase_at(crossing), 0.0, phase_mark(is_decisive=crossing is phase)))
+    return curves
 
 
 def _phase_at(crossing: Crossing) -> float:

@@ -5,24 +5,30 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.axes import Axes
 
 from ...stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
 from ...stability.loops.readings import decibels
 from ...stability.results.report import LoopReport, StabilityReport
-from ..common.panels import Panel, panel, swatch
+from ..chart.axes import linear_axis
+from ..chart.lines import line
+from ..chart.marks import across, level
+from ..chart.panel import chart_panel
+from ..chart.symbols import marker, marks
+from ..chart.ticks import axis_ends
+from ..common.colours import COLOURS, INK, VERMILION, Look, look
+from ..common.panels import Panel, swatch
 from ..common.quantities import number
-from ..common.style import COLOURS, INK, VERMILION, LineStyle, Look, look, plain_ticks
-from .frequency import FORBIDDEN
+from ..interactive.charts import NO_BOX, Chart, Curve, Note
+from .frequency import FORBIDDEN, WHITE
 from .shared import together
 from .words import numeral
 
 QUANTITIES = (Quantity.GAIN, Quantity.PHASE, Quantity.MODULUS)
 SAME = 1e-3  # relative: margins that differ by less are one line
+SIZE, LARGE = 4.5, 7.0  # pt, of marks, and of those at the edges
 BEYOND = 1.15  # of the largest decisive margin, up to which axes reach
 
 
@@ -84,13 +90,13 @@ def courses(report: StabilityReport) -> list[Course]:
 
 
 def _alike(one: Course, other: Course) -> bool:
-    if not np.array_equal(one.times, other.times) or _draw_requirement(one) != _draw_requirement(other):
+    if not np.array_equal(one.times, other.times) or _requirements(one) != _requirements(other):
         return False
     pairs = [(a[key], b[key]) for key in QUANTITIES for a, b in ((one.upper, other.upper), (one.lower, other.lower))]
     return all(np.allclose(*pair, rtol=SAME, atol=0.0, equal_nan=True) for pair in pairs)
 
 
-def _draw_requirement(course: Course) -> set[tuple[Quantity, float]]:
+def _requirements(course: Course) -> set[tuple[Quantity, float]]:
     return {(item.quantity, item.limit) for loops in course.loops for loop in loops for item in loop.requirements}
 
 
@@ -99,47 +105,60 @@ def course_look(index: int) -> Look:
     return look(index + (index >= COLOURS.index(VERMILION)))
 
 
-def draw_over_time(histories: Sequence[Course], quantity: Quantity, axes: Axes) -> None:
-    """One margin of all loops over time, downwards or in lead below 0; what is less than required is shaded.
+def over_time_chart(histories: Sequence[Course], quantity: Quantity) -> Chart:
+    """Return one margin of all loops over time, downwards or in lead below 0; what is less than required is shaded.
 
     The nearer margin of each loop is filled, the other hollow. A cross at 0 is an unstable loop, a triangle at the top
     one without a crossover.
     """
-    limits = {limit for course in histories for key, limit in _draw_requirement(course) if key is quantity}
-    below = any(np.any(np.isclose(-course.lower[quantity], course.sizes[quantity])) for course in histories)
+    limits = sorted({limit for course in histories for key, limit in _requirements(course) if key is quantity})
+    is_below = any(np.any(np.isclose(-course.lower[quantity], course.sizes[quantity])) for course in histories)
     every = np.concatenate([course.sizes[quantity] for course in histories])
     top = BEYOND * max([1e-6, *every[np.isfinite(every)].tolist(), *limits])
-    for index, course in enumerate(histories):
-        _draw_course(course, quantity, course_look(index), top, axes)
     unit = "" if quantity.unit == "1" else quantity.unit
-    for limit in sorted(limits):
-        axes.axhspan(-limit if below else 0.0, limit, facecolor=FORBIDDEN, zorder=0.4)
-        for edge in (limit, -limit) if below else (limit,):
-            axes.axhline(edge, color=VERMILION, linewidth=1.2, zorder=1.6)
-        axes.annotate(
-            f"required {number(limit)} {unit}".strip(), (1.0, limit), (-2, -3), xycoords=("axes fraction", "data"),
-            textcoords="offset points", ha="right", va="top", fontsize=8.0, color=VERMILION,
-        )  # fmt: skip
-    axes.axhline(0.0, color=INK, linewidth=0.8)
-    axes.set_ylim(-top if below else 0.0, top)
-    plain_ticks(axes, x=5, y=5)
-    axes.set_title(unit or "1", loc="left", fontsize=8.5)
-    axes.set_xlabel("time of flight, s")
+    areas, rules, notes = [], [level(0.0, INK, 0.8)], []
+    for limit in limits:
+        areas.append(across(-limit if is_below else 0.0, limit, FORBIDDEN, 1.0))
+        rules += [level(edge, VERMILION, 1.2) for edge in ((limit, -limit) if is_below else (limit,))]
+        words = f"required {number(limit)} {unit}".strip()
+        at, colour = (1.0, limit), VERMILION.lower()
+        notes.append(Note(words, at, (True, False), (-2.0, -3.0), ("right", "top"), colour, 8.0))
+    times = np.concatenate([history.times for history in histories])
+    return Chart(
+        NO_BOX,
+        linear_axis(axis_ends(times), 5, label="time of flight, s"),
+        linear_axis((-top if is_below else 0.0, top), 5),
+        title=unit or "1",
+        curves=[
+            curve
+            for index, history in enumerate(histories)
+            for curve in _margin_curves(history, quantity, course_look(index), top)
+        ],
+        areas=areas,
+        rules=rules,
+        notes=notes,
+    )
 
 
-def _draw_course(course: Course, quantity: Quantity, style: Look, top: float, axes: Axes) -> None:
-    colour, dashes, marker = style
+def _margin_curves(course: Course, quantity: Quantity, style: Look, top: float) -> list[Curve]:
     sizes = course.sizes[quantity]
-    for values in (course.upper[quantity], course.lower[quantity]):
-        line: LineStyle = {"color": colour, "marker": marker, "markersize": 4.5, "markerfacecolor": "white"}
-        axes.plot(course.times, values, linestyle=dashes, **line)
-        nearer = np.isclose(abs(values), sizes)
-        axes.plot(course.times[nearer], values[nearer], **(line | {"linestyle": "", "markerfacecolor": colour}))
-    at_edge: LineStyle = {"linestyle": "", "clip_on": False, "zorder": 5, "markersize": 7, "markeredgewidth": 1.8}
-    for kind, mark, height, displayed in ((UNSTABLE, "x", 0.0, VERMILION), (UNLIMITED, "^", top, colour)):
+    lines, dots = [], []
+    hollow, full = (marker(style.marker, SIZE, style.colour, fill=fill) for fill in (WHITE, style.colour))
+    for margins in (course.upper[quantity], course.lower[quantity]):
+        if np.any(np.isfinite(margins)):
+            joined = line(course.times, margins, style.colour, dashes=style.lengths)
+            lines.append(replace(joined, marker=hollow))
+        nearer = np.isclose(abs(margins), sizes)
+        if np.any(nearer):
+            dots.append(marks(course.times[nearer], margins[nearer], full))
+    cross, triangle = (
+        marker(kind, LARGE, colour, width=1.8) for kind, colour in (("x", VERMILION), ("^", style.colour))
+    )
+    for kind, height, mark in ((UNSTABLE, 0.0, cross), (UNLIMITED, top, triangle)):
         here = course.times[sizes == kind]
         if here.size:
-            axes.plot(here, np.full(here.size, height), **(at_edge | {"marker": mark, "color": displayed}))
+            dots.append(marks(here, np.full(here.size, height), mark, beyond=True))
+    return lines + dots
 
 
 @dataclass(frozen=True)
@@ -176,4 +195,5 @@ def _panel(histories: list[Course], quantity: Quantity, name: str) -> Panel:
     words = f"{quantity.capitalize()} of {loops} loops over the time of flight, minimum "
     infinite = {math.inf: "unlimited", -math.inf: "that of an unstable loop"}
     words += infinite.get(minimum) or number(minimum, 3)
-    return panel(quantity.capitalize(), name, words, partial(draw_over_time, histories, quantity))
+    chart = over_time_chart(histories, quantity)
+    return chart_panel(quantity.capitalize(), name, words, chart, title=chart.title)

@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from ...stability.results.report import LoopReport
-from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
-from .frequency import faint_line
+from ..chart.axes import linear_axis
+from ..chart.lines import line
+from ..chart.symbols import marker, marks
+from ..common.colours import BLUE, FAINT, INK, VERMILION
+from ..interactive.charts import NO_BOX, Backing, Chart, Curve, Note
+from .frequency import WHITE, faint_line
 
 DAMPINGS = (0.2, 0.5, 0.8)
 KINDS = {"loop": "x", "not controllable": "v", "not observable": "^", "neither": "s"}
 NEAR = 0.3  # from z = 1; slow loops have their poles there
 MOST = 2500  # points of a cloud; more are thinned to a grid
-SHAPE, LOW_SHAPE = 1.2, 1.6  # width over height of the panels' axes
+SHAPE, LOW_SHAPE = 1.2, 1.6  # width over height of the panels' axes, about
+NOTES = np.array([0.5, 0.6, 0.4, 0.7, 0.3])  # of half a turn, where numbers of dampings may stand
+CLEAR = 0.15  # from a number to the next pole at least
+SIZE, EDGE = 5.5, 1.3  # pt, of a mark and its strokes
 
 
 def poles_of(loop: LoopReport) -> np.ndarray:
@@ -24,35 +31,100 @@ def poles_of(loop: LoopReport) -> np.ndarray:
 
 
 def are_crowded(poles: np.ndarray) -> bool:
-    """Whether so many poles lie near z = 1 that a map of the unit circle does not tell them apart."""
+    """True if so many poles lie near z = 1 that a map of the unit circle does not tell them apart."""
     return bool(np.sum(np.abs(poles - 1.0) < NEAR) >= 2)
 
 
-def _grid(axes: Axes, *, named: bool) -> None:
+def pole_chart(loop: LoopReport, *, near: bool) -> Chart:
+    """Return all poles, or those near z = 1: crosses where the cut moves and sees the mode, orange where unstable."""
+    poles = poles_of(loop)
+    by_kind = {"x": poles}
+    if loop.modes:
+        by_kind = {
+            marker: np.array([mode.z for mode in loop.modes if mode.kind == kind], dtype=complex)
+            for kind, marker in KINDS.items()
+        }
+    curves = []
+    for shape, members in by_kind.items():
+        for colour, some in ((BLUE, members[np.abs(members) < 1.0]), (VERMILION, members[np.abs(members) >= 1.0])):
+            if some.size:
+                curves.append(marks(some.real, some.imag, marker(shape, SIZE, colour, fill="", width=EDGE)))
+    frame = _near_one(poles) if near else (0.0, max(1.12, min(2.0, 1.1 * float(np.max(np.abs(poles), initial=1.0)))))
+    return _plane(curves, *frame, SHAPE, [] if near else _damping_notes(poles))
+
+
+def cloud_chart(loop: LoopReport) -> Chart:
+    """Return the poles of all trials, with the nominal ones as crosses over them."""
+    assert loop.dispersion is not None
+    poles = np.ravel(loop.dispersion.poles)
+    poles = poles[np.isfinite(poles)]
+    nominal = poles_of(loop)
+    near = are_crowded(nominal if nominal.size else poles)
+    if near:
+        centre, half = _near_one(np.concatenate([poles, nominal]), 1.7 * NEAR, LOW_SHAPE)
+    else:
+        centre, half = 0.0, max(1.12, min(2.0, 1.1 * float(np.max(np.abs(poles)))))
+    displayed = thin(poles[np.abs(poles - centre) < 3.0 * half], half)
+    outside = np.abs(displayed) >= 1.0
+    curves = [
+        marks(some.real, some.imag, marker(".", 2.6, colour), opacity=0.5)
+        for some, colour in ((displayed[~outside], BLUE), (displayed[outside], VERMILION))
+        if some.size
+    ]
+    curves.append(marks(nominal.real, nominal.imag, marker("x", SIZE, INK)))
+    return _plane(curves, centre, half, LOW_SHAPE, [] if near else _damping_notes(nominal))
+
+
+def thin(poles: np.ndarray, extent: float) -> np.ndarray:
+    """Return a cloud of at most `MOST` points: one in each cell of a grid, fine enough not to be visible."""
+    cells = 400
+    while poles.size > MOST and cells >= 25:
+        rounded = np.round(poles.real / extent * cells) + 1j * np.round(poles.imag / extent * cells)
+        _, first = np.unique(rounded, return_index=True)
+        if first.size <= MOST or cells == 25:
+            return poles[np.sort(first)]
+        cells //= 2
+    return poles
+
+
+def _plane(curves: Sequence[Curve], centre: float, half: float, shape: float, notes: Sequence[Note]) -> Chart:
+    """The plane about a centre on the real axis, with its grid and the ``notes`` of that."""
+    return Chart(
+        NO_BOX,
+        linear_axis((centre - shape * half, centre + shape * half), intervals(2.0 * shape * half), label="real"),
+        linear_axis((-half, half), 5),
+        title="imaginary",
+        curves=[*_grid(), *curves],
+        notes=notes,
+    )
+
+
+def _grid() -> list[Curve]:
     """The unit circle and lines of constant damping, z = exp(-(d +- j sqrt(1 - d^2)) w) for w T up to pi."""
     angle = np.linspace(0.0, np.pi, 181)
+    curves = []
     for sign in (1.0, -1.0):
-        axes.plot(np.cos(angle), sign * np.sin(angle), color=INK, linewidth=0.9, zorder=1.6)
+        curves.append(line(np.cos(angle), sign * np.sin(angle), INK, width=0.9))
         for damping in DAMPINGS:
             radius = np.exp(-damping / math.sqrt(1.0 - damping**2) * angle)
-            faint_line(axes, radius * np.cos(angle), sign * radius * np.sin(angle))
-    if named:
-        for damping in DAMPINGS:
-            height = math.exp(-damping / math.sqrt(1.0 - damping**2) * 0.5 * math.pi)
-            behind = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
-            axes.text(0.0, height, f"{damping:g}", fontsize=8.0, color=FAINT, ha="center", va="center", bbox=behind)
+            curves.append(faint_line(radius * np.cos(angle), sign * radius * np.sin(angle)))
+    return curves
 
 
-def _frame(axes: Axes, centre: float, half: float, shape: float = SHAPE) -> None:
-    axes.set_aspect("equal")
-    axes.set_xlim(centre - shape * half, centre + shape * half)
-    axes.set_ylim(-half, half)
-    plain_ticks(axes, x=_intervals(2.0 * shape * half), y=5)
-    axes.set_title("imaginary", loc="left", fontsize=8.5)
-    axes.set_xlabel("real")
+def _damping_notes(poles: np.ndarray) -> list[Note]:
+    return [_damping_note(damping, poles) for damping in DAMPINGS]
 
 
-def _intervals(width: float) -> int:
+def _damping_note(damping: float, poles: np.ndarray) -> Note:
+    """The number of a line of constant damping, at the first of some angles at which it covers no pole."""
+    positions = np.exp((1j - damping / math.sqrt(1.0 - damping**2)) * np.pi * NOTES)
+    distances = np.abs(poles[np.newaxis] - positions[:, np.newaxis]).min(axis=1, initial=np.inf)
+    at = complex(positions[int(np.argmax(distances > CLEAR))])
+    centred, backing = ("center", "center"), Backing(WHITE, 1.0, 0.6)
+    return Note(f"{damping:g}", (at.real, at.imag), (False, False), (0.0, 0.0), centred, FAINT, 8.0, backing=backing)
+
+
+def intervals(width: float) -> int:
     """Return the number of intervals whose labels have room side by side: near z = 1 they have many decimals."""
     decimals = max(1, math.ceil(-math.log10(width / 5)))
     return max(2, min(5, 30 // (decimals + 2)))
@@ -65,57 +137,3 @@ def _near_one(poles: np.ndarray, near: float = NEAR, shape: float = SHAPE) -> tu
     left, right = float(np.min(close.real)) - 0.12 * reach, max(1.0, float(np.max(close.real))) + 0.12 * reach
     half = max(1.15 * float(np.max(np.abs(close.imag))), 0.5 * (right - left) / shape)
     return right - shape * half, half
-
-
-def draw_poles(loop: LoopReport, axes: Axes, *, near: bool) -> None:
-    """All poles, or those near z = 1: crosses where the cut moves and sees the mode, orange where unstable."""
-    poles = poles_of(loop)
-    _grid(axes, named=not near)
-    by_kind = {"x": poles}
-    if loop.modes:
-        by_kind = {
-            marker: np.array([mode.z for mode in loop.modes if mode.kind == kind], dtype=complex)
-            for kind, marker in KINDS.items()
-        }
-    for marker, members in by_kind.items():
-        for colour, some in ((BLUE, members[np.abs(members) < 1.0]), (VERMILION, members[np.abs(members) >= 1.0])):
-            axes.plot(
-                some.real, some.imag, linestyle="", marker=marker, color=colour, markersize=5.5,
-                markerfacecolor="none", markeredgewidth=1.3, zorder=3,
-            )  # fmt: skip
-    if near:
-        _frame(axes, *_near_one(poles))
-    else:
-        _frame(axes, 0.0, max(1.12, min(2.0, 1.1 * float(np.max(np.abs(poles), initial=1.0)))))
-
-
-def thin(poles: np.ndarray, extent: float) -> np.ndarray:
-    """A cloud with at most so many points: one in each cell of a grid, fine enough not to be seen."""
-    cells = 400
-    while poles.size > MOST and cells >= 25:
-        rounded = np.round(poles.real / extent * cells) + 1j * np.round(poles.imag / extent * cells)
-        _, first = np.unique(rounded, return_index=True)
-        if first.size <= MOST or cells == 25:
-            return poles[np.sort(first)]
-        cells //= 2
-    return poles
-
-
-def draw_cloud(loop: LoopReport, axes: Axes) -> None:
-    """The poles of all trials, with the nominal ones as crosses over them."""
-    assert loop.dispersion is not None
-    poles = np.ravel(loop.dispersion.poles)
-    poles = poles[np.isfinite(poles)]
-    nominal = poles_of(loop)
-    near = are_crowded(nominal if nominal.size else poles)
-    if near:
-        centre, half = _near_one(np.concatenate([poles, nominal]), 1.7 * NEAR, LOW_SHAPE)
-    else:
-        centre, half = 0.0, max(1.12, min(2.0, 1.1 * float(np.max(np.abs(poles)))))
-    displayed = thin(poles[np.abs(poles - centre) < 3.0 * half], half)
-    _grid(axes, named=not near)
-    outside = np.abs(displayed) >= 1.0
-    for some, colour in ((displayed[~outside], BLUE), (displayed[outside], VERMILION)):
-        axes.plot(some.real, some.imag, linestyle="", marker=".", markersize=2.6, color=colour, alpha=0.5, zorder=2)
-    axes.plot(nominal.real, nominal.imag, linestyle="", marker="x", markersize=5.5, color=INK, zorder=4)
-    _frame(axes, centre, half, LOW_SHAPE)

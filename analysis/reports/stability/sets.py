@@ -1,44 +1,52 @@
-"""Figures of margins over something: trials, amplitudes, parameters, frequency; and the step response."""
+"""Charts of margins over something: trials, amplitudes, parameters, frequency; and the step response."""
 
 from __future__ import annotations
 
 import itertools
 import math
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from ...stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
 from ...stability.loops.margins import disk_of_gain, disk_of_phase
 from ...stability.loops.readings import decibels, factor_of
 from ...stability.results.report import JointReport, LoopReport
 from ...stability.results.responses import Nonlinearity
-from ...stability.results.varied import SweepReport
-from ..common.quantities import display_factor, label_with_unit, tick
-from ..common.style import BLUE, FAILED, GREEN, INK, VERMILION, log_ticks_x, plain_ticks
-from .frequency import LIMIT, PHASE_MARK, Limits, frequency_axis, in_db
+from ...stability.results.varied import Dispersion, SweepReport
+from ..chart.axes import fine_axis, linear_axis
+from ..chart.lines import line
+from ..chart.marks import SQUARE, hatch, instant, level, outline, rectangle
+from ..chart.symbols import mark, marker
+from ..chart.ticks import axis_ends
+from ..common.colours import BLUE, GREEN, INK, VERMILION
+from ..common.quantities import display_factor, label_with_unit
+from ..interactive.charts import NO_BOX, Area, Axis, Chart, Curve
+from .frequency import COMPLEMENTARY, DOTS, PEAK, REQUIRED, WHITE, Limits, frequency_axis, in_db
 
 BINS = 24
-UNSTABLE_BAND: Any = {"facecolor": "white", "edgecolor": VERMILION, "hatch": "////", "zorder": 0.5}
+DECADES = 20.0  # ratio of the ends of an abscissa from which on it is logarithmic
+FLAT = 1.5  # dB or deg, the least length of an ordinate: what is nearly constant looks so
+MARGINS = (1.0, 1.5, 2.0, 3.0, 5.0, 10.0)  # dB or deg, of ticks, times a power of ten
+DIMMED = 0.75  # opacity of bars
+WORST = marker("^", 7.0, VERMILION)
 
 
-def draw_step(loop: LoopReport, axes: Axes) -> None:
-    """What comes back after a unit step at the cut: T's response, held between samples."""
+def step_chart(loop: LoopReport) -> Chart:
+    """Return the response of T to a unit step at the cut, held between samples."""
     assert loop.step is not None
     time, response = loop.step
-    axes.axhline(1.0, linewidth=0.9, **FAILED)
-    axes.axhline(0.0, color=INK, linewidth=0.5)
-    axes.step(time, response, where="post", color=BLUE)
-    axes.set_xlim(float(time[0]), float(time[-1]))
-    plain_ticks(axes, x=5, y=6)
-    axes.set_title("response of T to a unit step", loc="left", fontsize=8.5)
-    axes.set_xlabel("s")
+    abscissa = linear_axis((float(time[0]), float(time[-1])), 5, label="s")
+    ends = axis_ends(np.concatenate([response, [0.0, 1.0]]))
+    rules = [level(1.0, INK, 0.9, REQUIRED), level(0.0, INK, 0.5)]
+    curves, title = [line(time, response, BLUE, steps=True)], "response of T to a unit step"
+    return Chart(NO_BOX, abscissa, linear_axis(ends, 6), title=title, curves=curves, rules=rules)
 
 
-def draw_histogram(sizes: np.ndarray, axes: Axes, what: str, limit: float | None, worst: int) -> None:
-    """Trials by a margin's size; unstable ones as a hatched bar left of all, the limit dashed, the worst marked."""
+def margin_chart(dispersion: Dispersion, quantity: Quantity, limit: float | None) -> Chart:
+    """Return trials by a margin's size: unstable ones hatched at the left, the limit dashed, the worst marked."""
+    sizes, worst = dispersion.sizes(quantity), dispersion.worst
     unstable, finite = sizes == UNSTABLE, np.isfinite(sizes)
     retained = sizes[finite]
     low, high = (float(retained.min()), float(retained.max())) if retained.size else (0.0, 1.0)
@@ -46,105 +54,128 @@ def draw_histogram(sizes: np.ndarray, axes: Axes, what: str, limit: float | None
         low, high = min(low, limit), max(high, limit)
     margin = 0.04 * (high - low) or 0.04 * abs(high) or 1.0
     edges = np.linspace(low - margin, high + margin, BINS + 1)
-    width = edges[1] - edges[0]
-    axes.hist(retained, bins=edges.tolist(), color=BLUE, alpha=0.75)
-    left = edges[0]
-    if np.any(unstable):
-        left = edges[0] - 3.0 * width
-        axes.bar(edges[0] - 2.0 * width, int(np.sum(unstable)), 2.0 * width, **UNSTABLE_BAND)
-    if limit is not None:
-        axes.axvline(limit, **(LIMIT | {"linewidth": 1.4}))
-    if finite[worst] or unstable[worst]:
-        at = edges[0] - 2.0 * width if unstable[worst] else sizes[worst]
-        axes.plot(at, 0.0, **(PHASE_MARK | {"marker": "^", "markersize": 7, "clip_on": False}))
-    axes.set_xlim(left, edges[-1])
-    plain_ticks(axes, x=5, y=4, whole_y=True)
-    counted = {"unstable": int(np.sum(unstable)), "without crossing": int(np.sum(sizes == UNLIMITED))}
-    axes.set_title(
-        ", ".join(["trials", *(f"{count} {words}" for words, count in counted.items() if count)]),
-        loc="left", fontsize=8.5,
-    )  # fmt: skip
-    axes.set_xlabel(what)
-
-
-def draw_amplitudes(loop: LoopReport, gain_axes: Axes, phase_axes: Axes) -> None:
-    """Gain and phase of L at one frequency over the amplitude of the injected signal."""
-    factor = display_factor(loop.unit)
-    amplitude = factor * np.array([point.amplitude for point in loop.amplitudes])
-    value = np.array([point.value for point in loop.amplitudes])
-    order = np.argsort(amplitude)
-    amplitude, value = amplitude[order], value[order]
-    _over(gain_axes, amplitude, in_db(value), "gain, dB")
-    _over(phase_axes, amplitude, np.degrees(np.unwrap(np.angle(value))), "phase, deg")
-    phase_axes.set_xlabel(label_with_unit("amplitude at the cut", loop.unit))
-
-
-def _over(axes: Axes, x: np.ndarray, y: np.ndarray, title: str) -> None:
-    axes.plot(x, y, color=BLUE, marker="o", markersize=3.5)
-    if np.ptp(y) < 1.0:  # dB or deg: what is nearly constant looks so
-        middle = 0.5 * float(np.min(y) + np.max(y))
-        axes.set_ylim(middle - 0.75, middle + 0.75)
-    plain_ticks(axes, y=4)
-    axes.set_title(title, loc="left", fontsize=8.5)
-    if float(np.min(x)) > 0.0:
-        frequency_axis(axes, 0.8 * float(np.min(x)), 1.25 * float(np.max(x)))
-    else:
-        plain_ticks(axes, x=5)
-
-
-def draw_describing(element: Nonlinearity, axes: Axes) -> None:
-    """Size of the describing function over the amplitude at the element's input, cycles marked."""
-    factor = display_factor(element.unit)
-    amplitude = factor * element.amplitude
-    axes.plot(amplitude, np.abs(element.gain), color=BLUE)
-    if np.any(np.abs(element.gain.imag) > 1e-9 * np.max(np.abs(element.gain), initial=1e-300)):
-        axes.plot(amplitude, element.gain.real, color=GREEN, linestyle=(0, (5, 1.6)), linewidth=0.9)
-    for cycle in element.cycles:
-        at = float(np.interp(cycle.amplitude, element.amplitude, np.abs(element.gain)))
-        fill = INK if cycle.stable else "white"
-        axes.plot(factor * cycle.amplitude, at, "o", markersize=6, markerfacecolor=fill, markeredgecolor=INK, zorder=5)
-    if amplitude.size and float(amplitude[0]) > 0.0 and amplitude[-1] > 20.0 * amplitude[0]:
-        log_ticks_x(axes)
-        axes.set_xlim(float(amplitude[0]), float(amplitude[-1]))
-    else:
-        plain_ticks(axes, x=5)
-    plain_ticks(axes, y=5)
-    axes.set_ylim(bottom=0.0)
-    axes.set_title("size of N", loc="left", fontsize=8.5)
-    axes.set_xlabel(label_with_unit("amplitude", element.unit))
-
-
-def draw_sweep(sweep: SweepReport, limits: Limits, gain_axes: Axes, phase_axes: Axes) -> None:
-    """Gain and phase margin over a parameter, the limits, where they are crossed; hatched: unstable."""
-    factor = display_factor(sweep.unit)
-    x = factor * sweep.values
-    unstable = np.array([item.unstable for item in sweep.margins])
-    gain = np.array([math.nan if item.unstable else decibels(item.gain) for item in sweep.margins])
-    phase = np.array([math.nan if item.unstable else math.degrees(item.phase) for item in sweep.margins])
-    displayed: list[tuple[Axes, np.ndarray, float | None, str]] = [
-        (gain_axes, gain, limits.gain, "gain margin, dB"),
-        (phase_axes, phase, limits.phase, "phase margin, deg"),
+    width = float(edges[1] - edges[0])
+    heights, _ = np.histogram(retained, edges)
+    bars = [
+        rectangle(float(left), float(right), 0.0, float(height), BLUE, DIMMED)
+        for left, right, height in zip(edges[:-1], edges[1:], heights, strict=True)
+        if height
     ]
+    left, count = float(edges[0]), int(np.sum(unstable))
+    if count:
+        left -= 3.0 * width
+        bars += _hatched(left, left + 2.0 * width, float(count))
+    curves = []
+    if finite[worst] or unstable[worst]:
+        at = left + width if unstable[worst] else float(sizes[worst])
+        curves.append(mark(at, 0.0, WORST, beyond=True))
+    counted = {"unstable": count, "without crossing": int(np.sum(sizes == UNLIMITED))}
+    title = ", ".join(["trials", *(f"{each} {words}" for words, each in counted.items() if each)])
+    top = float(max(heights.max(initial=0), count, 1))
+    unit = "" if quantity.unit == "1" else f", {quantity.unit}"
+    return Chart(
+        NO_BOX,
+        linear_axis((left, float(edges[-1])), 5, label=f"{quantity}{unit}"),
+        linear_axis((0.0, 1.05 * top), 4, integer=True),
+        title=title,
+        curves=curves,
+        areas=bars,
+        rules=[] if limit is None else [instant(limit, VERMILION, 1.4, REQUIRED)],
+    )
+
+
+def _hatched(left: float, right: float, height: float | None = None) -> list[Area]:
+    """A hatched bar, or a band as high as the axes, where loops are unstable."""
+    of_axes = (False, height is None)
+    x, y = left + (right - left) * SQUARE[:, 0], (1.0 if height is None else height) * SQUARE[:, 1]
+    strokes = (hatch(x, y, VERMILION, 1.0), outline(x, y, VERMILION, 1.0))
+    return [Area(x, y, of_axes, WHITE, 1.0, 0.0), *(replace(each, of_axes=of_axes) for each in strokes)]
+
+
+def amplitude_charts(loop: LoopReport) -> tuple[Chart, Chart]:
+    """Return gain and phase of L at one frequency over the amplitude of the injected signal."""
+    amplitude = display_factor(loop.unit) * np.array([each.amplitude for each in loop.amplitudes])
+    response = np.array([each.value for each in loop.amplitudes])
+    order = np.argsort(amplitude)
+    amplitude, response = amplitude[order], response[order]
+    label = label_with_unit("amplitude at the cut", loop.unit)
+    if float(amplitude[0]) > 0.0:
+        abscissa = fine_axis((0.8 * float(amplitude[0]), 1.25 * float(amplitude[-1])), label=label)
+    else:
+        abscissa = linear_axis(axis_ends(amplitude), 5, label=label)
+    gain, phase = (
+        Chart(NO_BOX, abscissa, _ordinate(y), title=title, curves=[_marked(amplitude, y, 3.5)])
+        for y, title in ((in_db(response), "gain, dB"), (np.degrees(np.unwrap(np.angle(response))), "phase, deg"))
+    )
+    return gain, phase
+
+
+def _ordinate(y: np.ndarray) -> Axis:
+    """An axis of at least the length `FLAT`."""
+    middle = 0.5 * float(np.min(y) + np.max(y))
+    ends = (middle - FLAT / 2.0, middle + FLAT / 2.0) if np.ptp(y) < FLAT / 1.5 else axis_ends(y)
+    return linear_axis(ends, 4)
+
+
+def _marked(x: np.ndarray, y: np.ndarray, size: float) -> Curve:
+    """A line with its samples as dots."""
+    return replace(line(x, y, BLUE), marker=marker("o", size, BLUE))
+
+
+def describing_chart(element: Nonlinearity) -> Chart:
+    """Return the size of the describing function over the amplitude at the element's input, cycles marked."""
+    factor = display_factor(element.unit)
+    amplitude, size = factor * element.amplitude, np.abs(element.gain)
+    curves, plotted = [line(amplitude, size, BLUE)], [size]
+    if np.any(np.abs(element.gain.imag) > 1e-9 * np.max(size, initial=1e-300)):
+        curves.append(line(amplitude, element.gain.real, GREEN, width=0.9, dashes=COMPLEMENTARY))
+        plotted.append(element.gain.real)
+    for cycle in element.cycles:
+        at = float(np.interp(cycle.amplitude, element.amplitude, size))
+        symbol = marker("o", 6.0, INK, fill=INK if cycle.stable else WHITE)
+        curves.append(mark(factor * cycle.amplitude, at, symbol))
+    _, top = axis_ends(np.concatenate(plotted))
+    abscissa = _abscissa(amplitude, label_with_unit("amplitude", element.unit))
+    return Chart(NO_BOX, abscissa, linear_axis((0.0, top), 5), title="size of N", curves=curves)
+
+
+def _abscissa(x: np.ndarray, label: str) -> Axis:
+    """The axis of ascending numbers, logarithmic where they span more than `DECADES`."""
+    ends = (float(np.min(x)), float(np.max(x))) if np.ptp(x) > 0.0 else axis_ends(x)
+    is_logarithmic = ends[0] > 0.0 and ends[1] > DECADES * ends[0]
+    return fine_axis(ends, label=label) if is_logarithmic else linear_axis(ends, 5, label=label)
+
+
+def sweep_charts(sweep: SweepReport, limits: Limits) -> tuple[Chart, Chart]:
+    """Return gain and phase margin over a parameter, the limits, where they are crossed; hatched: unstable."""
+    unstable = np.array([each.unstable for each in sweep.margins])
+    gain = np.array([math.nan if each.unstable else decibels(each.gain) for each in sweep.margins])
+    phase = np.array([math.nan if each.unstable else math.degrees(each.phase) for each in sweep.margins])
     edges = [crossing.value for crossing in sweep.crossings if crossing.quantity is Quantity.STABILITY]
-    for axes, y, limit, title in displayed:
-        axes.plot(x, np.where(np.isfinite(y), y, np.nan), color=BLUE, marker="o", markersize=2.5)
-        if limit is not None:
-            axes.axhline(limit, **LIMIT)
-            if float(np.nanmin(y, initial=0.0)) < 0.0:
-                axes.axhline(-limit, **LIMIT)
-        for crossing in sweep.crossings:
-            axes.axvline(factor * crossing.value, color=INK, linewidth=0.9, linestyle=(0, (1.2, 1.6)))
-        for left, right in _runs(unstable, sweep.values, edges):
-            axes.axvspan(factor * left, factor * right, **UNSTABLE_BAND)
-        axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 1.5, 2, 3, 5, 10]))
-        axes.yaxis.set_major_formatter(FuncFormatter(tick))
-        axes.set_title(title, loc="left", fontsize=8.5)
-        if np.min(x) > 0.0 and np.max(x) > 20.0 * np.min(x):
-            frequency_axis(axes, float(np.min(x)), float(np.max(x)))
-        else:
-            plain_ticks(axes, x=5)
-            axes.set_xlim(float(np.min(x)), float(np.max(x)))
-    phase_axes.set_xlabel(label_with_unit(sweep.parameter, sweep.unit))
+    bands = _runs(unstable, sweep.values, edges)
+    return (
+        _sweep_chart(sweep, gain, limits.gain, "gain margin, dB", bands),
+        _sweep_chart(sweep, phase, limits.phase, "phase margin, deg", bands),
+    )
+
+
+def _sweep_chart(
+    sweep: SweepReport, y: np.ndarray, limit: float | None, title: str, bands: Sequence[tuple[float, float]]
+) -> Chart:
+    factor = display_factor(sweep.unit)
+    finite = np.where(np.isfinite(y), y, np.nan)
+    limits = [] if limit is None else [limit, -limit] if float(np.nanmin(y, initial=0.0)) < 0.0 else [limit]
+    rules = [level(each, VERMILION, 1.0, REQUIRED) for each in limits]
+    rules += [instant(factor * crossing.value, INK, 0.9, DOTS) for crossing in sweep.crossings]
+    return Chart(
+        NO_BOX,
+        _abscissa(factor * sweep.values, label_with_unit(sweep.parameter, sweep.unit)),
+        linear_axis(axis_ends(np.concatenate([finite, limits])), 4, multiples=MARGINS),
+        title=title,
+        curves=[_marked(factor * sweep.values, finite, 2.5)],
+        areas=[area for left, right in bands for area in _hatched(factor * left, factor * right)],
+        rules=rules,
+    )
 
 
 def _runs(unstable: np.ndarray, values: np.ndarray, edges: list[float]) -> list[tuple[float, float]]:
@@ -154,20 +185,22 @@ def _runs(unstable: np.ndarray, values: np.ndarray, edges: list[float]) -> list[
     return [(low, high) for low, high in middles if np.any(unstable & (values >= low) & (values <= high))]
 
 
-def draw_joint(joint: JointReport, axes: Axes) -> None:
-    """The disk margin of all channels at once over frequency, its least value and the limit that both sizes set."""
-    axes.plot(joint.frequency, joint.disk_margins, color=BLUE)
+def joint_chart(joint: JointReport) -> Chart:
+    """Return the disk margin of all channels at once over frequency, its least and the limit that both sizes set."""
+    curves = [line(joint.frequency, joint.disk_margins, BLUE)]
     if joint.stable and math.isfinite(joint.disk_frequency):
-        axes.plot(joint.disk_frequency, joint.disk_margin, **PHASE_MARK)
+        curves.append(mark(joint.disk_frequency, joint.disk_margin, PEAK))
     limits = {item.quantity: item.limit for item in joint.requirements}
     alphas = [disk_of_gain(factor_of(limits[Quantity.DISK_GAIN]))] if Quantity.DISK_GAIN in limits else []
     alphas += [disk_of_phase(math.radians(limits[Quantity.DISK_PHASE]))] if Quantity.DISK_PHASE in limits else []
-    if alphas:
-        axes.axhline(max(alphas), **LIMIT)
     finite = joint.disk_margins[np.isfinite(joint.disk_margins)]
-    axes.set_ylim(0.0, min(2.1, 1.1 * float(np.max(finite, initial=0.1))))
-    plain_ticks(axes, y=5)
-    frequency_axis(axes, float(joint.frequency[0]), float(joint.frequency[-1]))
+    ends = (0.0, min(2.1, 1.1 * float(np.max(finite, initial=0.1))))
     title = "disk margin" if joint.stable else "distance; the closed loop is unstable"
-    axes.set_title(title, loc="left", fontsize=8.5)
-    axes.set_xlabel("rad/s")
+    return Chart(
+        NO_BOX,
+        frequency_axis(float(joint.frequency[0]), float(joint.frequency[-1])),
+        linear_axis(ends, 5),
+        title=title,
+        curves=curves,
+        rules=[level(max(alphas), VERMILION, 1.0, REQUIRED)] if alphas else [],
+    )

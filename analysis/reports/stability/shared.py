@@ -78,7 +78,7 @@ def share(loops: Sequence[LoopReport], figures: Sequence[Panels]) -> list[Shared
         retained.append({key: [] for key in parts})
         for key, panels in parts.items():
             for panel in panels:
-                picture = picture_of(panel.figure.svg)
+                picture = picture_of(Markup().join(drawing.svg for drawing in panel.figure.drawings))
                 same = next((one for one in plotted.get(panel.label, []) if alike(one.picture, picture)), None)
                 if same is None:
                     one = _Drawn(panel, picture, [index])

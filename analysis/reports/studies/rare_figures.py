@@ -2,38 +2,34 @@
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from ...campaigns.summary import success_interval
 from ...campaigns.verdicts.order_statistics import quantiles
 from ...studies.rare.outcome import RareResult
 from ...studies.rare.uncertainty import CONFIDENCE
-from ..common.panels import Panel, Widths, both_widths, is_slim, panel
-from ..common.quantities import display_factor, label_with_unit, log_tick, number
-from ..common.style import (
-    BLUE,
-    FAINT,
-    INK,
-    VERMILION,
-    WIDTH,
-    LineStyle,
-    house_style,
-    label_lanes,
-    new_figure,
-    plain_ticks,
-)
+from ..chart import marks as shapes
+from ..chart.axes import fine_axis, lane_axis, linear_axis
+from ..chart.legend import legend_of
+from ..chart.lines import line
+from ..chart.panel import chart_panel, fluid_figure
+from ..chart.symbols import mark, marker, marks
+from ..chart.ticks import axis_ends
+from ..common.colours import BLUE, FAINT, INK, VERMILION
+from ..common.panels import HALF_WIDTH, Panel, Widths, mark_swatch
+from ..common.quantities import display_factor, label_with_unit, number
+from ..interactive.charts import NO_BOX, Backing, Chart, Note
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in
-PLOT_HEIGHT = 3.2  # in, of a row in a notebook's figure
+DASHED, DOTTED = (4.0, 2.0), (1.0, 2.0)  # line widths
 CUT = 0.002  # of the finite limit-state values, the smallest, may lie below the axis
 PAIRED = 3  # parameters, of which each pair has a panel
+BEHIND = Backing("#ffffff", 0.8, 0.8)  # of words over a line
 PERCENT = f"{100 * CONFIDENCE:g} %"
 
 
@@ -71,44 +67,49 @@ def level_spans(result: RareResult) -> list[Span]:
 
 
 def limit_state_figure(result: RareResult) -> Widths:
-    """The limit state of every simulation over its number."""
+    """Return the limit state of every simulation over its number."""
     words = f"Limit state of {result.flights} simulations in {len(result.simulation.levels)} levels"
-    return both_widths("limit-state", words, lambda figure: draw_limit_state(figure.subplots(), result), HEIGHT)
+    return Widths(fluid_figure("limit-state", words, limit_state_chart(result), HEIGHT))
 
 
-def draw_limit_state(axes: Axes, result: RareResult) -> None:
-    """Simulations by number, failures in colour, and the thresholds of levels."""
+def limit_state_chart(result: RareResult) -> Chart:
+    """Return simulations by number, failures in colour, and the thresholds of levels."""
     factor = display_factor(result.margin_unit)
-    values = factor * result.flown.values
-    numbers = np.arange(1, values.size + 1)
-    finite = np.isfinite(values)
-    low, high = limits_of(values)
-    failed = values >= 0.0
+    values = result.flown.values
+    numbers = np.arange(1.0, values.size + 1.0)
+    finite, failed = np.isfinite(values), values >= 0.0
+    low, high = limits_of(factor * values)
     size = max(1.2, min(4.0, 60.0 / values.size**0.5))
-    style: LineStyle = {"linestyle": "", "markersize": size, "markeredgewidth": 0.0, "rasterized": values.size > 1500}
-    axes.plot(numbers[~failed], values[~failed], marker="o", color=GREY, label="no failure", **style)
-    hit = failed & finite
-    axes.plot(numbers[hit], values[hit], marker="o", color=VERMILION, label="failure", **style)
+    curves = [
+        marks(numbers[rows], values[rows], marker("o", size, colour, width=0.0), name=name, unit=result.margin_unit)
+        for rows, colour, name in ((finite & ~failed, GREY, "no failure"), (finite & failed, VERMILION, "failure"))
+        if np.any(rows)
+    ]
     if not finite.all():
         top = np.full(int((~finite).sum()), high - 0.02 * (high - low))
-        label = "failure without a finite limit state"
-        axes.plot(numbers[~finite], top, "^", color=VERMILION, markersize=5, label=label)
+        triangle = marker("^", 5.0, VERMILION)
+        curves.append(marks(numbers[~finite], top, triangle, name="failure without a finite limit state"))
+    areas, rules, notes = [], [shapes.level(0.0, INK, 1.0, DASHED)], []
     for span in level_spans(result):
         if span.following is not None:
-            axes.hlines(factor * span.following, span.first, span.last, color=BLUE, linewidth=1.6)
-        axes.axvline(span.last + 0.5, color=FAINT, linewidth=0.7, linestyle=(0, (1, 2)))
-        middle = 0.5 * (span.first + span.last)
-        axes.annotate(
-            f"{span.number}", (middle, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 2),
-            textcoords="offset points", ha="center", va="bottom", fontsize=8.5, color=INK,
-        )  # fmt: skip
-    axes.axhline(0.0, color=INK, linewidth=1.0, linestyle=(0, (4, 2)))
-    axes.set_xlim(0.0, values.size + 1.0)
-    axes.set_ylim(low, high)
-    axes.set_xlabel("simulation")
-    axes.set_ylabel(label_with_unit("limit state", result.margin_unit))
-    plain_ticks(axes, x=6, y=5)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, markerscale=2.0, handletextpad=0.2)
+            ends, heights = np.array([span.first, span.last]), np.full(2, factor * span.following)
+            areas.append(shapes.outline(ends, heights, BLUE, 1.6))
+        rules.append(shapes.instant(span.last + 0.5, FAINT, 0.7, DOTTED))
+        notes.append(number_above(f"{span.number}", 0.5 * (span.first + span.last)))
+    return Chart(
+        NO_BOX,
+        linear_axis((0.0, values.size + 1.0), 6, label="simulation"),
+        linear_axis((low, high), 5, label=label_with_unit("limit state", result.margin_unit)),
+        curves=curves,
+        areas=areas,
+        rules=rules,
+        notes=notes,
+    )
+
+
+def number_above(text: str, at: float) -> Note:
+    """Return a number above the axes, at an abscissa."""
+    return Note(text, (at, 1.0), (False, True), (0.0, 2.0), ("center", "bottom"), INK, 8.5)
 
 
 def limits_of(values: np.ndarray) -> tuple[float, float]:
@@ -121,21 +122,20 @@ def limits_of(values: np.ndarray) -> tuple[float, float]:
 
 
 def exceedance_panel(result: RareResult) -> Panel:
-    """How probable it is that the limit state is above a value."""
-    words = "Probability that the limit state exceeds a value"
-    return panel(
-        "Exceedance probability", "exceedance", words, lambda axes: draw_exceedance(axes, result), HEIGHT, width=4.5
-    )
+    """Return how probable it is that the limit state is above a value."""
+    words, chart = "Probability that the limit state exceeds a value", exceedance_chart(result)
+    panel = chart_panel("Exceedance probability", "exceedance", words, chart, HEIGHT, HALF_WIDTH, title=chart.title)
+    return panel._replace(legend=legend_of([chart]))
 
 
-def draw_exceedance(axes: Axes, result: RareResult) -> None:
-    """The first level's empirical curve, the thresholds of levels, the failure with its interval."""
+def exceedance_chart(result: RareResult) -> Chart:
+    """Return the first level's empirical curve, the thresholds of levels, the failure with its interval."""
     spans = level_spans(result)
     factor = display_factor(result.margin_unit)
     first = np.sort(factor * result.flown.values[: spans[0].last])
     fraction = 1.0 - np.arange(first.size) / first.size
-    seen = np.isfinite(first)
-    axes.step(first[seen], fraction[seen], where="pre", color=GREY, linewidth=1.4, label="level 1: Monte Carlo")
+    finite = np.isfinite(first)
+    x, y = first[finite], fraction[finite]
     known = [
         (span.threshold, span.reached) for span in spans if span.threshold is not None and span.reached is not None
     ]
@@ -143,28 +143,25 @@ def draw_exceedance(axes: Axes, result: RareResult) -> None:
     low, high = result.interval
     if result.probability is not None:
         thresholds, reached = [*thresholds, 0.0], [*reached, result.probability]
-    axes.plot(thresholds, reached, color=BLUE, marker="o", markersize=4, label="thresholds of levels")
+    before, down = np.append(x[:1], x), np.append(y, y[-1:])  # a sample's probability holds down to the sample before
+    empirical = line(before, down, GREY, width=1.4, steps=True, name="level 1: Monte Carlo")
+    levels = line(np.array(thresholds), np.array(reached), BLUE, name="thresholds of levels")
     if low > 0.0:
-        axes.plot([0.0, 0.0], [low, high], color=VERMILION, linewidth=2.4, label=f"failure, {PERCENT}")
+        interval = line(np.zeros(2), np.array([low, high]), VERMILION, width=2.4, name=f"failure, {PERCENT}")
     else:
-        axes.plot([0.0], [high], "v", color=VERMILION, label=f"failure, below at {PERCENT}")
-    axes.axvline(0.0, color=INK, linewidth=1.0, linestyle=(0, (4, 2)), zorder=1)
-    log_axis(axes, "y")
-    axes.set_ylim(0.5 * min([high, *reached, 1.0 / first.size] + ([low] if low > 0.0 else [])), 1.5)
-    axes.set_xlim(*limits_of(factor * result.flown.values))
-    plain_ticks(axes, x=5)
-    axes.set_xlabel(label_with_unit("limit state", result.margin_unit))
-    axes.set_title("probability of more", loc="left", fontsize=8.5)
-    axes.legend(loc="lower left")
-
-
-def log_axis(axes: Axes, which: str) -> None:
-    """A logarithmic axis with whole decades marked."""
-    getattr(axes, f"set_{which}scale")("log")
-    axis = axes.xaxis if which == "x" else axes.yaxis
-    axis.set_major_locator(LogLocator(numticks=7))
-    axis.set_minor_locator(NullLocator())
-    axis.set_major_formatter(FuncFormatter(log_tick))
+        below = marker("v", 6.0, VERMILION)
+        interval = marks(np.zeros(1), np.array([high]), below, name=f"failure, below at {PERCENT}")
+    smallest = min([high, *reached, 1.0 / first.size] + ([low] if low > 0.0 else []))
+    return Chart(
+        NO_BOX,
+        linear_axis(
+            limits_of(factor * result.flown.values), 5, label=label_with_unit("limit state", result.margin_unit)
+        ),
+        fine_axis((0.5 * smallest, 1.5), 7),
+        title="probability of more",
+        curves=[empirical, replace(levels, marker=marker("o", 4.0, BLUE)), interval],
+        rules=[shapes.instant(0.0, INK, 1.0, DASHED)],
+    )
 
 
 def influence(result: RareResult) -> dict[str, float]:
@@ -191,45 +188,52 @@ def influence(result: RareResult) -> dict[str, float]:
 
 
 def design_point_panels(result: RareResult) -> list[Panel]:
-    """Failures and design points beside the first level's samples, over pairs of the most influential parameters."""
+    """Return samples, failures and design points over pairs of the most influential parameters."""
     names = list(influence(result))[:PAIRED]
     pairs = [(one, other) for index, one in enumerate(names) for other in names[index + 1 :]]
-
-    return [
-        panel(
-            f"{other} over {one}",
-            f"design-{index}",
-            f"Samples, failures and design points over {one} and {other}",
-            partial(draw_design_points, result=result, one=one, other=other),
-            HEIGHT,
-        )
-        for index, (one, other) in enumerate(pairs)
-    ]
+    panels = []
+    for index, (one, other) in enumerate(pairs):
+        words, chart = f"Samples, failures and design points over {one} and {other}", design_chart(result, one, other)
+        panels.append(chart_panel(f"{other} over {one}", f"design-{index}", words, chart, HEIGHT, title=chart.title))
+    return panels
 
 
-def draw_design_points(axes: Axes, result: RareResult, one: str, other: str) -> None:
-    """One pair: level 1 in grey, failures in colour, design points with their numbers."""
+SAMPLE = marker("o", 2.6, GREY, width=0.0)
+FAILURE = marker("o", 2.4, VERMILION, width=0.0)
+DESIGN = marker("D", 5.0, "#ffffff", fill=BLUE)
+DESIGN_LEGEND = [
+    (mark_swatch(each), name) for each, name in ((SAMPLE, "level 1"), (FAILURE, "failures"), (DESIGN, "design points"))
+]
+
+
+def design_chart(result: RareResult, one: str, other: str) -> Chart:
+    """Return one pair: level 1 in grey, failures in colour, design points with their numbers."""
     units = [result.units.get(name) for name in (one, other)]
     factors = [display_factor(unit) for unit in units]
     x, y = (factor * result.flown.draws[name] for factor, name in zip(factors, (one, other), strict=True))
     count = level_spans(result)[0].last
     failed = result.flown.values >= 0.0
-    points: LineStyle = {"linestyle": "", "markeredgewidth": 0.0, "rasterized": x.size > 1500}
-    axes.plot(x[:count], y[:count], marker="o", markersize=2.6, color=GREY, label="level 1", **points)
-    axes.plot(x[failed], y[failed], marker="o", markersize=2.4, color=VERMILION, label="failures", **points)
-    entries = result.failures
-    at = [(factors[0] * entry["draws"][one], factors[1] * entry["draws"][other]) for entry in entries]
-    if at:
-        axes.plot(*zip(*at, strict=True), "D", markersize=5, color=BLUE, markeredgecolor="white", label="design points")
-    for entry, point in zip(entries, at, strict=True):
-        axes.annotate(str(entry["trial"]), point, xytext=(5, 4), textcoords="offset points", fontsize=8.5, color=INK)
-    plain_ticks(axes, x=4, y=5)
-    axes.set_xlabel(label_with_unit(one, units[0]))
-    axes.set_title(label_with_unit(other, units[1]), loc="left", fontsize=8.5)
-    axes.legend(
-        loc="upper center", bbox_to_anchor=(0.45, -0.22), ncols=3, handletextpad=0.0, columnspacing=0.6,
-        borderaxespad=0.0, fontsize=8.0,
-    )  # fmt: skip
+    at = np.array([[factor * entry["draws"][name] for factor, name in zip(factors, (one, other), strict=True)]
+                   for entry in result.failures]).reshape(-1, 2)  # fmt: skip
+    curves = [
+        marks(x[:count], y[:count], SAMPLE),
+        marks(x[failed], y[failed], FAILURE),
+        marks(at[:, 0], at[:, 1], DESIGN),
+    ]
+    notes = [
+        Note(str(entry["trial"]), (place[0], place[1]), (False, False), (5.0, 4.0), ("left", "baseline"), INK, 8.5)
+        for entry, place in zip(result.failures, at.tolist(), strict=True)
+    ]
+    return Chart(
+        NO_BOX,
+        linear_axis(
+            axis_ends(np.concatenate([x[:count], x[failed], at[:, 0]])), 4, label=label_with_unit(one, units[0])
+        ),
+        linear_axis(axis_ends(np.concatenate([y[:count], y[failed], at[:, 1]])), 5),
+        title=label_with_unit(other, units[1]),
+        curves=[curve for curve in curves if curve.x.size],
+        notes=notes,
+    )
 
 
 class Equivalent(NamedTuple):
@@ -261,47 +265,38 @@ def equivalents(result: RareResult) -> list[Equivalent]:
 
 
 def interval_figure(result: RareResult) -> Widths:
-    """The interval of this study and those of Monte Carlo, over a logarithmic axis."""
+    """Return the interval of this study and those of Monte Carlo."""
     rows = equivalents(result)
-
-    def draw(figure: Figure) -> None:
-        draw_intervals(figure.subplots(), rows, result.probability, is_slim(figure))
-
-    return both_widths("interval", f"{PERCENT} intervals of the probability", draw, 0.8 + 0.36 * len(rows),
-                       0.8 + 0.5 * len(rows))  # fmt: skip
+    words, chart = f"{PERCENT} intervals of the probability", interval_chart(rows, result.probability)
+    return Widths(fluid_figure("interval", words, chart, 0.8 + 0.5 * len(rows)))
 
 
-def draw_intervals(axes: Axes, rows: list[Equivalent], probability: float | None, slim: bool) -> None:
-    """A lane for each; an interval that begins at 0 goes on to the left, with an arrow."""
+def interval_chart(rows: Sequence[Equivalent], probability: float | None) -> Chart:
+    """Return a lane for each with its name above; an interval that begins at 0 goes on to the left, with an arrow."""
     positive = [end for row in rows for end in (row.low, row.high, probability or 0.0) if end > 0.0]
     left = 0.3 * min(positive)
-    for index, row in enumerate(rows):
-        colour = VERMILION if index == 0 else GREY
-        axes.plot([max(row.low, left), row.high], [index, index], color=colour, linewidth=2.6)
+    curves, notes = [], []
+    for lane, row in enumerate(rows):
+        colour = VERMILION if lane == 0 else GREY
+        curves.append(line(np.array([max(row.low, left), row.high]), np.full(2, float(lane)), colour, width=2.6))
         if row.low <= 0.0:
-            axes.plot(left * 1.02, index, "<", color=colour, markersize=6, clip_on=False)
+            curves.append(mark(left * 1.02, lane, marker("<", 6.0, colour), beyond=True))
         label = f"{row.label}: {number(row.simulations, 3)} simulations"
-        if slim:
-            axes.annotate(label, (0.01, index - 0.28), xycoords=("axes fraction", "data"), fontsize=8.5, va="bottom")
-    if probability is not None:
-        axes.axvline(probability, color=INK, linewidth=1.0, linestyle=(0, (4, 2)))
-    names = [f"{row.label} ({number(row.simulations, 3)})" for row in rows]
-    log_axis(axes, "x")
-    axes.set_xlim(left, 2.0 * max(positive))
-    label_lanes(axes, [""] * len(rows) if slim else names, -0.8 if slim else -0.6)
-    axes.set_xlabel(f"probability of failure, {PERCENT} interval")
+        at, align = (0.01, lane - 0.28), ("left", "bottom")
+        notes.append(Note(label, at, (True, False), (0.0, 0.0), align, INK, 8.5, backing=BEHIND))
+    return Chart(
+        NO_BOX,
+        fine_axis((left, 2.0 * max(positive)), label=f"probability of failure, {PERCENT} interval"),
+        lane_axis([""] * len(rows), (len(rows) - 0.4, -0.8)),
+        curves=curves,
+        rules=[] if probability is None else [shapes.instant(probability, INK, 1.0, DASHED)],
+        notes=notes,
+    )
 
 
-def rare_plot(result: RareResult) -> Figure:
-    """Limit state over simulations, exceedance probability; failures over the two most influential parameters."""
+def rare_charts(result: RareResult) -> list[Chart]:
+    """Return limit state, exceedance probability, and failures over the two most influential parameters."""
     names = list(influence(result))[:2]
-    with house_style():
-        figure = new_figure(2.0 * PLOT_HEIGHT, WIDTH)
-        grid = figure.add_gridspec(2, 2)
-        draw_limit_state(figure.add_subplot(grid[0, :]), result)
-        if len(names) == 2:
-            draw_exceedance(figure.add_subplot(grid[1, 0]), result)
-            draw_design_points(figure.add_subplot(grid[1, 1]), result, *names)
-        else:
-            draw_exceedance(figure.add_subplot(grid[1, :]), result)
-    return figure
+    pair = [design_chart(result, *names)] if len(names) == 2 else []
+    exceedance = replace(exceedance_chart(result), title="probability of more; grey: level 1, blue: thresholds")
+    return [limit_state_chart(result), exceedance, *pair]

@@ -5,10 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...studies.rare.outcome import RareResult
+from ..chart.legend import legend_of
 from ..common.page import Table, exact, fraction
 from ..common.quantities import label_with_unit
 from .conditions import write_study_page
 from .rare_figures import (
+    DESIGN_LEGEND,
     PERCENT,
     design_point_panels,
     equivalents,
@@ -16,6 +18,7 @@ from .rare_figures import (
     influence,
     interval_figure,
     level_spans,
+    limit_state_chart,
     limit_state_figure,
 )
 
@@ -32,9 +35,11 @@ def write_rare_page(result: RareResult, path: Path, folder: Path | None = None) 
         result,
         percent=PERCENT,
         limit_state=limit_state_figure(result),
+        limit_legend=legend_of([limit_state_chart(result)]),
         exceedance=exceedance_panel(result),
         levels=level_table(result),
         designs=design_point_panels(result),
+        design_legend=DESIGN_LEGEND,
         design_points=design_table(result),
         influence=Table(
             ("parameter", "shift, standard deviations"),

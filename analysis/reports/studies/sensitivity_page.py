@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 import math
-from functools import partial
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from ...studies.sensitivity import SensitivityResult
 from ...studies.sobol import CONFIDENCE
+from ..chart.axes import lane_axis, linear_axis
+from ..chart.lines import line
+from ..chart.marks import instant, rectangle
+from ..chart.panel import chart_panel
+from ..chart.symbols import marker
+from ..common.colours import BLUE, INK, SKY, Look
 from ..common.page import Table, fraction, fractions
-from ..common.panels import HALF_WIDTH, Panel, panel
-from ..common.style import BLUE, INK, SKY, WIDTH, house_style, new_figure, plain_ticks
+from ..common.panels import HALF_WIDTH, Panel, swatch
+from ..interactive.charts import NO_BOX, Chart
+from ..interactive.measures import TICK_SIZE
 from .conditions import write_study_page
 
 WIDE = 0.3  # of an interval of a total index, from which on a larger base is advised
@@ -35,6 +41,7 @@ def write_sensitivity_page(result: SensitivityResult, path: Path, folder: Path |
         percent=f"{100 * CONFIDENCE:g} %",
         drivers=driver_table(result),
         panels=index_panels(result),
+        legend=[(swatch(Look(colour, "-", "")), order) for colour, order in ORDERS],
         most=MOST,
         tables=[(metric, index_table(result, metric)) for metric in result.told],
         ranks=rank_table(result),
@@ -83,7 +90,9 @@ def rank_table(result: SensitivityResult) -> Table:
 
 MOST = 12  # parameters of a panel, those with the largest total index
 LANE = 0.34  # in
-COLUMNS = 2  # of a notebook's figure
+BAR, OFFSET = 0.34, 0.19  # of a lane: the height of a bar, its middle above or below that of the lane
+CAP = marker("|", 5.0, INK)  # the end of an interval
+ORDERS = ((BLUE, "total"), (SKY, "first order"))
 
 
 class Bar(NamedTuple):
@@ -121,50 +130,40 @@ def _ends(interval: list[float | None]) -> tuple[float, float]:
 
 
 def index_panels(result: SensitivityResult) -> list[Panel]:
-    """A panel for each metric that has indices."""
-
+    """Return a panel for each metric that has indices."""
     panels = []
     for index, metric in enumerate(result.told):
         bars = bars_of(result, metric)[:MOST]
         words = f"Total and first-order Sobol' indices of {metric}"
-        height = 0.95 + LANE * len(bars)
-        panels.append(panel(metric, f"indices-{index}", words, partial(draw_indices, bars=bars), height, HALF_WIDTH))
+        height = 0.75 + LANE * len(bars)
+        panels.append(chart_panel(metric, f"indices-{index}", words, index_chart(bars), height, HALF_WIDTH))
     return panels
 
 
-def draw_indices(axes: Axes, bars: list[Bar]) -> None:
-    """Two bars for each parameter with its intervals: total above, first-order below."""
-    for index, bar in enumerate(bars):
-        for order, value, ends, offset, colour in (
-            ("total", bar.total, bar.total_interval, -0.19, BLUE),
-            ("first order", bar.first, bar.first_interval, 0.19, SKY),
+def index_chart(bars: Sequence[Bar]) -> Chart:
+    """Return two bars for each parameter with its intervals: total above, first-order below."""
+    areas, curves = [], []
+    for lane, bar in enumerate(bars):
+        for size, ends, offset, (colour, _) in (
+            (bar.total, bar.total_interval, -OFFSET, ORDERS[0]),
+            (bar.first, bar.first_interval, OFFSET, ORDERS[1]),
         ):
-            (plotted,) = axes.barh(index + offset, value, height=0.34, color=colour, label=None if index else order)
-            plotted.set_gid(f"{order.split()[0]}-{index}")
-            axes.plot(ends, [index + offset] * 2, color=INK, linewidth=1.1, marker="|", markersize=5)
-    axes.axvline(0.0, color=INK, linewidth=0.8)
-    all_ends = [end for bar in bars for end in (*bar.total_interval, *bar.first_interval)]
-    axes.set_xlim(min(0.0, *all_ends) - 0.02, max(1.0, *all_ends) + 0.02)
-    axes.set_yticks(range(len(bars)), [bar.name for bar in bars])
-    axes.set_ylim(len(bars) - 0.45, -0.55)
-    axes.grid(visible=False, axis="y")
-    axes.tick_params(axis="y", length=0)
-    plain_ticks(axes, x=5)
-    axes.set_xlabel("fraction of the variance")
-    axes.legend(loc="lower right", ncols=1)
+            at = lane + offset
+            areas.append(rectangle(0.0, size, at - BAR / 2.0, at + BAR / 2.0, colour, 1.0))
+            interval = line(np.array(ends), np.full(2, at), INK, width=1.1)
+            curves.append(replace(interval, marker=CAP))
+    plotted = np.array([end for bar in bars for end in (*bar.total_interval, *bar.first_interval)])
+    low, high = float(np.nanmin(plotted, initial=0.0)), float(np.nanmax(plotted, initial=1.0))
+    return Chart(
+        NO_BOX,
+        linear_axis((low - 0.02, high + 0.02), 5, label="fraction of the variance"),
+        lane_axis([bar.name for bar in bars], (len(bars) - 0.45, -0.55), size=TICK_SIZE),
+        areas=areas,
+        curves=curves,
+        rules=[instant(0.0, INK, 0.8)],
+    )
 
 
-def sensitivity_plot(result: SensitivityResult, metrics: list[str]) -> Figure:
-    """A panel of indices for each metric."""
-    columns = min(COLUMNS, len(metrics))
-    rows = -(-len(metrics) // columns)
-    lanes = min(MOST, len(result.inputs))
-    with house_style():
-        figure = new_figure(rows * (1.1 + LANE * lanes), 0.5 * WIDTH * columns)
-        panels = figure.subplots(rows, columns, squeeze=False).flatten()
-        for axes, metric in zip(panels, metrics, strict=False):
-            draw_indices(axes, bars_of(result, metric)[:MOST])
-            axes.set_title(metric, loc="left")
-        for axes in panels[len(metrics) :]:
-            axes.remove()
-    return figure
+def sensitivity_charts(result: SensitivityResult, metrics: Sequence[str]) -> list[Chart]:
+    """Return the indices of each metric."""
+    return [replace(index_chart(bars_of(result, metric)[:MOST]), title=metric) for metric in metrics]

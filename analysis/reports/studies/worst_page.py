@@ -16,6 +16,7 @@ from ...campaigns.spec.campaign import Record
 from ...campaigns.spec.plan import BatchPlan
 from ...runtime.flight.results import Result
 from ...studies.worst.outcome import WorstResult
+from ..chart.legend import legend_of
 from ..common.page import Table, exact, fraction
 from ..common.panels import Panel
 from ..common.quantities import display_unit, label_with_unit
@@ -26,7 +27,16 @@ from ..figures.section import Section
 from ..time_histories import Histories, time_histories
 from ..trajectory import trajectory_panels, trajectory_reading
 from .conditions import write_study_page
-from .worst_figures import box_figure, box_lanes, fresh_panel, objective_of, search_figure, trials_panel
+from .worst_figures import (
+    BOX_LEGEND,
+    box_figure,
+    box_lanes,
+    fresh_panel,
+    objective_of,
+    search_chart,
+    search_figure,
+    trials_panel,
+)
 
 
 class FlightPart(NamedTuple):
@@ -67,11 +77,13 @@ def write_worst_page(
         random=with_unit(result.worst_random["value"], result.unit),
         inside=result.worst_random["inside"],
         search=search_figure(result),
+        search_legend=legend_of([search_chart(result)]),
         phases=phase_table(result),
         points=objective.values.size,
         panels=[one for one in (trials_panel(result), fresh_panel(result)) if one is not None],
         fresh=fresh_cells(result),
         box=box_figure(result),
+        box_legend=BOX_LEGEND,
         parameters=parameter_table(result),
         metrics=metric_table(result),
         flight=None if flight is None else flight_part(flight, figures),

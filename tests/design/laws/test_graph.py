@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from perilune.analysis.design.laws.formula import formula
-from perilune.analysis.design.laws.graph import law_figure, law_svg
+from perilune.analysis.design.laws.graph import law_chart, law_svg
 from perilune.analysis.design.laws.law import Law, find_law, read_law
 from perilune.analysis.design.laws.layers import JOINT_GAP, NODE_GAP, Layout, longest_paths
-from perilune.analysis.reports.common.style import house_style
+from perilune.analysis.reports.font.text import text_width
 from tests.support.laws.networks import matrices
 
 GRAPHS = st.integers(2, 12).flatmap(
@@ -83,12 +83,20 @@ def test_the_svg_is_the_same_every_time(name):
 
 
 def texts(law):
-    """Texts of the drawing with their boxes, pixels."""
-    with house_style():
-        figure = law_figure(law)
-        figure.draw_without_rendering()
-        (axes,) = figure.axes
-        return [(text.get_text(), text.get_window_extent()) for text in axes.texts if text.get_text()]
+    """Texts of the drawing with their left, right, upper and lower ends, pt."""
+    chart, width, height = law_chart(law)
+    boxes = []
+    for note in chart.notes:
+        x, y = (
+            (at - low) / (high - low) * size
+            for at, (low, high), size in zip(note.at, (chart.x.ends, chart.y.ends[::-1]), (width, height), strict=True)
+        )
+        half, tall = text_width(note.text, note.size) / 2.0, 1.2 * note.size
+        top = y - note.offset[1] - (tall / 2.0 if note.align[1] == "center" else 0.0)
+        boxes.append((note.text, (x - half, x + half, top, top + tall)))
+        assert 0.0 <= x - half < x + half <= width
+        assert 0.0 <= top < top + tall <= height
+    return boxes
 
 
 def test_everything_the_law_is_made_of_is_in_the_drawing():
@@ -102,8 +110,8 @@ def test_everything_the_law_is_made_of_is_in_the_drawing():
 def test_labels_do_not_lie_on_each_other():
     boxes = [box for _, box in texts(read_law(find_law("diveev_2013")))]
     for first, second in itertools.combinations(boxes, 2):
-        across = min(first.x1, second.x1) - max(first.x0, second.x0)
-        down = min(first.y1, second.y1) - max(first.y0, second.y0)
+        across = min(first[1], second[1]) - max(first[0], second[0])
+        down = min(first[3], second[3]) - max(first[2], second[2])
         assert across <= 1.0 or down <= 1.0
 
 

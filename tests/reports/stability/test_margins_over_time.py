@@ -7,10 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
-from perilune.analysis.reports.common.style import VERMILION
-from perilune.analysis.reports.stability.over_time import courses, draw_over_time
+from perilune.analysis.reports.stability.over_time import courses, over_time_chart
 from perilune.analysis.reports.stability.page import write_stability_page
 from perilune.analysis.stability.loops.margin_values import Quantity
 from perilune.analysis.stability.loops.readings import Crossing
@@ -48,16 +46,15 @@ def test_what_is_drawn_is_python_controls(report):
     assert [loops[0].name for loops in same.loops] == ["axis[1]", "axis[2]"]
     assert same.times.tolist() == other.times.tolist() == [10.0, 20.0, 30.0]
     for quantity, place in ((Quantity.GAIN, 0), (Quantity.PHASE, 1)):
-        axes = Figure().subplots()
-        draw_over_time([same, other], quantity, axes)
+        chart = over_time_chart([same, other], quantity)
         exact = [crossings(late_double_integrator(derivative=GAINS[time]).loop)[place] for time in same.times]
         displayed = [DECIBEL * np.log(values) if place == 0 else np.degrees(values) for values in exact]
         upper = [min(values[values >= 0.0]) for values in displayed]
-        np.testing.assert_allclose(axes.lines[0].get_ydata(), upper, rtol=1e-6)
+        np.testing.assert_allclose(chart.curves[0].y, upper, rtol=1e-6)
         limit = 6.0 if place == 0 else 30.0
-        assert any(np.allclose(line.get_ydata(), limit) for line in axes.lines if line.get_color() == VERMILION)
-        (cross,) = (line for line in axes.lines if line.get_marker() == "x")
-        assert (cross.get_xdata().tolist(), cross.get_ydata().tolist()) == ([30.0], [0.0])
+        assert limit in [rule.at for rule in chart.rules]
+        (cross,) = (curve for curve in chart.curves if curve.marker and len(curve.marker.outline) == 2)
+        assert (cross.x.tolist(), cross.y.tolist()) == ([30.0], [0.0])
 
 
 def test_another_flight_is_no_part_of_the_line(report):

@@ -11,12 +11,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 from perilune.analysis.cli import main
 from perilune.analysis.reports.common.quantities import NONE
 from perilune.analysis.reports.stability.page import write_stability_page
-from perilune.analysis.reports.stability.sets import draw_joint
+from perilune.analysis.reports.stability.sets import joint_chart
 from perilune.analysis.stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
 from perilune.analysis.stability.loops.readings import Classical, Curve
 from perilune.analysis.stability.results.report import StabilityReport
@@ -189,12 +188,10 @@ def test_joint_margins_ask_for_stability(studies, page, tmp_path):
     (row,) = (row for row in rows_under(wild, "Margins") if "pair[1], pair[2]" in row[0])
     assert row[2:] == ["unstable"] * 3 + [NONE, "✗ fail"]
     assert {item.value for item in studies.wild_pair.joint[0].requirements} == {UNSTABLE}
-    axes = Figure().subplots()
-    draw_joint(joint, axes)
-    (limit,) = (line for line in axes.lines if line.get_color() == "#D55E00" and len(line.get_xdata()) == 2)
+    (limit,) = joint_chart(joint).rules
     gain, phase = 10.0 ** (3.0 / 20.0), math.radians(20.0)
     wanted = max(2.0 * (gain - 1.0) / (gain + 1.0), 2.0 * math.tan(phase / 2.0))
-    assert limit.get_ydata()[0] == pytest.approx(wanted)
+    assert limit.at == pytest.approx(wanted)
 
 
 def test_a_sweep_into_instability(studies, page):

@@ -8,16 +8,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 from scipy import stats
 
 from perilune.analysis.reports.studies.rare_figures import (
-    draw_design_points,
-    draw_exceedance,
-    draw_limit_state,
+    Equivalent,
+    design_chart,
     equivalents,
+    exceedance_chart,
     influence,
+    interval_chart,
     level_spans,
+    limit_state_chart,
 )
 from perilune.analysis.reports.studies.rare_page import level_table, write_rare_page
 from perilune.analysis.studies.noise import Noise
@@ -28,12 +29,6 @@ from tests.support.pages.studies import LIMIT
 def page_of(result, folder):
     result.report(folder / "page.html")
     return (folder / "page.html").read_text(encoding="utf-8")
-
-
-def axes_of(draw, *arguments):
-    axes = Figure().subplots()
-    draw(axes, *arguments)
-    return axes
 
 
 def test_the_headline_states_the_estimate_and_its_conditions(rare_result, tmp_path):
@@ -91,35 +86,55 @@ def test_levels_are_those_that_were_flown(rare_result):
 
 
 def test_the_limit_state_of_every_simulation_is_drawn(rare_result):
-    axes = axes_of(draw_limit_state, rare_result)
-    good, failed = axes.lines[:2]
-    numbers = np.concatenate([good.get_xdata(), failed.get_xdata()])
-    values = np.concatenate([good.get_ydata(), failed.get_ydata()])
+    chart = limit_state_chart(rare_result)
+    good, failed = chart.curves
+    numbers = np.concatenate([good.x, failed.x])
+    values = np.concatenate([good.y, failed.y])
     np.testing.assert_array_equal(values[np.argsort(numbers)], rare_result.flown.values)
-    assert np.all(failed.get_ydata() >= 0.0)
-    assert np.all(good.get_ydata() < 0.0)
+    assert np.all(failed.y >= 0.0)
+    assert np.all(good.y < 0.0)
+    spans = level_spans(rare_result)
+    assert [(area.x.tolist(), area.y[0]) for area in chart.areas] == [
+        ([span.first, span.last], span.following) for span in spans
+    ]
+    assert [note.text for note in chart.notes] == [str(span.number) for span in spans]
 
 
 def test_the_curve_of_the_first_level_is_its_empirical_one(rare_result):
-    axes = axes_of(draw_exceedance, rare_result)
-    x, y = axes.lines[0].get_data()
+    chart = exceedance_chart(rare_result)
+    empirical, levels, interval = chart.curves
     own = rare_result.flown.values[: rare_result.samples]
-    for place in (0, 17, len(x) - 1):
-        assert y[place] == pytest.approx(np.mean(own >= x[place]), rel=1e-12)
-    thresholds, reached = axes.lines[1].get_data()
-    assert thresholds[-1] == 0.0
-    assert reached[-1] == rare_result.probability
+    for limit in np.quantile(own, [0.013, 0.5, 0.987]):
+        row = np.searchsorted(empirical.x, limit, side="right") - 1  # from there on it holds to the next
+        assert empirical.y[row] == pytest.approx(np.mean(own >= limit), rel=1e-12)
+    assert levels.x[-1] == 0.0
+    assert levels.y[-1] == rare_result.probability
+    assert interval.y.tolist() == list(rare_result.interval)
+    low, high = chart.y.ends
+    expected = [k * 10.0**n for n in range(-9, 3) for k in range(1, 10) if low <= k * 10.0**n <= high]
+    assert [at for at, _ in chart.y.ticks] == pytest.approx(expected)
 
 
 def test_design_points_lie_behind_the_plane_of_the_failure(rare_result):
     """The failure is a half space at LIMIT standard deviations: nothing that failed is nearer."""
     assert all(entry["distance"] >= LIMIT for entry in rare_result.failures)
     assert set(influence(rare_result)) == {"a.gain", "b.gain", "c.gain"}
-    axes = axes_of(draw_design_points, rare_result, "a.gain", "b.gain")
-    cloud, failures, points = axes.lines
-    assert cloud.get_xdata().size == rare_result.samples
-    assert failures.get_xdata().size == np.count_nonzero(rare_result.flown.values >= 0.0)
-    assert points.get_xdata().tolist() == [entry["draws"]["a.gain"] for entry in rare_result.failures]
+    cloud, failures, points = design_chart(rare_result, "a.gain", "b.gain").curves
+    assert cloud.x.size == rare_result.samples
+    assert failures.x.size == np.count_nonzero(rare_result.flown.values >= 0.0)
+    assert points.x.tolist() == [entry["draws"]["a.gain"] for entry in rare_result.failures]
+
+
+def test_an_interval_from_0_goes_on_to_the_left():
+    rows = [Equivalent("this study", 500.0, 1e-5, 4e-4), Equivalent("Monte Carlo", 500.0, 0.0, 7e-3)]
+    chart = interval_chart(rows, 2e-4)
+    spans = [curve for curve in chart.curves if curve.joined]
+    assert [span.x.tolist() for span in spans] == [[1e-5, 4e-4], [chart.x.ends[0], 7e-3]]
+    assert [span.y.tolist() for span in spans] == [[0.0, 0.0], [1.0, 1.0]]
+    (arrow,) = (curve for curve in chart.curves if not curve.joined)
+    assert arrow.y.tolist() == [1.0]
+    assert [rule.at for rule in chart.rules] == [2e-4]
+    assert [note.text for note in chart.notes] == ["this study: 500 simulations", "Monte Carlo: 500 simulations"]
 
 
 def test_monte_carlo_equivalents(rare_result):

@@ -6,6 +6,7 @@ Truth: the shares of the variance of a sum of independent draws; lengths measure
 import numpy as np
 import pytest
 
+from perilune.analysis.reports.common.colours import BLUE, SKY
 from perilune.analysis.reports.studies.sensitivity_page import bars_of
 from tests.support.pages.checks import assert_self_contained, data_values, parse, read_path, text_of
 from tests.support.pages.studies import SHARES
@@ -47,10 +48,11 @@ def test_bars_are_as_long_as_the_indices(sensitivity_result, page):
     bars = bars_of(sensitivity_result, "total")
     root = parse(page)
     lengths, indices = [], []
-    for order in ("total", "first"):
-        for index, bar in enumerate(bars):
-            (path,) = root.xpath(f"//*[@id='indices-0-{order}-{index}']//*[local-name()='path']/@d")
-            x = [points[0] for _, points in read_path(path) if points]
+    (figure,) = root.xpath("//*[@class='figure']")
+    for order, colour in (("total", BLUE), ("first", SKY)):
+        paths = figure.xpath(f".//*[local-name()='path'][@fill='{colour.lower()}']/@d")
+        for bar, path in zip(bars, paths, strict=True):
+            x = [points[0] for _, points in read_path(path.lower()) if points]
             lengths.append(max(x) - min(x))
             indices.append(abs(getattr(bar, order)))
     np.testing.assert_allclose(np.array(lengths) / lengths[0], np.array(indices) / indices[0], atol=2e-3)

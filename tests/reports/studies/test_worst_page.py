@@ -7,15 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 from perilune.analysis.reports.studies.worst_figures import (
+    box_chart,
     box_lanes,
-    draw_fresh,
-    draw_search,
-    draw_trials,
+    fresh_chart,
     objective_of,
     point_values,
+    search_chart,
+    trials_chart,
 )
 from perilune.analysis.reports.studies.worst_page import worst_flight
 from perilune.analysis.studies.flown import Flown
@@ -46,23 +46,34 @@ def test_the_page(worst_result, tmp_path):
 
 
 def test_every_point_and_the_worst_so_far_are_drawn(worst_result):
-    axes = Figure().subplots()
-    draw_search(axes, worst_result)
-    points, line = axes.lines[:2]
-    np.testing.assert_array_equal(points.get_ydata(), worst_result.flown.values)
-    np.testing.assert_array_equal(line.get_ydata(), np.maximum.accumulate(worst_result.flown.values))
-    assert line.get_ydata()[-1] == pytest.approx(CORNER, rel=1e-4)
+    points, line = search_chart(worst_result).curves[:2]
+    np.testing.assert_array_equal(points.y, worst_result.flown.values)
+    np.testing.assert_array_equal(line.y, np.maximum.accumulate(worst_result.flown.values))
+    assert line.y[-1] == pytest.approx(CORNER, rel=1e-4)
     phases = worst_result.phases
     assert (phases[0].name, phases[0].evaluations) == ("random trials", worst_result.random_trials)
     assert sum(phase.evaluations for phase in phases) == len(worst_result.flown.values)
 
 
 def test_the_histogram_holds_the_random_trials(worst_result):
-    axes = Figure().subplots()
-    draw_trials(axes, worst_result)
-    assert sum(patch.get_height() for patch in axes.patches) == worst_result.random_trials == 60
-    marks = [line.get_xdata()[0] for line in axes.lines]
-    assert marks == [worst_result.flown.values[:60].max(), worst_result.value]
+    chart = trials_chart(worst_result)
+    trials = worst_result.flown.values[: worst_result.random_trials]
+    assert sum(bar.y.max() for bar in chart.areas) == trials.size == 60
+    for bar in chart.areas:
+        low, high = bar.x.min(), bar.x.max()
+        assert bar.y.max() == np.sum((trials >= low) & ((trials < high) | (high == trials.max())))
+    assert [rule.at for rule in chart.rules] == [trials.max(), worst_result.value]
+
+
+def test_the_search_box_has_a_lane_for_each_parameter(worst_result):
+    lanes = box_lanes(worst_result)
+    chart = box_chart(lanes)
+    random, worst = chart.curves[::2], chart.curves[1::2]
+    for lane, one, other in zip(lanes, random, worst, strict=True):
+        span = lane.high - lane.low
+        assert lane.low + one.x[0] * span == pytest.approx(lane.random)
+        assert lane.low + other.x[0] * span == pytest.approx(lane.worst)
+    assert {lane.label for lane in lanes} <= {note.text for note in chart.notes}
 
 
 def test_the_worst_is_in_the_corner_of_the_box(worst_result):
@@ -106,10 +117,9 @@ def test_a_point_has_the_median_of_its_realisations(worst_result, matters, tmp_p
     remainder = flown[30:-9]
     np.testing.assert_array_equal(actual[10:], np.median(remainder.reshape(-1, 3), axis=1) if matters else remainder)
     assert objective_of(study).random == int(np.argmax(actual[:10]))
-    axes = Figure().subplots()
-    draw_fresh(axes, study)
-    assert axes.lines[0].get_ydata()[-1] == 1.0
-    median, worst, _ = (line.get_xdata()[0] for line in axes.lines[1:])
+    chart = fresh_chart(study)
+    assert chart.curves[0].y[-1] == 1.0
+    median, worst, _ = (rule.at for rule in chart.rules)
     assert (median, worst) == (np.median(flown[-9:]), flown[-9:].max())
     words = text_of(page_of(study, tmp_path))
     assert "under 9 fresh noise realisations" in words

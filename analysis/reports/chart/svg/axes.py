@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from markupsafe import escape
@@ -26,10 +26,12 @@ def text_offset(axis: Axis) -> float:
 
 
 def draw_axes(frame: Frame) -> Iterator[str]:
-    """Yield the elements of both axes."""
+    """Yield the elements of both axes; none of those whose texts have no size, as of a drawing."""
+    if not frame.x.size and not frame.y.size:
+        return
     ticks, few = list(enumerate(frame.x.ticks)), set(frame.x.few)
     y = frame.down(np.array([at for at, _ in frame.y.ticks]))
-    level = "".join(f"M{frame.left:.2f} {at:.2f}h{frame.width:.2f}" for at in y if frame.y.grid)
+    level = "".join(f"M{frame.left:.2f} {at:.2f}h{frame.width:.2f}" for at in y[_have_lines(frame.y, frame.y.ticks)])
     edges = f"M{frame.left:.2f} {frame.top:.2f}v{frame.height:.2f}h{frame.width:.2f}"
     strokes = "".join(f"M{frame.left:.2f} {at:.2f}h-{STROKE:g}" for at in y if frame.y.marked)
     if few:
@@ -47,11 +49,17 @@ def draw_axes(frame: Frame) -> Iterator[str]:
 def _abscissa(frame: Frame, ticks: list[tuple[float, str]], grid: str, edges: str) -> str:
     """Some ticks of the abscissa: their texts, their lines as those of a ``grid``, their strokes as ``edges``."""
     x = frame.across(np.array([at for at, _ in ticks]))
-    grid += "".join(f"M{at:.2f} {frame.bottom:.2f}v-{frame.height:.2f}" for at in x if frame.x.grid)
+    grid += "".join(f"M{at:.2f} {frame.bottom:.2f}v-{frame.height:.2f}" for at in x[_have_lines(frame.x, ticks)])
     edges += "".join(f"M{at:.2f} {frame.bottom:.2f}v{STROKE:g}" for at in x if frame.x.marked)
     base = frame.bottom + text_offset(frame.x) + ASCENT * frame.x.size
     texts = [(frame.along(at), base, text) for at, (_, text) in zip(x, ticks, strict=True)]
     return frame.stretch(_grid(grid) + _edge(edges)) + _texts(frame.x, "middle", texts)
+
+
+def _have_lines(axis: Axis, ticks: Sequence[tuple[float, str]]) -> np.ndarray:
+    """Which ticks have lines of the grid, [ticks]: those with texts, or all where none has."""
+    named = np.array([bool(text) for _, text in ticks], dtype=bool)
+    return axis.grid & (named | ~named.any())
 
 
 def _grid(path: str) -> str:
@@ -76,7 +84,7 @@ def draw_labels(frame: Frame, title: str, size: float) -> Iterator[str]:
     left += MARGIN + ASCENT * size
     bottom -= MARGIN + DESCENT * size
     for text, x, y, anchor, turn in (
-        (frame.x.label, frame.along(middle), bottom, "middle", ""),
+        ("" if frame.x.bare else frame.x.label, frame.along(middle), bottom, "middle", ""),
         (frame.y.label, f"{left:.2f}", centre, "middle", f' transform="rotate(-90 {left:.2f} {centre:.2f})"'),
         (title, f"{frame.left:.2f}", frame.top - TITLE_GAP - DESCENT * size, "start", ""),
     ):

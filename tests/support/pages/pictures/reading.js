@@ -84,10 +84,9 @@
 
   // At ten places of the cursor: the marks on lines, which must lie on strokes of their colour in the picture.
   const instants = (picture, frame) => {
-    const toPicture = picture.getScreenCTM().inverse();
     const paths = [...picture.querySelectorAll("path")].filter((path) => !path.closest("defs"));
     const coloured = (colour) => paths.filter((path) => getComputedStyle(path).stroke === colour);
-    const marked = [...picture.querySelectorAll("use")]; // where a line has marks alone
+    const marked = [...picture.querySelectorAll("use, circle")]; // where a line has marks alone
     const off = [];
     let marks = 0;
     for (const area of frame.querySelectorAll(".u-over")) {
@@ -98,13 +97,16 @@
         for (const mark of area.querySelectorAll(":scope > i:not([hidden])")) {
           marks += 1;
           const box = mark.getBoundingClientRect();
-          const at = new DOMPoint(box.left + box.width / 2, box.top + box.height / 2).matrixTransform(toPicture);
+          const at = new DOMPoint(box.left + box.width / 2, box.top + box.height / 2);
           const colour = getComputedStyle(mark).backgroundColor;
-          const isNear = ({ x, y }) => Math.hypot(x.baseVal.value - at.x, y.baseVal.value - at.y) < 3;
+          const isNear = (element) => {
+            const { left, top, width, height } = element.getBoundingClientRect();
+            return Math.hypot(left + width / 2 - at.x, top + height / 2 - at.y) < 4;
+          };
           const isOn = marked.some(isNear) || coloured(colour).some((path) => {
             const style = path.getAttribute("style");
             Object.assign(path.style, { strokeWidth: "5", strokeDasharray: "none", strokeLinecap: "round" });
-            const isInside = path.isPointInStroke(at);
+            const isInside = path.isPointInStroke(at.matrixTransform(path.getScreenCTM().inverse())); // it may be stretched
             path.setAttribute("style", style);
             return isInside;
           });
