@@ -21,10 +21,10 @@ from .chart.symbols import arrow, mark, marker
 from .chart.ticks import axis_ends
 from .common.colours import FAINT, INK, Look, look
 from .common.page import write_page
-from .common.panels import HALF_WIDTH, Panel, Widths, far, swatch
+from .common.panels import HALF_WIDTH, Panel, far, swatch
 from .common.quantities import number
 from .interactive import charts
-from .interactive.charts import NO_BOX, Axis, Chart, Note
+from .interactive.charts import NO_BOX, Axis, Chart, Drawing, Note
 
 OTHERS = ("finite switches", "turn in free fall")
 NAMES = ("simplified programme", "true optimum", "point-mass bound")
@@ -178,10 +178,10 @@ def path_panel(series: Sequence[Series], shown: Sequence[np.ndarray], names: tup
     return chart_panel("Path", "path", _path_words(series), scaled, upright, HALF_WIDTH)
 
 
-def path_widths(series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str]) -> Widths:
+def path_widths(series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str]) -> Drawing:
     """Return the same, each axis to its own scale, as wide as the page."""
     chart = path_chart(series, shown, names, "different scales", 7)
-    return Widths(fluid_figure("path", _path_words(series), chart, LOW))
+    return fluid_figure("path", _path_words(series), chart, LOW)
 
 
 def _path_words(series: Sequence[Series]) -> str:

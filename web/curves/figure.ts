@@ -26,7 +26,7 @@ export class Figure {
     private readonly charts: Chart[],
     readonly plots: Plot[],
   ) {
-    this.frame.className = `live ${picture.classList.contains("slim") ? "slim" : picture.classList.contains("wide") ? "wide" : ""}`;
+    this.frame.className = "live";
     picture.before(this.frame);
     this.frame.append(picture, ...plots.map((plot) => plot.root));
     this.values.className = "values";

@@ -18,10 +18,10 @@ from ..chart.lines import line
 from ..chart.panel import chart_panel, fluid_figure
 from ..chart.symbols import mark, marker, marks
 from ..common.colours import INK, Look, look
-from ..common.panels import Panel, Widths, swatch
+from ..common.panels import Panel, swatch
 from ..common.quantities import display_factor, label_with_unit
 from ..font.text import text_width
-from ..interactive.charts import NO_BOX, Chart, Note
+from ..interactive.charts import NO_BOX, Chart, Drawing, Note
 from ..interactive.measures import TICK_SIZE, WIDTH
 
 if TYPE_CHECKING:
@@ -149,12 +149,12 @@ CAP = 9.0  # pt, the end of an interval
 RING = marker("o", 11.0, INK, fill="", width=1.2)
 
 
-def rates_figure(batch: BatchResult, published: Mapping[str, float] | None = None) -> Widths:
+def rates_figure(batch: BatchResult, published: Mapping[str, float] | None = None) -> Drawing:
     """Return the success probabilities of variants with their intervals, `rates_chart`."""
     names = list(batch.summary)
     description = "Success probabilities of " + ", ".join(names)
     height = AXES_HEIGHT + LANE * len(names)
-    return Widths(fluid_figure("rates", description, rates_chart(batch, published or {}), height))
+    return fluid_figure("rates", description, rates_chart(batch, published or {}), height)
 
 
 def rates_chart(batch: BatchResult, published: Mapping[str, float]) -> Chart:

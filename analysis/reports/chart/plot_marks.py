@@ -12,7 +12,7 @@ from matplotlib.path import Path
 from matplotlib.typing import LineStyleType
 
 from ..interactive.charts import Area, Backing, Curve, Dots, Marker, Note
-from ..interactive.lines import QuantityLine, TrialDots
+from .plot_lines import QuantityLine, TrialDots
 from .svg.marks import CROSS_WIDTH
 from .symbols import OUTLINES
 

@@ -6,19 +6,17 @@ Text is never below 8 pt of a figure's own size. A figure fills what it stands i
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from markupsafe import Markup
 
 from ..interactive.charts import Drawing, Marker
-from ..interactive.measures import WIDTH
 from .colours import Look
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+    pass
 
 PANEL_WIDTH = 3.4  # in; three in the page's column
 PANEL_HEIGHT = 2.5  # in
@@ -33,61 +31,6 @@ class Panel(NamedTuple):
     label: str
     figure: Drawing
     legend: Sequence[tuple[Markup, str]] = ()
-
-
-def panel(
-    label: str,
-    name: str,
-    description: str,
-    draw: Callable[[Axes], None],
-    height: float = PANEL_HEIGHT,
-    width: float = PANEL_WIDTH,
-    *,
-    reduced: bool = False,
-) -> Panel:
-    """A panel that ``draw`` draws, sizes in inches; ``name`` must differ between the figures of a page.
-
-    ``reduced``: the page has only envelopes of its lines.
-    """
-    from .style import house_style, new_figure  # which import matplotlib
-    from .svg import inline_svg
-
-    with house_style():
-        figure = new_figure(height, width)
-        draw(figure.subplots())
-        return Panel(label, inline_svg(figure, name, description, reduced=reduced))
-
-
-class Widths(NamedTuple):
-    """A figure as wide as the page, and the same for a narrow screen unless it is fit for both."""
-
-    wide: Drawing
-    slim: Drawing | None = None
-
-
-def both_widths(
-    name: str, description: str, draw: Callable[[Figure], None], height: float, slim_height: float | None = None
-) -> Widths:
-    """A figure that ``draw`` draws twice, since shrunk to a narrow screen its text could not be read.
-
-    Heights in inches; ``name`` must differ between the figures of a page. How wide it is, ``draw`` asks the figure.
-    """
-    from .style import house_style, new_figure  # which import matplotlib
-    from .svg import inline_svg
-
-    plotted = []
-    for kind, width, high in (("wide", WIDTH, height), ("slim", HALF_WIDTH, slim_height or height)):
-        with house_style():
-            figure = new_figure(high, width)
-            draw(figure)
-            own = name if kind == "wide" else f"{name}-{kind}"
-            plotted.append(inline_svg(figure, own, description, kind=kind))
-    return Widths(*plotted)
-
-
-def is_slim(figure: Figure) -> bool:
-    """Whether a figure is drawn for a narrow screen."""
-    return bool(figure.get_figwidth() < WIDTH)
 
 
 def far(values: np.ndarray) -> tuple[float, str]:

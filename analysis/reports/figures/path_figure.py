@@ -18,7 +18,7 @@ from ..chart.quantity import quantity_curve
 from ..chart.symbols import marker, marks
 from ..chart.ticks import axis_ends
 from ..common.colours import BLUE, INK, look
-from ..common.panels import HALF_WIDTH, Widths, far, mark_swatch
+from ..common.panels import HALF_WIDTH, far, mark_swatch
 from ..common.quantities import display_unit, label_with_unit
 from ..interactive.charts import NO_BOX, Chart, Curve, Marker
 from .declared import Arc, Path, Signal
@@ -54,7 +54,7 @@ def path_section(path: Path, result: Result, name: str) -> Section:
         panels = [chart_panel(title, name, description, chart, EQUAL_HEIGHT, HALF_WIDTH)]
     else:
         chart = chart_of(*ends, WIDE_INTERVALS)
-        plot = Widths(fluid_figure(name, description, chart, HEIGHT, title=title))
+        plot = fluid_figure(name, description, chart, HEIGHT, title=title)
     return Section(
         title=path.title,
         panels=panels,

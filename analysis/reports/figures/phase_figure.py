@@ -15,9 +15,9 @@ from ..chart.marks import SQUARE, instant
 from ..chart.panel import chart_panel, fluid_figure
 from ..common.colours import BLUE, INK, VERMILION
 from ..common.page import Table, exact
-from ..common.panels import HALF_WIDTH, Panel, Widths
+from ..common.panels import HALF_WIDTH, Panel
 from ..common.quantities import display_unit, label_with_unit, number
-from ..interactive.charts import NO_BOX, Area, Chart, Note
+from ..interactive.charts import NO_BOX, Area, Chart, Drawing, Note
 from ..interactive.measures import TICK_SIZE
 from .declared import BoundValues, Budget, Item, Phase, Phases
 from .section import Section, align
@@ -178,12 +178,12 @@ def _status(time: float, numbers: str) -> Note:
 
 def _panels(
     phases: Phases, spans: Sequence[Span], statuses: Sequence[tuple[int, float]], windows: Sequence[Window], name: str
-) -> tuple[list[Panel], Widths | None]:
+) -> tuple[list[Panel], Drawing | None]:
     """Return a panel for each of several windows, or one figure as wide as the page."""
     lanes = dict.fromkeys(span.name for span in spans)
     height, description = 0.75 + LANE * len(lanes), f"{phases.title}: {', '.join(lanes)} over time"
     if len(windows) == 1:
-        return [], Widths(fluid_figure(name, description, phase_chart(spans, statuses, windows[0], 10), height))
+        return [], fluid_figure(name, description, phase_chart(spans, statuses, windows[0], 10), height)
     panels = []
     for index, window in enumerate(windows):
         begin, end = (number(each, 5) for each in window)

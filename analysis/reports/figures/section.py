@@ -14,9 +14,9 @@ from ..chart.axes import linear_axis
 from ..chart.panel import chart_panel, fluid_figure
 from ..common.colours import look
 from ..common.page import Table, data, exact
-from ..common.panels import HALF_WIDTH, Panel, Widths, swatch
+from ..common.panels import HALF_WIDTH, Panel, swatch
 from ..common.quantities import MINUS, in_shown_unit
-from ..interactive.charts import NO_BOX, Area, Chart, Curve, Rule
+from ..interactive.charts import NO_BOX, Area, Chart, Curve, Drawing, Rule
 from .declared import Rows
 
 HEIGHT = 2.6  # in
@@ -31,7 +31,7 @@ class Section:
 
     title: str
     panels: list[Panel] = field(default_factory=list)
-    plot: Widths | None = None
+    plot: Drawing | None = None
     table: Table | None = None
     legend: list[tuple[Markup, str]] = field(default_factory=list)
     findings: list[Markup] = field(default_factory=list)
@@ -72,9 +72,9 @@ def history_panel(label: str, name: str, description: str, unit: str, chart: Cha
     return chart_panel(label, name, description, chart, HEIGHT, HALF_WIDTH, title=unit)
 
 
-def wide_history(name: str, description: str, unit: str, chart: Chart) -> Widths:
+def wide_history(name: str, description: str, unit: str, chart: Chart) -> Drawing:
     """Return a plot over time as wide as the page, with the ``unit`` above its axes."""
-    return Widths(fluid_figure(name, description, chart, HEIGHT, title=unit))
+    return fluid_figure(name, description, chart, HEIGHT, title=unit)
 
 
 def select_rows(rows: Rows | None, result: Result) -> tuple[np.ndarray, slice]:

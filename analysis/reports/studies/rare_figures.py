@@ -20,9 +20,9 @@ from ..chart.panel import chart_panel, fluid_figure
 from ..chart.symbols import mark, marker, marks
 from ..chart.ticks import axis_ends
 from ..common.colours import BLUE, FAINT, INK, VERMILION
-from ..common.panels import HALF_WIDTH, Panel, Widths, mark_swatch
+from ..common.panels import HALF_WIDTH, Panel, mark_swatch
 from ..common.quantities import display_factor, label_with_unit, number
-from ..interactive.charts import NO_BOX, Backing, Chart, Note
+from ..interactive.charts import NO_BOX, Backing, Chart, Drawing, Note
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in
@@ -66,10 +66,10 @@ def level_spans(result: RareResult) -> list[Span]:
     return spans
 
 
-def limit_state_figure(result: RareResult) -> Widths:
+def limit_state_figure(result: RareResult) -> Drawing:
     """Return the limit state of every simulation over its number."""
     words = f"Limit state of {result.flights} simulations in {len(result.simulation.levels)} levels"
-    return Widths(fluid_figure("limit-state", words, limit_state_chart(result), HEIGHT))
+    return fluid_figure("limit-state", words, limit_state_chart(result), HEIGHT)
 
 
 def limit_state_chart(result: RareResult) -> Chart:
@@ -264,11 +264,11 @@ def equivalents(result: RareResult) -> list[Equivalent]:
     return estimates
 
 
-def interval_figure(result: RareResult) -> Widths:
+def interval_figure(result: RareResult) -> Drawing:
     """Return the interval of this study and those of Monte Carlo."""
     rows = equivalents(result)
     words, chart = f"{PERCENT} intervals of the probability", interval_chart(rows, result.probability)
-    return Widths(fluid_figure("interval", words, chart, 0.8 + 0.5 * len(rows)))
+    return fluid_figure("interval", words, chart, 0.8 + 0.5 * len(rows))
 
 
 def interval_chart(rows: Sequence[Equivalent], probability: float | None) -> Chart:

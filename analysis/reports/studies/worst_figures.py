@@ -20,9 +20,9 @@ from ..chart.panel import chart_panel, fluid_figure
 from ..chart.symbols import mark, marker, marks
 from ..chart.ticks import axis_ends
 from ..common.colours import BLUE, FAINT, GRID, INK, VERMILION, Look
-from ..common.panels import HALF_WIDTH, Panel, Widths, mark_swatch, swatch
+from ..common.panels import HALF_WIDTH, Panel, mark_swatch, swatch
 from ..common.quantities import display_factor, label_with_unit, number
-from ..interactive.charts import NO_BOX, Chart, Note, Rule
+from ..interactive.charts import NO_BOX, Chart, Drawing, Note, Rule
 from .rare_figures import DASHED, DOTTED, GREY, HEIGHT, number_above
 
 CUT = 0.02  # of the simulations, those farthest from the worst may lie outside of an axis
@@ -95,10 +95,10 @@ def select_values(study: WorstResult, values: np.ndarray) -> np.ndarray:
     return np.where(known, sizes * display_factor(study.unit), np.nan)
 
 
-def search_figure(study: WorstResult) -> Widths:
+def search_figure(study: WorstResult) -> Drawing:
     """Return the objective over the points of the search, the worst so far, the phases."""
     words = f"{study.badness.text} at {objective_of(study).values.size} points of the search"
-    return Widths(fluid_figure("search", words, search_chart(study), HEIGHT))
+    return fluid_figure("search", words, search_chart(study), HEIGHT)
 
 
 def search_chart(study: WorstResult) -> Chart:
@@ -270,11 +270,11 @@ def box_lanes(study: WorstResult) -> list[Lane]:
     ]
 
 
-def box_figure(study: WorstResult) -> Widths:
+def box_figure(study: WorstResult) -> Drawing:
     """Return where in the search box the worst case lies, a lane for each dispersed parameter."""
     lanes = box_lanes(study)
     words = f"The worst case within the search box of {len(lanes)} parameters"
-    return Widths(fluid_figure("box", words, box_chart(lanes), 0.7 + LANE * len(lanes)))
+    return fluid_figure("box", words, box_chart(lanes), 0.7 + LANE * len(lanes))
 
 
 RANDOM, WORST = marker("o", 7.0, INK, fill="#ffffff"), marker("D", 6.0, VERMILION)

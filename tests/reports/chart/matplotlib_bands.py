@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from perilune.analysis.reports.common.style import FAILED, FAINT, house_style, new_figure, plain_ticks
-from perilune.analysis.reports.common.svg import inline_svg
 from perilune.analysis.reports.compare.bands import Bands, Frame
 from perilune.analysis.reports.interactive.charts import Chart
+from tests.support.figures.inline_svg import inline_svg
 
 
 def read_bands(bands: Bands, frame: Frame, colour: str, *, is_stepped: bool) -> Chart:

@@ -7,8 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
-from perilune.analysis.reports.common.lines import plot_quantity
-from perilune.analysis.reports.common.panels import HALF_WIDTH, is_slim
+from perilune.analysis.reports.common.panels import HALF_WIDTH
 from perilune.analysis.reports.common.quantities import display_factor, display_unit
 from perilune.analysis.reports.common.style import (
     FAINT,
@@ -20,12 +19,14 @@ from perilune.analysis.reports.common.style import (
     new_figure,
     plain_ticks,
 )
-from perilune.analysis.reports.common.svg import inline_svg
 from perilune.analysis.reports.figures import band_figure, history_figures
 from perilune.analysis.reports.figures.declared import Band, Curve, Error
 from perilune.analysis.reports.figures.section import HEIGHT, select_rows
 from perilune.analysis.reports.interactive.charts import Chart
+from perilune.analysis.reports.interactive.measures import WIDTH
 from perilune.analysis.runtime.flight.results import Result
+from tests.support.figures.inline_svg import inline_svg
+from tests.support.figures.lines import plot_quantity
 
 
 def _read(unit: str, time: np.ndarray, draw: Callable[[Axes], None], width: float = HALF_WIDTH) -> Chart:
@@ -36,7 +37,7 @@ def _read(unit: str, time: np.ndarray, draw: Callable[[Axes], None], width: floa
         axes.set_xlim(time[0], time[-1] if time[-1] > time[0] else time[0] + 1.0)
         axes.set_xlabel("time, s")
         axes.set_title(unit, loc="left", pad=4)
-        plain_ticks(axes, x=6 if is_slim(figure) else 12, y=5)
+        plain_ticks(axes, x=6 if width < WIDTH else 12, y=5)
         (chart,) = inline_svg(figure, "a", "a").charts
     return chart
 

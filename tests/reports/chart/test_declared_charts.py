@@ -29,7 +29,7 @@ def test_constructed_equals_read_back(system):
     assert figures
     for figure, section in zip(figures, figure_sections(figures, run), strict=True):
         expected_charts = BY_MATPLOTLIB[type(figure)](figure, run)
-        plotted = [panel.figure for panel in section.panels] if section.panels else [section.plot.wide]
+        plotted = [panel.figure for panel in section.panels] if section.panels else [section.plot]
         for picture, expected in zip(plotted[: len(expected_charts)], expected_charts, strict=True):
             (chart,) = picture.charts
             assert plain(chart) == plain(expected), figure.title

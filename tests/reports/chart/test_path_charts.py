@@ -28,7 +28,7 @@ def test_a_path(rows, factor):
     run = mission()
     run = replace(run, signals=run.signals | {name: factor * run[name] for name in names})
     (section,) = figure_sections([path], run)
-    (chart,) = section.plot.wide.charts
+    (chart,) = section.plot.charts
     assert [curve.name for curve in chart.curves] == ["ship.y", "", "site", "site"]
     unnamed = [chart.curves[0], *(replace(curve, name="") for curve in chart.curves[1:])]
     expected = matplotlib_paths.path_chart(path, run, HEIGHT, WIDTH, WIDE_INTERVALS)

@@ -17,8 +17,8 @@ from perilune.analysis.reports.chart.plot import plot_charts
 from perilune.analysis.reports.chart.quantity import quantity_curve
 from perilune.analysis.reports.chart.symbols import OUTLINES, arrow, marker, marks
 from perilune.analysis.reports.interactive.charts import NO_BOX, Area, Backing, Chart, Dots, Note
-from perilune.analysis.reports.interactive.read_figure import read_charts
 from tests.reports.chart.test_history_charts import plain
+from tests.support.figures.read_figure import read_charts
 
 ROWS = np.linspace(0.0, 4.0, 9)
 UNIT = linear_axis((0.0, 4.0), 4, label="time, s")

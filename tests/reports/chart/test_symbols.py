@@ -12,7 +12,7 @@ from matplotlib.transforms import IdentityTransform
 
 from perilune.analysis.reports.chart.symbols import OUTLINES, STROKES
 from perilune.analysis.reports.chart.ticks import decade_ticks
-from perilune.analysis.reports.interactive.read_marks import _polygons
+from tests.support.figures.read_marks import _polygons
 
 
 @pytest.mark.parametrize("kind", OUTLINES)

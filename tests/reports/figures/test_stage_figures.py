@@ -152,7 +152,7 @@ def test_the_long_phase_is_cut():
 def test_phases_of_like_length_are_not_cut():
     section = one(PHASES, mission(phase=np.where(TIME < 100.0, 1, 2), status=0.0 * TIME))
     assert notes(section) == ["Bars: phases with their duration, s."]
-    assert bars(section.plot.wide) == {"burn": [(0.0, 100.0)], "coast": [(100.0, 200.0)]}
+    assert bars(section.plot) == {"burn": [(0.0, 100.0)], "coast": [(100.0, 200.0)]}
 
 
 def test_a_budget_beside_its_bound():
@@ -239,9 +239,9 @@ def test_a_path_has_one_scale_and_its_site_twice():
 def test_a_long_path_is_in_km_and_keeps_its_detail():
     y = 2e4 * np.sin(TIME)
     section = one(replace(PATH, rows=None, points=(), equal=False), mission(x=TIME, y=y))
-    assert "ship.y, km" in texts(section.plot.wide.svg)
-    assert "ship.x, m" in texts(section.plot.wide.svg)
-    root = etree.fromstring(section.plot.wide.svg)
+    assert "ship.y, km" in texts(section.plot.svg)
+    assert "ship.x, m" in texts(section.plot.svg)
+    root = etree.fromstring(section.plot.svg)
     path = max(root.xpath("//*[local-name()='path'][@stroke='#0072b2']/@d"), key=len)
     moves = np.array(re.findall(r"-?(?:\d+(?:\.\d+)?|\.\d+)", path), dtype=float).reshape(-1, 2)[1:]
     turns = np.count_nonzero(np.diff(np.sign(moves[:, 1])))
@@ -257,10 +257,10 @@ def test_a_path_over_the_ground():
     np.testing.assert_allclose(arc.plot_values(mission(place=place)), 500.0 * math.pi, rtol=1e-15)
     np.testing.assert_array_equal(arc.plot_values(mission(place=np.stack([0.0 * TIME, 0.0 * TIME, TIME]))), 0.0)
     assert notes(section)[0].endswith("range: ground range of ship.place from the origin.")
-    assert section.plot.wide.charts[0].rules == []
+    assert section.plot.charts[0].rules == []
     surface = one(replace(PATH, x=arc, y=scalar("ship.altitude", METRE), points=(), equal=False),
                   mission(place=place, altitude=5.0 + TIME))  # fmt: skip
-    (chart,) = surface.plot.wide.charts
+    (chart,) = surface.plot.charts
     assert [rule.at for rule in chart.rules] == [0.0]
     assert chart.y.ends[0] < 0.0
 
@@ -288,7 +288,7 @@ def test_curves_each_and_together():
     assert [label for _, label in joined.legend] == ["tilt", "lean"]
     alone = one(replace(CURVE, signals=CURVE.signals[:1], labels=("tilt",)), mission())
     assert alone.legend == []
-    words = texts(alone.plot.wide.svg)
+    words = texts(alone.plot.svg)
     ticks = [float(text.replace(MINUS, "-")) for text in words if re.fullmatch(rf"{MINUS}?[\d.]+", text)]
     assert 160.0 in ticks
     assert not any(100.0 < tick < 150.0 for tick in ticks)  # 150 s is where phase 4 begins

@@ -9,9 +9,9 @@ from lxml import etree
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import FixedLocator
 
-from perilune.analysis.reports.common.lines import plot_path, plot_quantity
 from perilune.analysis.reports.common.style import house_style, label_lanes, log_ticks_x, new_figure
-from perilune.analysis.reports.common.svg import inline_svg
+from tests.support.figures.inline_svg import inline_svg
+from tests.support.figures.lines import plot_path, plot_quantity
 
 TIME = np.linspace(0.0, 10.0, 3001)
 ANGLE = np.sin(TIME)

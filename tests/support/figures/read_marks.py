@@ -15,10 +15,10 @@ from matplotlib.patches import Circle, Patch, PathPatch, Polygon, Rectangle, Ste
 from matplotlib.path import Path
 from matplotlib.transforms import IdentityTransform, Transform
 
-from .charts import Area, Curve, Dots, Marker, Rule, UnstatedError
-from .columns import Coarse
-from .envelope import envelope
-from .lines import QuantityLine, TrialDots
+from perilune.analysis.reports.chart.plot_lines import QuantityLine, TrialDots
+from perilune.analysis.reports.interactive.charts import Area, Curve, Dots, Marker, Rule, UnstatedError
+from perilune.analysis.reports.interactive.columns import Coarse
+from perilune.analysis.reports.interactive.envelope import envelope
 
 NOTHING = ("", "None", "none", " ", None)  # markers and line styles that draw nothing
 STEPS = {"steps-post": True, "steps-pre": True, "default": False}

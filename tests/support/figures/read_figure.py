@@ -14,12 +14,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import StepPatch
 
-from .charts import Axis, Chart, UnstatedError
-from .columns import has_enough_digits
-from .lines import TrialDots
-from .read_marks import read_areas, read_collection, read_curve, read_dots, read_rule, read_steps
-from .read_notes import read_note
-from .read_ticks import read_axis
+from perilune.analysis.reports.chart.plot_lines import TrialDots
+from perilune.analysis.reports.interactive.charts import Axis, Chart, UnstatedError
+from perilune.analysis.reports.interactive.columns import has_enough_digits
+from tests.support.figures.read_marks import read_areas, read_collection, read_curve, read_dots, read_rule, read_steps
+from tests.support.figures.read_notes import read_note
+from tests.support.figures.read_ticks import read_axis
 
 STILL = "still"  # the gid of what remains the picture's, whatever is zoomed
 

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..interactive.lines import QuantityLine
-from .quantities import display_factor, display_unit
-from .style import look
+from perilune.analysis.reports.chart.plot_lines import QuantityLine
+from perilune.analysis.reports.common.quantities import display_factor, display_unit
+from perilune.analysis.reports.common.style import look
 
 
 def plot_quantity(
