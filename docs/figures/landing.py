@@ -12,8 +12,16 @@ from matplotlib.figure import Figure
 from perilune.analysis.campaigns.spec.campaign import Variant
 from perilune.analysis.campaigns.spec.checks import variant_names
 from perilune.analysis.campaigns.spec.plan import BatchPlan
-from perilune.analysis.reports.common.panels import is_slim
-from perilune.analysis.reports.common.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure, plain_ticks
+from perilune.analysis.reports.common.style import (
+    BLUE,
+    FAINT,
+    INK,
+    VERMILION,
+    WIDTH,
+    house_style,
+    new_figure,
+    plain_ticks,
+)
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.flight.simulation import Simulation
 
@@ -49,17 +57,17 @@ def vector(result: Result, name: str) -> np.ndarray:
     return np.stack([result[f"{name}[{index}]"] for index in (1, 2, 3)])
 
 
-def landing_figure(landing: Result, sample: list[Result]) -> Figure:
-    """As wide as a page, see `draw_landing`."""
+def landing_figure(landing: Result, sample: list[Result], height: float = HEIGHT, width: float = WIDTH) -> Figure:
+    """As wide as a page or as a telephone, see `draw_landing`; sizes in inches."""
     with house_style():
-        figure = new_figure(HEIGHT)
+        figure = new_figure(height, width)
         draw_landing(figure, landing, sample)
         return figure
 
 
 def draw_landing(figure: Figure, landing: Result, sample: list[Result]) -> None:
     """Side view with thrust arrows, to scale where there is room; plan, speed and thrust over other flights."""
-    slim = is_slim(figure)
+    slim = figure.get_figwidth() < WIDTH
     top, bottom = figure.subfigures(2, 1, height_ratios=[2.05, 5.2 if slim else 3.2], squeeze=False).flatten()
     _side_view(top.subplots(), landing, sample, to_scale=not slim)
     panels = bottom.subplots(*((2, 2) if slim else (1, 4)), width_ratios=[1.0, 1.0] if slim else [1.62, 1.0, 1.0, 1.0])

@@ -12,10 +12,11 @@ from perilune.analysis.reports.campaign.distributions import distribution_panels
 from perilune.analysis.reports.campaign.embedded_trials import trials_document
 from perilune.analysis.reports.campaign.scatters import failure_panels, legend_of_outcomes
 from perilune.analysis.reports.common.page import write_page
-from perilune.analysis.reports.common.panels import both_widths
+from perilune.analysis.reports.common.panels import HALF_WIDTH
 from perilune.analysis.runtime.flight.results import Result
 
-from .landing import HEIGHT, SLIM_HEIGHT, draw_landing, vector
+from .inline_svg import inline_svg
+from .landing import SLIM_HEIGHT, landing_figure, vector
 from .readme_figure import LANDING
 
 
@@ -36,6 +37,10 @@ PUBLISHED = {
     "astar_modified_guidance": Published("modified A*", 0.935, (2.2596, 6.6021), (1.3355, 1.5896)),
 }
 COMPARED = ("position_error", "velocity_error")
+WORDS = "A landing from the side, in plan and over time"
+STYLE = """svg.slim { display: none; max-width: 560px; }
+@media screen and (max-width: 860px) { svg.wide { display: none; } svg.slim { display: block; } }
+"""
 
 
 def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, path: Path) -> None:
@@ -52,13 +57,11 @@ def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, p
         position_error=float(np.linalg.norm(vector(landing, "plant.position")[:, -1] - target)),
         speed=float(np.linalg.norm(vector(landing, "plant.velocity")[:, -1])),
         sample=len(sample),
-        figure=both_widths(
-            "landing",
-            "A landing from the side, in plan and over time",
-            lambda figure: draw_landing(figure, landing, sample),
-            HEIGHT,
-            SLIM_HEIGHT,
-        ),
+        pictures=[
+            inline_svg(landing_figure(landing, sample), "landing", WORDS, kind="wide"),
+            inline_svg(landing_figure(landing, sample, SLIM_HEIGHT, HALF_WIDTH), "landing-slim", WORDS, kind="slim"),
+        ],
+        own_style=STYLE,
         campaign=campaign,
         provenance=batch.provenance,
         summary=batch.summary,

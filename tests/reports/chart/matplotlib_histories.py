@@ -23,7 +23,6 @@ from perilune.analysis.reports.figures import band_figure, history_figures
 from perilune.analysis.reports.figures.declared import Band, Curve, Error
 from perilune.analysis.reports.figures.section import HEIGHT, select_rows
 from perilune.analysis.reports.interactive.charts import Chart
-from perilune.analysis.reports.interactive.measures import WIDTH
 from perilune.analysis.runtime.flight.results import Result
 from tests.support.figures.inline_svg import inline_svg
 from tests.support.figures.lines import plot_quantity

@@ -219,7 +219,7 @@ def test_a_path_has_one_scale_and_its_site_twice():
         "Circle: end; marks: site (ship.site_x, ship.site_y), large: final; samples where ship.phase is at least 4; "
         "equal scales."
     ]
-    ((ordinate, figure),) = section.panels
+    ((ordinate, figure, _),) = section.panels
     (chart,) = figure.charts
     size = map(float, etree.fromstring(figure.svg).get("viewBox").split()[2:])
     across, up = (

@@ -5,7 +5,6 @@ Truth: what was handed to matplotlib.
 
 import numpy as np
 import pytest
-from lxml import etree
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import FixedLocator
 
@@ -199,17 +198,3 @@ def test_what_is_not_stated_in_full_remains_a_picture(draw):
     charts = charts_of(lambda one, other: (one.plot(TIME, ANGLE), draw(other)), count=2)
     assert [chart.picture for chart in charts] == [True, True]
     assert not any(chart.curves or chart.areas for chart in charts)
-
-
-def test_titles_labels_and_legends_remain_the_picture():
-    with house_style():
-        figure = new_figure(2.0, 4.0)
-        axes = figure.subplots()
-        axes.plot(TIME, ANGLE, label="angle")
-        axes.set_title("deg", loc="left")
-        axes.set_ylabel("of the ship")
-        axes.legend()
-        figured = inline_svg(figure, "x", "a figure")
-    root = etree.fromstring(str(figured.svg))
-    still = ["".join(each.itertext()).strip() for each in root.iter() if each.get("class") == "still"]
-    assert [text for text in still if text] == ["of the ship", "deg", "angle"]

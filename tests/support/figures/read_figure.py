@@ -5,11 +5,10 @@ Titles, labels and legends remain the picture's, which the page's script shows b
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import StepPatch
@@ -20,19 +19,6 @@ from perilune.analysis.reports.interactive.columns import has_enough_digits
 from tests.support.figures.read_marks import read_areas, read_collection, read_curve, read_dots, read_rule, read_steps
 from tests.support.figures.read_notes import read_note
 from tests.support.figures.read_ticks import read_axis
-
-STILL = "still"  # the gid of what remains the picture's, whatever is zoomed
-
-
-def still_artists(figure: Figure) -> Iterator[Artist]:
-    """Titles, labels of axes and legends."""
-    yield from figure.texts
-    yield from figure.legends
-    for axes in figure.axes:
-        yield from (axes.title, axes._left_title, axes._right_title)  # type: ignore[attr-defined]
-        yield from (axes.xaxis.label, axes.yaxis.label)
-        if (legend := axes.get_legend()) is not None:
-            yield legend
 
 
 def read_charts(figure: Figure, *, reduced: bool = False) -> list[Chart]:
