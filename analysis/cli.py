@@ -14,8 +14,8 @@ from ..common.errors import EndedError, ExitStatus, InputError, UnwrittenError, 
 from ..common.machine.os_errors import line_of, reason_of
 from ..common.process import leave, open_closed_streams, steady_streams
 from ..common.targets import check_encoding
+from .options.declaration import Verb
 from .options.parsing import Completer, add_verb, flags_of, read_parsed
-from .options.verb import Verb
 from .verbs.help import Parser, group_help, overview, verb_help
 from .verbs.options.verbs import FORMER, GROUPS, VERBS
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Literal, get_args
 
 from platformdirs import user_cache_path
 
@@ -18,7 +19,8 @@ SYSTEMS = ROOT / "ssp_systems"
 LAWS = ROOT / "laws"
 SEARCHES = LAWS / "searches"
 BUILD = ROOT / "build"
-FLAVOURS = ("native", "python")  # of FMUs; in this order where none is asked for
+Build = Literal["native", "python"]  # of Perilune's FMUs
+FLAVOURS: tuple[Build, ...] = get_args(Build)  # in this order where none is requested
 CACHE = BUILD / "cache" if IS_CHECKOUT else user_cache_path("perilune", appauthor=False)
 
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import fields
 from pathlib import Path, PurePosixPath
 
 from ..campaigns.spec.campaign import Variant
 from ..campaigns.spec.plan import BatchPlan
 from ..options.command import write_command
 from ..options.declared.campaigns import BATCH, REPLAY
-from ..runtime.system.options import SystemOptions
 
 
 def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:
@@ -38,7 +36,7 @@ def campaign_name(plan: BatchPlan) -> str:
 
 def _options(plan: BatchPlan, variant: Variant) -> dict[str, object]:
     """The options of a plan by name; arrays of inputs have no text, and are left out."""
-    campaign, settings = plan.campaign, {each.name: getattr(plan.options, each.name) for each in fields(SystemOptions)}
+    campaign, settings = plan.campaign, plan.options.by_name
     trials = {"trials": campaign.trials} if plan.given is None else {"draws": plan.given.file}
     file = plan.series.file if plan.series is not None and plan.series.lines else None
     return {
@@ -46,7 +44,7 @@ def _options(plan: BatchPlan, variant: Variant) -> dict[str, object]:
         "seed": campaign.seed,
         "configuration": variant.name if campaign.configurations else None,
         "compare": {} if campaign.configurations else {name: [fmu] for name, fmu in variant.use.items()},
-        **{name: value for name, value in settings.items() if name not in ("set", "places", "folder")},
+        **{name: value for name, value in settings.items() if name != "set"},
         "set": {**campaign.sweeps, **plan.options.set},
         "faults": [str(fault) for fault in plan.faults],
         "input": file,

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
-
 from ..options.command import write_command
 from ..options.declared.studies import STABILITY
 from ..options.option import options_of
-from ..runtime.system.options import SystemOptions
 from ..stability.request.request import Request
 
 
@@ -15,9 +12,9 @@ def study_command(request: Request, loop: str, trial: int) -> str:
     """Return the command that studies a loop of a request at one trial of its campaign."""
     assert request.plan is not None
     assert request.campaign is not None
-    settings = {each.name: getattr(request.options, each.name) for each in fields(SystemOptions)}
     campaign = request.plan.campaign
-    options = {name: setting for name, setting in settings.items() if name in options_of(STABILITY.options)} | {
+    known = options_of(STABILITY.options)
+    options = {name: setting for name, setting in request.options.by_name.items() if name in known} | {
         "campaign": request.campaign,
         "configuration": campaign.selected,
         "trial": trial,

@@ -164,7 +164,7 @@ def _prepare(
     loaded: dict[str, Fmu],
 ) -> PreparedSystem:
     stop = float(reference.time[-1]) if experiment.stop is None else experiment.stop
-    options = replace(options, stop_time=stop, step=experiment.step)
+    options = options.but(stop_time=stop, step=experiment.step)
     others: set[str] = set()
     component = ""
     if archive.is_fmu:
@@ -175,21 +175,21 @@ def _prepare(
         others = {
             name for name, variable in fmu.variables.items() if variable.causality != "input" or variable.type in TEXTS
         }
-        if options.step is None:
-            options = replace(options, step=_step(reference.time, proposed_step(fmu.description, fmu.label, [])))
+        if options.chosen["step"] is None:
+            options = options.but(step=_step(reference.time, proposed_step(fmu.description, fmu.label, [])))
     if experiment.parameters is not None:
         content = _content(files, experiment.parameters, archive.label)
         if component:
             content = _with_component(content, component, f"{archive.label}!{experiment.parameters}")
         archive = replace(archive, files={**archive.files, SET: content}, known_digest=None)
-        options = replace(options, parameters=(*options.parameters, posixpath.basename(SET)))
+        options = options.but(parameters=(*options.parameters, posixpath.basename(SET)))
     series = None
     if experiment.stimuli is not None:
         series = _table(files, experiment.stimuli, archive.label).series(without=others)
-    if options.step is not None:  # before inputs are interpolated, and anything is simulated
+    if options.chosen["step"] is not None:  # before inputs are interpolated, and anything is simulated
         start = float(reference.time[0]) if experiment.start is None else experiment.start
         columns = reference.signals.keys() | (series.columns.keys() if series else set())
-        check_room(len(columns), (stop - start) // options.step, options.step)
+        check_room(len(columns), (stop - start) // options.chosen["step"], options.chosen["step"])
     return prepare_system(archive, options, loaded, series)
 
 

@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 from ...common.errors import InputError
-from ...common.paths import IS_CHECKOUT
+from ...common.paths import IS_CHECKOUT, Build
 from ...common.targets import check_file
 from ...fmus_src.export.compilers import PLATFORMS, available_platforms, platforms_of
-
-Flavour = Literal["native", "python"]
 
 
 @dataclass(frozen=True)
@@ -21,7 +18,7 @@ class ExportRequest:
 
     name: str
     platforms: Sequence[str]
-    flavour: Flavour | None
+    flavour: Build | None
     output: Path | None
     fmi: int
     ssp: str | None

@@ -7,9 +7,9 @@ import shlex
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from .declaration import Verb
 from .option import options_of
 from .values import value_texts
-from .verb import Verb
 
 
 def write_command(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, object]) -> str:

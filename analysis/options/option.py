@@ -82,7 +82,8 @@ class Declared:
     @property
     def takes_paths(self) -> bool:
         """True of pairs whose values are names or paths alone."""
-        return self.kind is Kind.PAIRS and any(os.PathLike in _origins(member) for member in _members(self.annotation))
+        mappings = members_of(self.annotation)
+        return self.kind is Kind.PAIRS and any(os.PathLike in _origins(mapping) for mapping in mappings)
 
     @property
     def flag(self) -> str:
@@ -108,15 +109,15 @@ def defaults_of(group: type) -> dict[str, object]:
     return {name: each.option.default for name, each in options_of(group).items()}
 
 
-def _members(annotation: object) -> tuple[object, ...]:
+def members_of(annotation: object) -> tuple[object, ...]:
     """The alternatives of a type, without None."""
     if get_origin(annotation) in (Union, types.UnionType):
-        return tuple(inner for member in get_args(annotation) for inner in _members(member))
+        return tuple(inner for member in get_args(annotation) for inner in members_of(member))
     return () if annotation is type(None) else (annotation,)
 
 
 def _choices(annotation: object) -> tuple[str, ...]:
-    members = _members(annotation)
+    members = members_of(annotation)
     choices = [text for member in members if get_origin(member) is Literal for text in get_args(member)]
     if not choices and len(members) == 1 and get_origin(members[0]) is not None:  # of the elements of a list
         inner = get_args(members[0])
@@ -126,7 +127,7 @@ def _choices(annotation: object) -> tuple[str, ...]:
 
 def _origins(mapping: object) -> set[object]:
     """Return what the values of a mapping can be."""
-    return {get_origin(each) or each for value in get_args(mapping)[1:] for each in _members(value)}
+    return {get_origin(each) or each for value in get_args(mapping)[1:] for each in members_of(value)}
 
 
 Sequence_ = get_origin(Sequence[str])
@@ -135,7 +136,7 @@ _Mapping = get_origin(Mapping[str, str])
 
 def _kinds(annotation: object) -> tuple[Kind, Kind]:
     """The kind of a type, and that of its elements."""
-    members = _members(annotation)
+    members = members_of(annotation)
     origins = {get_origin(member) for member in members}
     paths = {get_origin(member) or member for member in members} & {os.PathLike}
     if paths and Sequence_ not in origins:

@@ -6,10 +6,10 @@ import argparse
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
+from .declaration import Argument, Verb
 from .option import Declared, Kind, options_of
 from .system import SHARED
 from .values import read_value
-from .verb import Argument, Verb
 
 Completer = Callable[..., Iterable[str]]  # argcomplete's
 FindCompleter = Callable[[str], Completer]  # by the name that a declaration states, when a shell asks

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, Literal, TypedDict
+from typing import Annotated, Any, TypedDict
 
+from .choices import Algorithm, Flavour, Isolation, LogLevel, OpenInputs
 from .fault import Fault
 from .option import EMPTY, FilePath, Option, SetValue, StructuredArray
 
@@ -20,13 +21,13 @@ class TrustOptions(TypedDict, total=False):
         Option("let foreign FMUs use the network, or write below a folder", (), metavar="network|write=FOLDER"),
     ]
     isolate: Annotated[
-        Literal["available", "strict"],
+        Isolation,
         Option("restrict foreign FMUs as far as the system does, or refuse them where it does not", "available"),
     ]
 
 
-class AssemblyOptions(TypedDict, total=False):
-    """What a system is made of, and how it is stepped"""
+class LayerOptions(TypedDict, total=False):
+    """What a system is composed of"""
 
     use: Annotated[
         Mapping[str, FilePath],
@@ -44,28 +45,33 @@ class AssemblyOptions(TypedDict, total=False):
             metavar="COMPONENT.VARIABLE=VALUE",
         ),
     ]
+
+
+class ScheduleOptions(TypedDict, total=False):
+    """How a system is stepped"""
+
     step: Annotated[float | None, Option("communication step", unit="s", metavar="H")]
     stop_time: Annotated[float | None, Option("end of the simulation", unit="s", metavar="T")]
     algorithm: Annotated[
-        Literal["sequential", "jacobi"] | None,
+        Algorithm | None,
         Option("master algorithm (Gauss-Seidel or Jacobi); default: the system's, else sequential"),
     ]
     variant: Annotated[str | None, Option("another SSD of the archive", metavar="NAME")]
 
 
-class SystemOptions(TrustOptions, AssemblyOptions, total=False):
-    """System options"""
+class AssemblyOptions(LayerOptions, ScheduleOptions, total=False):
+    """What a system is made of, and how it is stepped"""
+
+
+class TreatmentOptions(TypedDict, total=False):
+    """How FMUs and descriptions are read"""
 
     flavour: Annotated[
-        Literal["native", "python", "fused"] | None,
+        Flavour | None,
         Option(
             "which build of Perilune's FMUs; fused: native ones, the steps of the system compiled as one function; "
             "default: native where built, fused under way in a batch where that pays"
         ),
-    ]
-    open_inputs: Annotated[
-        Literal["refuse", "start"] | None,
-        Option("unconnected inputs: refuse them, or keep their start values; default: refuse, start for an FMU alone"),
     ]
     allow_unmatched: Annotated[
         bool,
@@ -76,6 +82,10 @@ class SystemOptions(TrustOptions, AssemblyOptions, total=False):
         ),
     ]
     strict: Annotated[bool, Option("refuse FMUs whose descriptions violate rules of FMI", False)]
+    open_inputs: Annotated[
+        OpenInputs | None,
+        Option("unconnected inputs: refuse them, or keep their start values; default: refuse, start for an FMU alone"),
+    ]
     feedthrough: Annotated[
         Sequence[str],
         Option("treat all outputs of a component as direct functions of all its inputs", (), metavar="COMPONENT"),
@@ -83,6 +93,11 @@ class SystemOptions(TrustOptions, AssemblyOptions, total=False):
     no_feedthrough: Annotated[
         Sequence[str], Option("treat a component as without direct feedthrough", (), metavar="COMPONENT")
     ]
+
+
+class LimitOptions(TypedDict, total=False):
+    """Limits of processes with foreign FMUs"""
+
     call_timeout: Annotated[
         float,
         Option(
@@ -97,6 +112,14 @@ class SystemOptions(TrustOptions, AssemblyOptions, total=False):
         float,
         Option("memory that a process of foreign FMUs may take", 4.0, unit="GB", metavar="SIZE", above=0.0),
     ]
+
+
+class ChosenOptions(ScheduleOptions, TreatmentOptions, total=False):
+    """What distinguishes two simulations of one system with equal FMUs and values"""
+
+
+class SystemOptions(TrustOptions, AssemblyOptions, TreatmentOptions, LimitOptions, total=False):
+    """System options"""
 
 
 class SimulationOptions(TypedDict, total=False):
@@ -116,7 +139,7 @@ class SimulationOptions(TypedDict, total=False):
         Option("inputs over time: first column time (s), then inputs by name", metavar="F.csv", completer="csv_files"),
     ]
     log: Annotated[
-        Literal["error", "warning", "info", "all"] | None,
+        LogLevel | None,
         Option(
             "FMU log messages on standard error: error (discard, error, fatal), warning too, info (all that are sent), "
             "all (with all categories switched on)"

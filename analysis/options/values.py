@@ -9,7 +9,7 @@ from numbers import Real
 from typing import Any
 
 from ...common.errors import InputError, suggestion
-from .option import Declared, Kind
+from .option import Declared, Kind, options_of
 
 
 def read_value(declared: Declared, texts: Sequence[str]) -> object:
@@ -153,6 +153,19 @@ def _check_choice(declared: Declared, argument: object) -> None:
         raise InputError(
             f"`{declared.name}`", str(argument), "no such choice", suggestion(str(argument), declared.choices)
         )
+
+
+def complete_options(group: type, options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options of a group, checked, with the defaults of the others; paths as texts. Raises InputError."""
+    return {name: _as_text(check_value(each, options.get(name))) for name, each in options_of(group).items()}
+
+
+def _as_text(setting: object) -> object:
+    if isinstance(setting, os.PathLike):
+        return os.fspath(setting)
+    if isinstance(setting, Mapping):
+        return {name: _as_text(each) if isinstance(each, os.PathLike) else each for name, each in setting.items()}
+    return tuple(map(_as_text, setting)) if isinstance(setting, tuple) else setting
 
 
 def value_texts(declared: Declared, argument: Any) -> list[str]:

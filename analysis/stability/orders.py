@@ -51,7 +51,7 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityReport])
         direct = [name for name in fmus if name not in without]
     other: StabilityReport | None = None
     if direct and _can_be_direct(subject, request, direct):
-        options = replace(request.options, feedthrough=(*request.options.feedthrough, *direct))
+        options = request.options.but(feedthrough=(*request.options.chosen["feedthrough"], *direct))
         loops = tuple(replace(loop, elements=()) for loop in request.declaration.loops)
         declaration = replace(request.declaration, loops=loops, sweeps=())
         try:
@@ -67,7 +67,7 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityReport])
 
 def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> bool:
     """Whether components can have feedthrough together: whether that closes no algebraic loop."""
-    options = replace(subject.options, feedthrough=(*subject.options.feedthrough, *names))
+    options = subject.options.but(feedthrough=(*subject.options.chosen["feedthrough"], *names))
     trial = replace(subject, options=options)
     try:
         for point in request.declaration.points:

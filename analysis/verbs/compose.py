@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Unpack
 
@@ -97,7 +97,7 @@ def compose_source(source: SystemSource, folder: Path, raw: bytes, file: str, fi
     try:
         prepared = prepare_system(archive, options)
     except MissingStopTimeError as error:
-        prepared = prepare_system(archive, replace(options, stop_time=error.earliest))
+        prepared = prepare_system(archive, options.but(stop_time=error.earliest))
     read_figures(prepared)
     read_declaration(prepared.network.description)
     return document

@@ -89,7 +89,7 @@ def describe(what: FilePath, component: str | None = None, **options: Unpack[Des
 
 
 def _describe_fmu(name: str, options: System) -> Description:
-    read, label = locate_fmu(name, options.flavour, "describe")
+    read, label = locate_fmu(name, options.chosen["flavour"], "describe")
     content = read()
     fmu = load_fmu(content, label)
     if fmu.structural_parameters:
@@ -104,8 +104,8 @@ def _describe_fmu(name: str, options: System) -> Description:
         alone={
             "component": alone.system.name,
             "start_time": alone.start_time,
-            "stop_time": alone.stop_time if options.stop_time is None else options.stop_time,
-            "step": alone.step if options.step is None else options.step,
+            "stop_time": alone.stop_time if options.chosen["stop_time"] is None else options.chosen["stop_time"],
+            "step": alone.step if options.chosen["step"] is None else options.chosen["step"],
         },
         variables=variables_of(fmu, dict(fmu.sizes)),
         terminals=read_terminals(content, label) if fmu.version == 3 else {},

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from ...fmus_src.own_digests import has_foreign
-from ..options.verb import Verb, options_of
+from ..options.declaration import Verb
+from ..options.option import options_of
 
 
 def start_early(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> None:

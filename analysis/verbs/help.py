@@ -7,7 +7,7 @@ import shutil
 import textwrap
 from typing import Any, NoReturn
 
-from ..options.verb import Verb
+from ..options.declaration import Verb
 from .options.verbs import GROUPS, PURPOSES, VERBS
 
 WIDEST = 100  # columns of any output

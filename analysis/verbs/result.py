@@ -13,9 +13,9 @@ from ...common.atomic import write_atomically
 from ...common.errors import ExitStatus, InputError, call_by_flags
 from ...common.targets import Results, check_file, check_folder
 from ..compose.files import report_changed_source
+from ..options.declaration import Verb
 from ..options.option import Kind, defaults_of, options_of
 from ..options.parsing import flags_of
-from ..options.verb import Verb
 from ..runtime.system.options import system_options
 from ..runtime.system.stale import report_fmus
 from .common.browser import open_page, require_browser

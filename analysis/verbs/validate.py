@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import ClassVar, Unpack, overload
 
@@ -106,8 +106,10 @@ def validate(*paths: FilePath | Sequence[FilePath], **options: Unpack[ValidateOp
     alone. Raises InputError for options that exclude each other.
     """
     system, all_variants = system_options(options), options["all_variants"]
-    if all_variants and system.variant is not None:
-        raise InputError("`all_variants`", str(system.variant), "a `variant` is given, too", "give one of the two")
+    if all_variants and system.chosen["variant"] is not None:
+        raise InputError(
+            "`all_variants`", str(system.chosen["variant"]), "a `variant` is given, too", "give one of the two"
+        )
     names = path_list(paths)
     systems = [name for name in names if not name.endswith(FILES)]
     return Validation(tuple(_check(path, system, all_variants, systems) for path in names))
@@ -117,12 +119,12 @@ def _check(path: str, options: System, all_variants: bool, systems: Sequence[str
     notes: list[str] = []
     problems: list[str] = []
     try:
-        if path.endswith(FILES) and replace(options, strict=False) != System():
+        if path.endswith(FILES) and options.but(strict=False) != System():
             raise InputError(path, "system options", "it is no system, which they are for", "check it by itself")
         if names_fmu(path):
             fmu = load_fmu(_read(path), path)
             violations = [f"{path}: modelDescription.xml: {rule}" for rule in _broken_rules(fmu)]
-            if options.strict:
+            if options.chosen["strict"]:
                 problems += [f"{violation}; fix the FMU's modelDescription.xml" for violation in violations]
             else:
                 notes += violations
@@ -189,12 +191,12 @@ def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
     """Notes on a variant of a system, or on all. Raises InputError."""
     notes: list[str] = []
     others = [name for name in open_system(path).variants() if name != DEFAULT_VARIANT] if all_variants else []
-    for variant in (options.variant, *others):
-        subject = Subject(path, replace(options, variant=variant))
+    for variant in (options.chosen["variant"], *others):
+        subject = Subject(path, options.but(variant=variant))
         try:
             prepared = prepare_system(path, subject.options, subject.fmus)
         except MissingStopTimeError as error:
-            subject = Subject(path, replace(subject.options, stop_time=error.earliest))
+            subject = Subject(path, subject.options.but(stop_time=error.earliest))
             prepared = prepare_system(path, subject.options, subject.fmus)
             notes.append(f"{error.file}: no {error.element}: `run` needs `stop_time`")
         _check_loops(subject, read_declaration(prepared.network.description))

@@ -6,6 +6,8 @@ import argparse
 from collections.abc import Iterator
 
 from perilune.analysis.cli import HELP_ALL, parser_of
+from perilune.analysis.options.declaration import Verb
+from perilune.analysis.options.docstring import call_of, find_example
 from perilune.analysis.verbs.help import exit_status
 from perilune.analysis.verbs.options.verbs import VERBS
 
@@ -23,8 +25,15 @@ def verbs_page() -> str:
     for name, verb in VERBS.items():
         examples = "\n".join(f"# {comment}\n{command}" for command, comment in verb.examples.items())
         parts += [f"## {name}", escaped(verb.text[0].upper() + verb.text[1:]) + ".", f"```sh\n{examples}\n```"]
-        parts += [*_options(verb_parser(name)), exit_status(verb)]
+        parts += [*_call(verb), *_options(verb_parser(name)), exit_status(verb)]
     return "\n\n".join(parts) + "\n"
+
+
+def _call(verb: Verb) -> Iterator[str]:
+    """The example of the function's docstring."""
+    if example := find_example(verb):
+        yield f"In Python, where `help(perilune.{verb.home[1]})` has its parameters:"
+        yield f"```python\n{call_of(verb, example)}\n```"
 
 
 def verb_parser(name: str) -> argparse.ArgumentParser:

@@ -161,7 +161,7 @@ def test_withheld_where_no_flight_with_feedthrough_can_be_studied(folder, exact_
     reason = "the flight for point there ended early"
 
     def make(request):
-        if request.options.feedthrough:
+        if request.options.chosen["feedthrough"]:
             raise StudyError(reason)
         return replace(reports[1].orders.report)  # any report in one order; this one passes
 

@@ -18,7 +18,6 @@ from perilune.analysis.options.option import options_of
 from perilune.analysis.verbs.options.verbs import FORMER, GROUPS, PURPOSES, RENAMED, VERBS
 
 HEAVY = {"numpy", "matplotlib", "scipy", "pyarrow", "lxml", "fmpy", "control", "pandas", "jinja2"}
-ONLY_COMMANDS = {"docs"}  # which Python has no use for
 ALL = pytest.mark.parametrize("name", VERBS)
 
 
@@ -31,7 +30,7 @@ def function_of(verb):
 def test_a_verb_is_a_public_function_with_its_options(name):
     verb = VERBS[name]
     function = function_of(verb)
-    assert (getattr(perilune, verb.home[1], None) is function) == (name not in ONLY_COMMANDS)
+    assert (getattr(perilune, verb.home[1], None) is function) == (not verb.is_command_alone)
     assert inspect.getdoc(function)
     parameters = inspect.signature(function).parameters
     assert not any(each.kind is inspect.Parameter.VAR_KEYWORD for each in parameters.values())

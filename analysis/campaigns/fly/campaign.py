@@ -9,9 +9,10 @@ from pathlib import Path
 
 from ....common.errors import InputError
 from ....fmus_src.kernel.functions import VERSION
+from ...options.choices import FUSED
 from ...runtime.fused.refusals import check_fused
 from ...runtime.process.opening import may_load_here
-from ...runtime.system.options import FUSED, UNTRUSTED, Trust
+from ...runtime.system.options import UNTRUSTED, Trust
 from ...runtime.system.prepared import PreparedSystem
 from ..lost_trials import lost_status
 from ..spec.checks import check_plan, prepare_variants
@@ -135,7 +136,7 @@ def open_campaign(
     flies are the files that the folder then holds, whatever becomes of their originals. ``elsewhere`` says who
     simulates it, where that is not this process.
     """
-    if elsewhere is not None and plan.options.flavour == FUSED:
+    if elsewhere is not None and plan.options.chosen["flavour"] == FUSED:
         problem = f"{elsewhere} compile steps where that pays, and do not know of the option"
         raise InputError("`flavour`", FUSED, problem, "leave `flavour` out")
     count = worker_count(workers)
@@ -150,7 +151,7 @@ def open_campaign(
     with lock_folder(folder, alone=not resume):
         manifest = (resume_folder if resume else begin)(folder, manifest, contents, plan)
     flown = restore(folder, manifest, plan.watch.log, trust=plan.options)
-    flown = replace(flown, options=replace(flown.options, flavour=plan.options.flavour))
+    flown = replace(flown, options=flown.options.but(flavour=plan.options.chosen["flavour"]))
     plan = replace(plan, known_draws=flown.draws)  # read from the folder, and not in memory
     return Campaign(plan, flown, systems, manifest, folder, output)
 

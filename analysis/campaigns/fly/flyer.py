@@ -49,7 +49,7 @@ class Flyer:
         self._ready: dict[str, tuple[BaseSimulation, VariantNames]] = {}
         self._logs: dict[str, Log] = {}
         self._warned: set[str] = set()  # variants
-        self._fusing = Fusing(plan.options.flavour, trials, workers)
+        self._fusing = Fusing(plan.options.chosen["flavour"], trials, workers)
         self.halted = False
 
     def simulation(self, variant: str) -> tuple[BaseSimulation, VariantNames]:

@@ -106,7 +106,7 @@ def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Proven
         "campaign_sha256": plan.campaign_sha256,
         "parameter_sets": [*plan.campaign.parameters, *options.parameters],
         "set": {**plan.campaign.settings, **options.set},
-        "variant": options.variant,
+        "variant": options.chosen["variant"],
         "start_time": first.start,
         "steps": first.steps,
         "trials": plan.campaign.trials,
@@ -114,10 +114,10 @@ def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Proven
         "step": first.step,
         "algorithm": first.algorithm,
     }
-    if options.feedthrough:
-        metadata["feedthrough"] = list(options.feedthrough)
-    if options.no_feedthrough:
-        metadata["no_feedthrough"] = list(options.no_feedthrough)
+    if options.chosen["feedthrough"]:
+        metadata["feedthrough"] = list(options.chosen["feedthrough"])
+    if options.chosen["no_feedthrough"]:
+        metadata["no_feedthrough"] = list(options.chosen["no_feedthrough"])
     assumptions = list(dict.fromkeys(note for prepared in systems.values() for note in prepared.assumptions))
     if assumptions:
         metadata["assumptions"] = assumptions

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, replace
 from importlib.metadata import version
 from pathlib import Path, PurePath
-from typing import Any, cast
+from typing import cast
 
-import msgspec
 import numpy as np
 import pyarrow
 import pyarrow.parquet
@@ -20,7 +19,7 @@ from ...options.fault import parse_fault
 from ...runtime.instances.renewal import Renewal, ResetVerdict, store_verdict
 from ...runtime.process.resets import find_verdict
 from ...runtime.ssp.archive import SystemArchive
-from ...runtime.system.options import UNTRUSTED, SystemOptions, Trust, Watch
+from ...runtime.system.options import UNTRUSTED, Trust, Watch
 from ...runtime.system.prepared import PreparedSystem
 from ...runtime.system.series import InputSeries
 from ..draws.given import GivenDraws, part_streams
@@ -29,6 +28,7 @@ from ..spec.file import parse_campaign
 from ..spec.plan import BatchPlan
 from ..spec.source import CampaignSource
 from ..spec.sweeps import with_sweeps
+from ..stored_options import restore_options, store_options
 from .identity import identity_of
 from .manifest import (
     CONTENTS,
@@ -47,10 +47,6 @@ from .manifest import (
 from .shards.draws import read_draws
 from .shards.files import numbers, read_table
 from .shards.numbering import shard_size
-
-# Of the options: where values are written, where paths are meant from, and what whoever simulates decides.
-REFUSE = "refuse"
-NOT_STORED = ("places", "folder", *UNTRUSTED.trust)
 
 
 class _Contents(dict[str, bytes]):
@@ -88,7 +84,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
         system=system,
         elsewhere=elsewhere,
         campaign=_campaign_document(plan, contents),
-        options=_options_document(plan.options),
+        options=store_options(plan.options),
         faults=[str(fault) for fault in plan.faults],
         series=None if series is None else _keep_series(series, contents),
         draws=None if given is None else contents.keep_table(given.file, given.sha256, given.table),
@@ -159,14 +155,6 @@ def _keep_series(series: InputSeries, contents: _Contents) -> TableDocument:
     return contents.keep_table(series.file, series.sha256, {"time": series.time, **series.columns})
 
 
-def _options_document(options: SystemOptions) -> dict[str, Any]:
-    document = {name: each for name, each in asdict(options).items() if name not in NOT_STORED}
-    # Native FMUs are the default, and their fused steps have the same bits: these may change under way.
-    document["flavour"] = "python" if options.flavour == "python" else None
-    document["open_inputs"] = options.open_inputs or REFUSE  # as folders had it before there was None
-    return document
-
-
 def restore(
     folder: Path, manifest: Manifest, log: str | None = None, *, draws: Path | None = None, trust: Trust = UNTRUSTED
 ) -> BatchPlan:
@@ -177,10 +165,12 @@ def restore(
     """
     contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
     source = _restore_source(contents, manifest.campaign)
+    of_fmu = manifest.system["fmu"] is not None
+    options = restore_options(manifest.options, folder / FILE, SAME_VERSION, of_fmu=of_fmu)
     plan = BatchPlan(
         manifest.system["label"],
         _restore_campaign(source, manifest, folder),
-        replace(_restore_options(manifest, folder), folder=str(contents), **trust.trust),
+        options.but(folder=str(contents), **trust.trust),
         source.sha256,
         faults=tuple(parse_fault(text) for text in manifest.faults),
         series=_restore_series(contents, manifest),
@@ -233,23 +223,6 @@ def _restore_verdict(document: ResetDocument) -> ResetVerdict:
     """Return a verdict; one of an earlier version knew of resets and new instances alone."""
     earlier = Renewal.RESET if document.get("resets", False) else Renewal.INSTANCE
     return ResetVerdict(document.get("renewal", earlier), document["reason"])
-
-
-def _restore_options(manifest: Manifest, folder: Path) -> SystemOptions:
-    """Return the system options of a manifest, whose types are checked. Raises InputError."""
-    known = {field.name for field in fields(SystemOptions)} - {*NOT_STORED}
-    unknown = sorted(set(manifest.options) - known)
-    if unknown:
-        raise InputError(folder / FILE, f"options.{unknown[0]}", "not an option of a campaign", SAME_VERSION)
-    try:
-        options = msgspec.convert(dict(manifest.options), SystemOptions)
-    except msgspec.ValidationError as error:
-        problem, _, element = str(error).partition(" - at ")
-        name = f"options.{element.strip('`$.')}".rstrip(".")
-        raise InputError(folder / FILE, name, f"{problem[:1].lower()}{problem[1:]}", SAME_VERSION) from error
-    if manifest.system["fmu"] is not None and options.open_inputs == REFUSE:
-        return replace(options, open_inputs=None)  # what is refused of an FMU alone was refused before it was written
-    return options
 
 
 def _restore_source(contents: Path, campaign: SourceDocument) -> CampaignSource:

@@ -8,11 +8,12 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor
 from concurrent.futures import wait as wait_for
 from functools import partial
-from typing import TypeVar
+from typing import TypeVar, get_args
 
 from loky import cpu_count
 
 from ....common.errors import InputError, suggestion
+from ...options.choices import Engine
 from ...runtime.flight.interruptible import PATIENCE, wait
 from ...runtime.process.opening import may_load_here
 from ...runtime.system.prepared import PreparedSystem
@@ -20,7 +21,7 @@ from ..spec.plan import BatchPlan
 from .flyer import Flyer
 
 Result = TypeVar("Result")
-ENGINES = ("threads", "processes")
+ENGINES: tuple[Engine, ...] = get_args(Engine)
 WAITING = 4  # tasks that are handed out ahead, for each worker
 
 

@@ -23,7 +23,7 @@ def part_sweeps(options: SystemOptions) -> tuple[SystemOptions, dict[str, str]]:
     """
     sweeps = {name: value.strip() for name, value in options.set.items() if isinstance(value, str) and _ends(value)}
     single = {name: value for name, value in options.set.items() if name not in sweeps}
-    return replace(options, set=single), sweeps
+    return options.but(set=single), sweeps
 
 
 def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:

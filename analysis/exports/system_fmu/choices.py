@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from ....common.errors import InputError, suggestion
 from ....common.paths import names_fmu
+from ...options.option import SetValue
 from ...runtime.fmi.representations import TEXTS
 from ...runtime.ssp.archive import SystemArchive
 from ...runtime.ssp.given_values import parse_value
 from ...runtime.ssp.kinds import PARAMETERS
-from ...runtime.ssp.parameter_sets import SetValue
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.network import Network, Node
 from ...runtime.system.options import SystemOptions
@@ -75,8 +75,7 @@ class Preparation:
         """The system with these candidates and, behind the chosen ones, ``more`` parameter sets. Raises InputError."""
         options = self.options
         parameters = (*options.parameters, *more)
-        changed = replace(
-            options,
+        changed = options.but(
             use={**options.use, **use},
             parameters=parameters,
             set=self._values_for(use),
@@ -86,7 +85,7 @@ class Preparation:
         inputs = [name for name in system_connectors(prepared.network, "input") if name not in prepared.settings.nodes]
         for start_of in (_no_start, _start_of) if inputs else ():  # with a value inputs remain connected
             starts = {name: start_of(prepared.network, name) for name in inputs}
-            prepared = self._prepare(replace(changed, set={**starts, **changed.set}))
+            prepared = self._prepare(changed.but(set={**starts, **changed.set}))
         numbers = tuple(self.slots[slot].index(fmu) + 1 for slot, fmu in use.items())
         return Choice({slot: candidate_name(fmu) for slot, fmu in use.items()}, numbers, prepared)
 

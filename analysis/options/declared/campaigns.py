@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Literal, TypedDict
+from typing import Annotated, TypedDict
 
+from ..choices import Engine
+from ..declaration import Argument, NoOptions, Verb
 from ..option import EMPTY, FilePath, Option
 from ..system import (
     Overwrite,
@@ -17,7 +19,6 @@ from ..system import (
     UntilDecided,
     Workers,
 )
-from ..verb import Argument, NoOptions, Verb
 
 SYSTEM = Argument(
     "system",
@@ -108,7 +109,7 @@ class ExecutionOptions(TypedDict, total=False):
 
     workers: Workers
     engine: Annotated[
-        Literal["threads", "processes"] | None,
+        Engine | None,
         Option("parallel threads or processes; default: threads where the FMUs allow them"),
     ]
     scheduler: Annotated[str | None, Option("run on the workers of this dask scheduler instead", metavar="ADDRESS")]

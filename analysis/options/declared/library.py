@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, TypedDict
 
+from ....common.paths import Build
+from ..declaration import Argument, Verb
 from ..option import EMPTY, FilePath, Option
 from ..system import AssemblyOptions, ReportFiles, SystemOptions, TrustOptions
-from ..verb import Argument, Verb
 
 PATHS = Argument(
     "paths", "PATH", "a system, .ssp, .fmu, .ssv, law .json or campaign .toml", "systems_and_files", many=True
@@ -107,7 +108,7 @@ class VerifyOptions(TrustOptions, total=False):
             minimum=0.0,
         ),
     ]
-    flavour: Annotated[Literal["native", "python"] | None, Option("which build of an FMU that is given by name")]
+    flavour: Annotated[Build | None, Option("which build of an FMU that is given by name")]
     timeout: Annotated[float | None, Option("limit of a simulation on the wall clock", metavar="T", unit="s")]
 
 
@@ -166,6 +167,7 @@ DOCS = Verb(
     "open the documentation in a browser",
     options=DocsOptions,
     examples={"perilune docs --print": "the path of its first page"},
+    is_command_alone=True,
 )
 
 
@@ -275,7 +277,7 @@ class ExportOptions(AssemblyOptions, total=False):
         ),
     ]
     flavour: Annotated[
-        Literal["native", "python"] | None,
+        Build | None,
         Option("default: native; of FILE.py both, as far as a compiler is here"),
     ]
     ssp: Annotated[

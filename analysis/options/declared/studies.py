@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Literal, TypedDict
+from typing import Annotated, TypedDict
 
+from ..choices import MarginKind
+from ..declaration import Argument, Verb
 from ..option import EMPTY, FilePath, Option
 from ..system import Overwrite, ReportFiles, RequireOptions, Seed, SystemOptions, Workers
-from ..verb import Argument, Verb
 from .campaigns import CAMPAIGN, SYSTEM, CampaignOptions, TrialsOptions
 
 PAPER = "lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance"  # of the examples
@@ -116,9 +117,7 @@ class WorstOptions(CampaignOptions, ConditionOptions, RequireOptions, total=Fals
         str | None,
         Option("minimise a stability margin of this loop instead; or of COMPONENT.CONNECTOR to cut", metavar="NAME"),
     ]
-    margin: Annotated[
-        Literal["disk", "modulus", "gain", "phase", "delay"] | None, Option("which margin; default: disk")
-    ]
+    margin: Annotated[MarginKind | None, Option("which margin; default: disk")]
     point: Annotated[str | None, Option("operating point of the loop; default: its only one", metavar="NAME")]
     at: Annotated[float | None, Option("time of the operating point of a cut, s; default: 0", unit="s", metavar="T")]
     sigmas: Annotated[float, Option("search box of normal inputs, in standard deviations", 3.0, metavar="K", above=0.0)]

@@ -10,6 +10,7 @@ from typing import Unpack
 import numpy as np
 
 from ....common.collection import no_collection
+from ...options.choices import FUSED
 from ...options.fault import Fault
 from ..fused.fuse import fuse, is_compilable
 from ..fused.refusals import can_fuse, check_fused
@@ -18,7 +19,6 @@ from ..loop import arrays, codes
 from ..loop.loop import Loop
 from ..ssp.given_values import ParameterValue
 from ..system.namesakes.namesakes import note_loaded
-from ..system.options import FUSED
 from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem
 from .base_simulation import NOTHING, BaseSimulation, Choices
@@ -56,7 +56,7 @@ class Simulation(BaseSimulation):
         prepared = self.prepared
         for number, (name, fmu) in enumerate(prepared.network.fmus.items()):
             self.recorder.enter(Phase.INSTANTIATION, number)
-            if prepared.options.in_process:
+            if prepared.options.trust["in_process"]:
                 note_loaded(fmu)
             uses_events = needs_events(prepared.network, name)
             self.instances[name] = instantiate(fmu, name, self._log, uses_events=uses_events)
@@ -84,7 +84,7 @@ class Simulation(BaseSimulation):
 
     def _fuse(self, prepared: PreparedSystem) -> int:
         """The address of the steps compiled for the system, 0 where its options do not ask for them."""
-        if prepared.options.flavour != FUSED:
+        if prepared.options.chosen["flavour"] != FUSED:
             return 0
         check_fused(prepared)
         return fuse(self.instances, self.program, self._recorded.tolist(), self._is_wanted)
@@ -95,7 +95,7 @@ class Simulation(BaseSimulation):
     def fuse(self) -> None:
         """See `BaseSimulation.fuse`. Raises InputError where the compiler refuses the steps, or changes results."""
         if not self.fused_steps and can_fuse(self.prepared) and is_compilable(self.program):
-            fused = replace(self.prepared, options=replace(self.prepared.options, flavour=FUSED))
+            fused = replace(self.prepared, options=self.prepared.options.but(flavour=FUSED))
             with self.loop.under_way:  # the instances are looked at: who closes this leaves them alone
                 self.fused_steps = self._fuse(fused)
             self.prepared = fused

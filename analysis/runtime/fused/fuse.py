@@ -16,10 +16,10 @@ from ....common.paths import CACHE
 from ....fmus_src.export.compilers import FLAGS as FMU_FLAGS
 from ....fmus_src.export.compilers import FOR_THIS_PROCESSOR, CompilationFailed, CompilerMissing, local_platform
 from ....fmus_src.export.libraries import library_files
+from ...options.choices import FUSED
 from ..instances.instance import PLACED, Instance
 from ..loop import arrays
 from ..system.fmu import Fmu
-from ..system.options import FUSED
 from .component_code import ComponentCode, component_code
 from .refusals import INSTALL, NO_COMPILER, has_code
 from .unit import ENTRY, SELF_TEST, write_unit

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from ....common.errors import InputError
 from ....fmus_src.export.compilers import CompilerMissing, available_platforms, compilers_for, local_platform
+from ...options.choices import FUSED
 from ..system.fmu import Fmu
-from ..system.options import FUSED
 from ..system.prepared import PreparedSystem
 
 NO_COMPILER = "needs a C compiler, and there is none"
@@ -27,7 +27,7 @@ def check_fused(prepared: PreparedSystem, *, in_child: bool = False) -> None:
 
     ``in_child``: it is simulated in processes of its own.
     """
-    if prepared.options.flavour != FUSED:
+    if prepared.options.chosen["flavour"] != FUSED:
         return
     if in_child:
         problem = "the system is simulated in processes of its own, where steps are not compiled"

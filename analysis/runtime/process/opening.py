@@ -16,7 +16,7 @@ from .simulation import ProcessSimulation
 
 def may_load_here(prepared: PreparedSystem) -> bool:
     """Return True if a system's FMUs may be loaded into this process."""
-    return prepared.is_self_contained or prepared.options.in_process
+    return prepared.is_self_contained or prepared.options.trust["in_process"]
 
 
 def open_simulation(prepared: PreparedSystem, *, in_child: bool = False, **choices: Unpack[Choices]) -> BaseSimulation:

@@ -162,6 +162,6 @@ class _Trials:
         fmu, options = self._fmu, self._options
         task = messages.ResetTask(self._formats, with_reset)
         child = begin_child(fmu, task, folder=os.getcwd(), limits=limits_for([fmu], options))
-        connection = Connection(child, lambda line: None, Watchdog(lambda: None, options.call_timeout))
+        connection = Connection(child, lambda line: None, Watchdog(lambda: None, options.limits["call_timeout"]))
         self._watch.begin(connection)
         return connection

@@ -57,16 +57,18 @@ def limits_for(fmus: Iterable[Fmu], options: SystemOptions) -> ProcessLimits:
 
     Warns where the operating system lacks something for it, or raises InputError if the options are strict.
     """
-    memory = round(options.memory * GB)
+    memory = round(options.limits["memory"] * GB)
     if all(fmu.is_own for fmu in fmus):
         return ProcessLimits(memory, None)
     missing = find_missing()
-    if missing and options.isolate == "strict":
-        raise InputError("`isolate`", options.isolate, "; ".join(missing), "leave it out, or take another system")
+    if missing and options.trust["isolate"] == "strict":
+        raise InputError(
+            "`isolate`", options.trust["isolate"], "; ".join(missing), "leave it out, or take another system"
+        )
     if missing:
         warnings.warn(f"foreign FMUs are not restricted here: {'; '.join(missing)}", stacklevel=2)
     allowed = [str(Path(options.folder, folder)) for folder in options.writable]
-    return ProcessLimits(memory, Restriction(tuple(allowed), network=NETWORK in options.allow))
+    return ProcessLimits(memory, Restriction(tuple(allowed), network=NETWORK in options.trust["allow"]))
 
 
 @functools.cache

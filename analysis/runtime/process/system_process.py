@@ -91,7 +91,7 @@ class SystemProcess:
         except BaseException:
             recorder.close()
             raise
-        watchdog = Watchdog(lambda: self.recorder.measure_progress(), options.call_timeout)
+        watchdog = Watchdog(lambda: self.recorder.measure_progress(), options.limits["call_timeout"])
         return Connection(child, self._write, watchdog)
 
     def wait_until_ready(self) -> None:

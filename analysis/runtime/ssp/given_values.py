@@ -7,11 +7,11 @@ import math
 from lxml import etree
 
 from ....common.errors import InputError
+from ...options.option import ParameterValue
 from .dimensions import Shape, read_dimensions
 from .documents import children, tag
 from .types import integer_range, runtime_type
 
-ParameterValue = float | int | bool | str
 TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 

@@ -16,8 +16,6 @@ from .documents import check_schema, child, children, read_document, signatures,
 from .given_values import ParameterValue, read_values
 from .types import RUNTIME_TYPES, runtime_type
 
-SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
-
 
 @dataclass(frozen=True)
 class Assignment:

@@ -26,7 +26,7 @@ def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[
     `auto_interval` of the duration; an end that is not asked for is the last whole step before the FMU's. Raises
     InputError for a variant, which an FMU does not have.
     """
-    if options.variant is not None:
+    if options.chosen["variant"] is not None:
         raise InputError(fmu.label, "`variant`", "an FMU alone has no variants", "leave it out")
     connectors = {
         variable.name: Connector(variable.name, variable.causality, variable.type, None, None, 0)
@@ -54,19 +54,21 @@ def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[
         for value in (getattr(experiment, "startTime", None), getattr(experiment, "stopTime", None))
     )
     remarks: list[str] = []
-    step = proposed_step(fmu.description, fmu.label, remarks) if options.step is None else options.step
+    step = options.chosen["step"]
+    if step is None:
+        step = proposed_step(fmu.description, fmu.label, remarks)
     start = 0.0 if start is None else start
     if stop is None:
         stop = start + DURATION
-        if options.stop_time is None:
+        if options.chosen["stop_time"] is None:
             remarks.append(f"the FMU proposes no stop time: {stop:g} s taken")
     if step is None:
-        duration = (stop if options.stop_time is None else options.stop_time) - start
+        duration = (stop if options.chosen["stop_time"] is None else options.chosen["stop_time"]) - start
         step = float(auto_interval(duration if duration > 0.0 else DURATION))
         remarks.append(f"the FMU proposes no step: {step:g} s taken")
     ratio = (stop - start) / step if step else math.nan  # 0 is refused with the times of all systems
     steps = math.floor(ratio + STEP_ROUNDING) if 0.0 < ratio < math.inf else 0
-    if options.stop_time is None and steps and ratio - steps > STEP_ROUNDING:
+    if options.chosen["stop_time"] is None and steps and ratio - steps > STEP_ROUNDING:
         whole = start + steps * step
         remarks.append(f"{stop - start:g} s are not whole steps of {step:g} s: the end is {whole:g} s")
         stop = whole

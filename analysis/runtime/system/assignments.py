@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from ....common.errors import InputError, suggestion
+from ...options.option import SetValue
 from ..fmi.representations import REPRESENTATIONS
 from ..fmi.variable import Variable
 from ..ssp.archive import SystemArchive
@@ -16,7 +17,7 @@ from ..ssp.dimensions import element_names, text_of
 from ..ssp.given_values import ParameterValue, parse_value
 from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
-from ..ssp.parameter_sets import Assignment, Notes, SetValue, read_binding
+from ..ssp.parameter_sets import Assignment, Notes, read_binding
 from ..ssp.types import WHOLE
 from .network import Network, Node
 from .options import SystemOptions
@@ -40,7 +41,7 @@ def collect_settings(
     Raises InputError for a name that matches nothing (unless allowed), a value that does not
     fit its variable, and declared inputs that have neither connection nor value (unless they keep their starts).
     """
-    settings, allow_unmatched = Settings(), options.allow_unmatched
+    settings, allow_unmatched = Settings(), options.chosen["allow_unmatched"]
     notes = network.notes if allow_unmatched else None
     # Deeper systems first: the binding of an outer one wins.
     for path, system in sorted(network.systems.items(), key=lambda item: -item[0].count(".")):

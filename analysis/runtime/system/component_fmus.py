@@ -84,7 +84,7 @@ class ComponentFmus:
     def open(self, read: Read, label: str) -> Fmu:
         """Return an FMU by its label, which is read at the first use."""
         if label not in self._loaded:
-            self._loaded[label] = load_fmu(read(), label, strict=self.options.strict)
+            self._loaded[label] = load_fmu(read(), label, strict=self.options.chosen["strict"])
         return self._loaded[label]
 
     def with_sizes(self, fmu: Fmu, name: str) -> Fmu:
@@ -110,7 +110,9 @@ class ComponentFmus:
             data, label = self.archive.parameter_set(name)
             if not label.startswith(f"{self.archive.label}!"):
                 self.elsewhere[parameters_asked(name)] = partial(bytes, data)
-            assignments += read_parameter_file(data, label, self.notes if options.allow_unmatched else None, self.notes)
+            assignments += read_parameter_file(
+                data, label, self.notes if options.chosen["allow_unmatched"] else None, self.notes
+            )
         return assignments + [
             single_value(name, value, options.places.get(name)) for name, value in options.set.items()
         ]

@@ -72,8 +72,8 @@ def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *
         if name not in options.use and part.feedthrough is not None
     }
     stated |= dict.fromkeys(network.fmus, (False, Origin.ALONE)) if is_alone else {}
-    stated |= dict.fromkeys(options.feedthrough, (True, Origin.OPTION))
-    stated |= dict.fromkeys(options.no_feedthrough, (False, Origin.OPTION))
+    stated |= dict.fromkeys(options.chosen["feedthrough"], (True, Origin.OPTION))
+    stated |= dict.fromkeys(options.chosen["no_feedthrough"], (False, Origin.OPTION))
     stepping: Dependencies = {}
     initial: Dependencies = {}
     origins: dict[str, Origin] = {}
@@ -111,12 +111,12 @@ def _is_driven(network: Network, component: str) -> bool:
 
 
 def _check(components: Collection[str], options: SystemOptions, *, is_alone: bool) -> None:
-    for option, names in zip(OPTIONS, (options.feedthrough, options.no_feedthrough), strict=True):
+    for option, names in zip(OPTIONS, (options.chosen["feedthrough"], options.chosen["no_feedthrough"]), strict=True):
         for name in names:
             if name not in components:
                 raise InputError(option, name, "no such component", f"use one of {', '.join(sorted(components))}")
-    for name in options.feedthrough:
-        if name in options.no_feedthrough:
+    for name in options.chosen["feedthrough"]:
+        if name in options.chosen["no_feedthrough"]:
             raise InputError(OPTIONS[0], name, f"is given to {OPTIONS[1]}, too", "give it to one of them")
         if is_alone:
             problem = "an FMU alone is stepped with the inputs of the step's start, as FMPy does it"

@@ -1,19 +1,20 @@
-"""What a user may ask of a system, whatever flies it: FMUs in slots, parameters, times, algorithm, limit and log."""
+"""System options with their defaults, whatever simulates; the layers of FMUs, parameter sets and values."""
 
 from __future__ import annotations
 
 import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Any, Unpack, cast, get_args
 
 from ....common.errors import InputError, suggestion
-from ..ssp.parameter_sets import SetValue
+from ....common.paths import Build
+from ...options import system as declared
+from ...options.choices import FUSED, LogLevel
+from ...options.option import SetValue, options_of
+from ...options.values import complete_options
 
-ALGORITHMS = ("sequential", "jacobi")
-FUSED = "fused"  # a flavour of flights, of native FMUs
-OPEN_INPUTS = ("refuse", "start")
 STEP_ROUNDING = 1e-9  # of a step, by which a time, a period or a range may miss whole steps
 
 
@@ -36,27 +37,30 @@ class Layer:
     places: Mapping[str, tuple[str, int]] = field(default_factory=dict, compare=False)
 
 
+def _assign(options: Layer | Trust, **fields: object) -> None:
+    for name, each in fields.items():
+        object.__setattr__(options, name, each)  # of a frozen instance in its __init__
+
+
 NETWORK, WRITE = "network", "write="
-ISOLATION = ("available", "strict")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Trust:
-    """What foreign FMUs may do here: options of whoever simulates, never read from a campaign's folder.
+    """What foreign FMUs may do here, `TrustOptions`: of whoever simulates, never read from a campaign's folder.
 
-    ``in_process``: they are loaded into this process, too, and not into one of their own. There they may not use the
-    network, nor write, unless ``allow`` says ``network``, or ``write=FOLDER``. ``isolate``: ``available`` restricts
-    them as far as the operating system does, ``strict`` refuses them where it does not. Raises InputError.
+    Unless trusted they run in a process of their own, where they may neither use the network nor write but as allowed.
+    Raises InputError.
     """
 
-    in_process: bool = field(default=False, compare=False)
-    allow: tuple[str, ...] = field(default=(), compare=False)
-    isolate: str = field(default=ISOLATION[0], compare=False)
+    trust: declared.TrustOptions = field(default_factory=declared.TrustOptions, compare=False)
 
-    def __post_init__(self) -> None:
-        if self.isolate not in ISOLATION:
-            raise InputError("`isolate`", self.isolate, "unknown", suggestion(self.isolate, ISOLATION))
-        for text in self.allow:
+    def __init__(self, **options: Unpack[declared.TrustOptions]) -> None:
+        _assign(self, trust=complete_options(declared.TrustOptions, options))
+        self._check()
+
+    def _check(self) -> None:
+        for text in self.trust["allow"]:
             if text != NETWORK and not text.startswith(WRITE):
                 raise InputError("`allow`", text, "unknown", f"give {NETWORK}, or {WRITE}FOLDER")
         for folder in self.writable:
@@ -66,56 +70,64 @@ class Trust:
     @property
     def writable(self) -> tuple[str, ...]:
         """The folders that foreign FMUs may write to."""
-        return tuple(text.removeprefix(WRITE) for text in self.allow if text != NETWORK)
-
-    @property
-    def trust(self) -> dict[str, Any]:
-        """These options alone, by name."""
-        return {each.name: getattr(self, each.name) for each in fields(Trust)}
+        return tuple(text.removeprefix(WRITE) for text in self.trust["allow"] if text != NETWORK)
 
 
 UNTRUSTED = Trust()
+STATED = options_of(declared.SystemOptions)
 
 
-@dataclass(frozen=True)
+class _Keywords(declared.SystemOptions, total=False):
+    """Keywords of `SystemOptions`"""
+
+    folder: str
+    trust: declared.TrustOptions
+    chosen: declared.ChosenOptions
+    limits: declared.LimitOptions
+
+
+@dataclass(frozen=True, init=False)
 class SystemOptions(Trust, Layer):
-    """What the command line calls system options; see `perilune run --help`.
+    """System options, all of them, by the groups of their declaration in `options/system.py`.
 
-    Times in s. ``algorithm`` None is what the system's description says, else the first of `ALGORITHMS`. ``flavour``
-    None takes native FMUs where they are built, `FUSED` compiles the steps of the system as one function, too.
-    ``open_inputs``: what becomes of inputs that nothing drives, ``start`` keeps the FMU's start values; None is
-    ``refuse`` in a system and ``start`` of an FMU alone. ``strict``: FMUs whose descriptions break rules of FMI are
-    refused and not only remarked upon. ``feedthrough`` are components whose outputs depend directly on all inputs,
-    ``no_feedthrough`` those whose outputs depend directly on none. ``call_timeout`` (s), of one call of an FMU, and
-    ``memory`` (GB) are limits of processes with foreign FMUs. ``folder`` is what relative paths are meant from: an FMU
-    may change the process's working folder once it is loaded.
+    Of ``chosen``, an ``algorithm`` None is what the system's description says, else sequential; a ``flavour`` None
+    takes native FMUs where they are built; ``open_inputs`` None is ``refuse`` in a system and ``start`` of an FMU
+    alone. ``limits`` are those of processes with foreign FMUs. ``folder`` is what relative paths are meant from: an FMU
+    may change the process's working folder once it is loaded. Options are equal where they ask the same of a system:
+    without trust, limits and folder. Raises InputError.
     """
 
-    step: float | None = None
-    stop_time: float | None = None
-    algorithm: str | None = None
-    variant: str | None = None
-    flavour: str | None = None
-    allow_unmatched: bool = False
-    strict: bool = False
-    open_inputs: str | None = None
-    feedthrough: tuple[str, ...] = ()
-    no_feedthrough: tuple[str, ...] = ()
-    call_timeout: float = field(default=300.0, compare=False)
-    memory: float = field(default=4.0, compare=False)
+    chosen: declared.ChosenOptions = field(default_factory=declared.ChosenOptions)
+    limits: declared.LimitOptions = field(default_factory=declared.LimitOptions, compare=False)
     folder: str = field(default_factory=os.getcwd, compare=False, repr=False)
 
-    @property
-    def build(self) -> str | None:
-        """Which build of Perilune's FMUs is taken; None: native where built."""
-        return None if self.flavour == FUSED else self.flavour
+    def __init__(self, **options: Unpack[_Keywords]) -> None:
+        groups: dict[str, Any] = {**options}
+        keywords = {name: each for group in GROUPS for name, each in groups.pop(group, {}).items()} | groups
+        _assign(self, places=keywords.pop("places", {}), folder=keywords.pop("folder", os.getcwd()))
+        unknown = [name for name in keywords if name not in STATED]
+        if unknown:
+            raise TypeError(f"no system option {unknown[0]!r}; {suggestion(unknown[0], STATED)}")
+        _assign(self, **complete_options(declared.LayerOptions, keywords))
+        for name, group in GROUPS.items():
+            _assign(self, **{name: complete_options(group, keywords)})
+        self._check()
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        for name in ("call_timeout", "memory"):
-            limit = getattr(self, name)
-            if not 0.0 < limit < math.inf:
-                raise InputError(f"`{name}`", str(limit), "not a positive number", "give more than 0")
+    @property
+    def build(self) -> Build | None:
+        """The build of Perilune's FMUs; None: native where built."""
+        flavour = self.chosen["flavour"]
+        return None if flavour == FUSED else cast(Build | None, flavour)
+
+    @property
+    def by_name(self) -> dict[str, Any]:
+        """All options by name, layers first."""
+        layer = {name: getattr(self, name) for name in options_of(declared.LayerOptions)}
+        return layer | {name: each for group in GROUPS for name, each in getattr(self, group).items()}
+
+    def but(self, **changes: Unpack[_Keywords]) -> SystemOptions:
+        """Return these options but for some changes."""
+        return SystemOptions(**cast(_Keywords, {**vars(self), **changes}))
 
     def among(self, **layers: Layer) -> SystemOptions:
         """These options, the command line's, with what others ask, by the names of `LAYERS`."""
@@ -123,26 +135,32 @@ class SystemOptions(Trust, Layer):
         ordered = [remaining.pop(name) for name in LAYERS if name in remaining]
         if remaining:
             raise TypeError(f"no such layer: {', '.join(remaining)}")
-        return replace(
-            self,
-            use={slot: fmu for layer in ordered for slot, fmu in layer.use.items()},
-            parameters=tuple(name for layer in ordered for name in layer.parameters),
-            set={name: value for layer in ordered for name, value in layer.set.items()},
-            places=_places(ordered),
-        )
+        merged = {
+            "use": {slot: fmu for layer in ordered for slot, fmu in layer.use.items()},
+            "parameters": tuple(name for layer in ordered for name in layer.parameters),
+            "set": {name: value for layer in ordered for name, value in layer.set.items()},
+            "places": _places(ordered),
+        }
+        return SystemOptions(**cast(_Keywords, {**vars(self), **merged}))
+
+
+GROUPS: Mapping[str, type] = {  # attribute of `SystemOptions` -> its options
+    "trust": declared.TrustOptions,
+    "chosen": declared.ChosenOptions,
+    "limits": declared.LimitOptions,
+}
 
 
 def system_options(options: Mapping[str, Any]) -> SystemOptions:
-    """The system options among the options of a verb, by name; FMUs and parameter sets as names or paths."""
-    given = {each.name: options[each.name] for each in fields(SystemOptions) if each.name in options}
-    return SystemOptions(
-        **given
-        | {
-            "use": {slot: os.fspath(fmu) for slot, fmu in given["use"].items()},
-            "allow": tuple(given.get("allow", ())),
-            "parameters": tuple(os.fspath(name) for name in given["parameters"]),
-        }
-    )
+    """Return the system options among the options of a verb, by name."""
+    keywords = {name: options[name] for name in options_of(declared.SystemOptions) if name in options}
+    return SystemOptions(**cast(_Keywords, keywords))
+
+
+def trust_of(options: Mapping[str, Any]) -> Trust:
+    """Return what foreign FMUs may do, among the options of a verb."""
+    keywords = {name: options[name] for name in options_of(declared.TrustOptions) if name in options}
+    return Trust(**cast(declared.TrustOptions, keywords))
 
 
 def _places(layers: Sequence[Layer]) -> dict[str, tuple[str, int]]:
@@ -151,15 +169,9 @@ def _places(layers: Sequence[Layer]) -> dict[str, tuple[str, int]]:
     return {name: layer.places[name] for name, layer in last.items() if name in layer.places}
 
 
-LOG_LEVELS = ("error", "warning", "info", "all")
+LOG_LEVELS: tuple[str, ...] = get_args(LogLevel)
 # The least fmi2Status of each level: discard, warning, OK; of `all` FMUs are asked for all their categories, too.
 SAID_FROM = dict(zip(LOG_LEVELS, (2, 1, 0, 0), strict=True))
-
-
-def trust_of(options: Mapping[str, Any]) -> Trust:
-    """What foreign FMUs may do, among the options of a verb."""
-    given = {each.name: options[each.name] for each in fields(Trust) if each.name in options}
-    return Trust(**given | {"allow": tuple(given.get("allow", ()))})
 
 
 @dataclass(frozen=True)

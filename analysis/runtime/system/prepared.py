@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ....common.collection import no_collection
 from ....common.errors import InputError, suggestion
-from ....common.paths import FLAVOURS
+from ...options.choices import SEQUENTIAL
 from ..ssp.archive import SystemArchive, open_system, read_fmu
 from ..ssp.description import System
 from ..ssp.reading import read_description
@@ -25,7 +25,7 @@ from .fmu import Fmu
 from .inputs import Drive, check_signals, drive_inputs, find_driven, settle_open_inputs
 from .namesakes.namesakes import check_namesakes
 from .network import Network
-from .options import ALGORITHMS, FUSED, OPEN_INPUTS, SystemOptions
+from .options import SystemOptions
 from .passing.settings import Settings
 from .schedule import Schedule, make_schedule
 from .series import InputSeries
@@ -116,14 +116,13 @@ def prepare_system(
 def _prepare(
     system: str | Path | SystemArchive, options: SystemOptions, loaded: dict[str, Fmu], series: InputSeries | None
 ) -> PreparedSystem:
-    _check_choices(options)
     archive = system if isinstance(system, SystemArchive) else open_system(system)
     fmus = ComponentFmus(archive, options, loaded)
     network, remarks = _read_network(fmus)
     if series is not None:
         network.driven = find_driven(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
     settings = _settle(network, fmus)
-    algorithm = options.algorithm or fmus.description.algorithm or ALGORITHMS[0]
+    algorithm = options.chosen["algorithm"] or fmus.description.algorithm or SEQUENTIAL
     feedthrough = find_feedthrough(network, options, algorithm, is_alone=archive.is_fmu)
     schedule = make_schedule(network, feedthrough, algorithm)
     network.notes += schedule.feedthrough.notes(network, algorithm)
@@ -148,17 +147,6 @@ def _prepare(
     )
 
 
-def _check_choices(options: SystemOptions) -> None:
-    """Refuse options that are none of the known choices. Raises InputError."""
-    for name, choice, known in (
-        ("`algorithm`", options.algorithm, ALGORITHMS),
-        ("`flavour`", options.flavour, (*FLAVOURS, FUSED)),
-        ("`open_inputs`", options.open_inputs, OPEN_INPUTS),
-    ):
-        if choice is not None and choice not in known:
-            raise InputError(name, str(choice), "unknown", suggestion(str(choice), known))
-
-
 def _read_network(fmus: ComponentFmus) -> tuple[Network, list[str]]:
     """Return the network of a system with its FMUs loaded, and remarks on an FMU alone. Raises InputError."""
     archive, options = fmus.archive, fmus.options
@@ -169,7 +157,7 @@ def _read_network(fmus: ComponentFmus) -> tuple[Network, list[str]]:
         sized = fmus.with_sizes(alone, next(iter(fmus.description.system.elements)))
         fmus.description, remarks = describe_alone(sized, options)
     else:
-        fmus.description = read_description(archive, options.variant)
+        fmus.description = read_description(archive, options.chosen["variant"])
     try:
         fmus.description = expand_arrays(fmus.description, fmus.sizes)
         network = build_network(fmus.description, fmus.load)
@@ -181,7 +169,7 @@ def _read_network(fmus: ComponentFmus) -> tuple[Network, list[str]]:
         if slot not in network.fmus:
             raise InputError("`use`", slot, "no such component", suggestion(slot, network.fmus))
     _refuse_seconds(network)
-    check_namesakes(network.fmus.values(), in_process=options.in_process)
+    check_namesakes(network.fmus.values(), in_process=options.trust["in_process"])
     return network, remarks
 
 
@@ -192,7 +180,7 @@ def _settle(network: Network, fmus: ComponentFmus) -> Settings:
     assignments += fmus.assignments
     network.notes += fmus.notes
     settings = collect_settings(network, archive, assignments, options)
-    keep_starts = archive.is_fmu if options.open_inputs is None else options.open_inputs == "start"
+    keep_starts = archive.is_fmu if options.chosen["open_inputs"] is None else options.chosen["open_inputs"] == "start"
     settle_open_inputs(network, settings, keep_starts=keep_starts)
     check_signals(network, settings)
     check_shared(network, settings)

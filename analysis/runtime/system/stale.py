@@ -10,9 +10,10 @@ from pathlib import Path
 from ....common.paths import FLAVOURS, SYSTEMS, names_fmu
 from ....fmus_src.export.available import find_fmu
 from ....fmus_src.export.sources import find_changed_source
+from ...options.option import SetValue
 from ..ssp.archive import open_system
 from ..ssp.description import Component, System
-from ..ssp.parameter_sets import Assignment, SetValue, read_parameter_file
+from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
 from .assignments import single_value
 from .options import SystemOptions
@@ -72,9 +73,8 @@ def report_fmus(system: str | Path, options: SystemOptions, compare: Mapping[str
     archive = open_system(system)
     if archive.is_fmu:
         return []
-    sources = {
-        name: component.source for name, component in _components(read_description(archive, options.variant).system)
-    }
+    description = read_description(archive, options.chosen["variant"])
+    sources = {name: component.source for name, component in _components(description.system)}
     blocks = {name: Path(source).stem for name, source in sources.items() if source not in archive.files}
     blocks |= dict(options.use)
     pairs = [*blocks.items(), *((name, fmu) for name, fmus in compare.items() for fmu in fmus)]

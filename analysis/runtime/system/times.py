@@ -24,17 +24,17 @@ class MissingStopTimeError(InputError):
 
 def flight_times(network: Network, options: SystemOptions) -> tuple[float, float, int]:
     """Start (s), communication step (s) and number of steps; raises InputError."""
-    description = network.description
-    if options.step is None and description.varies is not None:
+    description, chosen = network.description, options.chosen
+    if chosen["step"] is None and description.varies is not None:
         line = f"step (line {description.varies})"
         raise InputError(network.file, line, "varies, which it does not here", "give one: `step`")
-    given = options.step if options.step is not None else _read_step(network)
+    given = chosen["step"] if chosen["step"] is not None else _read_step(network)
     step = given if given is not None else _shortest_proposal(network)
     if step is None:
         raise InputError(network.file, "step", "neither the SSD nor an FMU proposes one", "give `step`")
     if not 0.0 < step < float("inf"):
         raise InputError("`step`", str(step), "not a positive number of seconds", "give a positive step")
-    stop = options.stop_time if options.stop_time is not None else description.stop_time
+    stop = chosen["stop_time"] if chosen["stop_time"] is not None else description.stop_time
     is_osp = network.file.endswith(OSP_SUFFIX)
     experiment = network.file if is_osp else f"{network.file}: DefaultExperiment"
     if stop is None:
@@ -46,18 +46,20 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     if not math.isfinite(start):
         raise InputError(experiment, "startTime", f"{start} is not finite", "correct it")
     step_option = ("`step`", f"{step:g}")
-    stop_option = ("`stop_time`", f"{stop:g}") if options.stop_time is not None else (experiment, f"stopTime {stop:g}")
+    stop_option = (
+        ("`stop_time`", f"{stop:g}") if chosen["stop_time"] is not None else (experiment, f"stopTime {stop:g}")
+    )
     duration = stop - start
     if duration < 0.0:
         raise InputError(*stop_option, f"lies before the start, {start:g} s", "give a later stop time")
     if max(abs(stop), abs(start)) + step == max(abs(stop), abs(start)):
         problem = f"a step of {step:g} s does not advance a time of {stop:g} s"
-        requested = step_option if options.step is not None else stop_option
+        requested = step_option if chosen["step"] is not None else stop_option
         raise InputError(*requested, problem, "give a longer `step` or earlier times")
     steps = round(duration / step) if duration / step < float("inf") else -1
-    if 0.0 < duration * (1.0 + STEP_ROUNDING) < step and (options.step is not None or options.stop_time is None):
+    if 0.0 < duration * (1.0 + STEP_ROUNDING) < step and (chosen["step"] is not None or chosen["stop_time"] is None):
         problem = f"longer than the simulation of {duration:g} s"
-        requested = step_option if options.step is not None else (network.file, f"step {step:g}")
+        requested = step_option if chosen["step"] is not None else (network.file, f"step {step:g}")
         raise InputError(*requested, problem, "give a shorter `step`")
     if steps < 0 or abs(steps * step - duration) > STEP_ROUNDING * max(min(step, duration), abs(stop)):
         problem = f"{duration:g} s from the start are not a whole number of steps of {step:g} s"
@@ -75,7 +77,7 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
     periods = {}
     for name, component in network.components():
         own = component.step
-        if own is None and options.step is None:
+        if own is None and options.chosen["step"] is None:
             own = _step_of_system(network, name)
         period = 1 if own is None else max(1, int(own / step * (1.0 + STEP_ROUNDING)))
         if period > LONGEST_PERIOD:

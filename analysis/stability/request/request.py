@@ -72,7 +72,7 @@ def read_request(
     """
     archive = open_system(system)
     times = tuple(sorted(set(map(float, at))))
-    declaration = _select(read_description(archive, options.variant), loops, times, options)
+    declaration = _select(read_description(archive, options.chosen["variant"]), loops, times, options)
     request = Request(archive.name, archive.label, str(system), options, declaration, at=times)
     if campaign is None:
         without = {"configuration": configuration, "trials": trials, "seed": seed, "trial": trial, "draws": draws}
@@ -182,7 +182,7 @@ class Subject:
     def with_options(self, *, step: float | None = None, **layers: Layer) -> Subject:
         """With another communication step (s), and with what others ask, by the names of `LAYERS`."""
         options = self.options.among(**layers)
-        return replace(self, options=options if step is None else replace(options, step=step))
+        return replace(self, options=options if step is None else options.but(step=step))
 
     def at(self, point: Point, study: Layer | None = None) -> PreparedSystem:
         """The system at a point, with ``study`` over all other layers. Raises InputError."""

@@ -61,7 +61,7 @@ def _is_cut_off(prepared: PreparedSystem, result: Flight) -> bool:
     """Whether a system that says itself when it has finished did not, by a stop time that the user did not choose."""
     end = prepared.network.nodes.get(FINISHED)
     says_so = end is not None and end.component is None and end.kind == "output"
-    return says_so and result.status == "stop_time" and prepared.options.stop_time is None
+    return says_so and result.status == "stop_time" and prepared.options.chosen["stop_time"] is None
 
 
 MOST = 4  # names in a line

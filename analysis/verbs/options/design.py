@@ -14,10 +14,10 @@ from ...design.trajectories.vehicle import (
     LANDING_VEHICLE,
     Margins,
 )
+from ...options.declaration import Argument, Verb
 from ...options.declared.campaigns import CAMPAIGN, SYSTEM
 from ...options.option import FilePath, Option
 from ...options.system import JsonFile, ReportFiles, Seed, SystemOptions
-from ...options.verb import Argument, Verb
 
 MOST_INTERVALS = 100_000
 NO_PLAN = "there is no such plan, or it takes more propellant than is on board"
@@ -188,6 +188,10 @@ TRANSFER = Verb(
     options=TransferOptions,
     files=ReportFiles,
     function="plans.plan_hover_transfer",
+    objects={
+        "transfer": "`perilune.Transfer`: distance, descent and gravity; default: the published case",
+        "vehicle": "`perilune.Vehicle`: masses, specific impulse and limits; default: that of the published case",
+    },
     examples={"perilune design transfer --margins": "from hover to hover, with control margins"},
     not_met=NO_PLAN,
 )
@@ -229,6 +233,10 @@ BOUND = Verb(
     options=BoundOptions,
     files=ReportFiles,
     function="plans.plan_landing_bound",
+    objects={
+        "landing": "`perilune.Landing`: start, target and Moon; default: that of the system, else the published case",
+        "vehicle": "`perilune.Vehicle`: masses, specific impulse and limits; default: likewise",
+    },
     examples={"perilune design bound": "a lower bound of what any such landing takes; needs the extra plan"},
     not_met=NO_PLAN,
 )

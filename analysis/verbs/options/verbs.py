@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...options.declaration import Verb
 from ...options.declared.campaigns import BATCH, COMPARE, MERGE, PREPARE, REPLAY, RUN, SHARD, SHOW
 from ...options.declared.library import (
     COMPOSE,
@@ -16,7 +17,6 @@ from ...options.declared.library import (
     VERIFY,
 )
 from ...options.declared.studies import RARE, SENSITIVITY, STABILITY, WORST
-from ...options.verb import Verb
 from .design import BOUND, BOUNDS, LAW, SEARCH, TRANSFER
 
 PURPOSES = {  # headings of `perilune --help`

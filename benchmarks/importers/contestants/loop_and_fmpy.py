@@ -9,9 +9,9 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import Parameter, ParameterSet
 
+from perilune.analysis.options.choices import FUSED
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.fmu import Fmu
-from perilune.analysis.runtime.system.options import FUSED
 from perilune.common.errors import InputError
 
 from ..contestant import Contestant, Course, Fly, Unavailable, Values

@@ -38,7 +38,7 @@ def test_a_file_as_it_should_be(tmp_path):
     assert list(actual.objectives) == ["altitude", "speed"]
     plan = actual.plan(5)
     assert plan.campaign.seed == 5
-    assert plan.options.step == 0.5
+    assert plan.options.chosen["step"] == 0.5
     assert len(plan.overlaid) == 256 + 3 + 1
     with_fmu = read(tmp_path, TEXT.replace("[network_operator]\n", '[network_operator]\nfmu = "other"\n'))
     assert with_fmu.plan().options.use == {"guidance": "other"}

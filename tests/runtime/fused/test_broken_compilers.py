@@ -73,7 +73,7 @@ def test_refused_in_one_line(ramp, compiler, text, problem):
     with Simulation(of(ramp)) as simulation:
         with pytest.raises(InputError, match=problem):
             simulation.fuse()
-        assert simulation.prepared.options.flavour is None
+        assert simulation.prepared.options.chosen["flavour"] is None
         assert simulation.fly().complete
 
 

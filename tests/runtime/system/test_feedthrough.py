@@ -193,7 +193,7 @@ def test_a_campaign_keeps_the_option_and_its_page_says_what_is_assumed(undeclare
     manifest = json.loads((tmp_path / "direct" / "manifest.json").read_text())
     assert (manifest["options"]["feedthrough"], manifest["options"]["no_feedthrough"]) == (["gain"], [])
     repeated = perilune.merge(tmp_path / "direct")
-    assert repeated.plan.options.feedthrough == ("gain",)
+    assert repeated.plan.options.chosen["feedthrough"] == ("gain",)
     command = replay_command(direct.plan, direct.plan.campaign.variants()[0], 1)
     assert "feedthrough gain" in command
     for result, is_said in ((late, True), (direct, False)):

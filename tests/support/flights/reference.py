@@ -8,13 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from perilune.analysis.options.choices import FUSED
 from perilune.analysis.options.fault import Fault
 from perilune.analysis.runtime.flight.parameters import _set_once, _unreadable
 from perilune.analysis.runtime.flight.results import Flight
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.program.opening import fly_reference
 from perilune.analysis.runtime.program.rows import Rows
-from perilune.analysis.runtime.system.options import FUSED, SystemOptions
+from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import PreparedSystem, prepare_system
 
 
@@ -40,7 +41,7 @@ def assert_same(
     with Simulation(prepared, faults=faults, wanted=wanted) as simulation:
         for _ in range(flights):
             compare(simulation.fly(), rows)
-        assert (simulation.fused_steps != 0) == (prepared.options.flavour == FUSED)
+        assert (simulation.fused_steps != 0) == (prepared.options.chosen["flavour"] == FUSED)
     return rows.status
 
 
