@@ -36,7 +36,7 @@ class Argument:
 
 @dataclass(frozen=True)
 class Verb:
-    """What the command line, the signature and the documentation need of a verb.
+    """Declaration of a verb, from which command line, signature and documentation derive.
 
     ``name`` is what the command line calls it (two words for those of a group). ``options`` are those of the Python
     function, too; ``files`` are those that only the command line has: where it writes the result. ``function`` is

@@ -1,4 +1,4 @@
-"""Where the axes of a chart lie in a figure, so that there is room for all texts."""
+"""Layout: the box of the axes of a chart in a figure, with room for all texts."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def _room(chart: Chart, title: str) -> tuple[float, float, float, float]:
 
 
 def _ends_of_ticks(chart: Chart, width: float) -> tuple[float, float]:
-    """How far texts of the abscissa's ticks reach beyond the left and the right end of axes of this width."""
+    """Return by how much texts of the abscissa's ticks exceed the left and the right end of axes of this width."""
     if not chart.x.ticks:
         return 0.0, 0.0
     at = width * fraction(chart.x, np.array([each for each, _ in chart.x.ticks]))

@@ -61,7 +61,7 @@ def write_svg(
 
 
 def _elements(frame: Frame, chart: Chart, name: str, title: str, trials: TrialPositions, label_size: float) -> str:
-    """What the picture consists of, from the back to the front."""
+    """Return the elements of the picture, from the back to the front."""
     below = "".join(draw_area(frame, each) for each in chart.areas)
     below += "".join(draw_rule(frame, each) for each in chart.rules)
     dots = "".join(draw_dots(frame, each, *trials(each)) for each in chart.dots)

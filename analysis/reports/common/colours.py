@@ -87,7 +87,7 @@ MARKERS = "osD^vPX"
 
 
 class Look(NamedTuple):
-    """How one of several series is drawn: told apart by colour, dashes and marker at once."""
+    """Style of one of several series: colour, dashes and marker differ at once."""
 
     colour: str
     dashes: LineStyleType

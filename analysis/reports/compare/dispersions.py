@@ -37,7 +37,7 @@ class Target:
 
 @dataclass(frozen=True)
 class Ends:
-    """What a contender's flights each by at the end: final less target, trials by elements, SI."""
+    """Errors at the end of a contender's flights: final less target, trials by elements, SI."""
 
     signal: str
     variable: str

@@ -61,7 +61,7 @@ def first_camera(scene: SceneView, ground: Ground | None, row: int) -> Camera | 
 
 
 def _extent(scene: SceneView, row: int) -> float:
-    """How far (m) other bodies reach from the first one at a sample; 0 where there are none."""
+    """Return the extent (m) of other bodies around the first one at a sample; 0 where there are none."""
     first, *others = scene.bodies
     ends = [
         float(np.linalg.norm(position_at(body, row) - position_at(first, row))) + 0.5 * math.hypot(*body.size)

@@ -145,7 +145,7 @@ class Level(NamedTuple):
 
     @property
     def dashes(self) -> tuple[float, ...]:
-        """Those of its line."""
+        """Dashes of the line."""
         return () if self.colour == VERMILION else DASHED
 
 

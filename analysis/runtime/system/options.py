@@ -47,7 +47,7 @@ NETWORK, WRITE = "network", "write="
 
 @dataclass(frozen=True, init=False)
 class Trust:
-    """What foreign FMUs may do here, `TrustOptions`: of whoever simulates, never read from a campaign's folder.
+    """Permissions of foreign FMUs, `TrustOptions`: stated by whoever simulates, never read from a campaign's folder.
 
     Unless trusted they run in a process of their own, where they may neither use the network nor write but as allowed.
     Raises InputError.

@@ -57,7 +57,7 @@ def _abscissa(frame: Frame, ticks: list[tuple[float, str]], grid: str, edges: st
 
 
 def _have_lines(axis: Axis, ticks: Sequence[tuple[float, str]]) -> np.ndarray:
-    """Which ticks have lines of the grid, [ticks]: those with texts, or all where none has."""
+    """Return the ticks with a grid line, [ticks]: those with texts, or all where none has."""
     named = np.array([bool(text) for _, text in ticks], dtype=bool)
     return axis.grid & (named | ~named.any())
 
