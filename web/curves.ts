@@ -71,7 +71,7 @@ class Curves {
       listenToKeys(plot, choose, (key) => ofTrials?.press(key) ?? false);
       const keys = "arrow keys move the cursor, plus and minus zoom, 0 shows the whole range";
       plot.root.setAttribute("role", "application");
-      plot.root.setAttribute("aria-label", `${picture.getAttribute("aria-label")}; ${keys}`);
+      plot.root.setAttribute("aria-label", `${[picture.getAttribute("aria-label"), plot.chart.title].filter(Boolean).join(", ")}; ${keys}`);
     }
     return figure;
   }

@@ -6,7 +6,7 @@ four stages each. The rows take turns in this process; the shortest flight count
 
 from __future__ import annotations
 
-from perilune.analysis.runtime.ssp.parameter_sets import SetValue
+from perilune.analysis.options.option import SetValue
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import PreparedSystem, prepare_system
 from perilune.common.paths import BUILD

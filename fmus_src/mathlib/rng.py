@@ -11,7 +11,7 @@ import math
 
 from ..kernel.elementary.two_doubles import ROUND
 from ..kernel.functions import cos, log
-from .rng_jumps import JUMPS
+from .rng_jumps import JUMPS, ROWS
 from .vectors import Vector3, vector
 
 M1 = 4294967087.0
@@ -88,12 +88,10 @@ def jump(state: list, row: int) -> None:
 def jump_times(state: list, count: int, first: int) -> None:
     """Advance the state by ``count`` times 2^(76 + first) numbers."""
     left = count
-    row = first
-    while left > 0:
+    for row in range(first, ROWS):
         if left % 2 == 1:
             jump(state, row)
         left = left // 2
-        row = row + 1
 
 
 def seed_streams(state: list, seed: int, stream: int) -> None:

@@ -5,6 +5,8 @@ c0 + c1 A + c2 A^2 (Cayley and Hamilton). A is a companion matrix, so that (c0, 
 Source of A: L'Ecuyer, Operations Research 47(1), 1999.
 """
 
+ROWS = 114
+
 # Rows of c0, c1, c2 of the first component, then of the second.
 JUMPS = (
     82758667.0, 1871391091.0, 4127413238.0, 1511326704.0, 3759209742.0, 1610795712.0,

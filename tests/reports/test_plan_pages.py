@@ -87,7 +87,7 @@ def test_landing(landing, pages):
     assert repr(landing.direct.propellant_fraction * LANDER.mass) in values
     assert all(repr(time) in values for burn in landing.bound.burns() for time in burn)
     plotted = parse(text).xpath("//*[local-name()='svg' and starts-with(@class, 'figure')]/@class")
-    assert sorted(plotted) == ["figure", "figure", "figure slim", "figure wide"]
+    assert sorted(plotted) == ["figure", "figure", "figure fluid"]
 
 
 def test_the_same_bytes_again(hover, landing, pages, tmp_path):
