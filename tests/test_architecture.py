@@ -122,7 +122,7 @@ def test_the_list_allows_nothing_that_is_not_used(arrows):
 
 
 def test_only_the_command_line_and_the_build_know_the_verbs(arrows):
-    """A request is data: what lies below writes no command line of its own."""
+    """A request is data: only the rooms above it write command lines."""
     importers = {
         here
         for here, pairs in arrows.items()

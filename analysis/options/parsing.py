@@ -84,7 +84,7 @@ def _default_text(declared: Declared) -> str:
 
 
 def _complete(action: argparse.Action, completer: str, find_completer: FindCompleter) -> None:
-    """Let a shell offer for an argument what its completer, found only then, returns."""
+    """Offer the shell what the completer of an argument returns; it is imported only then."""
     if completer:
 
         def offer(*arguments: Any, **keywords: Any) -> Any:

@@ -11,7 +11,7 @@ from .option import EMPTY, FilePath, Option, SetValue, StructuredArray
 
 
 class TrustOptions(TypedDict, total=False):
-    """What foreign FMUs may do"""
+    """Permissions of foreign FMUs"""
 
     in_process: Annotated[
         bool, Option("trust foreign FMUs: load them into this process, not into one of their own", False)
@@ -27,7 +27,7 @@ class TrustOptions(TypedDict, total=False):
 
 
 class LayerOptions(TypedDict, total=False):
-    """What a system is composed of"""
+    """Composition of a system"""
 
     use: Annotated[
         Mapping[str, FilePath],
@@ -48,7 +48,7 @@ class LayerOptions(TypedDict, total=False):
 
 
 class ScheduleOptions(TypedDict, total=False):
-    """How a system is stepped"""
+    """Schedule of a system"""
 
     step: Annotated[float | None, Option("communication step", unit="s", metavar="H")]
     stop_time: Annotated[float | None, Option("end of the simulation", unit="s", metavar="T")]
@@ -60,11 +60,11 @@ class ScheduleOptions(TypedDict, total=False):
 
 
 class AssemblyOptions(LayerOptions, ScheduleOptions, total=False):
-    """What a system is made of, and how it is stepped"""
+    """Composition and schedule of a system"""
 
 
 class TreatmentOptions(TypedDict, total=False):
-    """How FMUs and descriptions are read"""
+    """Treatment of FMUs and descriptions"""
 
     flavour: Annotated[
         Flavour | None,
@@ -115,7 +115,7 @@ class LimitOptions(TypedDict, total=False):
 
 
 class ChosenOptions(ScheduleOptions, TreatmentOptions, total=False):
-    """What distinguishes two simulations of one system with equal FMUs and values"""
+    """Options that distinguish two simulations of one system with equal FMUs and values"""
 
 
 class SystemOptions(TrustOptions, AssemblyOptions, TreatmentOptions, LimitOptions, total=False):

@@ -143,7 +143,7 @@ def _legend(groups: list[SignalGroup]) -> list[tuple[Markup, str]]:
 def history_chart(group: SignalGroup, result: Result, *, intervals: tuple[int, int] = (5, 4)) -> Chart:
     """Return the chart of a scalar or a vector over time; Integers and Booleans as steps.
 
-    ``intervals`` between ticks are at most so many on the abscissa and on the ordinate.
+    ``intervals`` are the most intervals between ticks of the abscissa and of the ordinate.
     """
     values, factor = group.values(result), display_factor(group.unit)
     curves = [

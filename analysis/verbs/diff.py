@@ -13,7 +13,7 @@ from ...common.to_json import to_json
 from ..campaigns.tables import align_columns
 from ..differences.differences import RunDifferences, compare_runs
 from ..differences.recorded_run import read_run
-from ..options.declared.library import DIFF, DiffOptions
+from ..options.declared.library import DIFF, LISTING, DiffOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..reports.common.quantities import number
@@ -21,7 +21,6 @@ from ..reports.differences.page import within_tolerance, write_differences_page
 
 LISTED = 20  # signals that a terminal shows
 NAMED = 6  # signals of one run alone
-LISTING = 1e-9  # relative difference from which a signal is listed
 
 
 @dataclass(frozen=True, eq=False)

@@ -125,6 +125,9 @@ VERIFY = Verb(
 )
 
 
+LISTING = 1e-9  # relative difference from which `diff` lists a signal
+
+
 class DiffOptions(TypedDict, total=False):
     """Options of diff"""
 
@@ -132,7 +135,7 @@ class DiffOptions(TypedDict, total=False):
         float | None,
         Option(
             "a signal may differ by this fraction of its largest magnitude; more, or a missing signal, is a problem; "
-            "without it signals up to 1e-9 are summarised",
+            f"without it signals up to {LISTING:g} are summarised",
             metavar="R",
         ),
     ]

@@ -70,7 +70,7 @@ def axis_ticks(
 
 
 def decade_ticks(low: float, high: float, limit: int, multiples: tuple[float, ...] = (1.0,)) -> list[float]:
-    """Return at most ``limit`` powers of ten between two ends, each so many decades from the next.
+    """Return at most ``limit`` powers of ten between two ends, at equal numbers of decades.
 
     Where each decade has one, ``multiples`` of it are ticks as well.
     """

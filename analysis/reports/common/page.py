@@ -14,7 +14,6 @@ from ....common.atomic import write_atomically
 from ....common.percent import percent
 from ..interactive.charts import Drawing
 from ..interactive.embedded import Embedded
-from ..interactive.short_svg import shorten
 from .colours import colour_properties
 from .quantities import MINUS, display_unit, in_shown_unit, number
 
@@ -71,7 +70,7 @@ def render_page(template: Path, **content: Any) -> str:
 
 def answering(figure: Drawing, embedded: Embedded) -> Markup:
     """A figure whose values the page's script shows at the cursor."""
-    svg = Markup(shorten(figure.svg))
+    svg = figure.svg
     number = embedded.add_figure(figure.charts)
     return svg if number is None else Markup('<svg data-figure="{}" {}').format(number, svg.removeprefix("<svg "))
 

@@ -26,7 +26,7 @@ KILOMETRES = 1e4  # m, from which on lengths are in km
 
 
 class Panel(NamedTuple):
-    """A figure with its heading: a label, which has a look where it is a contender's; and a legend of its own."""
+    """A figure with its heading, a label, which has a look where it is a contender's, and its legend."""
 
     label: str
     figure: Drawing

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, TypedDict
+from typing import Any
 
 import matplotlib
 from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
-from matplotlib.typing import CapStyleType, LineStyleType
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from ..interactive import measures
 from ..interactive.measures import WIDTH
@@ -29,31 +28,9 @@ from .colours import (  # noqa: F401
     Look,
     look,
 )
-from .quantities import log_tick, tick
+from .quantities import tick
 from .svg import Picture
 
-
-class LineStyle(TypedDict, total=False):
-    """Keyword arguments of matplotlib's lines."""
-
-    color: str
-    linestyle: LineStyleType
-    linewidth: float
-    solid_capstyle: CapStyleType
-    marker: str
-    markersize: float
-    markerfacecolor: str
-    markeredgecolor: str
-    markeredgewidth: float
-    rasterized: bool
-    clip_on: bool
-    zorder: float
-
-
-FAILED: LineStyle = {
-    "color": INK,
-    "linestyle": (0, measures.FAILED_DASHES),
-}  # flights that failed, and what is to be expected
 SETTINGS: Any = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
@@ -111,19 +88,3 @@ def plain_ticks(axes: Axes, *, x: int | None = None, y: int | None = None, whole
     if y is not None:
         axes.yaxis.set_major_locator(MaxNLocator(y, steps=[1, 2, 2.5, 5, 10], integer=whole_y, min_n_ticks=2))
         axes.yaxis.set_major_formatter(FuncFormatter(tick))
-
-
-def label_lanes(axes: Axes, labels: Sequence[str], top: float = -0.6, size: float = 9.0) -> None:
-    """Labels of horizontal lanes, the first at the top; ``top`` is the end of the axis above it."""
-    axes.set_yticks(range(len(labels)), labels)
-    axes.set_ylim(len(labels) - 0.4, top)
-    axes.grid(visible=False, axis="y")
-    axes.tick_params(axis="y", length=0, labelsize=size)
-
-
-def log_ticks_x(axes: Axes) -> None:
-    """A logarithmic abscissa with a handful of whole decades marked."""
-    axes.set_xscale("log")
-    axes.xaxis.set_major_locator(LogLocator(numticks=6))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(FuncFormatter(log_tick))

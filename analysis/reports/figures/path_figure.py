@@ -99,7 +99,7 @@ def path_chart(
 
 
 def _point_curves(name: str, position: np.ndarray, index: int) -> list[Curve]:
-    """All positions of a point, [2, n], and the last one larger; none where none is finite."""
+    """Return marks at all positions of a point, [2, n], the last one larger; none where none is finite."""
     finite = position[:, np.all(np.isfinite(position), axis=0)]
     if not finite.size:
         return []

@@ -1,1 +1,1 @@
-"""What lies inside a page: columns of numbers, charts of its figures, short paths, scripts and their policy."""
+"""Contents of a page for its scripts: columns of numbers, charts of its figures, scripts and their policy."""

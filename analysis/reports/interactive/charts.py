@@ -16,10 +16,6 @@ from markupsafe import Markup
 from .columns import Coarse
 
 
-class UnstatedError(Exception):
-    """Axes have something that no chart states; their figure remains a picture."""
-
-
 @dataclass(frozen=True, kw_only=True)
 class Axis:
     """An axis: its ends as drawn, the first at the left or the bottom, and its ticks in between with their texts.

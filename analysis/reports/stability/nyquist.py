@@ -170,7 +170,7 @@ def _zone(limits: Limits) -> tuple[list[Area], list[Note]]:
 
 
 def _margins(crossings: Classical) -> list[Curve]:
-    """All crossings, those that decide with a bar to the critical point."""
+    """Return marks at all crossings, those that decide with a bar to the critical point."""
     gain, phase = crossings.gain_margin, crossings.phase_margin
     curves = []
     if gain is not None:

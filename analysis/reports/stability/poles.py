@@ -31,7 +31,7 @@ def poles_of(loop: LoopReport) -> np.ndarray:
 
 
 def are_crowded(poles: np.ndarray) -> bool:
-    """True if so many poles lie near z = 1 that a map of the unit circle does not tell them apart."""
+    """True if poles lie so close to each other near z = 1 that a map of the unit circle does not separate them."""
     return bool(np.sum(np.abs(poles - 1.0) < NEAR) >= 2)
 
 

@@ -25,12 +25,12 @@ def can_fuse(prepared: PreparedSystem) -> bool:
 def check_fused(prepared: PreparedSystem, *, in_child: bool = False) -> None:
     """Refuse the flavour `FUSED` for a system whose steps would not be compiled. Raises InputError.
 
-    ``in_child``: it is simulated in processes of its own.
+    ``in_child``: it is simulated in child processes.
     """
     if prepared.options.chosen["flavour"] != FUSED:
         return
     if in_child:
-        problem = "the system is simulated in processes of its own, where steps are not compiled"
+        problem = "the system is simulated in child processes, where steps are not compiled"
         trust = "" if prepared.is_self_contained else "; or give `in_process` where you trust its FMUs"
         raise InputError("`flavour`", FUSED, problem, f"leave `flavour` out{trust}")
     if prepared.has_fmi3:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from perilune.analysis.reports.common.style import FAILED, FAINT, house_style, new_figure, plain_ticks
+from perilune.analysis.reports.common.style import FAINT, house_style, new_figure, plain_ticks
 from perilune.analysis.reports.compare.bands import Bands, Frame
 from perilune.analysis.reports.interactive.charts import Chart
+from tests.support.figures.axes import FAILED
 from tests.support.figures.inline_svg import inline_svg
 
 

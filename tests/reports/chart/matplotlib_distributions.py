@@ -10,8 +10,9 @@ from perilune.analysis.campaigns.spec.campaign import Metric
 from perilune.analysis.reports.campaign.distributions import _ends
 from perilune.analysis.reports.chart.plot_lines import QuantityLine
 from perilune.analysis.reports.common.quantities import display_factor, label_with_unit
-from perilune.analysis.reports.common.style import Look, house_style, log_ticks_x, new_figure, plain_ticks
+from perilune.analysis.reports.common.style import Look, house_style, new_figure, plain_ticks
 from perilune.analysis.reports.interactive.charts import Chart
+from tests.support.figures.axes import log_ticks_x
 from tests.support.figures.inline_svg import inline_svg
 
 

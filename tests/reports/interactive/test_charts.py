@@ -8,7 +8,8 @@ import pytest
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import FixedLocator
 
-from perilune.analysis.reports.common.style import house_style, label_lanes, log_ticks_x, new_figure
+from perilune.analysis.reports.common.style import house_style, new_figure
+from tests.support.figures.axes import label_lanes, log_ticks_x
 from tests.support.figures.inline_svg import inline_svg
 from tests.support.figures.lines import plot_path, plot_quantity
 

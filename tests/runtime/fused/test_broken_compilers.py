@@ -147,11 +147,11 @@ def test_what_is_simulated_elsewhere(tmp_path):
     """Before anything is written."""
     campaign = ("lunar_terminal_guidance", "paper")
     options = {"trials": 2, "flavour": "fused", "output": tmp_path / "out"}
-    with pytest.raises(InputError, match="flavour: fused: the system is simulated in processes of its own"):
+    with pytest.raises(InputError, match="flavour: fused: the system is simulated in child processes"):
         perilune.batch(*campaign, engine="processes", workers=1, **options)
     with pytest.raises(InputError, match="flavour: fused: shards compile steps where that pays"):
         perilune.prepare(*campaign, **options)
-    with pytest.raises(InputError, match="flavour: fused: the system is simulated in processes of its own"):
+    with pytest.raises(InputError, match="flavour: fused: the system is simulated in child processes"):
         perilune.simulate("lunar_terminal_guidance", flavour="fused", use={"guidance": foreign(tmp_path)})
     assert not (tmp_path / "out").exists()
 

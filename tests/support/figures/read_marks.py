@@ -16,9 +16,10 @@ from matplotlib.path import Path
 from matplotlib.transforms import IdentityTransform, Transform
 
 from perilune.analysis.reports.chart.plot_lines import QuantityLine, TrialDots
-from perilune.analysis.reports.interactive.charts import Area, Curve, Dots, Marker, Rule, UnstatedError
+from perilune.analysis.reports.interactive.charts import Area, Curve, Dots, Marker, Rule
 from perilune.analysis.reports.interactive.columns import Coarse
 from perilune.analysis.reports.interactive.envelope import envelope
+from tests.support.figures.unstated import UnstatedError
 
 NOTHING = ("", "None", "none", " ", None)  # markers and line styles that draw nothing
 STEPS = {"steps-post": True, "steps-pre": True, "default": False}

@@ -9,6 +9,8 @@ import numpy as np
 
 from ...interactive.charts import Axis
 
+EDGE = 0.05  # pt, by which a mark on an edge may lie outside
+
 
 def fraction(axis: Axis, numbers: np.ndarray) -> np.ndarray:
     """Return where numbers lie between the ends of an axis: 0 at the first, 1 at the second; nan where they cannot."""
@@ -84,6 +86,3 @@ class Frame:
             (x >= self.left - EDGE) & (x <= self.right + EDGE) & (y >= self.top - EDGE) & (y <= self.bottom + EDGE)
         )
         return inside
-
-
-EDGE = 0.05  # pt, by which a mark on an edge may lie outside

@@ -78,7 +78,7 @@
       return (noted.get(canvas) ?? []).map(([text, x, y]) => [text, left - origin.left + x / ratio, top - origin.top + y / ratio]);
     });
     const values = instants(picture, frame);
-    const different = await ink(picture, canvases, origin);
+    const different = await ink(picture, canvases, frame);
     return { stated, written, hidden, still: still.length, values, different };
   };
 
@@ -138,7 +138,8 @@
   };
 
   // The pixels that one of picture and canvases has and the other one nowhere near: without texts and what is still.
-  const ink = async (picture, canvases, origin) => {
+  const ink = async (picture, canvases, frame) => {
+    const origin = frame.getBoundingClientRect();
     const [width, height] = [Math.round(origin.width * SIZE), Math.round(origin.height * SIZE)];
     const copy = picture.cloneNode(true);
     for (const each of copy.querySelectorAll("text, .still")) each.remove();
@@ -152,9 +153,10 @@
     const static_ = bitmap(width, height);
     static_.drawImage(image, 0, 0, width, height);
     const live = bitmap(width, height);
+    const { left, top } = frame.getBoundingClientRect(); // values below other figures may have moved it meanwhile
     for (const canvas of canvases) {
       const box = canvas.getBoundingClientRect();
-      live.drawImage(canvas, (box.left - origin.left) * SIZE, (box.top - origin.top) * SIZE, box.width * SIZE, box.height * SIZE);
+      live.drawImage(canvas, (box.left - left) * SIZE, (box.top - top) * SIZE, box.width * SIZE, box.height * SIZE);
     }
     const [one, other] = [static_, live].map((context) => context.getImageData(0, 0, width, height).data);
     return { missing: apart(one, other, width, height), added: apart(other, one, width, height) };
