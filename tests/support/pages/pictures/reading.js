@@ -66,7 +66,7 @@
       const { left, top, width, height } = element.getBoundingClientRect();
       return [left + width / 2 - origin.left, top + height / 2 - origin.top];
     };
-    const texts = [...picture.querySelectorAll("text")].filter((each) => each.textContent.trim());
+    const texts = [...picture.querySelectorAll("text")].filter((each) => each.textContent.trim() && each.getClientRects().length);
     const isStill = (each) => each.closest(".still") !== null;
     const stated = texts.filter((each) => !isStill(each)).map((each) => [each.textContent, ...place(each)]);
     const still = texts.filter(isStill);
@@ -131,6 +131,10 @@
     const place = { x: left, y: top, width: width - left - right, height: height - top - bottom, overflow: "visible" };
     for (const [name, each] of Object.entries(place)) copy.setAttribute(name, each);
     copy.removeAttribute("style");
+    for (const path of copy.querySelectorAll("path[stroke]")) { // strokes are not stretched; those of the sheet are missing here
+      path.setAttribute("vector-effect", "non-scaling-stroke");
+      path.setAttribute("stroke-width", SIZE * parseFloat(path.getAttribute("stroke-width") ?? "1"));
+    }
     const whole = document.createElementNS("http://www.w3.org/2000/svg", "svg");
     whole.setAttribute("viewBox", `0 0 ${width} ${height}`);
     whole.append(copy);
