@@ -74,6 +74,7 @@ export class Figure {
         const point = this.charts[index]!.fluid?.point ?? width / viewBox.baseVal.width;
         plot.place(placeOf(this.charts[index]!, boxes, index, width, point));
       });
+      this.reserve();
     }
     this.isDrawn = true;
     this.frame.classList.add("drawn"); // from now on the picture is hidden
@@ -96,9 +97,25 @@ export class Figure {
       .join("; ");
   }
 
+  // The height of values in the middle of the lines, so that the page does not move under the cursor.
+  private reserve(): void {
+    this.values.style.minHeight = "";
+    this.write(
+      this.plots.flatMap((plot) => {
+        const along = plot.series.find((each) => plot.isShown(each))?.along;
+        return along ? describePlot(plot, along[along.length >> 1]!) : [];
+      }),
+    );
+    this.values.style.minHeight = `${this.values.offsetHeight}px`;
+    this.showValues();
+  }
+
   private showValues(): void {
     if (!this.size.height) return;
-    const entries = this.plots.flatMap((plot) => (plot.time.cursor === null ? [] : describePlot(plot, plot.time.cursor)));
+    this.write(this.plots.flatMap((plot) => (plot.time.cursor === null ? [] : describePlot(plot, plot.time.cursor))));
+  }
+
+  private write(entries: [text: string, colour: string][]): void {
     const spans = this.values.children;
     while (spans.length > entries.length) spans[entries.length]!.remove();
     for (const [index, [text, colour]] of entries.entries()) {
