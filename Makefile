@@ -23,7 +23,7 @@ test: .venv/ready lint build web
 	MAKEFLAGS= $(BIN)/python -m pytest -n 2 --dist loadfile
 
 # What is proved without built FMUs: the mathematics, the language, expressions, laws, the arrows between rooms.
-QUICK := tests/campaigns/spec tests/campaigns/compare tests/export/judge tests/design/laws tests/mathlib tests/reports/common tests/test_architecture.py tests/common/test_errors.py
+QUICK := tests/campaigns/definition tests/campaigns/compare tests/export/judge tests/design/laws tests/mathlib tests/reports/common tests/test_architecture.py tests/common/test_errors.py
 
 quick: .venv/ready
 	$(BIN)/ruff check .

@@ -15,8 +15,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from perilune.analysis.campaigns.fly.runner import run_batch
-from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.campaigns.definition.plan import read_plan
+from perilune.analysis.campaigns.execute.runner import run_batch
 from perilune.analysis.runtime.system.options import SystemOptions
 from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
 

@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ..campaigns.spec.file import parse_campaign
-from ..campaigns.spec.source import read_source
-from ..campaigns.spec.table import Table
+from ..campaigns.definition.file import parse_campaign
+from ..campaigns.definition.source import read_source
+from ..campaigns.definition.table import Table
 from ..runtime.ssp.archive import open_system
 
 PLAIN_KEY = re.compile(r"[A-Za-z0-9_-]+")

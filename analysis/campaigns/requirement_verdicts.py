@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...common.to_json import optional
-from .spec.requirements import SUCCESS, Requirement
+from .definition.requirements import SUCCESS, Requirement
 from .trials import TrialRows, blocks
 from .verdicts.acceptance import FURTHER, FixedSize, Verdict
 from .verdicts.order_statistics import tolerance_bound

@@ -12,9 +12,9 @@ import numpy as np
 import scipy
 
 from ...common.to_json import optional, to_json
+from .definition.campaign import Group, Metric
+from .definition.requirements import Requirement
 from .requirement_verdicts import RequirementVerdict, requirement_verdict
-from .spec.campaign import Group, Metric
-from .spec.requirements import Requirement
 from .statistics import IN_MEMORY, QUANTILES, MetricStatistics, statistics
 from .trials import Part, TrialRows, blocks, has_all_in_memory
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection
 from pathlib import Path, PurePosixPath
 
-from ..campaigns.spec.campaign import Variant
-from ..campaigns.spec.plan import BatchPlan
+from ..campaigns.definition.campaign import Variant
+from ..campaigns.definition.plan import BatchPlan
 from ..options.command import write_command
 from ..options.declared.campaigns import BATCH, REPLAY
 

@@ -12,8 +12,8 @@ from ...common.errors import InputError
 from ...common.regular import read_input
 from ...fmus_src.export.ssp_package import SYSTEM_FILE
 from ...fmus_src.units import BASE_UNITS
-from ..campaigns.spec.source import key_lines, parse_toml
-from ..campaigns.spec.table import Table, integer, names, number, text
+from ..campaigns.definition.source import key_lines, parse_toml
+from ..campaigns.definition.table import Table, integer, names, number, text
 from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.given_values import ParameterValue
 

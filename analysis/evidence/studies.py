@@ -13,10 +13,10 @@ from typing import Any
 from ...common.errors import InputError
 from ...common.visible import first_ones
 from ...fmus_src.evidence.manifest import STABILITY
-from ..campaigns.fly.campaign import open_campaign
-from ..campaigns.fly.results import BatchResult
-from ..campaigns.fly.runner import fly_campaign
-from ..campaigns.spec.plan import read_plan
+from ..campaigns.definition.plan import read_plan
+from ..campaigns.execute.campaign import open_campaign
+from ..campaigns.execute.results import BatchResult
+from ..campaigns.execute.runner import fly_campaign
 from ..commands.stability import study_command
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.ssp.reading import read_description

@@ -14,7 +14,7 @@ import pyarrow.parquet
 
 from ...common.errors import InputError
 from ...common.regular import check_folder
-from ..campaigns.fly.shards.files import (
+from ..campaigns.execute.shards.files import (
     FOLDER,
     IDENTITY,
     NEW_FOLDER,

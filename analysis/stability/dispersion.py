@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from ..campaigns.spec.plan import BatchPlan
+from ..campaigns.definition.plan import BatchPlan
 from .loops.margin_values import Margins, Quantity
 from .point.bench import OperatingPoint
 from .point.linearise import linearise

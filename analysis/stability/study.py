@@ -12,7 +12,7 @@ from typing import Any
 
 from ...common.errors import InputError
 from ...common.family.pools import process_pool
-from ..campaigns.fly.workers import worker_count
+from ..campaigns.execute.workers import worker_count
 from ..runtime.system.options import Layer
 from ..runtime.system.prepared import PreparedSystem
 from .dispersion import disperse

@@ -10,9 +10,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...common.errors import InputError, suggestion
+from ..campaigns.definition.campaign import Campaign
+from ..campaigns.definition.distributions import Discrete
 from ..campaigns.draws.declared import Columns, Continuous, Draw
-from ..campaigns.spec.campaign import Campaign
-from ..campaigns.spec.distributions import Discrete
 
 
 class DrawSpace:

@@ -12,8 +12,8 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from ...common.errors import InputError, suggestion
-from ..campaigns.spec.campaign import Campaign
-from ..campaigns.spec.expressions import Expression, Where
+from ..campaigns.definition.campaign import Campaign
+from ..campaigns.definition.expressions import Expression, Where
 
 Margin = Callable[[Mapping[str, np.ndarray]], np.ndarray]
 NEVER = -np.nextafter(0.0, 1.0)  # the margin of a strict comparison of equals: next to failure, and none

@@ -10,16 +10,16 @@ import numpy as np
 
 from ...common.errors import InputError
 from ...common.progress import progress_bar
+from ..campaigns.definition.campaign import Record
+from ..campaigns.definition.checks import check_draws, check_plan
+from ..campaigns.definition.plan import BatchPlan
 from ..campaigns.draws.declared import Columns
 from ..campaigns.draws.given import ALL, GivenDraws, Streams
-from ..campaigns.fly.flyer import Flyer
-from ..campaigns.fly.metadata import Provenance, provenance
-from ..campaigns.fly.shards.flights import task_size
-from ..campaigns.fly.workers import FlyerPool, worker_count
+from ..campaigns.execute.flyer import Flyer
+from ..campaigns.execute.metadata import Provenance, provenance
+from ..campaigns.execute.shards.flights import task_size
+from ..campaigns.execute.workers import FlyerPool, worker_count
 from ..campaigns.lost_trials import count_lost
-from ..campaigns.spec.campaign import Record
-from ..campaigns.spec.checks import check_draws, check_plan
-from ..campaigns.spec.plan import BatchPlan
 from ..campaigns.trials import Trials, join_trials
 from ..runtime.system.prepared import PreparedSystem
 from .noise import make_samples, noise_of

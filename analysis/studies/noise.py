@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...common.errors import InputError
+from ..campaigns.definition.plan import with_streams
 from ..campaigns.draws.declared import Columns
 from ..campaigns.draws.given import ALL, GivenDraws, Streams
-from ..campaigns.spec.plan import with_streams
 from ..runtime.system.prepared import PreparedSystem
 
 

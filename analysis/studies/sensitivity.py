@@ -10,7 +10,7 @@ from typing import TypedDict
 import numpy as np
 
 from ...common.errors import InputError
-from ..campaigns.spec.plan import BatchPlan
+from ..campaigns.definition.plan import BatchPlan
 from ..campaigns.tables import align_columns, assumption_lines
 from ..runtime.loop.elementary import elementary
 from .draw_space import DrawSpace

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Mapping
 
-from ..campaigns.spec.expressions import Expression
+from ..campaigns.definition.expressions import Expression
 from ..runtime.system.prepared import PreparedSystem
 from .draw_space import DrawSpace
 from .flights import StudyProvenance

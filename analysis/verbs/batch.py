@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, Unpack
 from ...common.errors import InputError, suggestion
 from ...common.percent import short_percent
 from ...common.targets import check_folder
-from ..campaigns.fly import results
-from ..campaigns.fly.campaign import open_campaign
-from ..campaigns.fly.cluster.connection import cluster
-from ..campaigns.fly.runner import fly_campaign
-from ..campaigns.spec.expressions import Expression
+from ..campaigns.definition.expressions import Expression
+from ..campaigns.execute import results
+from ..campaigns.execute.campaign import open_campaign
+from ..campaigns.execute.cluster.connection import cluster
+from ..campaigns.execute.runner import fly_campaign
 from ..campaigns.summary import CONFIDENCE, summary_rows
 from ..campaigns.summary_text import select_metrics
 from ..campaigns.tables import requirement_rows, who_cells, who_heads

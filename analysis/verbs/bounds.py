@@ -13,10 +13,10 @@ import numpy as np
 from ...common.atomic import write_atomically
 from ...common.errors import InputError, UnwrittenError
 from ...common.progress import progress_bar
+from ..campaigns.definition.checks import check_draws, lookup_constants, prepare_variants
+from ..campaigns.definition.plan import BatchPlan, read_plan
 from ..campaigns.draws.lookup import InputColumns, Lookup, TrialTable, input_hashes
-from ..campaigns.fly.workers import worker_count
-from ..campaigns.spec.checks import check_draws, lookup_constants, prepare_variants
-from ..campaigns.spec.plan import BatchPlan, read_plan
+from ..campaigns.execute.workers import worker_count
 from ..commands.campaigns import campaign_name
 from ..design.trajectories.descent_problem import check_roles, descent_problem
 from ..design.trajectories.many_bounds import INTERVALS, bound_descents

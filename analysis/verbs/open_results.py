@@ -12,11 +12,11 @@ import numpy as np
 import pyarrow.compute
 
 from ...common.errors import InputError, suggestion
-from ..campaigns.fly.results import BatchResult
+from ..campaigns.definition.campaign import Metric
+from ..campaigns.definition.expressions import Expression
+from ..campaigns.execute.results import BatchResult
 from ..campaigns.folder.folder import read_folder
 from ..campaigns.folder.opened import OpenedResults
-from ..campaigns.spec.campaign import Metric
-from ..campaigns.spec.expressions import Expression
 from ..campaigns.trials import whole_column
 from ..options.option import FilePath
 from ..reports.campaign.distributions import distribution_plot

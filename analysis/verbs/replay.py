@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Unpack
 
 from ...common.errors import InputError
-from ..campaigns.fly.replay import ReplayedTrial, replay_plan, replay_trial
+from ..campaigns.execute.replay import ReplayedTrial, replay_plan, replay_trial
 from ..campaigns.tables import faults_line
 from ..options.command import record_options
 from ..options.declared.campaigns import REPLAY, ReplayOptions

@@ -10,10 +10,10 @@ from typing import Unpack
 
 from ...common.errors import InputError
 from ...common.targets import check_folder
-from ..campaigns.fly.campaign import open_campaign, open_folder
-from ..campaigns.fly.cluster.connection import cluster
-from ..campaigns.fly.runner import fly_campaign, merge_rows
-from ..campaigns.fly.shards.numbering import numbers_of
+from ..campaigns.execute.campaign import open_campaign, open_folder
+from ..campaigns.execute.cluster.connection import cluster
+from ..campaigns.execute.runner import fly_campaign, merge_rows
+from ..campaigns.execute.shards.numbering import numbers_of
 from ..campaigns.summary_text import select_metrics
 from ..options.declared.campaigns import MERGE, PREPARE, SHARD, MergeOptions, PrepareOptions, ShardOptions
 from ..options.option import FilePath

@@ -18,11 +18,11 @@ from ...common.paths import names_fmu
 from ...common.regular import read_input
 from ...common.visible import on_one_line
 from ...fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE
-from ..campaigns.spec.checks import check_plan
-from ..campaigns.spec.file import SYNTHESIS, read_campaign
-from ..campaigns.spec.home import find_system
-from ..campaigns.spec.plan import read_plan
-from ..campaigns.spec.source import read_source
+from ..campaigns.definition.checks import check_plan
+from ..campaigns.definition.file import SYNTHESIS, read_campaign
+from ..campaigns.definition.home import find_system
+from ..campaigns.definition.plan import read_plan
+from ..campaigns.definition.source import read_source
 from ..compose.likeness import find_difference
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
-from ..campaigns.spec.plan import BatchPlan
+from ..campaigns.definition.plan import BatchPlan
 from ..commands.stability import study_command
 from ..options.declared.studies import WORST, WorstOptions
 from ..options.option import FilePath

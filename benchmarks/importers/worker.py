@@ -14,8 +14,8 @@ import time
 from pathlib import Path
 from typing import Any
 
-from perilune.analysis.campaigns.fly.runner import run_batch
-from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.campaigns.definition.plan import read_plan
+from perilune.analysis.campaigns.execute.runner import run_batch
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.common.family.ending import end_with_parent
 

@@ -7,9 +7,9 @@ import time
 from pathlib import Path
 
 from perilune import simulate
-from perilune.analysis.campaigns.fly.results import BatchResult
-from perilune.analysis.campaigns.fly.runner import run_batch
-from perilune.analysis.campaigns.spec.plan import BatchPlan, read_plan
+from perilune.analysis.campaigns.definition.plan import BatchPlan, read_plan
+from perilune.analysis.campaigns.execute.results import BatchResult
+from perilune.analysis.campaigns.execute.runner import run_batch
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.run_report import write_run_report
 from perilune.analysis.runtime.flight.results import Result

@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from perilune.analysis.campaigns.spec.campaign import Variant
-from perilune.analysis.campaigns.spec.checks import variant_names
-from perilune.analysis.campaigns.spec.plan import BatchPlan
+from perilune.analysis.campaigns.definition.campaign import Variant
+from perilune.analysis.campaigns.definition.checks import variant_names
+from perilune.analysis.campaigns.definition.plan import BatchPlan
 from perilune.analysis.reports.common.style import (
     BLUE,
     FAINT,

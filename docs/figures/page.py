@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from perilune.analysis.campaigns.fly.results import BatchResult
+from perilune.analysis.campaigns.execute.results import BatchResult
 from perilune.analysis.reports.campaign.distributions import distribution_panels, legend_of, rates_figure
 from perilune.analysis.reports.campaign.embedded_trials import trials_document
 from perilune.analysis.reports.campaign.scatters import failure_panels, legend_of_outcomes

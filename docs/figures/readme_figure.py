@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.campaigns.definition.plan import read_plan
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.common.process import leave
 

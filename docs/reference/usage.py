@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-from perilune.analysis.campaigns.spec.source import read_source
+from perilune.analysis.campaigns.definition.source import read_source
 from perilune.analysis.runtime.ssp.archive import open_system, system_names
 from perilune.analysis.runtime.ssp.description import Component, System
 from perilune.analysis.runtime.ssp.reading import read_description

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from perilune.analysis.campaigns import summary as summaries
-from perilune.analysis.campaigns.spec.campaign import Group, Metric
-from perilune.analysis.campaigns.spec.expressions import Expression
+from perilune.analysis.campaigns.definition.campaign import Group, Metric
+from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.summary import requirement_values, success_interval, summarise
 from perilune.analysis.campaigns.trials import TrialColumns
 from perilune.common.to_json import to_json

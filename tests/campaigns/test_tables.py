@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perilune.analysis.campaigns.spec.campaign import Group, Metric
-from perilune.analysis.campaigns.spec.expressions import Expression
-from perilune.analysis.campaigns.spec.requirements import Requirement
+from perilune.analysis.campaigns.definition.campaign import Group, Metric
+from perilune.analysis.campaigns.definition.expressions import Expression
+from perilune.analysis.campaigns.definition.requirements import Requirement
 from perilune.analysis.campaigns.statistics import STATISTICS
 from perilune.analysis.campaigns.summary import summarise
 from perilune.analysis.campaigns.summary_text import WIDTH, rate_lines, select_metrics, summary_text

@@ -12,16 +12,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import binom
 
+from perilune.analysis.campaigns.definition.campaign import Metric
+from perilune.analysis.campaigns.definition.expressions import Expression
+from perilune.analysis.campaigns.definition.metrics import successes
+from perilune.analysis.campaigns.definition.requirements import Requirement
 from perilune.analysis.campaigns.requirement_verdicts import (
     ToleranceBound,
     requirement_verdict,
     satisfies,
     trials_to_decision,
 )
-from perilune.analysis.campaigns.spec.campaign import Metric
-from perilune.analysis.campaigns.spec.expressions import Expression
-from perilune.analysis.campaigns.spec.metrics import successes
-from perilune.analysis.campaigns.spec.requirements import Requirement
 from perilune.analysis.campaigns.summary import requirement_values, summarise
 from perilune.analysis.campaigns.summary_text import summary_text
 from perilune.analysis.campaigns.tables import ordinal, unmet_lines

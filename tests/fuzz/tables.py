@@ -11,9 +11,9 @@ import pyarrow.parquet
 from hypothesis import given
 from hypothesis import strategies as st
 
+from perilune.analysis.campaigns.definition.expressions import Expression
+from perilune.analysis.campaigns.definition.file import read_campaign
 from perilune.analysis.campaigns.draws.given import read_given
-from perilune.analysis.campaigns.spec.expressions import Expression
-from perilune.analysis.campaigns.spec.file import read_campaign
 from perilune.analysis.runtime.ssp.documents import read_document
 from perilune.analysis.runtime.ssp.parameter_sets import apply_mapping, read_parameter_file
 from perilune.analysis.runtime.system.series import read_series

@@ -1,5 +1,5 @@
 """Folders of campaigns with files that are no files, far too large or of other forms; of manifests more is tested
-in tests/campaigns/fly/shards/test_hostile_folders.py.
+in tests/campaigns/execute/shards/test_hostile_folders.py.
 """
 
 from __future__ import annotations

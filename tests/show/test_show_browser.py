@@ -186,7 +186,7 @@ def rewrite(folder, document):
     """The folder with another summary, which its shards are of."""
     import pyarrow.parquet
 
-    from perilune.analysis.campaigns.fly.metadata import batch_digest
+    from perilune.analysis.campaigns.execute.metadata import batch_digest
     from perilune.analysis.campaigns.folder.stored import without_summary
 
     (folder / "summary.json").write_text(json.dumps(document))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.spec.plan import with_streams
+from perilune.analysis.campaigns.definition.plan import with_streams
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.paths import ROOT, SYSTEMS
 from tests.support.lengths import either

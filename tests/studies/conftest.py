@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from perilune.analysis.campaigns.spec.campaign import Campaign
+from perilune.analysis.campaigns.definition.campaign import Campaign
 from tests.support.campaigns.texts import make_campaign
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.campaigns.spec.expressions import Expression
+from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.studies.failure import Failure, failure_of
 from perilune.common.errors import InputError
 

@@ -11,8 +11,8 @@ import pytest
 
 import perilune
 from perilune.analysis.authoring.campaign import toml_value
-from perilune.analysis.campaigns.spec.file import parse_campaign, read_campaign
-from perilune.analysis.campaigns.spec.table import Table
+from perilune.analysis.campaigns.definition.file import parse_campaign, read_campaign
+from perilune.analysis.campaigns.definition.table import Table
 from perilune.analysis.cli import main
 from perilune.common.paths import SYSTEMS
 

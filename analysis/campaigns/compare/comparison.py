@@ -11,8 +11,8 @@ import numpy as np
 
 from ....common.percent import percent
 from ....common.to_json import to_json
+from ..definition.campaign import Group, Metric
 from ..folder.stored import StoredBatch
-from ..spec.campaign import Group, Metric
 from ..summary import CONFIDENCE, Rate, Summary, VariantSummary, success_rate, summarise, summary_rows
 from ..summary_text import metric_lines, rate_lines, select_metrics
 from ..tables import faults_line, who_cells, who_heads

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ..draws.given import stream_component
-from ..fly.metadata import Provenance
+from ..execute.metadata import Provenance
 
 
 class Column(NamedTuple):

@@ -7,11 +7,11 @@ from functools import cached_property
 from pathlib import Path
 
 from ....common.errors import InputError
-from ..fly.campaign import open_folder
-from ..fly.manifest import FILE as MANIFEST
-from ..fly.manifest import WRITE
-from ..fly.metadata import Provenance, batch_digest
-from ..fly.shards.files import FOLDER, NEW_FOLDER, SUMMARY, describe_columns, trials_in
+from ..execute.campaign import open_folder
+from ..execute.manifest import FILE as MANIFEST
+from ..execute.manifest import WRITE
+from ..execute.metadata import Provenance, batch_digest
+from ..execute.shards.files import FOLDER, NEW_FOLDER, SUMMARY, describe_columns, trials_in
 from .stored import read_summary, without_summary
 
 

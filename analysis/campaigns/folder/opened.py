@@ -16,8 +16,8 @@ import pyarrow.parquet
 from pyarrow.fs import LocalFileSystem
 
 from ....common.errors import suggestion
-from ..fly.metadata import Provenance
-from ..fly.shards.files import read_table
+from ..execute.metadata import Provenance
+from ..execute.shards.files import read_table
 from ..statistics import quantile
 from .columns import Column, describe_column
 from .folder import ResultFolder

@@ -17,10 +17,12 @@ import pyarrow.compute
 from ....common.bounds import INPUT_BYTES
 from ....common.errors import InputError
 from ....common.regular import read_regular
-from ..fly.manifest import FILE as MANIFEST
-from ..fly.manifest import WRITE
-from ..fly.metadata import Provenance, batch_digest
-from ..fly.shards.files import (
+from ..definition.campaign import Group, Metric, groups_of
+from ..definition.expressions import Expression
+from ..execute.manifest import FILE as MANIFEST
+from ..execute.manifest import WRITE
+from ..execute.metadata import Provenance, batch_digest
+from ..execute.shards.files import (
     DRAWS,
     FOLDER,
     NEW_FOLDER,
@@ -35,8 +37,6 @@ from ..fly.shards.files import (
     trials_in,
     trials_of,
 )
-from ..spec.campaign import Group, Metric, groups_of
-from ..spec.expressions import Expression
 from ..trials import Trials, join_trials
 
 RESUME = "resume it: the batch's command with `resume`"

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ....common.errors import InputError, suggestion
-from ..fly.shards.files import NEW_FOLDER, list_traces, numbers, read_table
+from ..execute.shards.files import NEW_FOLDER, list_traces, numbers, read_table
 from .folder import ResultFolder
 
 TIME = "time"

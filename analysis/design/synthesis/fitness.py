@@ -8,10 +8,10 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from ....common.errors import InputError
-from ...campaigns.fly.flyer import Flyer, TrialResult
-from ...campaigns.fly.workers import FlyerPool
-from ...campaigns.spec.expressions import Expression
-from ...campaigns.spec.plan import BatchPlan
+from ...campaigns.definition.expressions import Expression
+from ...campaigns.definition.plan import BatchPlan
+from ...campaigns.execute.flyer import Flyer, TrialResult
+from ...campaigns.execute.workers import FlyerPool
 from ...runtime.ssp.given_values import ParameterValue
 from ..laws.law import Law, law_parameters
 from .candidate import Bar, Evaluation, Task

@@ -10,11 +10,11 @@ import numpy as np
 
 from ....common.errors import InputError, suggestion
 from ....common.progress import progress_bar
-from ...campaigns.fly.flyer import Flyer
-from ...campaigns.fly.shards.files import write_draws
-from ...campaigns.fly.workers import worker_count
-from ...campaigns.spec.checks import check_plan
-from ...campaigns.spec.plan import BatchPlan
+from ...campaigns.definition.checks import check_plan
+from ...campaigns.definition.plan import BatchPlan
+from ...campaigns.execute.flyer import Flyer
+from ...campaigns.execute.shards.files import write_draws
+from ...campaigns.execute.workers import worker_count
 from ...runtime.system.prepared import PreparedSystem
 from ..laws.law import law_parameters
 from .checkpoint import read_checkpoint, write_checkpoint

@@ -10,12 +10,12 @@ from typing import Any
 
 from ....common.errors import InputError
 from ....common.paths import SEARCHES
-from ...campaigns.spec.campaign import Campaign
-from ...campaigns.spec.expressions import Expression
-from ...campaigns.spec.file import SYNTHESIS, parse_campaign
-from ...campaigns.spec.plan import BatchPlan
-from ...campaigns.spec.source import read_source_file
-from ...campaigns.spec.table import Table, expression, integer, number, text
+from ...campaigns.definition.campaign import Campaign
+from ...campaigns.definition.expressions import Expression
+from ...campaigns.definition.file import SYNTHESIS, parse_campaign
+from ...campaigns.definition.plan import BatchPlan
+from ...campaigns.definition.source import read_source_file
+from ...campaigns.definition.table import Table, expression, integer, number, text
 from ...runtime.system.options import SystemOptions
 from ..laws.law import Law, find_law, law_parameters, read_law
 from .search_settings import SearchSettings

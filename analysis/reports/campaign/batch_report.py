@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...campaigns.draws.declared import input_names
-from ...campaigns.fly.results import BatchResult
+from ...campaigns.execute.results import BatchResult
 from ...campaigns.lost_trials import lost_of
 from ..common.page import write_page
 from .distributions import distribution_panels, legend_of, rates_figure, sort_metrics

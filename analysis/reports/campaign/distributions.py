@@ -10,8 +10,8 @@ import numpy as np
 from markupsafe import Markup
 
 from ....common.percent import percent
-from ...campaigns.fly.results import BatchResult
-from ...campaigns.spec.campaign import Metric
+from ...campaigns.definition.campaign import Metric
+from ...campaigns.execute.results import BatchResult
 from ...campaigns.verdicts.order_statistics import quantiles
 from ..chart.axes import lane_axis, linear_axis, logarithmic_axis, ticked_axis
 from ..chart.lines import line

@@ -9,7 +9,7 @@ from typing import TypedDict
 import numpy as np
 
 from ...campaigns.draws.declared import input_names
-from ...campaigns.fly.results import BatchResult
+from ...campaigns.execute.results import BatchResult
 from ...commands.campaigns import replay_command, replay_of_folder
 from ..common.quantities import display_factor, display_unit, number
 from ..interactive.columns import Coarse

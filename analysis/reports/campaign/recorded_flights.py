@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from ...campaigns.fly.results import BatchResult
+from ...campaigns.execute.results import BatchResult
 from ...runtime.flight.results import Flight
 from ..common.colours import look
 from ..scene.flights import RecordedFlight

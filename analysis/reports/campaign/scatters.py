@@ -9,9 +9,9 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
+from ...campaigns.definition.campaign import Metric, Scatter
 from ...campaigns.draws.declared import input_names
-from ...campaigns.fly.results import BatchResult
-from ...campaigns.spec.campaign import Metric, Scatter
+from ...campaigns.execute.results import BatchResult
 from ..chart.axes import linear_axis
 from ..chart.equal import Ends, to_scale
 from ..chart.marks import dashed_circle

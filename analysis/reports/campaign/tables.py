@@ -10,11 +10,11 @@ from typing import NamedTuple
 import numpy as np
 from markupsafe import Markup
 
+from ...campaigns.definition.campaign import Campaign
 from ...campaigns.draws.declared import input_names
-from ...campaigns.fly.evaluation import worst_statuses
-from ...campaigns.fly.results import BatchResult
+from ...campaigns.execute.evaluation import worst_statuses
+from ...campaigns.execute.results import BatchResult
 from ...campaigns.requirement_verdicts import RequirementVerdict
-from ...campaigns.spec.campaign import Campaign
 from ...campaigns.statistics import QUANTILES, STATISTICS
 from ...campaigns.summary import Summary, SummaryRow, summary_rows
 from ...campaigns.tables import bound_text, requirement_rows, unevaluated_text

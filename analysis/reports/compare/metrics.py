@@ -11,8 +11,8 @@ import numpy as np
 from scipy.stats import norm
 
 from ...campaigns.compare.comparison import Comparison
-from ...campaigns.spec.campaign import Metric
-from ...campaigns.spec.expressions import Expression
+from ...campaigns.definition.campaign import Metric
+from ...campaigns.definition.expressions import Expression
 from ...campaigns.summary import success_interval
 from ..campaign.distributions import CUMULATIVE, distribution_chart, distribution_plot
 from ..campaign.recorded_names import RATIO, variable_of

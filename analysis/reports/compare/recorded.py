@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...campaigns.compare.comparison import Contender
-from ...campaigns.fly.metadata import Provenance
+from ...campaigns.execute.metadata import Provenance
 from ..campaign.recorded_names import (
     COMMANDS,
     CONSISTENCY,

@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 from markupsafe import Markup
 
+from ...campaigns.definition.campaign import Record
+from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.draws.declared import input_names
 from ...campaigns.draws.given import GivenDraws, part_streams, stream_component
-from ...campaigns.fly.flyer import Flyer
-from ...campaigns.spec.campaign import Record
-from ...campaigns.spec.plan import BatchPlan
+from ...campaigns.execute.flyer import Flyer
 from ...runtime.flight.results import Result
 from ...studies.worst.outcome import WorstResult
 from ..chart.legend import legend_of

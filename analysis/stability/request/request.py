@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ....common.errors import InputError, suggestion
-from ...campaigns.spec.checks import check_plan
-from ...campaigns.spec.plan import BatchPlan, read_plan
+from ...campaigns.definition.checks import check_plan
+from ...campaigns.definition.plan import BatchPlan, read_plan
 from ...runtime.ssp.archive import open_system
 from ...runtime.ssp.description import Description
 from ...runtime.ssp.reading import read_description

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ....common.errors import InputError
-from ...campaigns.spec.plan import BatchPlan
+from ...campaigns.definition.plan import BatchPlan
 from ..draw_space import DrawSpace
 from ..failure import failure_of
 from ..flights import SampleFlights

@@ -14,11 +14,11 @@ from loky import ProcessPoolExecutor
 from ....common.errors import InputError
 from ....common.family.pools import process_pool
 from ....common.progress import progress_bar
+from ...campaigns.definition.checks import check_draws
+from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.draws.declared import Columns
 from ...campaigns.draws.given import Streams
-from ...campaigns.fly.workers import worker_count
-from ...campaigns.spec.checks import check_draws
-from ...campaigns.spec.plan import BatchPlan
+from ...campaigns.execute.workers import worker_count
 from ...stability.dispersion import models_of_trial
 from ...stability.loops.margin_values import Margins
 from ...stability.point.bench import StudyError

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....common.errors import InputError, suggestion
-from ...campaigns.spec.campaign import Campaign
-from ...campaigns.spec.expressions import Expression
+from ...campaigns.definition.campaign import Campaign
+from ...campaigns.definition.expressions import Expression
 from ...stability.loops.margin_values import UNSTABLE, Margins, Quantity
 from ..failure import failure_of
 from ..flown import strict

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ....common.errors import InputError
-from ...campaigns.spec.plan import BatchPlan
+from ...campaigns.definition.plan import BatchPlan
 from ...runtime.system.options import SystemOptions
 from ...stability.dispersion import vary
 from ...stability.point.point_study import PointStudy

@@ -10,10 +10,10 @@ from typing import Protocol, TypedDict, Unpack
 import numpy as np
 
 from ....common.errors import InputError
+from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.draws.declared import Columns, input_names
 from ...campaigns.draws.generators import standard_normals
 from ...campaigns.draws.given import Streams
-from ...campaigns.spec.plan import BatchPlan
 from ...runtime.system.prepared import PreparedSystem
 from ..draw_space import DrawSpace
 from ..flights import SampleFlights, StudyProvenance

@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from ....common.errors import InputError, suggestion
-from ...campaigns.spec.expressions import Expression
+from ...campaigns.definition.expressions import Expression
 from ...options.option import FilePath
 
 

@@ -10,13 +10,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...campaigns.fly.evaluation import worst_statuses
-from ...campaigns.fly.flyer import TrialResult
-from ...campaigns.fly.results import BatchResult
+from ...campaigns.definition.campaign import Metric
+from ...campaigns.definition.expressions import Expression
+from ...campaigns.definition.plan import BatchPlan
+from ...campaigns.execute.evaluation import worst_statuses
+from ...campaigns.execute.flyer import TrialResult
+from ...campaigns.execute.results import BatchResult
 from ...campaigns.lost_trials import lost_of
-from ...campaigns.spec.campaign import Metric
-from ...campaigns.spec.expressions import Expression
-from ...campaigns.spec.plan import BatchPlan
 from ...campaigns.summary import requirement_values, summarise
 from ...campaigns.tables import align_columns, short, unmet_lines
 from ...campaigns.trials import TrialColumns, TrialRows

@@ -14,13 +14,13 @@ import numpy as np
 
 from ....common.errors import EndedError, ExitStatus, InputError
 from ....common.machine.os_errors import line_of
+from ...campaigns.definition.file import parse_campaign
+from ...campaigns.definition.plan import BatchPlan, read_plan
+from ...campaigns.definition.sweeps import part_sweeps
 from ...campaigns.draws.given import ALL, GivenDraws
-from ...campaigns.fly.campaign import Campaign
-from ...campaigns.fly.cluster.tasks import WorkersDiedError
-from ...campaigns.fly.manifest import FILE as MANIFEST
-from ...campaigns.spec.file import parse_campaign
-from ...campaigns.spec.plan import BatchPlan, read_plan
-from ...campaigns.spec.sweeps import part_sweeps
+from ...campaigns.execute.campaign import Campaign
+from ...campaigns.execute.cluster.tasks import WorkersDiedError
+from ...campaigns.execute.manifest import FILE as MANIFEST
 from ...commands.campaigns import campaign_command, replay_command
 from ...options.fault import faults_of
 from ...options.option import FilePath

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.fly.shards.files import write_draws
+from perilune.analysis.campaigns.execute.shards.files import write_draws
 from tests.support.pages.comparison_samples import SIGNALS, sample_batch, write_sample
 
 LENGTHS = {0: 21, 1: 13, 2: 5, 3: 21}  # rows of the first flights; END is 20 s

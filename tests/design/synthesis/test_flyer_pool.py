@@ -7,8 +7,8 @@ import threading
 
 import pytest
 
-from perilune.analysis.campaigns.fly.workers import FlyerPool
-from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.campaigns.definition.plan import read_plan
+from perilune.analysis.campaigns.execute.workers import FlyerPool
 from perilune.analysis.runtime.system.options import SystemOptions
 
 COUNTED = []

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from perilune.analysis.campaigns.spec.file import read_campaign
+from perilune.analysis.campaigns.definition.file import read_campaign
 from perilune.analysis.design.laws.law import find_law, read_law
 from perilune.analysis.design.synthesis.search_settings import SearchSettings
 from perilune.analysis.design.synthesis.synthesis_file import LIMITS, read_synthesis

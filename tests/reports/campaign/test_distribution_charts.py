@@ -13,8 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import binomtest
 
-from perilune.analysis.campaigns.spec.campaign import Metric
-from perilune.analysis.campaigns.spec.expressions import Expression
+from perilune.analysis.campaigns.definition.campaign import Metric
+from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.reports.campaign.distributions import distribution_chart, rates_chart
 from perilune.analysis.reports.chart.svg.fluid import POINT
 from perilune.analysis.reports.common.colours import look

@@ -12,7 +12,7 @@ from dataclasses import replace
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.spec.campaign import Variant
+from perilune.analysis.campaigns.definition.campaign import Variant
 from perilune.analysis.cli import main
 from perilune.analysis.commands.campaigns import replay_command
 from perilune.analysis.options.fault import parse_fault

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from perilune.analysis.campaigns.spec.campaign import Metric
+from perilune.analysis.campaigns.definition.campaign import Metric
 from perilune.analysis.reports.campaign.distributions import _ends
 from perilune.analysis.reports.chart.plot_lines import QuantityLine
 from perilune.analysis.reports.common.quantities import display_factor, label_with_unit

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from perilune.analysis.campaigns.fly.runner import run_batch
-from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.campaigns.definition.plan import read_plan
+from perilune.analysis.campaigns.execute.runner import run_batch
 from perilune.analysis.options.fault import Fault
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions

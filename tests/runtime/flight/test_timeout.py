@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.fly.runner import run_batch
-from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.campaigns.definition.plan import read_plan
+from perilune.analysis.campaigns.execute.runner import run_batch
 from perilune.analysis.cli import main
 from perilune.analysis.runtime.flight.interruptible import StuckError, fly, run
 from perilune.analysis.runtime.flight.simulation import Simulation

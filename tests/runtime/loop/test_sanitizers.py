@@ -15,7 +15,7 @@ from tests.support.lengths import LONG
 from tests.support.native.sanitizers import UNDEFINED
 
 SIMULATIONS = ("tests/runtime/fmi3", "tests/runtime/flight", "tests/runtime/loop/test_elementary.py")
-REDUCTIONS = ("tests/campaigns/spec/test_reductions.py",)
+REDUCTIONS = ("tests/campaigns/definition/test_reductions.py",)
 TESTS = """
 import sys
 import pytest

@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perilune.analysis.campaigns.fly.runner import run_batch
-from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.campaigns.definition.plan import read_plan
+from perilune.analysis.campaigns.execute.runner import run_batch
 from perilune.analysis.runtime.process.opening import open_simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.fly.runner import run_batch
-from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.campaigns.definition.plan import read_plan
+from perilune.analysis.campaigns.execute.runner import run_batch
 from perilune.analysis.runtime.process import children
 from perilune.analysis.runtime.system.options import SystemOptions
 from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu

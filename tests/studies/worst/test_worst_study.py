@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.spec.expressions import Expression
-from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.campaigns.definition.expressions import Expression
+from perilune.analysis.campaigns.definition.plan import read_plan
 from perilune.analysis.cli import main
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.studies.draw_space import DrawSpace

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from perilune.analysis.campaigns.fly.metadata import batch_digest
-from perilune.analysis.campaigns.fly.shards.files import write_shard
+from perilune.analysis.campaigns.execute.metadata import batch_digest
+from perilune.analysis.campaigns.execute.shards.files import write_shard
 from tests.support.pages.comparison_samples import sample_batch
 
 SIZE = 5000  # trials of a shard: a batch's shards have no more

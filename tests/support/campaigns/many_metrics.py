@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from perilune.analysis.campaigns.fly.metadata import batch_digest
-from perilune.analysis.campaigns.fly.shards.files import write_shard
-from perilune.analysis.campaigns.spec.file import parse_campaign
-from perilune.analysis.campaigns.spec.table import Table
+from perilune.analysis.campaigns.definition.file import parse_campaign
+from perilune.analysis.campaigns.definition.table import Table
+from perilune.analysis.campaigns.execute.metadata import batch_digest
+from perilune.analysis.campaigns.execute.shards.files import write_shard
 from tests.support.pages.comparison_samples import facts as metadata_of
 from tests.support.pages.comparison_samples import sample_batch
 

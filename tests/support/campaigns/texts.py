@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import tomllib
 
-from perilune.analysis.campaigns.spec.campaign import Campaign
-from perilune.analysis.campaigns.spec.file import parse_campaign
-from perilune.analysis.campaigns.spec.table import Table
+from perilune.analysis.campaigns.definition.campaign import Campaign
+from perilune.analysis.campaigns.definition.file import parse_campaign
+from perilune.analysis.campaigns.definition.table import Table
 
 HEAD = 'system = "s"\ntrials = {trials}\nseed = {seed}\n[success]\nexpression = "1"\n'
 

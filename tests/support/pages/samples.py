@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from perilune.analysis.campaigns.fly.results import BatchResult
-from perilune.analysis.campaigns.spec.file import parse_campaign
-from perilune.analysis.campaigns.spec.plan import BatchPlan
-from perilune.analysis.campaigns.spec.table import Table
+from perilune.analysis.campaigns.definition.file import parse_campaign
+from perilune.analysis.campaigns.definition.plan import BatchPlan
+from perilune.analysis.campaigns.definition.table import Table
+from perilune.analysis.campaigns.execute.results import BatchResult
 from perilune.analysis.campaigns.trials import Trials
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.system.options import SystemOptions

@@ -1,0 +1,164 @@
+"""A campaign that is ready to fly: its plan, systems and manifest, in a folder if it has one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from ....common.errors import InputError
+from ....fmus_src.kernel.functions import VERSION
+from ...options.choices import FUSED
+from ...runtime.fused.refusals import check_fused
+from ...runtime.process.opening import may_load_here
+from ...runtime.system.options import UNTRUSTED, Trust
+from ...runtime.system.prepared import PreparedSystem
+from ..definition.checks import check_plan, prepare_variants
+from ..definition.plan import BatchPlan
+from ..lost_trials import lost_status
+from .folder import begin, cut, resume_folder
+from .folder_lock import lock_folder
+from .identity import campaign_key
+from .manifest import FILE, Manifest, read_manifest
+from .metadata import Provenance, batch_digest, provenance
+from .plan_manifest import gather, restore
+from .shards.files import is_flown, shard_path
+from .shards.numbering import Numbering
+from .store import FlownRows, HeldShards, StoredShards
+from .workers import in_threads, needs_children, worker_count
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """A campaign that is ready to fly: every file of it read, in its folder if it has one (absolute).
+
+    ``plan`` is the plan as given, ``flown`` the same with the files that are stored in the folder; ``named`` is the
+    folder as its user names it.
+    """
+
+    plan: BatchPlan
+    flown: BatchPlan
+    systems: Mapping[str, PreparedSystem]
+    manifest: Manifest
+    folder: Path | None
+    named: Path | None = None
+
+    def of_first(self, trials: int) -> Campaign:
+        """The campaign of the first trials, which end with a shard; its folder holds no more either."""
+        if trials == self.manifest.trials:
+            return self
+        plan = self.plan.of_first(trials)
+        if self.folder is None:
+            return replace(self, plan=plan, manifest=replace(self.manifest, trials=trials))
+        return replace(self, plan=plan, manifest=cut(self.folder, self.manifest, plan))
+
+    @property
+    def provenance(self) -> Provenance:
+        """What its numbers depend on, apart from the trials themselves."""
+        is_earlier = self.manifest.identities is None
+        entries = provenance(self.flown if is_earlier else self.plan, self.systems)
+        entries["manifest" if is_earlier else "batch"] = campaign_key(self.manifest)
+        return entries
+
+    @property
+    def numbering(self) -> Numbering:
+        return Numbering(self.manifest.trials, self.manifest.shard_size)
+
+    @cached_property
+    def batch(self) -> str:
+        """What tells its files from those of others."""
+        return batch_digest(self.provenance)
+
+    def store(self) -> HeldShards | StoredShards:
+        return HeldShards(self.plan) if self.folder is None else StoredShards(self.flown, self.folder, self.batch)
+
+    def shard_rows(self, shard: int) -> Mapping[str, FlownRows]:
+        """The trials of one shard that its folder holds, by variant."""
+        if self.folder is None:
+            raise ValueError("a campaign without a folder holds no shards")
+        return StoredShards(self.flown, self.folder, self.batch).rows(self.numbering, range(shard, shard + 1))
+
+    def missing(self) -> list[int]:
+        """The shards that its folder does not hold."""
+        shards = range(self.numbering.count)
+        if self.folder is None:
+            return list(shards)
+        return [shard for shard in shards if not is_flown(self.folder, self.batch, shard, self.numbering.of(shard))]
+
+    def discard_lost(self, shards: Iterable[int]) -> None:
+        """Remove those of some shards that have trials which crashed, hung or ran out of memory: they fly again.
+
+        Raises InputError where another process simulates the campaign.
+        """
+        if self.folder is None:
+            return
+        with lock_folder(self.folder, alone=True):
+            for shard in sorted(set(shards) - set(self.missing())):
+                if self._has_lost(shard):
+                    shard_path(self.folder, shard).unlink()
+
+    def _has_lost(self, shard: int) -> bool:
+        """Whether a shard has such trials."""
+        columns = (columns for rows in self.shard_rows(shard).values() for columns in rows.parts("status"))
+        return any(lost_status(status) for column in columns for status in column["status"])
+
+    def check_campaign(self, shards: Iterable[int]) -> list[int]:
+        """Those of some shards that its folder does not hold.
+
+        Raises InputError for a number that is none's, and where the elementary functions are not those of the campaign.
+        """
+        if self.manifest.elementary_functions != VERSION:
+            problem = (
+                f"{self.manifest.elementary_functions}, this perilune has {VERSION}: other last bits in one campaign"
+            )
+            remedy = f"simulate its shards with perilune {self.manifest.perilune}, which prepared it"
+            raise InputError(self.named or FILE, "elementary_functions", problem, remedy)
+        wanted = set(shards)
+        for shard in sorted(wanted):
+            if not 0 <= shard < self.numbering.count:
+                raise InputError("shard", str(shard), "no such shard", f"give 0 to {self.numbering.count - 1}")
+        return sorted(wanted & set(self.missing()))
+
+
+def open_campaign(
+    plan: BatchPlan,
+    output: Path | None,
+    *,
+    resume: bool = False,
+    engine: str | None = None,
+    workers: int | None = None,
+    elsewhere: str | None = None,
+) -> Campaign:
+    """Check a plan and write down what it flies. Raises InputError before anything is written or flown.
+
+    With ``output`` a campaign begins in that folder, in place of what is there, or goes on there with ``resume``; what
+    flies are the files that the folder then holds, whatever becomes of their originals. ``elsewhere`` says who
+    simulates it, where that is not this process.
+    """
+    if elsewhere is not None and plan.options.chosen["flavour"] == FUSED:
+        problem = f"{elsewhere} compile steps where that pays, and do not know of the option"
+        raise InputError("`flavour`", FUSED, problem, "leave `flavour` out")
+    count = worker_count(workers)
+    systems = check_plan(plan)
+    in_child = needs_children(count, in_threads(systems.values(), engine), engine)
+    for prepared in systems.values():
+        check_fused(prepared, in_child=in_child or not may_load_here(prepared))
+    manifest, contents = gather(plan, systems)
+    if output is None:
+        return Campaign(plan, plan, systems, manifest, None)
+    folder = output.absolute()  # FMUs may change the working folder
+    with lock_folder(folder, alone=not resume):
+        manifest = (resume_folder if resume else begin)(folder, manifest, contents, plan)
+    flown = restore(folder, manifest, plan.watch.log, trust=plan.options)
+    flown = replace(flown, options=flown.options.but(flavour=plan.options.chosen["flavour"]))
+    plan = replace(plan, known_draws=flown.draws)  # read from the folder, and not in memory
+    return Campaign(plan, flown, systems, manifest, folder, output)
+
+
+def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> Campaign:
+    """The campaign whose manifest lies in a folder; ``trust`` is what foreign FMUs may do. Raises InputError."""
+    named, folder = folder, folder.absolute()
+    manifest = read_manifest(folder)
+    plan = restore(folder, manifest, trust=trust)  # whose draws were looked at when the folder was made
+    return Campaign(plan, plan, prepare_variants(plan), manifest, folder, named)

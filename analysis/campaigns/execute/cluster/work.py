@@ -1,0 +1,108 @@
+"""What a worker of a cluster does: keeps files by hash in a folder of its own, and flies parts of campaigns.
+
+Whatever flies here is restored from these files by the code that restores a campaign's folder.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .....common.atomic import write_atomically
+from ...definition.plan import BatchPlan
+from ...trials import Trials
+from ..flyer import Flyer
+from ..manifest import CONTENTS, store_contents
+from ..plan_manifest import restore
+from ..shards.files import DRAWS
+from .sent import Sent, identity, refuse_others
+from .tasks import Piece
+
+FOLDER = "perilune"  # within the worker's own, which dask removes
+MOST_HELD = 3  # campaigns whose simulations are kept for the next task
+_looking = threading.Lock()
+_held: dict[str, _Held] = {}  # by key, the last used one last
+
+
+class HaltedError(RuntimeError):
+    """Flights that were ended from where the campaign is flown from."""
+
+
+@dataclass
+class _Held:
+    """A campaign that this process flies: its plan, and a flyer for each thread that has flown it at once."""
+
+    plan: BatchPlan
+    idle: list[Flyer] = field(default_factory=list)
+    busy: list[Flyer] = field(default_factory=list)
+
+
+def fly(sent: Sent, task: Sequence[Piece]) -> list[tuple[Trials, float]]:
+    """Fly some trials; those of each piece, and the seconds that they took without what comes before the first one.
+
+    Raises InputError in a worker that has another perilune, which may come at any time.
+    """
+    from distributed import get_worker
+
+    worker = get_worker()
+    refuse_others(sent.identity, identity(), worker.address)
+    folder = Path(worker.local_directory).absolute() / FOLDER
+    simulated = []
+    with _flyer(sent, folder) as flyer:
+        for piece in task:
+            flyer.simulation(piece.variant)
+            began = time.perf_counter()
+            try:
+                trials = flyer.fly(piece.variant, piece.trials)
+            except KeyboardInterrupt:  # which would end the worker
+                raise HaltedError(sent.key) from None
+            simulated.append((trials, time.perf_counter() - began))
+    return simulated
+
+
+def halt(key: str) -> None:
+    """End what flies of a campaign at its next communication points."""
+    with _looking:
+        held = _held.get(key)
+        for flyer in held.busy if held is not None else ():
+            flyer.interrupt()
+
+
+@contextmanager
+def _flyer(sent: Sent, folder: Path) -> Iterator[Flyer]:
+    """A flyer that no other thread has."""
+    with _looking:
+        held = _campaign(sent, folder)
+        flyer = held.idle.pop() if held.idle else Flyer(held.plan, in_child=sent.in_child)
+        held.busy.append(flyer)
+    try:
+        yield flyer
+    finally:
+        with _looking:
+            held.busy.remove(flyer)
+            if flyer.halted:
+                flyer.close()
+            else:
+                held.idle.append(flyer)
+
+
+def _campaign(sent: Sent, folder: Path) -> _Held:
+    """A campaign as it was sent; others that no thread flies are freed where too many are kept, or can be."""
+    if sent.key in _held:
+        _held[sent.key] = _held.pop(sent.key)
+        return _held[sent.key]
+    store_contents(folder / CONTENTS, dict(sent.contents))
+    own = folder / sent.key
+    if sent.draws:
+        write_atomically(own / DRAWS, sent.draws)
+    plan = restore(folder, sent.manifest, sent.log, draws=own)
+    free = [key for key, held in _held.items() if not held.busy]
+    for key in free[: max(0, len(free) + 1 - MOST_HELD)]:
+        for flyer in _held.pop(key).idle:
+            flyer.close()
+    _held[sent.key] = _Held(plan)
+    return _held[sent.key]

@@ -1,0 +1,243 @@
+"""Flies trials of a plan in one worker: one simulation per variant, reset and reused."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from ...runtime.flight.base_simulation import BaseSimulation
+from ...runtime.flight.group import FlightGroup
+from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
+from ...runtime.flight.results import CRASHED, LOST, NONFINITE, Flight, Result
+from ...runtime.instances.instance import Log
+from ...runtime.instances.library import LOADING
+from ...runtime.process.opening import may_load_here, open_simulation
+from ...runtime.ssp.given_values import ParameterValue
+from ...runtime.system.prepared import PreparedSystem
+from ..definition.checks import VariantNames, variant_names
+from ..definition.plan import BatchPlan, DrawnTrials
+from ..trials import Trials
+from .evaluation import Judge
+from .fusing import Fusing
+
+AROUND = 4096  # trials whose draws are read together
+
+
+class TrialResult(NamedTuple):
+    """What one trial came to."""
+
+    status: str
+    message: str
+    success: bool
+    end_time: float
+    metrics: dict[str, float]
+
+
+class Flyer:
+    """Holds the simulations of a plan's variants; made once per worker, not shared between threads.
+
+    ``in_child``: all fly in children, also what may fly here. ``trials`` and ``workers`` are as in `Fusing`.
+    """
+
+    def __init__(self, plan: BatchPlan, *, in_child: bool = False, trials: int | None = None, workers: int = 1) -> None:
+        self.plan = plan
+        self._in_child = in_child
+        self._drawn: DrawnTrials | None = None
+        self.variants = {variant.name: variant for variant in plan.campaign.variants()}
+        self._ready: dict[str, tuple[BaseSimulation, VariantNames]] = {}
+        self._logs: dict[str, Log] = {}
+        self._warned: set[str] = set()  # variants
+        self._fusing = Fusing(plan.options.chosen["flavour"], trials, workers)
+        self.halted = False
+
+    def simulation(self, variant: str) -> tuple[BaseSimulation, VariantNames]:
+        """The simulation of a variant, made at its first use."""
+        if variant not in self._ready:
+            with LOADING:
+                prepared = self.plan.prepare(self.variants[variant])
+                if prepared.is_alone and not self._in_child and may_load_here(prepared):
+                    self.close()  # other variants may hold the one instance that the process can have
+                names = variant_names(self.plan, prepared)
+                everything = self.plan.campaign.record.traces != "none"
+                wanted = None if everything else {*names.signals, *names.statuses}
+                faults = self.plan.list_faults()
+                log = self._log_of(variant)
+                simulation = open_simulation(
+                    prepared,
+                    in_child=self._in_child,
+                    varied=names.varied,
+                    wanted=wanted,
+                    more=names.signals,  # a state of an FMU is not among all that is exchanged
+                    faults=faults,
+                    log=log,
+                )
+                self._ready[variant] = simulation, names
+        return self._ready[variant]
+
+    def _log_of(self, variant: str) -> Log | None:
+        """Where the FMUs of a variant write, if they are asked to."""
+        if self.plan.watch.log is None:
+            return None
+        self._logs[variant] = Log(self.plan.watch.log)
+        self._logs[variant].place = f"{variant}: "
+        return self._logs[variant]
+
+    def values_for(self, trial: int) -> DrawnTrials:
+        """What is drawn for a trial and those around it."""
+        if self._drawn is None or trial not in self._drawn.numbers:
+            first = trial - trial % AROUND
+            self._drawn = self.plan.values_of(range(first, min(first + AROUND, self.plan.campaign.trials)))
+        return self._drawn
+
+    def fly_others(self, variant: str, plan: BatchPlan) -> Trials:
+        """Fly all trials of another plan for the same system. Raises KeyboardInterrupt after an `interrupt`."""
+        trials = range(plan.campaign.trials)
+        self._drawn = plan.values_of(trials)
+        try:
+            return self.fly(variant, trials)
+        finally:
+            self._drawn = None
+
+    def interrupt(self) -> None:
+        """End what flies in another thread at its next communication point."""
+        self.halted = True
+        for simulation, _ in list(self._ready.values()):
+            simulation.interrupt()
+
+    def give_up(self) -> None:
+        """End what flies in another thread and has not reached a communication point, where it can be ended."""
+        for simulation, _ in list(self._ready.values()):
+            simulation.give_up("was interrupted")
+
+    def fly(self, variant: str, trials: range) -> Trials:
+        """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
+        simulation, names = self.simulation(variant)
+        judge = Judge(self.plan.campaign, names)
+        size = simulation.group_size if self.plan.watch.timeout is None else 0
+        flown = trials.start
+        while flown < trials.stop:
+            sampled = self.values_for(flown)
+            if size:
+                following = range(flown, min(flown + size, trials.stop, sampled.numbers.stop))
+                table = sampled.flights(simulation.prepared, following)
+                begun = time.perf_counter()
+                group = simulation.fly_group(table)
+                seconds = time.perf_counter() - begun
+                self._fusing.consider(variant, simulation, len(group.statuses), seconds)
+            else:
+                group = self._fly_next(variant, flown, trials)
+            numbers = range(flown, flown + len(group.statuses))
+            judge.add(group, numbers, sampled)
+            if self.halted:
+                raise KeyboardInterrupt
+            flown = numbers.stop
+        return judge.trials()
+
+    def _fly_next(self, variant: str, trial: int, trials: range) -> FlightGroup:
+        """One of ``trials``, and the one behind it announced."""
+        if trial == trials.start:
+            self._announce(variant, trial)
+        if trial + 1 in trials:
+            self._announce(variant, trial + 1)
+        return FlightGroup.of(self._flight(variant, trial))
+
+    def fly_one(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> TrialResult:
+        """Fly one trial; the result does not depend on what was flown before.
+
+        ``overlay`` gives all of the plan's overlaid parameters their values; without it they keep those of
+        the variant's last flight.
+        """
+        return self._look_at(self._flight(variant, trial, overlay), trial, self.simulation(variant)[1])
+
+    def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
+        """Fly one trial with every signal recorded; same bits as in the batch.
+
+        Where an output that the batch does not read is not finite, only what the batch reads is recorded.
+        """
+        prepared = self.plan.prepare(self.variants[variant])
+        names = variant_names(self.plan, prepared)
+        result = self._fly_recorded(variant, prepared, trial, names, None)
+        if result.status == NONFINITE and self.plan.campaign.record.traces == "none":
+            read = self._fly_recorded(variant, prepared, trial, names, {*names.signals, *names.statuses})
+            if read.status != NONFINITE:
+                self._warn_once(variant, f"trial {trial}: {result.message}; the campaign does not read it: left out")
+                result = read
+        return result, self._look_at(result, trial, names)
+
+    def _fly_recorded(
+        self, variant: str, prepared: PreparedSystem, trial: int, names: VariantNames, wanted: set[str] | None
+    ) -> Result:
+        """Return a trial with the wanted signals recorded, None for all."""
+        faults, log, sampled = self.plan.list_faults(), self._log_of(variant), self.values_for(trial)
+        with open_simulation(
+            prepared,
+            in_child=self._in_child,
+            varied=names.varied,
+            wanted=wanted,
+            more=names.signals,
+            faults=faults,
+            log=log,
+        ) as simulation:
+            simulation.set_faults(sampled.faults_of(trial))
+            simulation.set(sampled.parameters(prepared, trial))
+            return fly(simulation, self.plan.watch.timeout)
+
+    def _look_at(self, flight: Flight, trial: int, names: VariantNames) -> TrialResult:
+        judge = Judge(self.plan.campaign, names)
+        judge.add(FlightGroup.of(flight), range(trial, trial + 1), self.values_for(trial))
+        return _result(judge.trials())
+
+    def _flight(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> Flight:
+        simulation, _ = self.simulation(variant)
+        if variant in self._logs:
+            self._logs[variant].place = f"{variant}: trial {trial}: "
+        sampled = self.values_for(trial)
+        simulation.set_faults(sampled.faults_of(trial))
+        parameters = {**sampled.parameters(simulation.prepared, trial), **(overlay or {})}
+        try:
+            flight = run(simulation, parameters, self.plan.watch.timeout)
+            if self._is_to_be_repeated(simulation, flight):
+                first, flight = flight.message, run(simulation, parameters, self.plan.watch.timeout)
+                if flight.status not in LOST:
+                    self._warn_once(variant, f"trial {trial}: {first}; not so in a new process, which counts")
+            return flight
+        except StuckError as error:  # what it flew with is lost: the next trial flies with instances of its own
+            del self._ready[variant]
+            return nothing_flown(simulation, str(error))
+
+    def _warn_once(self, variant: str, text: str) -> None:
+        """Say what was not as it should be in a trial of a variant; of those that follow nothing."""
+        if variant not in self._warned:
+            self._warned.add(variant)
+            warnings.warn(f"{variant}: {text}", stacklevel=2)
+
+    def _announce(self, variant: str, trial: int) -> None:
+        if variant in self._ready and not self.halted:
+            simulation, _ = self._ready[variant]
+            sampled = self.values_for(trial)
+            simulation.announce(sampled.parameters(simulation.prepared, trial), sampled.faults_of(trial))
+
+    def _is_to_be_repeated(self, simulation: BaseSimulation, flight: Flight) -> bool:
+        """Whether a flight that lost its process flies once more, in a fresh one: who dies has not always done it.
+
+        An earlier flight may have harmed the process, and someone else may have killed it.
+        """
+        is_lost = flight.status in LOST and not self.halted
+        return is_lost and (flight.status == CRASHED or simulation.flights > 1)
+
+    def close(self) -> None:
+        for simulation, _ in self._ready.values():
+            simulation.close()
+        self._ready = {}
+
+
+def _result(trials: Trials) -> TrialResult:
+    return TrialResult(
+        status=trials.statuses[0],
+        message=next(iter(trials.messages.values()), ""),
+        success=bool(trials.success[0]),
+        end_time=float(trials.end_time[0]),
+        metrics={name: float(column[0]) for name, column in trials.metrics.items()},
+    )

@@ -1,0 +1,92 @@
+"""The folder of a campaign: begun, or found again and gone on with."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ....common.atomic import remove_partial
+from ....common.errors import InputError
+from ..definition.plan import BatchPlan
+from .identity import differences
+from .manifest import CONTENTS, FILE, Manifest, read_manifest, remove_contents, store_contents
+from .shards.draws import read_draws
+from .shards.files import DRAWS, FOLDER, SUMMARY, clear, trace_path, write_draws
+from .shards.numbering import Numbering
+
+
+def begin(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> Manifest:
+    """A folder with a campaign's manifest, contents and draws, and none of the trials of another."""
+    for name in (FILE, SUMMARY):  # first, so that what is left of another campaign is no result any more
+        (folder / name).unlink(missing_ok=True)
+    clear(folder)
+    remove_contents(folder / CONTENTS)
+    _write(folder, manifest, contents, plan)
+    return manifest
+
+
+def resume_folder(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> Manifest:
+    """A folder that holds this campaign already, or its first trials. Raises InputError for another one."""
+    held = read_manifest(folder)
+    manifest = replace(manifest, shard_size=held.shard_size)  # which followed from fewer trials
+    difference = differences(held, manifest)
+    if difference:
+        problem = f"another campaign than the one asked for: {difference}"
+        raise InputError(folder / FILE, "", problem, "resume with what it began with, or give another `output`")
+    if manifest.trials < held.trials:
+        problem = f"holds a campaign of {held.trials} trials, {manifest.trials} are asked for"
+        raise InputError(folder / FILE, "trials", problem, f"give `trials` {held.trials} or more")
+    if not plan.is_counted:
+        _check_draws(folder, held, plan)
+    resumed = replace(held, trials=manifest.trials, timeout=manifest.timeout, options=manifest.options)
+    if resumed.trials > held.trials:
+        (folder / SUMMARY).unlink(missing_ok=True)
+        _write(folder, resumed, contents, plan)
+    elif resumed != held:
+        resumed.write(folder)
+    return resumed
+
+
+def _check_draws(folder: Path, held: Manifest, plan: BatchPlan) -> None:
+    """Refuse a plan that does not draw for the first trials what is held for them."""
+    names = plan.campaign.input_names()
+    stored, first = read_draws(folder, held.trials, names), 0
+    for part in plan.draw_parts(held.shard_size):
+        known = stored.of_part(range(first, min(first + part.trials, held.trials)))
+        for name in names:
+            if not np.array_equal(known.columns[name], part.columns[name][: known.trials], equal_nan=True):
+                problem = f"{plan.campaign.trials} trials draw other values of {name} in the first {held.trials}"
+                raise InputError(folder / DRAWS, name, f"{problem}, as designs do", "fly them into another `output`")
+        first += part.trials
+        if first >= held.trials:
+            return
+
+
+def cut(folder: Path, manifest: Manifest, plan: BatchPlan) -> Manifest:
+    """The folder of a campaign of fewer trials, those of the plan: whole shards, and the traces of these."""
+    manifest = replace(manifest, trials=plan.campaign.trials)
+    numbering = Numbering(manifest.trials, manifest.shard_size)
+    for path in (folder / FOLDER).glob("[0-9]*.parquet"):
+        if int(path.stem) >= numbering.count:
+            path.unlink()
+    for variant in plan.campaign.variants():
+        for path in trace_path(folder, variant.name, 0).parent.glob("[0-9]*.parquet"):
+            if int(path.stem) >= manifest.trials:
+                path.unlink()
+    manifest.write(folder)
+    write_draws(plan, folder, manifest.shard_size)
+    return manifest
+
+
+def tidy(folder: Path) -> None:
+    """Remove what writers that were killed left in a campaign's folder, in which all shards lie."""
+    for place in (folder, folder / FOLDER, folder / CONTENTS, *trace_path(folder, "", 0).parent.glob("*/")):
+        remove_partial(place)
+
+
+def _write(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> None:
+    store_contents(folder / CONTENTS, contents)
+    write_draws(plan, folder, manifest.shard_size)
+    manifest.write(folder)

@@ -1,0 +1,221 @@
+"""What a stored batch states of itself: what its numbers depend on, and units, types, expressions of its columns."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Mapping
+from importlib.metadata import version
+from typing import NotRequired, TypedDict
+
+from ...runtime.system.prepared import PreparedSystem
+from ..definition.campaign import Metric
+from ..definition.plan import BatchPlan
+
+TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
+
+
+class SignalMetadata(TypedDict, total=False):
+    """Unit, None where none is declared, and FMI type of a signal."""
+
+    unit: str | None
+    type: str
+
+
+class MetricMetadata(TypedDict):
+    """A metric as its campaign declares it, and whether its value is true or false."""
+
+    condition: NotRequired[str]
+    delay: NotRequired[float]
+    expression: str
+    reduction: str
+    unit: str
+    description: str
+    truth: bool
+
+
+class RecordMetadata(TypedDict):
+    """What trials store over time."""
+
+    every: int | None
+    signals: list[str]
+    trials: int | None
+    traces: str
+
+
+class CampaignMetadata(TypedDict, total=False):
+    """Properties of a batch that its numbers do not show.
+
+    ``group``, ``faults``, ``sweep``, ``draws_sha256`` of given draws and a ``draw_scheme`` that is no table (each where
+    there is any), ``success`` (expression), ``signals`` that are recorded, ``targets`` (parameters target_position and
+    target_velocity by variant).
+    """
+
+    group: str
+    faults: list[str]
+    sweep: dict[str, str]
+    draws_sha256: str
+    draw_scheme: str
+    description: str
+    success: str
+    metrics: dict[str, MetricMetadata]
+    record: RecordMetadata
+    signals: dict[str, SignalMetadata]
+    targets: dict[str, dict[str, float]]
+
+
+class Provenance(CampaignMetadata, total=False):
+    """Return what a batch's numbers depend on, apart from the trials themselves.
+
+    ``batch`` tells it from others; folders of earlier versions have a key of their ``manifest`` instead.
+    """
+
+    system: str
+    system_sha256: str
+    campaign: str
+    campaign_sha256: str
+    parameter_sets: list[str]
+    set: Mapping[str, object]
+    variant: str | None
+    start_time: float
+    steps: int
+    trials: int
+    seed: int
+    step: float
+    algorithm: str
+    feedthrough: list[str]
+    no_feedthrough: list[str]
+    assumptions: list[str]
+    input: object
+    timeout: float
+    fmus: dict[str, dict[str, str]]
+    perilune: str
+    batch: str
+    manifest: str
+
+
+def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Provenance:
+    """What a batch's numbers depend on; ``systems`` are the prepared ones by variant."""
+    first = next(iter(systems.values()))
+    options = plan.options
+    metadata: Provenance = {
+        "system": first.archive.name,
+        "system_sha256": first.archive.digest,
+        "campaign": plan.campaign.file,
+        "campaign_sha256": plan.campaign_sha256,
+        "parameter_sets": [*plan.campaign.parameters, *options.parameters],
+        "set": {**plan.campaign.settings, **options.set},
+        "variant": options.chosen["variant"],
+        "start_time": first.start,
+        "steps": first.steps,
+        "trials": plan.campaign.trials,
+        "seed": plan.campaign.seed,
+        "step": first.step,
+        "algorithm": first.algorithm,
+    }
+    if options.chosen["feedthrough"]:
+        metadata["feedthrough"] = list(options.chosen["feedthrough"])
+    if options.chosen["no_feedthrough"]:
+        metadata["no_feedthrough"] = list(options.chosen["no_feedthrough"])
+    assumptions = list(dict.fromkeys(note for prepared in systems.values() for note in prepared.assumptions))
+    if assumptions:
+        metadata["assumptions"] = assumptions
+    if first.drive is not None:
+        metadata["input"] = first.drive.facts()["input"]
+    if plan.watch.timeout is not None:
+        metadata["timeout"] = plan.watch.timeout
+    metadata["fmus"] = {
+        variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
+        for variant, prepared in systems.items()
+    }
+    metadata["perilune"] = version("perilune")
+    metadata.update(campaign_metadata(plan, systems))
+    return metadata
+
+
+def batch_digest(provenance: Mapping[str, object]) -> str:
+    """Return the SHA-256 that identifies a batch, for any number of trials, since a batch can be resumed with more.
+
+    In folders of earlier versions it is that of the provenance as JSON with sorted keys.
+    """
+    if "batch" in provenance:
+        return str(provenance["batch"])
+    return hashlib.sha256(json.dumps({**provenance, "trials": None}, sort_keys=True).encode()).hexdigest()
+
+
+def campaign_metadata(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> CampaignMetadata:
+    """See `CampaignMetadata`."""
+    campaign, record = plan.campaign, plan.campaign.record
+    signals = _signals(systems)
+    metadata: CampaignMetadata = {}
+    if campaign.group:
+        metadata["group"] = campaign.group
+    if faults := plan.fault_texts():
+        metadata["faults"] = faults
+    if campaign.sweeps:
+        metadata["sweep"] = dict(campaign.sweeps)
+    if plan.given is not None and plan.given.sha256:
+        metadata["draws_sha256"] = plan.given.sha256
+    if plan.is_counted:
+        metadata["draw_scheme"] = campaign.draw_scheme
+    metadata["description"] = campaign.description
+    metadata["success"] = campaign.success.text
+    metadata["metrics"] = {metric.name: _metric(metric, signals) for metric in campaign.metrics}
+    metadata["record"] = {
+        "every": record.every,
+        "signals": list(record.signals),
+        "trials": record.trials,
+        "traces": record.traces,
+    }
+    metadata["signals"] = {
+        name: fact
+        for name, fact in signals.items()
+        if record.traces != "none" or name in record.final or name in record.signals
+    }
+    metadata["targets"] = {variant: _targets(prepared) for variant, prepared in systems.items()}
+    return metadata
+
+
+def _metric(metric: Metric, signals: Mapping[str, SignalMetadata]) -> MetricMetadata:
+    expression = metric.expression
+    truth = expression.is_truth or (expression.text in signals and signals[expression.text]["type"] == "Boolean")
+    metadata: MetricMetadata = {
+        "expression": expression.text,
+        "reduction": metric.reduction,
+        "unit": metric.unit,
+        "description": metric.description,
+        "truth": truth and metric.reduction in ("final", "min", "max", "first"),
+    }
+    if metric.condition is None:
+        return metadata
+    return {"condition": metric.condition.text, "delay": metric.delay, **metadata}
+
+
+def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]:
+    """Unit and type of every signal of any variant by name."""
+    signals: dict[str, SignalMetadata] = {}
+    for prepared in systems.values():
+        network = prepared.network
+        for component, fmu in network.fmus.items():
+            for variable in fmu.variables.values():
+                if variable.causality in ("input", "output"):
+                    fact = SignalMetadata(unit=variable.unit, type=variable.type)
+                    signals.setdefault(f"{component}.{variable.name}", fact)
+        for node in network.nodes.values():
+            if node.component is None and node.kind not in ("parameter", "calculatedParameter"):
+                fact = SignalMetadata(unit=node.unit.name if node.unit else None, type=node.type_name or "Real")
+                signals.setdefault(node.name, fact)
+    return signals
+
+
+def _targets(prepared: PreparedSystem) -> dict[str, float]:
+    """Parameters called target_position and target_velocity, as one variant's flights begin with them."""
+    targets = {}
+    for component, fmu in prepared.network.fmus.items():
+        for variable in fmu.variables.values():
+            name = f"{component}.{variable.name}"
+            if variable.causality == "parameter" and TARGET.fullmatch(name):
+                value = prepared.settings.variables.get((component, variable.name), variable.start_text)
+                targets[name] = float(value)
+    return targets

@@ -1,0 +1,155 @@
+"""A trial of a stored campaign flown again, of its folder alone, and whether it comes to what is stored."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ....common.errors import InputError, suggestion
+from ...runtime.flight.results import TIMED_OUT, Result
+from ...runtime.system.options import UNTRUSTED, Trust
+from ...runtime.system.prepared import PreparedSystem
+from ..definition.campaign import Variant
+from ..definition.checks import check_plan
+from ..definition.plan import BatchPlan
+from .campaign import Campaign, open_folder
+from .flyer import Flyer, TrialResult
+from .manifest import read_manifest
+from .plan_manifest import restore
+from .shards.files import is_flown
+from .store import ShardRows
+
+CUT_OFF = ("interrupted", TIMED_OUT)
+
+
+@dataclass(frozen=True)
+class ReplayedTrial:
+    """One trial of one ``configuration`` of a campaign: its ``flight`` with every signal, what it came to.
+
+    ``faults`` flew in it. ``stored`` says whether the folder has the trial, ``differences`` how the flight differs from
+    it: nothing where this version of Perilune flew the campaign, foreign FMUs on this machine, and the
+    flight was not cut off by ``timeout`` or Ctrl-C (``is_cut_off``), after which the rest is not compared.
+    """
+
+    plan: BatchPlan
+    prepared: PreparedSystem
+    configuration: str
+    trial: int
+    flight: Result
+    outcome: TrialResult
+    faults: tuple[str, ...]
+    stored: bool
+    differences: tuple[str, ...]
+
+    @property
+    def is_cut_off(self) -> bool:
+        """Whether the flight ended before its end by a limit of wall-clock time, or by Ctrl-C."""
+        return self.outcome.status in CUT_OFF
+
+
+def replay_trial(
+    folder: Path,
+    trial: int,
+    configuration: str | None = None,
+    *,
+    log: str | None = None,
+    timeout: float | None = None,
+    trust: Trust = UNTRUSTED,
+) -> ReplayedTrial:
+    """Fly a trial of a campaign's folder again, to the bits of the campaign. Raises InputError and StuckError.
+
+    ``configuration`` names the variant where the campaign compares several. ``log`` is the level of the FMUs' messages;
+    ``timeout`` (s, wall clock) takes the place of the campaign's own, ``trust`` is what foreign FMUs may do.
+    """
+    folder = folder.absolute()  # FMUs may change the working folder
+    campaign = open_folder(folder, trust)
+    variant = _variant_of(campaign.plan, folder, configuration)
+    _check_trial(folder, trial, campaign.manifest.trials)
+    manifest = read_manifest(folder)
+    plan = restore(folder, manifest if timeout is None else replace(manifest, timeout=timeout), log, trust=trust)
+    return _replay(plan, campaign.systems[variant.name], variant, trial, campaign)
+
+
+def replay_plan(plan: BatchPlan, trial: int, configuration: str | None = None) -> ReplayedTrial:
+    """Simulate a trial of a plan again, which no folder holds. Raises InputError and StuckError."""
+    check_plan(plan)
+    variant = _variant_of(plan, plan.campaign.file, configuration)
+    _check_trial(plan.campaign.file, trial, plan.campaign.trials)
+    return _replay(plan, plan.prepare(variant), variant, trial, None)
+
+
+def _replay(
+    plan: BatchPlan, prepared: PreparedSystem, variant: Variant, trial: int, campaign: Campaign | None
+) -> ReplayedTrial:
+    """The flight of a trial; compared with what the folder of ``campaign`` has of it, if there is one."""
+    flight, outcome = Flyer(plan).replay(variant.name, trial)
+    stored = None if campaign is None else _read_stored(campaign, variant, trial)
+    return ReplayedTrial(
+        plan=plan,
+        prepared=prepared,
+        configuration=variant.name,
+        trial=trial,
+        flight=flight,
+        outcome=outcome,
+        faults=tuple(str(fault) for fault in plan.faults_of(trial) if fault is not None),
+        stored=stored is not None,
+        differences=() if stored is None else _differences(stored, outcome),
+    )
+
+
+def _check_trial(file: str | Path, trial: int, trials: int) -> None:
+    if not 0 <= trial < trials:
+        raise InputError(file, f"trial {trial}", "no such trial", f"give 0 to {trials - 1}")
+
+
+def _variant_of(plan: BatchPlan, file: str | Path, name: str | None) -> Variant:
+    variants = {variant.name: variant for variant in plan.campaign.variants()}
+    if name is None and len(variants) > 1:
+        problem = f"its campaign compares {len(variants)}"
+        raise InputError(file, "`configuration`", problem, f"give one of {', '.join(variants)}")
+    if name is not None and name not in variants:
+        raise InputError(file, f"`configuration` {name}", "no such configuration", suggestion(name, variants))
+    return variants[name] if name is not None else next(iter(variants.values()))
+
+
+def _read_stored(campaign: Campaign, variant: Variant, trial: int) -> TrialResult | None:
+    """What the folder says of a trial; None where its shard has not flown. Raises InputError for a damaged one."""
+    numbering, folder = campaign.numbering, campaign.folder
+    shard = trial // numbering.size
+    if folder is None or not is_flown(folder, campaign.batch, shard, numbering.of(shard)):
+        return None
+    metrics = [metric.name for metric in campaign.plan.campaign.metrics]
+    rows = ShardRows(folder, campaign.batch, campaign.plan, variant.name, numbering, range(shard, shard + 1))
+    (part,) = rows.parts("status", "success", "message", "end_time", *(f"metric.{name}" for name in metrics))
+    row = trial - numbering.of(shard).start
+    return TrialResult(
+        status=str(part["status"][row]),
+        message=str(part["message"][row]),
+        success=bool(part["success"][row]),
+        end_time=float(part["end_time"][row]),
+        metrics={name: float(part[f"metric.{name}"][row]) for name in metrics},
+    )
+
+
+def _differences(stored: TrialResult, flown: TrialResult) -> tuple[str, ...]:
+    """How two outcomes of one trial differ, to the last bit, a phrase each."""
+    if flown.status in CUT_OFF:
+        return (f"status {stored.status!r} is stored, {flown.status!r} was flown: the rest is not compared",)
+    pairs: dict[str, tuple[object, object]] = {
+        "status": (stored.status, flown.status),
+        "success": (stored.success, flown.success),
+        "end_time": (stored.end_time, flown.end_time),
+    }
+    pairs |= {name: (value, flown.metrics[name]) for name, value in stored.metrics.items()}
+    return tuple(
+        f"{name} {before!r} is stored, {now!r} was flown"
+        for name, (before, now) in pairs.items()
+        if not _same(before, now)
+    )
+
+
+def _same(one: object, other: object) -> bool:
+    if isinstance(one, float) and isinstance(other, float):
+        return one.hex() == other.hex() or (math.isnan(one) and math.isnan(other))
+    return one == other

@@ -1,0 +1,119 @@
+"""What a batch leaves: a table of trials, a summary, files."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Self
+
+import pyarrow
+
+from ....common.atomic import write_atomically
+from ....common.to_json import to_json
+from ..definition.plan import BatchPlan
+from ..plotted_sample import PlottedSample, select_trials
+from ..summary import Summary, summarise
+from ..summary_text import select_metrics, summary_text
+from ..tables import assumption_lines, faults_line
+from ..trials import Trials
+from .campaign import Campaign
+from .folder import tidy
+from .folder_lock import lock_folder
+from .metadata import Provenance, batch_digest
+from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
+from .shards.numbering import Numbering, shard_size
+from .store import FlownRows
+
+
+@dataclass
+class BatchResult:
+    """All trials of all variants, ``rows`` in order of trial, which may be stored in a folder and not in memory.
+
+    ``folder`` is the campaign's, as its user names it, None where it has none.
+    """
+
+    plan: BatchPlan
+    rows: Mapping[str, FlownRows]
+    provenance: Provenance
+    folder: Path | None = None
+
+    @classmethod
+    def finish(cls, campaign: Campaign, rows: Mapping[str, FlownRows], **more: Any) -> Self:
+        """The result of a campaign's first trials, by variant; its summary completes the campaign's folder.
+
+        ``more`` are further fields of a derived class.
+        """
+        campaign = campaign.of_first(len(next(iter(rows.values()))))
+        result = cls(campaign.plan, rows, campaign.provenance, campaign.named, **more)
+        if campaign.folder is not None:
+            with lock_folder(campaign.folder):
+                result.write_summary(campaign.folder)
+                tidy(campaign.folder)
+        return result
+
+    @cached_property
+    def summary(self) -> Summary:
+        """Success rates, statistics of metrics and verdicts on requirements, by variant."""
+        campaign = self.plan.campaign
+        return summarise(
+            self.rows,
+            campaign.metrics,
+            self.plan.groups,
+            campaign.group or "",
+            requirements=campaign.requirements,
+            until_decided=self.plan.until_decided,
+        )
+
+    @cached_property
+    def trials(self) -> dict[str, Trials]:
+        """All of them in memory, traces too."""
+        return {variant: rows.whole() for variant, rows in self.rows.items()}
+
+    @cached_property
+    def plotted(self) -> dict[str, PlottedSample]:
+        """What figures show of each variant."""
+        campaign = self.plan.campaign
+        metrics = [metric.name for metric in campaign.metrics]
+        return {variant: select_trials(rows, campaign.input_names(), metrics) for variant, rows in self.rows.items()}
+
+    def table(self) -> pyarrow.Table:
+        """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics."""
+        table = trial_table(self.plan, self.trials)
+        return table.replace_schema_metadata({"perilune": json.dumps(self.provenance)})
+
+    def document(self) -> dict[str, object]:
+        """The machine-readable result: provenance and the summary of each variant."""
+        return {**self.provenance, "variants": to_json(self.summary)}
+
+    def text(self, metrics: Sequence[str] = ()) -> str:
+        """The summary for a terminal, with these metrics or ``all``; else those of success and requirements.
+
+        Raises InputError for a metric that the campaign does not have.
+        """
+        faults, campaign = self.plan.fault_texts(), self.plan.campaign
+        selected = select_metrics(metrics, [metric.name for metric in campaign.metrics], campaign.judged_names())
+        lines = [summary_text(self.summary, campaign.group, selected), *([faults_line(faults)] if faults else [])]
+        return "\n".join([*lines, *assumption_lines(self.provenance.get("assumptions", ()))])
+
+    def write(self, folder: Path) -> None:
+        """Write trials/, draws.parquet, summary.json, and traces/ where the campaign keeps them.
+
+        Every file carries the batch's digest: a folder can hold traces of an earlier batch too.
+        """
+        batch = batch_digest(self.provenance)
+        numbering = Numbering(self.plan.campaign.trials, shard_size(self.plan.campaign.trials))
+        with lock_folder(folder, alone=True):
+            write_draws(self.plan, folder, numbering.size)
+            clear(folder)
+            for shard in range(numbering.count):
+                part = {variant: trials.part(numbering.of(shard)) for variant, trials in self.trials.items()}
+                write_shard(folder, batch, shard, self.plan, part)
+            self.write_summary(folder)
+
+    def write_summary(self, folder: Path) -> None:
+        """Write summary.json, which completes the folder: the shards are stored there already."""
+        text = json.dumps(self.document(), indent=1, allow_nan=False)
+        write_atomically(folder / SUMMARY, f"{text}\n".encode())

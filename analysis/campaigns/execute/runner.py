@@ -1,0 +1,163 @@
+"""Runs a campaign: manifest, draws, shards flown by workers, results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Generator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ....common.errors import InputError
+from ....common.progress import progress_bar
+from ..definition.plan import BatchPlan
+from ..requirement_verdicts import satisfies, trials_to_decision
+from ..trials import TrialRows, Trials
+from .campaign import Campaign, open_campaign
+from .folder_lock import lock_folder
+from .results import BatchResult
+from .shards.flights import fly_shards, task_size
+from .shards.numbering import spans
+from .store import FlownRows, HeldShards, StoredShards
+from .workers import FlyerPool, in_threads, worker_count
+
+# What flies shards of a campaign: each one's trials by variant, as soon as all are there, in any order of shards.
+Elsewhere = Callable[[Campaign, Sequence[int]], Generator[tuple[int, dict[str, Trials]]]]
+
+
+def run_batch(
+    plan: BatchPlan,
+    *,
+    workers: int | None = None,
+    output: Path | None = None,
+    resume: bool = False,
+    engine: str | None = None,
+    elsewhere: Elsewhere | None = None,
+) -> BatchResult:
+    """Fly every trial of every variant of a plan. Raises InputError before anything flies.
+
+    ``workers`` is the number of parallel flights (default: one per processor), ``engine`` one of `ENGINES` (default:
+    threads where the FMUs can fly in them); ``elsewhere`` flies in place of both. With ``output`` every shard is
+    written there as soon as it is flown, and the summary at the end: whatever ends it early, ``resume`` goes on from
+    there. Without it Ctrl-C leaves nothing.
+    """
+    campaign = open_campaign(plan, output, resume=resume, engine=engine, workers=workers)
+    rows = fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine, elsewhere=elsewhere)
+    return BatchResult.finish(campaign, rows)
+
+
+def merge_rows(campaign: Campaign) -> Mapping[str, FlownRows]:
+    """The trials by variant of a campaign whose shards are in its folder. Raises InputError where some are missing."""
+    missing = campaign.missing()
+    decision = _decision(campaign, missing)
+    if missing and not decision.is_decided:
+        count = f"{len(missing)} of {campaign.numbering.count} shards are missing"
+        remedy = f"perilune shard {campaign.folder} {spans(missing)} flies them"
+        raise InputError(str(campaign.folder), f"shards {spans(missing)}", count, remedy)
+    return _rows(campaign, campaign.store(), decision)
+
+
+def fly_campaign(
+    campaign: Campaign,
+    shards: Sequence[int],
+    *,
+    workers: int | None = None,
+    engine: str | None = None,
+    elsewhere: Elsewhere | None = None,
+) -> Mapping[str, FlownRows]:
+    """Fly some shards of a campaign, and write them where it has a folder; all of its trials by variant then.
+
+    Where the campaign ends as soon as it is decided, those behind the shard at whose end it was are missing, however
+    many of them have flown.
+    """
+    store = campaign.store()
+    decision = _decision(campaign, campaign.missing())
+    flights = sum(len(campaign.numbering.of(shard)) for shard in shards) * len(campaign.plan.campaign.variants())
+    if elsewhere is not None:
+        flying = elsewhere(campaign, shards)
+    else:
+        flying = _fly_here(campaign, shards, workers, engine)
+    failed = 0
+    with lock_folder(campaign.folder), progress_bar(total=flights, unit="flight") as bar, closing(flying) as flown:
+        for shard, trials in () if decision.is_decided else flown:
+            store.add(shard, trials)
+            decision.add(shard, trials)
+            failed += sum(len(rows.messages) for rows in trials.values())
+            bar.set_postfix_str(f"{failed} failed", refresh=False)
+            bar.update(sum(map(len, trials.values())))
+            if decision.is_decided:
+                break
+    return _rows(campaign, store, decision)
+
+
+def _decision(campaign: Campaign, missing: Collection[int]) -> Decision:
+    """What the shards decide that lie in a campaign's folder."""
+    decision, store, numbering = Decision(campaign.plan), campaign.store(), campaign.numbering
+    if campaign.plan.until_decided and isinstance(store, StoredShards):
+        for shard in sorted(set(range(numbering.count)) - set(missing)):
+            decision.add(shard, store.rows(numbering, range(shard, shard + 1)))
+    return decision
+
+
+def _rows(campaign: Campaign, store: HeldShards | StoredShards, decision: Decision) -> dict[str, FlownRows]:
+    """The trials of the shards that decide a campaign, or else of all, by variant."""
+    numbering = campaign.numbering
+    if decision.shards is not None:
+        numbering = replace(numbering, trials=numbering.of(decision.shards - 1).stop)
+    return store.rows(numbering)
+
+
+def _fly_here(
+    campaign: Campaign, shards: Sequence[int], workers: int | None, engine: str | None
+) -> Generator[tuple[int, dict[str, Trials]]]:
+    count = worker_count(workers)
+    threads = in_threads(campaign.systems.values(), engine)
+    trials = sum(len(campaign.numbering.of(shard)) for shard in shards)
+    flights = trials * len(campaign.plan.campaign.variants())
+    size = task_size(campaign.numbering.trials, count, threads)
+    tasks = -(-flights // size)
+    with (
+        FlyerPool(
+            campaign.flown, min(count, max(tasks, 1)), threads, in_child=engine == "processes", trials=trials
+        ) as pool,
+        closing(fly_shards(campaign.numbering, shards, pool, size)) as flown,
+    ):
+        yield from flown
+
+
+class Decision:
+    """Looks at the shards of a campaign in order of number, whatever the order in which they come.
+
+    ``shards`` is how many of the first ones decide the campaign, None as long as they do not: so it depends neither on
+    workers nor on what else has flown. A campaign that is not to end early is never decided.
+    """
+
+    def __init__(self, plan: BatchPlan) -> None:
+        self._plan = plan
+        self._ahead: dict[int, dict[str, list[np.ndarray]]] = {}  # of shards behind one that is missing
+        self._kept: dict[str, list[np.ndarray]] = {}  # by variant, for each requirement
+        self._looked = 0
+        self.shards: int | None = None
+
+    @property
+    def is_decided(self) -> bool:
+        return self.shards is not None
+
+    def add(self, shard: int, variants: Mapping[str, TrialRows]) -> None:
+        """Look at the trials of a shard by variant, as soon as all before it are there."""
+        if not self._plan.until_decided:
+            return
+        requirements = self._plan.campaign.requirements
+        self._ahead[shard] = {
+            name: [satisfies(requirement, trials) for requirement in requirements] for name, trials in variants.items()
+        }
+        while not self.is_decided and self._looked in self._ahead:
+            for name, rows in self._ahead.pop(self._looked).items():
+                before = self._kept.get(name)
+                self._kept[name] = (
+                    rows if before is None else [np.concatenate(both) for both in zip(before, rows, strict=True)]
+                )
+            self._looked += 1
+            if trials_to_decision(requirements, self._kept) is not None:
+                self.shards = self._looked

@@ -1,0 +1,300 @@
+"""The file of a shard, which is there only when all of its trials are, with their traces: written, and read back."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+
+from .....common.atomic import whole_file
+from .....common.bounds import TRIALS
+from .....common.errors import InputError
+from .....common.machine.arrow import numpy_of, table_of, texts_of
+from .....common.regular import check_regular
+from ...definition.plan import BatchPlan
+from ...trials import Trials
+
+FOLDER = "trials"
+DRAWS = "draws.parquet"
+SUMMARY = "summary.json"
+
+
+def shard_path(folder: Path, shard: int) -> Path:
+    return folder / FOLDER / f"{shard:06d}.parquet"
+
+
+def trace_path(folder: Path, variant: str, trial: int) -> Path:
+    """Where a trial's trace lies; a variant named by the path of an FMU has that path's slashes replaced."""
+    return folder / "traces" / variant.replace("/", "_") / f"{trial:06d}.parquet"
+
+
+def write_shard(folder: Path, batch: str, shard: int, plan: BatchPlan, trials: Mapping[str, Trials]) -> None:
+    """Write the traces of a shard, then its table, which is there only when all is.
+
+    ``batch`` is the digest that tells the campaign from others, ``trials`` are those of the shard by variant.
+    """
+    for variant, rows in trials.items():
+        for trial, traces in rows.traces.items():
+            about = {"batch": batch, "variant": variant, "trial": trial}
+            write_parquet(_describe_field(table_of(traces), about), trace_path(folder, variant, trial))
+    numbers = next(iter(trials.values())).trial
+    about = {"batch": batch, "shard": shard, "trials": [int(numbers[0]), int(numbers[-1]) + 1]}
+    table = _describe_field(trial_table(plan, trials), about)
+    write_parquet(table, shard_path(folder, shard), len(numbers))  # each variant a row group
+
+
+def clear(folder: Path) -> None:
+    """Remove the shards of an earlier batch; traces say which one they are of."""
+    if (folder / FOLDER).is_dir():
+        shutil.rmtree(folder / FOLDER)
+
+
+def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
+    """Write the table of draws to ``folder``/draws.parquet, a row per trial, ``size`` of them a row group.
+
+    Draws that are made for each trial by itself have no table; files of trials hold them.
+    """
+    if plan.is_counted:
+        (folder / DRAWS).unlink(missing_ok=True)
+        return
+    with whole_file(folder / DRAWS) as partial:
+        writer, first = None, 0
+        try:
+            for part in plan.draw_parts(size):
+                numbers = np.arange(first, first + part.trials)
+                table = table_of({"trial": numbers, **part.columns})
+                writer = writer or pyarrow.parquet.ParquetWriter(partial, table.schema, write_page_checksum=True)
+                writer.write_table(table)
+                first += part.trials
+        finally:
+            if writer is not None:
+                writer.close()
+
+
+def is_flown(folder: Path, batch: str, shard: int, trials: range) -> bool:
+    """Whether the shard lies in the folder, of this campaign and with these trials."""
+    return describe_columns(shard_path(folder, shard)) == {
+        "batch": batch,
+        "shard": shard,
+        "trials": [trials.start, trials.stop],
+    }
+
+
+def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
+    """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics.
+
+    Every variant has the same trials, which are in a row.
+    """
+    variants = list(trials.values())
+    numbers = variants[0].trial
+    sampled = plan.values_of(range(int(numbers[0]), int(numbers[-1]) + 1))
+    columns: dict[str, np.ndarray | pyarrow.Array] = {
+        "variant": texts_of(name for name, part in trials.items() for _ in part.trial),
+        "trial": _join_tables(variants, lambda part: part.trial),
+        "status": texts_of(status for part in variants for status in part.statuses),
+        "success": _join_tables(variants, lambda part: part.success),
+        "message": texts_of(part.messages.get(int(trial), "") for part in variants for trial in part.trial),
+        "end_time": _join_tables(variants, lambda part: part.end_time),
+    }
+    for name, values in sampled.table.columns.items():
+        columns[f"draw.{name}"] = np.tile(values, len(variants))
+    for fault in sampled.faults:
+        columns |= {name: np.tile(values, len(variants)) for name, values in fault.columns().items()}
+    for name in variants[0].final:
+        columns[f"final.{name}"] = _join_tables(variants, lambda part, name=name: part.final[name])
+    for name in variants[0].metrics:
+        columns[f"metric.{name}"] = _join_tables(variants, lambda part, name=name: part.metrics[name])
+    return table_of(columns)
+
+
+def _join_tables(tables: Sequence[Trials], column: Callable[..., np.ndarray]) -> np.ndarray:
+    return np.concatenate([column(part) for part in tables])
+
+
+def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> None:
+    """A table with a checksum on every page, so that a damaged file is found out when it is read.
+
+    ``rows`` are those of a row group; None for one of all.
+    """
+    with whole_file(path) as partial:
+        pyarrow.parquet.write_table(table, partial, row_group_size=rows, write_page_checksum=True)
+
+
+def _describe_field(table: pyarrow.Table, about: Mapping[str, object]) -> pyarrow.Table:
+    return table.replace_schema_metadata({"perilune": json.dumps(about)})
+
+
+NEW_FOLDER = "fly the batch again into an empty folder"
+
+
+def describe_columns(path: Path) -> object:
+    """What a file that `write_shard` wrote says of itself; None where it says nothing, or is not there.
+
+    Raises InputError for one that is damaged.
+    """
+    if not os.path.lexists(path):
+        return None
+    check_regular(path, NEW_FOLDER)
+    try:
+        with pyarrow.parquet.ParquetFile(path) as file:
+            return about_of(file.schema_arrow)
+    except (OSError, ValueError, pyarrow.ArrowException) as error:
+        raise unreadable(path, error) from error
+
+
+def list_traces(folder: Path, batch: str, variant: str) -> dict[int, Path]:
+    """The traces of a variant by trial; those of other batches in the folder are left out.
+
+    Raises InputError for one that is damaged.
+    """
+    return {
+        trial: path
+        for trial, path in trace_files(folder, variant).items()
+        if describe_columns(path) == {"batch": batch, "variant": variant, "trial": trial}
+    }
+
+
+def trace_files(folder: Path, variant: str) -> dict[int, Path]:
+    """The files of a variant's traces by trial, in order, whichever batch they are of."""
+    files = trace_path(folder, variant, 0).parent.glob("*.parquet")
+    numbered = {int(path.stem): path for path in files if path.stem.isdecimal()}
+    return dict(sorted(numbered.items()))
+
+
+def read_trace(path: Path, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
+    """The recorded signals of one trial, ``time`` (s) among them; of ``names`` those that there are, or all.
+
+    Raises InputError.
+    """
+    table = read_table(path, names if names is None else [*names, "time"])
+    if "time" not in table.column_names:
+        raise InputError(path, "time", "no such column", NEW_FOLDER)
+    return {name: numbers(table, name, path) for name in table.column_names}
+
+
+def unreadable(path: Path, error: Exception) -> InputError:
+    """What is said of a file that is damaged."""
+    reason = str(error).split(": ")[-1] or type(error).__name__
+    problem = f"cannot be read as parquet ({' '.join(reason.split())})"
+    return InputError(path, "", problem, "remove it: the batch's command with `resume` flies what is missing")
+
+
+def about_of(schema: pyarrow.Schema) -> object:
+    """What a table says of itself; None where it says nothing."""
+    try:
+        return json.loads((schema.metadata or {}).get(b"perilune", b"null"))
+    except ValueError:
+        return None
+
+
+COLUMNS = ("variant", "trial", "status", "success", "end_time")
+
+
+IDENTITY = ("variant", "trial")  # the columns that say which simulation a row is of
+TEXTS = ("variant", "status", "message")
+NUMBERS = ("trial", "success", "end_time")
+NUMBER_PREFIXES = ("draw.", "final.", "metric.")
+
+
+def check_rows(table: pyarrow.Table, variant: str, trials: range, names: Collection[str] | None, path: Path) -> None:
+    """Refuse a variant's rows of a shard that are not its trials in order, or columns of other types.
+
+    ``names`` are the columns that were read, None for all. Raises InputError.
+    """
+    check_names(table.column_names, path)
+    for name in (*IDENTITY, *(COLUMNS if names is None else names)):
+        if name not in table.column_names:
+            raise InputError(path, name, "no such column", NEW_FOLDER)
+    for name in table.column_names:
+        kind = table.schema.field(name).type
+        if pyarrow.types.is_dictionary(kind):
+            kind = kind.value_type
+        is_text = pyarrow.types.is_string(kind) or pyarrow.types.is_large_string(kind)
+        if name in TEXTS and not (is_text and not table[name].null_count):
+            raise InputError(path, name, "not a column of texts", NEW_FOLDER)
+        if name in NUMBERS or name.startswith(NUMBER_PREFIXES):
+            numbers(table, name, path)
+    if not np.array_equal(numbers(table, "trial", path), np.arange(trials.start, trials.stop)):
+        problem = f"its rows are not trials {trials.start} to {trials.stop - 1} of {variant}, once each"
+        raise InputError(path, "trial", problem, NEW_FOLDER)
+    if set(table["variant"].unique().to_pylist()) != {variant}:
+        raise InputError(path, "variant", f"not the rows of {variant}", NEW_FOLDER)
+
+
+def read_table(path: Path, columns: Collection[str] | None = None) -> pyarrow.Table:
+    """A parquet file, or those of its ``columns`` that there are, checksums verified. Raises InputError."""
+    check_regular(path, NEW_FOLDER)
+    try:
+        with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
+            names = file.schema_arrow.names
+            table = file.read(names if columns is None else [name for name in names if name in columns])
+    except (OSError, ValueError, pyarrow.ArrowException) as error:
+        raise unreadable(path, error) from error
+    check_names(table.column_names, path)
+    return table
+
+
+def check_names(names: Sequence[str], path: Path) -> None:
+    """Refuse two columns of one name, which Arrow cannot tell apart. Raises InputError."""
+    if len(set(names)) < len(names):
+        raise InputError(path, max(names, key=names.count), "two columns have this name", NEW_FOLDER)
+
+
+def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
+    """A column as doubles, or whole numbers or booleans where it holds such. Raises InputError."""
+    kind = table.schema.field(name).type
+    column = table[name]
+    known = pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_boolean(kind)
+    if column.null_count or not known:
+        raise InputError(path, name, "not a column of numbers", NEW_FOLDER)
+    return numpy_of(column)
+
+
+def trials_of(table: pyarrow.Table, metrics: Iterable[str], path: Path) -> dict[str, Trials]:
+    """The trials of a table by variant, without traces; ``path`` is what errors name. Raises InputError."""
+    metrics = list(metrics)
+    for name in (*COLUMNS, *(f"metric.{metric}" for metric in metrics)):
+        if name not in table.column_names:
+            raise InputError(path, name, "no such column", NEW_FOLDER)
+    labels = np.array(table["variant"].to_pylist(), dtype=str)
+    statuses = np.array(table["status"].to_pylist(), dtype=object)
+    messages = np.array(table["message"].to_pylist(), dtype=object) if "message" in table.column_names else None
+    retained = [name for name in table.column_names if name in COLUMNS[1:] or name.startswith(("metric.", "final."))]
+    columns = {name: numbers(table, name, path) for name in retained if name != "status"}
+    by_variant = {}
+    for variant in dict.fromkeys(labels.tolist()):
+        rows = labels == variant
+        mine = {name: column[rows] for name, column in columns.items()}
+        texts = [] if messages is None else zip(mine["trial"].tolist(), messages[rows], strict=True)
+        by_variant[variant] = Trials(
+            statuses=statuses[rows].tolist(),
+            success=mine["success"].astype(bool),
+            metrics={metric: mine[f"metric.{metric}"] for metric in metrics},
+            trial=mine["trial"],
+            end_time=mine["end_time"],
+            messages={trial: text for trial, text in texts if text},
+            final={name.removeprefix("final."): mine[name] for name in mine if name.startswith("final.")},
+            traces={},
+        )
+    return by_variant
+
+
+def trials_in(path: Path, about: object, batch: str, whose: str) -> range:
+    """The trials of a shard's file, of which ``about`` is what it says of itself.
+
+    Raises InputError for one of another batch than that of the file ``whose``, and for one that has another's name.
+    """
+    if not isinstance(about, dict) or about.get("batch") != batch:
+        raise InputError(path, "", f"of another batch than {whose}", NEW_FOLDER)
+    if about.get("shard") != int(path.stem):
+        raise InputError(path, "", "not the shard that it is named by", NEW_FOLDER)
+    match about.get("trials"):
+        case [int(first), int(stop)] if 0 <= first < stop <= TRIALS.limit:
+            return range(first, stop)
+    raise InputError(path, "trials", "not the span of a shard", NEW_FOLDER)

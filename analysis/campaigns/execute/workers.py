@@ -1,0 +1,141 @@
+"""Many trials on this machine: a thread for each worker, and for what does not fly in threads a process for each."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor
+from concurrent.futures import wait as wait_for
+from functools import partial
+from typing import TypeVar, get_args
+
+from loky import cpu_count
+
+from ....common.errors import InputError, suggestion
+from ...options.choices import Engine
+from ...runtime.flight.interruptible import PATIENCE, wait
+from ...runtime.process.opening import may_load_here
+from ...runtime.system.prepared import PreparedSystem
+from ..definition.plan import BatchPlan
+from .flyer import Flyer
+
+Result = TypeVar("Result")
+ENGINES: tuple[Engine, ...] = get_args(Engine)
+WAITING = 4  # tasks that are handed out ahead, for each worker
+
+
+def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
+    """Whether trials fly in threads: as asked, or wherever they can. Raises InputError where they cannot."""
+    systems = list(systems)
+    foreign = not all(map(may_load_here, systems))
+    can = all(prepared.flies_in_threads for prepared in systems) and not foreign
+    if engine is None:
+        return can
+    if engine not in ENGINES:
+        raise InputError("`engine`", engine, "unknown", suggestion(engine, ENGINES))
+    if engine == "threads" and foreign:
+        problem = "FMUs that Perilune has not built fly in processes of their own"
+        raise InputError("`engine`", engine, problem, "use processes, or `in_process` where you trust them")
+    if engine == "threads" and not can:
+        problem = "Python FMUs, and those of which a process can hold one instance, do not fly in threads"
+        raise InputError("`engine`", engine, problem, "use processes, or native FMUs")
+    return engine == "threads"
+
+
+def needs_children(workers: int, threads: bool, engine: str | None) -> bool:
+    """Whether trials that could fly in this process fly in children of the flight server."""
+    return engine == "processes" or (workers > 1 and not threads)
+
+
+def worker_count(workers: int | None) -> int:
+    """The number of parallel flights: as asked for, or one per processor. Raises InputError."""
+    count = workers if workers is not None else cpu_count()
+    if count < 1:
+        raise InputError("`workers`", str(count), "not a positive number", "give 1 or more")
+    return count
+
+
+class FlyerPool:
+    """Workers that each hold a `Flyer` of one plan, for as long as the pool is open.
+
+    Each is a thread; with one worker everything happens in the caller's. Native FMUs of our own fly there. Python FMUs
+    hold the interpreter lock, and others' are not to be trusted: what is not for ``threads`` flies in children of the
+    flight server, with two workers or more, or ``in_child``. ``trials`` are those of each variant, if
+    their number is known.
+    """
+
+    def __init__(
+        self, plan: BatchPlan, workers: int, threads: bool, *, in_child: bool = False, trials: int | None = None
+    ) -> None:
+        self.plan = plan
+        self._workers = workers
+        self._trials = trials
+        self._in_child = in_child or needs_children(workers, threads, None)
+        self._flyers: list[Flyer] = []
+        self._thread = threading.local()
+        if workers == 1:
+            self._start()
+        self._executor = None if workers == 1 else ThreadPoolExecutor(workers, initializer=self._start)
+
+    def _start(self) -> None:
+        self._thread.flyer = Flyer(self.plan, in_child=self._in_child, trials=self._trials, workers=self._workers)
+        self._flyers.append(self._thread.flyer)
+
+    def work(self, function: Callable[..., Result], tasks: Iterable[tuple]) -> Iterator[tuple[int, Result]]:
+        """Call ``function(flyer, *task)`` for every task: (place of the task, result), in any order.
+
+        What has not begun when the iterator is closed is not done any more.
+        """
+        if self._executor is not None:
+            yield from self._hand_out(self._executor, function, enumerate(tasks))
+            return
+        (flyer,) = self._flyers
+        for index, task in enumerate(tasks):
+            outcome = wait(partial(function, flyer, *task), flyer.interrupt, flyer.give_up)
+            if flyer.halted:
+                raise KeyboardInterrupt
+            yield index, outcome
+
+    def _hand_out(
+        self, executor: ThreadPoolExecutor, function: Callable[..., Result], tasks: Iterator[tuple[int, tuple]]
+    ) -> Iterator[tuple[int, Result]]:
+        """The results of tasks; so few at a time that all cost no memory."""
+        futures: dict[Future, int] = {}
+        try:
+            while True:
+                for place, task in itertools.islice(tasks, WAITING * self._workers - len(futures)):
+                    futures[executor.submit(self._call, function, task)] = place
+                if not futures:
+                    return
+                for future in wait_for(futures, return_when=FIRST_COMPLETED).done:
+                    place, outcome = futures.pop(future), future.result()
+                    yield place, outcome
+        except KeyboardInterrupt:
+            self._halt(list(futures))
+            raise
+        finally:
+            for future in futures:
+                future.cancel()
+
+    def _call(self, function: Callable[..., Result], task: tuple) -> Result:
+        return function(self._thread.flyer, *task)
+
+    def _halt(self, futures: list[Future]) -> None:
+        """End what flies at its next communication point; children that do not reach it are killed."""
+        for future in futures:
+            future.cancel()
+        for flyer in self._flyers:
+            flyer.interrupt()
+        wait_for(futures, timeout=PATIENCE)
+        for flyer in self._flyers:
+            flyer.give_up()
+
+    def __enter__(self) -> FlyerPool:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._executor is not None:
+            self._executor.shutdown()
+        for flyer in self._flyers:
+            flyer.close()
