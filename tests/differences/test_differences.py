@@ -161,7 +161,7 @@ def test_two_runs_of_a_system(tables, tmp_path, capsys):
     figures = parse(page).xpath("//figure")
     assert len(figures) == 2 * min(24, len(differing_vectors(one, other, rows)))
     assert main(["diff", str(tables[0]), str(tables[0]), "--report", str(tmp_path / "same.html")]) == 0
-    assert "all signals that both runs have are identical" in text_of((tmp_path / "same.html").read_text())
+    assert "All signals that both runs have are identical" in text_of((tmp_path / "same.html").read_text())
 
 
 def test_a_tolerance_decides_the_exit_status(tables, capsys):

@@ -10,8 +10,9 @@ from selenium.webdriver.common.by import By
 
 from perilune.analysis.differences.differences import compare_runs
 from perilune.analysis.differences.recorded_run import RecordedRun
+from perilune.analysis.documents.of.differences import differences_document
+from perilune.analysis.documents.render.html import write_document
 from perilune.analysis.reports.common.style import COLOURS, INK
-from perilune.analysis.reports.differences.page import write_differences_page
 from tests.support.pages.checks import parse
 from tests.support.pages.driven import driven, scroll_to_plot
 
@@ -27,7 +28,7 @@ def page(tmp_path):
         return RecordedRun("run", "", TIME, signals, dict.fromkeys(signals, "m"), frozenset())
 
     path = tmp_path / "page.html"
-    write_differences_page(compare_runs(run(1.0), run(1.5)), [], 1e-9, path)
+    write_document(differences_document(compare_runs(run(1.0), run(1.5)), 1e-9), path)
     return path
 
 

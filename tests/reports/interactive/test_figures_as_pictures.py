@@ -19,8 +19,9 @@ from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_
 from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.differences.differences import compare_runs
 from perilune.analysis.differences.recorded_run import RecordedRun
+from perilune.analysis.documents.of.differences import differences_document
+from perilune.analysis.documents.render.html import write_document
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
-from perilune.analysis.reports.differences.page import write_differences_page
 from perilune.analysis.reports.plan_pages import write_hover_page, write_landing_page
 from perilune.analysis.reports.run_report import write_run_report
 from perilune.common.paths import ROOT
@@ -84,7 +85,7 @@ def write_differences(request, page):
     for turn in (1.0, 1.1):
         signals = {"h": np.sin(turn * time), "v[1]": 0.0 * time, "v[2]": turn * time, "v[3]": turn - time}
         runs.append(RecordedRun("run", "", time, signals, dict.fromkeys(signals, "m"), frozenset()))
-    write_differences_page(compare_runs(*runs), [], 1e-9, page)
+    write_document(differences_document(compare_runs(*runs), 1e-9), page)
 
 
 def write_landing(request, page):
@@ -138,7 +139,7 @@ TEMPLATES = {
     "sensitivity.html": [write_sensitivity],
     "hover_transfer.html": [write_transfer],
     "landing_bound.html": [write_bound],
-    "differences.html": [write_differences],
+    "document.html": [write_differences],
     "demo.html": [write_demo],
     "system.html": [],  # a block diagram, the same with scripts: tests/reports/diagram
     "show.html": [],  # without scripts it has no figure: tests/show

@@ -1,0 +1,1 @@
+"""Documents of the results, one file a result."""

@@ -1,0 +1,39 @@
+"""Results that have a document: how they print, what a notebook shows, what programs read, their page."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from pathlib import Path
+
+from ....common.to_json import to_json
+from ...documents.model import Document
+from ...options.option import FilePath
+
+
+class Documented(ABC):
+    """A result whose `document` says everything that is shown of it."""
+
+    @abstractmethod
+    def document(self) -> Document:
+        """Return the result as a document."""
+
+    def lines(self) -> list[str]:
+        """Return the lines that the verb prints."""
+        from ...documents.render.terminal import document_lines
+
+        return document_lines(self.document())
+
+    def to_json(self) -> object:
+        """Return the data of the document as strict JSON, for other programs."""
+        return to_json(self.document().data)
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of the verb's option `report`: one HTML file."""
+        from ...documents.render.html import write_document
+
+        write_document(self.document(), Path(path))
+
+    def _repr_html_(self) -> str:
+        from ...documents.render.notebook import document_view
+
+        return document_view(self.document())
