@@ -4,12 +4,13 @@ A renderer decides how a node is shown; which nodes a medium has follows from th
 
 | node | terminal | notebook | page |
 |---|---|---|---|
-| `Text` | yes | yes | yes |
+| `Text`, `Verdict`, `KeyNumbers` | yes | yes | yes |
 | `Table` | its first rows | its first rows | yes |
+| `Commands` | yes | no | yes |
 | `Figures` | no | the first ones | yes |
 | `Fold` | its summary | no | closed, opens |
 | `Note` | no | no | yes |
-| heading of a `Section` | no | no | yes |
+| heading of a `Section` | where it has lines | no | yes |
 """
 
 from __future__ import annotations
@@ -34,7 +35,14 @@ class Quantity(NamedTuple):
     is_bare: bool = False
 
 
-Cell = str | float | bool | Quantity | None
+class Code(NamedTuple):
+    """Text of a program: an expression, a file, a digest."""
+
+    text: str
+
+
+Cell = str | float | bool | Quantity | Code | None
+Rich = str | Sequence[str | Quantity | Code]  # a sentence; its numbers keep their exact values in a page
 
 
 @dataclass(frozen=True)
@@ -42,7 +50,7 @@ class Text:
     """A statement of a result, without a full stop."""
 
     kind: ClassVar[str] = "text"
-    text: str
+    content: Rich
 
 
 @dataclass(frozen=True)
@@ -50,7 +58,34 @@ class Note:
     """An aid to read a figure or a table, which only a page needs."""
 
     kind: ClassVar[str] = "note"
-    text: str
+    content: Rich
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The answer of a document in one statement, and what stands with it."""
+
+    kind: ClassVar[str] = "verdict"
+    lead: Rich
+    nodes: Sequence[Node] = ()
+    is_bad: bool = False
+
+
+@dataclass(frozen=True)
+class KeyNumbers:
+    """Short numbers with their names."""
+
+    kind: ClassVar[str] = "numbers"
+    entries: Sequence[tuple[str, Cell]]
+
+
+@dataclass(frozen=True)
+class Commands:
+    """Command lines with their purposes; ``missing`` says why there is none."""
+
+    kind: ClassVar[str] = "commands"
+    entries: Sequence[tuple[str, str]]
+    missing: str = ""
 
 
 @dataclass(frozen=True)
@@ -65,13 +100,17 @@ class Table:
 
 @dataclass(frozen=True)
 class Figure:
-    """A chart of ``height`` (in); ``name`` is unique in its document, ``words`` describe it to those who do not see."""
+    """A chart of ``height`` (in); ``name`` is unique in its document, ``words`` describe it to those who do not see.
+
+    ``is_wide``: as wide as the page.
+    """
 
     label: str
     name: str
     words: str
     chart: Chart
     height: float
+    is_wide: bool = False
 
 
 class LegendEntry(NamedTuple):
@@ -99,30 +138,31 @@ class Fold:
     nodes: Sequence[Node]
 
 
-Node = Text | Note | Table | Figures | Fold
+Node = Text | Note | Verdict | KeyNumbers | Commands | Table | Figures | Fold
 
 
 @dataclass(frozen=True)
 class Section:
-    """Nodes below a ``heading``, which may be empty."""
+    """Nodes below a ``heading``, which may be empty; ``given`` is what all its numbers are conditional on."""
 
     heading: str
     nodes: Sequence[Node]
+    given: str = ""
 
 
 @dataclass(frozen=True)
 class Document:
-    """A result for its readers: ``statements`` first, then sections.
+    """A result for its readers: ``summary`` first, then sections.
 
-    ``data`` is what programs read, whose keys are part of the interface.
+    ``json`` is what programs read; its keys are part of the interface.
     """
 
     title: str
-    statements: Sequence[Text]
+    summary: Sequence[Node]
     sections: Sequence[Section]
-    data: object
+    json: object
 
 
 def nodes_of(document: Document) -> list[Node]:
-    """Return the statements and the nodes of all sections, in order."""
-    return [*document.statements, *(node for section in document.sections for node in section.nodes)]
+    """Return the nodes of the summary and of all sections, in order."""
+    return [*document.summary, *(node for section in document.sections for node in section.nodes)]

@@ -30,7 +30,7 @@ def differences_document(runs: RunDifferences, tolerance: float) -> Document:
         sections.append(Section("", [Fold(_within(within, tolerance), [Note(names)])]))
     if identical:
         sections.append(Section("", [Fold(f"{len(identical)} identical signals", [Note(", ".join(identical))])]))
-    return Document("Differences of two runs", [Text(each) for each in _statements(runs)], sections, _data(runs))
+    return Document("Differences of two runs", [Text(each) for each in _statements(runs)], sections, _json(runs))
 
 
 def _no_difference(within: Sequence[SignalDifference]) -> str:
@@ -71,7 +71,7 @@ def _within(signals: Sequence[SignalDifference], tolerance: float) -> str:
     )
 
 
-def _data(runs: RunDifferences) -> dict[str, object]:
+def _json(runs: RunDifferences) -> dict[str, object]:
     rows = [
         {
             "signal": each.name, "unit": each.unit, "difference": each.greatest, "relative": each.relative,

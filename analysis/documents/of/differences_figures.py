@@ -71,8 +71,8 @@ def difference_figures(vectors: Vectors, time: np.ndarray) -> list[Figure]:
 
 def _palette(vectors: Vectors) -> dict[str, str]:
     """Return the colour of every index that an element of a plotted vector has, the same in all figures."""
-    found = {_index(each.name) for elements in vectors.values() for each in elements} - {""}
-    ordered = sorted(found, key=lambda index: [int(each) for each in index.split(",")])
+    indices = {_index(each.name) for elements in vectors.values() for each in elements} - {""}
+    ordered = sorted(indices, key=lambda index: [int(each) for each in index.split(",")])
     return dict(zip(ordered, cycle(COLOURS), strict=False))
 
 

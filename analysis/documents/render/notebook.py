@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from ...reports.common.notebook import Grid, notebook_view
 from ...reports.common.panels import HALF_WIDTH
-from ..model import Document, Figures, Table, Text, nodes_of
+from ..model import Document, Figures, Node, Table, Text, Verdict, nodes_of
 from .html import cell_markup
+from .words import rich_text
 
 PLOTTED = 4  # figures
 
@@ -25,4 +26,13 @@ def document_view(document: Document) -> str:
 
         charts, titles = [each.chart for each in figures], [each.label for each in figures]
         plot = plot_charts(charts, figures[0].height, HALF_WIDTH, columns=2, titles=titles)
-    return notebook_view(document.title, [node.text for node in nodes if isinstance(node, Text)], grids, plot)
+    return notebook_view(document.title, [text for node in nodes for text in _words(node)], grids, plot)
+
+
+def _words(node: Node) -> list[str]:
+    match node:
+        case Text(content):
+            return [rich_text(content)]
+        case Verdict(lead, inner):
+            return [rich_text(lead), *(text for each in inner for text in _words(each))]
+    return []

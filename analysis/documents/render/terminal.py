@@ -2,29 +2,40 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from ...campaigns.tables import align_columns
-from ...reports.common.quantities import display_unit, in_shown_unit, number
-from ..model import Cell, Document, Fold, Node, Quantity, Table, Text, nodes_of
+from ..model import Commands, Document, Fold, KeyNumbers, Node, Section, Table, Text, Verdict
+from .words import cell_text, rich_text
 
 
 def document_lines(document: Document) -> list[str]:
     """Return the lines that a terminal shows of a document."""
-    return [line for node in nodes_of(document) for line in _lines(node)]
+    sections = [line for section in document.sections for line in _section_lines(section)]
+    return [*_lines(document.summary), *sections]
 
 
-def cell_text(cell: Cell) -> str:
-    """Return a cell as text; a quantity in its displayed unit."""
-    if not isinstance(cell, Quantity):
-        return number(cell)
-    text = number(in_shown_unit(cell.value, cell.unit), cell.digits)
-    unit = display_unit(cell.unit)
-    return text if cell.is_bare or not unit else f"{text} {unit}"
+def _section_lines(section: Section) -> list[str]:
+    lines = _lines(section.nodes)
+    if not lines or not section.heading:
+        return lines
+    return ["", f"{section.heading}, {section.given}" if section.given else section.heading, *lines]
 
 
-def _lines(node: Node) -> list[str]:
+def _lines(nodes: Iterable[Node]) -> list[str]:
+    return [line for node in nodes for line in _node_lines(node)]
+
+
+def _node_lines(node: Node) -> list[str]:
     match node:
-        case Text(text):
-            return [text]
+        case Text(content):
+            return [rich_text(content)]
+        case Verdict(lead, nodes):
+            return [rich_text(lead), *_lines(nodes)]
+        case KeyNumbers(entries):
+            return ["; ".join(f"{name} {cell_text(cell)}" for name, cell in entries)]
+        case Commands(entries, missing):
+            return [f"{purpose}: {command}" for purpose, command in entries] or [missing]
         case Fold(summary):
             return [summary]
         case Table() if node.rows:

@@ -24,8 +24,8 @@ class Documented(ABC):
         return document_lines(self.document())
 
     def to_json(self) -> object:
-        """Return the data of the document as strict JSON, for other programs."""
-        return to_json(self.document().data)
+        """Return the result as strict JSON, for other programs."""
+        return to_json(self.document().json)
 
     def report(self, path: FilePath) -> None:
         """Write the page of the verb's option `report`: one HTML file."""
