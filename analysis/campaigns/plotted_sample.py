@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+import pyarrow
 
-from .trials import Part, TrialColumns, TrialRows
+from ...common.machine.arrow import numpy_of
+from .trials import TrialTable
 
 FIRST = 100_000  # trials of a variant
 FAILURES = 20_000  # behind those
@@ -15,54 +17,39 @@ FAILURES = 20_000  # behind those
 
 @dataclass(frozen=True)
 class PlottedSample:
-    """``first`` are the first trials of a variant, ``dots`` the same and failures behind them; of ``trials`` in all.
+    """``dots`` are the first trials of a variant and failures behind them, of ``trials`` and ``failures`` in all."""
 
-    ``failures`` is how many failures there are in all. Both have statuses, metrics and draws; ``numbers`` are those of
-    the trials of ``dots``.
-    """
-
-    first: TrialColumns
-    dots: TrialColumns
-    numbers: np.ndarray
+    dots: TrialTable
     trials: int
     failures: int
+
+    @cached_property
+    def first(self) -> TrialTable:
+        """The first trials, without failures behind them."""
+        return self.dots.part(range(FIRST))
 
     @property
     def note(self) -> str:
         """What is left out, in words; nothing where nothing is."""
-        if self.trials == len(self.first.success):
+        if self.trials == len(self.first):
             return ""
         seen = int(np.count_nonzero(~self.dots.success))
         failures = "all failures" if seen == self.failures else f"{seen} of {self.failures} failures"
         return f"the first {FIRST} of {self.trials} trials; those over two values {failures}, too"
 
 
-def select_trials(rows: TrialRows, draws: list[str], metrics: list[str]) -> PlottedSample:
+def select_trials(rows: TrialTable, draws: list[str], metrics: list[str]) -> PlottedSample:
     """What figures show of a variant's trials, with some draws and metrics."""
     names = ["trial", "status", "success", *(f"metric.{name}" for name in metrics), *(f"draw.{name}" for name in draws)]
-    first: list[Part] = []
-    behind: list[Part] = []
-    trials = selected = failures = retained = 0
-    for part in rows.parts(*names):
-        success = part["success"]
+    chosen: list[pyarrow.Table] = []
+    trials = failures = retained = 0
+    for table in rows.tables(names):
+        success = numpy_of(table["success"])
+        room = min(max(FIRST - trials, 0), len(success))
+        failed = room + np.flatnonzero(~success[room:])[: FAILURES - retained]
+        chosen += [table.slice(0, room)] if room else []  # an empty slice would hold the memory of its shard
+        chosen += [table.take(pyarrow.array(failed))] if failed.size else []
         trials += len(success)
         failures += int(np.count_nonzero(~success))
-        room = min(FIRST - selected, len(success))
-        if room:
-            first.append({name: values[:room] for name, values in part.items()})
-            selected += room
-        failed = room + np.flatnonzero(~success[room:])[: FAILURES - retained]
-        if failed.size:
-            behind.append({name: values[failed] for name, values in part.items()})
-            retained += failed.size
-    numbers = np.concatenate([part["trial"] for part in first + behind])
-    return PlottedSample(_columns(first), _columns(first + behind), numbers, trials, failures)
-
-
-def _columns(parts: list[Part]) -> TrialColumns:
-    columns: Mapping[str, np.ndarray] = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-
-    def of(kind: str) -> dict[str, np.ndarray]:
-        return {name.removeprefix(kind): values for name, values in columns.items() if name.startswith(kind)}
-
-    return TrialColumns(columns["status"].tolist(), columns["success"], of("metric."), draws=of("draw."))
+        retained += failed.size
+    return PlottedSample(TrialTable(pyarrow.concat_tables(chosen).combine_chunks()), trials, failures)

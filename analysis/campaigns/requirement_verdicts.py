@@ -9,7 +9,7 @@ import numpy as np
 
 from ...common.to_json import optional
 from .definition.requirements import SUCCESS, Requirement
-from .trials import TrialRows, blocks
+from .trials import TrialTable
 from .verdicts.acceptance import FURTHER, FixedSize, Verdict
 from .verdicts.order_statistics import tolerance_bound
 from .verdicts.stopping import StoppingRule, stopping_rule
@@ -58,7 +58,7 @@ class RequirementVerdict:
     unevaluated: tuple[str, ...] | None = optional()
 
 
-def satisfies(requirement: Requirement, trials: TrialRows) -> np.ndarray:
+def satisfies(requirement: Requirement, trials: TrialTable) -> np.ndarray:
     """Which trials satisfy a requirement (booleans); one does not where a metric of the requirement is not finite."""
     names = {name: f"metric.{name}" for name in requirement.expression.names} | {SUCCESS: "success"}
     satisfied = []
@@ -70,7 +70,9 @@ def satisfies(requirement: Requirement, trials: TrialRows) -> np.ndarray:
     return np.concatenate(satisfied)
 
 
-def requirement_verdict(requirement: Requirement, trials: TrialRows, until_decided: bool = False) -> RequirementVerdict:
+def requirement_verdict(
+    requirement: Requirement, trials: TrialTable, until_decided: bool = False
+) -> RequirementVerdict:
     """The verdict on one requirement by a variant's trials, in order of trial.
 
     With ``until_decided``, where the campaign may have ended because it was decided, all of it is by `StoppingRule`.
@@ -97,7 +99,7 @@ def requirement_verdict(requirement: Requirement, trials: TrialRows, until_decid
     )
 
 
-def _unevaluated(requirement: Requirement, trials: TrialRows) -> tuple[str, ...] | None:
+def _unevaluated(requirement: Requirement, trials: TrialTable) -> tuple[str, ...] | None:
     """The metrics of a requirement that are nan in every trial."""
     names = sorted(requirement.expression.names - {SUCCESS})
     read = list(trials.parts(*(f"metric.{name}" for name in names)))
@@ -106,10 +108,10 @@ def _unevaluated(requirement: Requirement, trials: TrialRows) -> tuple[str, ...]
 
 
 def _bound(
-    requirement: Requirement, metric: str, trials: TrialRows, total: int, rule: FixedSize | StoppingRule
+    requirement: Requirement, metric: str, trials: TrialTable, total: int, rule: FixedSize | StoppingRule
 ) -> ToleranceBound:
     flights, permitted = rule.count_permitted(total)
-    value = tolerance_bound(blocks(trials, f"metric.{metric}"), flights, permitted, requirement.bound == "upper")
+    value = tolerance_bound(trials.blocks(f"metric.{metric}"), flights, permitted, requirement.bound == "upper")
     return ToleranceBound(
         metric=metric,
         side=requirement.bound,

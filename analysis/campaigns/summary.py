@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -16,7 +16,7 @@ from .definition.campaign import Group, Metric
 from .definition.requirements import Requirement
 from .requirement_verdicts import RequirementVerdict, requirement_verdict
 from .statistics import IN_MEMORY, QUANTILES, MetricStatistics, statistics
-from .trials import Part, TrialRows, blocks, has_all_in_memory
+from .trials import Member, TrialTable
 
 CONFIDENCE = 0.95
 Interval = tuple[float, float]
@@ -79,14 +79,18 @@ def success_rate(yes: np.ndarray) -> Rate:
     return Rate(count, yes.size, count / yes.size, success_interval(count, yes.size, CONFIDENCE))
 
 
-def _summary(trials: TrialRows, metrics: Sequence[Metric]) -> VariantSummary:
+def _summary(trials: TrialTable, metrics: Sequence[Metric], members: Sequence[Member] = ()) -> VariantSummary:
     count, successes = 0, 0
     statuses: Counter[str] = Counter()
-    for part in trials.parts("success", "status"):
+    for part in trials.parts("success", "status", members=members):
         count += len(part["success"])
         successes += int(np.count_nonzero(part["success"]))
         statuses.update(part["status"].tolist())
-    columns = {metric.name: (f"metric.{metric.name}", metric.unit) for metric in metrics}
+    succeeded: Member = ("success", lambda success: success == 1.0)
+
+    def all_of(*which: Member) -> dict[str, MetricStatistics]:
+        return {each.name: statistics(trials.blocks(f"metric.{each.name}", which), each.unit) for each in metrics}
+
     return VariantSummary(
         trials=count,
         success_rate=successes / count,
@@ -94,13 +98,13 @@ def _summary(trials: TrialRows, metrics: Sequence[Metric]) -> VariantSummary:
         confidence=CONFIDENCE,
         statuses=dict(sorted(statuses.items())),
         metrics_over="successful trials",
-        metrics={name: statistics(blocks(trials, column, "success"), unit) for name, (column, unit) in columns.items()},
-        metrics_all={name: statistics(blocks(trials, column), unit) for name, (column, unit) in columns.items()},
+        metrics=all_of(*members, succeeded),
+        metrics_all=all_of(*members),
     )
 
 
 def summarise(
-    variants: Mapping[str, TrialRows],
+    variants: Mapping[str, TrialTable],
     metrics: Sequence[Metric],
     groups: Sequence[Group] = (),
     by: str = "",
@@ -112,14 +116,19 @@ def summarise(
 
     ``groups`` are those of trials by the values of the draw ``by``. Verdicts are by `requirement_verdict`.
     """
-    columns = ["success", *(f"metric.{metric.name}" for metric in metrics), *([f"draw.{by}"] if groups else [])]
+    columns = [
+        "success",
+        "status",
+        *(f"metric.{metric.name}" for metric in metrics),
+        *([f"draw.{by}"] if groups else []),
+    ]
     summary = {}
     for name, rows in variants.items():
-        trials = has_all_in_memory(rows, columns, IN_MEMORY)
+        trials = rows.in_memory(columns, IN_MEMORY)
         summary[name] = replace(
             _summary(trials, metrics),
             groups={
-                group.label: replace(_summary(_Members(trials, f"draw.{by}", group), metrics), value=group.value)
+                group.label: replace(_summary(trials, metrics, [(f"draw.{by}", group.has)]), value=group.value)
                 for group in groups
             },
             requirements={
@@ -127,20 +136,6 @@ def summarise(
             },
         )
     return summary
-
-
-@dataclass(frozen=True)
-class _Members:
-    """The trials of a variant that are in a group."""
-
-    rows: TrialRows
-    column: str
-    group: Group
-
-    def parts(self, *names: str) -> Iterator[Part]:
-        for part in self.rows.parts(*dict.fromkeys((*names, self.column))):
-            members = self.group.has(part[self.column])
-            yield {name: part[name][members] for name in names}
 
 
 class SummaryRow(NamedTuple):

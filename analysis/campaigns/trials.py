@@ -1,175 +1,189 @@
-"""The trials of a variant as columns, in memory or read part by part."""
+"""The trials of a variant as one table, in memory; `execute/store.py` has the one that reads the shards of a folder."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Protocol
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
+import pyarrow
 
+from ...common.machine.arrow import numbers_of, numpy_of, table_of, texts_of
 from .verdicts.order_statistics import Blocks
 
-Part = Mapping[str, np.ndarray]
+Trace = dict[str, np.ndarray]  # signals by name, and ``time`` (s)
+Member = tuple[str, Callable[[np.ndarray], np.ndarray]]  # a column, and which of its entries are in a group
 
 
-class TrialRows(Protocol):
-    """All trials of one variant, in order of number, an entry per trial in every column.
+class TrialTable:
+    """Trials of one variant, in order of number, an entry per trial in every column.
 
-    Columns are named as in files of trials: ``trial``, ``status``, ``success``, ``end_time``, ``message``,
-    ``metric.NAME``, ``draw.NAME``, ``final.NAME``.
+    Columns are named as in files of trials: ``trial``, ``status``, ``success``, ``message`` (why the flight failed,
+    empty where it did not), ``end_time`` (s), ``draw.NAME``, ``final.NAME``, ``metric.NAME``.
     """
 
-    def parts(self, *names: str) -> Iterator[Part]:
-        """Some columns, trials in a row at a time."""
-        ...
+    def __init__(self, table: pyarrow.Table, traces: Mapping[int, Trace] | None = None) -> None:
+        self._table = table
+        self._traces = {} if traces is None else dict(traces)
 
+    @classmethod
+    def of(
+        cls, columns: Mapping[str, np.ndarray | Sequence[str]], traces: Mapping[int, Trace] | None = None
+    ) -> TrialTable:
+        """The table of columns by name: numbers or truths (trials,), or texts; ``traces`` are by trial."""
+        return cls(
+            table_of(
+                {
+                    name: column if isinstance(column, np.ndarray) and column.dtype != object else texts_of(column)
+                    for name, column in columns.items()
+                }
+            ),
+            traces,
+        )
 
-@dataclass(frozen=True)
-class TrialColumns:
-    """Trials of one variant in memory, one entry per trial: status, success, every metric and draw by name."""
+    @property
+    def table(self) -> pyarrow.Table:
+        """All columns in memory."""
+        return self._table
 
-    statuses: Sequence[str]
-    success: np.ndarray
-    metrics: Mapping[str, np.ndarray]
-    draws: Mapping[str, np.ndarray] = field(default_factory=dict, kw_only=True)
-
-    def parts(self, *names: str) -> Iterator[Part]:
-        yield {name: self.column(name) for name in names}
-
-    def column(self, name: str) -> np.ndarray:
-        """A column by the name that files of trials give it. Raises KeyError."""
-        kind, _, own = name.partition(".")
-        columns = {"metric": self.metrics, "draw": self.draws}
-        if kind in columns:
-            return np.asarray(columns[kind][own])
-        return {"status": np.array(self.statuses, dtype=object), "success": np.asarray(self.success, dtype=bool)}[name]
-
-
-def blocks(rows: TrialRows, name: str, where: str | None = None, value: float = 1.0) -> Blocks:
-    """A column of numbers as blocks; of the trials in which the column ``where`` has that value, or of all."""
-
-    def read() -> Iterator[np.ndarray]:
-        for part in rows.parts(name, *(() if where is None else (where,))):
-            values = np.asarray(part[name], dtype=float)
-            yield values if where is None else values[part[where] == value]
-
-    return read
-
-
-def whole_column(rows: TrialRows, name: str) -> np.ndarray:
-    """A column in memory (trials,)."""
-    return np.concatenate([part[name] for part in rows.parts(name)])
-
-
-@dataclass(frozen=True)
-class _Held:
-    """Trials of which some columns are in memory; the others are read."""
-
-    rows: TrialRows
-    columns: Part
-
-    def parts(self, *names: str) -> Iterator[Part]:
-        if self.columns.keys() >= set(names):
-            yield {name: self.columns[name] for name in names}
-        else:
-            yield from self.rows.parts(*names)
-
-
-def has_all_in_memory(rows: TrialRows, names: Sequence[str], most: int) -> TrialRows:
-    """The same trials, these columns of theirs read once and kept, if they have no more than ``most`` values in all."""
-    parts: list[Part] = []
-    size = 0
-    for part in rows.parts(*names):
-        size += sum(map(len, part.values()))
-        if size > most:
-            return rows
-        parts.append(part)
-    return _Held(rows, {name: np.concatenate([part[name] for part in parts]) for name in names})
-
-
-@dataclass(frozen=True)
-class Trials(TrialColumns):
-    """Trials of one variant, an entry per trial in every column.
-
-    ``trial`` are their numbers, ``end_time`` is in s, ``messages`` explain failed flights,
-    ``final`` and ``traces`` (by trial) are what the campaign records beside the metrics.
-    """
-
-    trial: np.ndarray
-    end_time: np.ndarray
-    messages: dict[int, str]
-    final: dict[str, np.ndarray]
-    traces: dict[int, dict[str, np.ndarray]]
+    @property
+    def names(self) -> list[str]:
+        """The columns in their order."""
+        return list(self.table.column_names)
 
     def __len__(self) -> int:
-        return len(self.trial)
+        return int(self._table.num_rows)
 
-    def whole(self) -> Trials:
-        """Already in memory: returns itself."""
-        return self
+    def tables(self, names: Sequence[str]) -> Iterator[pyarrow.Table]:
+        """Some columns, trials in a row at a time."""
+        yield self._table.select(names)
 
     def traced(self) -> list[int]:
-        """The trials with a trace, in order."""
-        return sorted(self.traces)
+        """The trials with a trace, in order; of a folder those with a file of one, which may be another batch's."""
+        return sorted(self._traces)
 
-    def trace(self, trial: int, names: Collection[str]) -> dict[str, np.ndarray] | None:
-        """What a trial has recorded of these signals, and ``time`` (s); None where it has no trace."""
-        if trial not in self.traces:
+    def trace(self, trial: int, names: Collection[str] | None = None) -> Trace | None:
+        """What a trial has recorded of these signals, or of all, and ``time`` (s); None where it has no trace.
+
+        Raises InputError for a damaged file.
+        """
+        if trial not in self._traces:
             return None
-        return {name: values for name, values in self.traces[trial].items() if name in names or name == "time"}
+        signals = self._traces[trial].items()
+        return {name: values for name, values in signals if names is None or name in names or name == "time"}
+
+    def whole(self) -> TrialTable:
+        """The same in memory, with all traces."""
+        return self
+
+    def parts(self, *names: str, members: Sequence[Member] = ()) -> Iterator[dict[str, np.ndarray]]:
+        """Some columns in numpy, trials in a row at a time; of the trials that are in all of some groups."""
+        needed = list(dict.fromkeys((*names, *(name for name, _ in members))))
+        for table in self.tables(needed):
+            columns = {name: numpy_of(table[name]) for name in needed}
+            for name, is_in in members:
+                rows = is_in(columns[name])
+                columns = {each: values[rows] for each, values in columns.items()}
+            yield {name: columns[name] for name in names}
+
+    def blocks(self, name: str, members: Sequence[Member] = ()) -> Blocks:
+        """A column of numbers as blocks; of the trials that are in all of some groups."""
+        return lambda: (np.asarray(part[name], dtype=float) for part in self.parts(name, members=members))
 
     def column(self, name: str) -> np.ndarray:
-        kind, _, own = name.partition(".")
-        if kind == "final":
-            return self.final[own]
-        if name == "message":
-            return np.array([self.messages.get(trial, "") for trial in self.trial.tolist()], dtype=object)
-        return getattr(self, name) if name in ("trial", "end_time") else super().column(name)
+        """A column in memory (trials,). Raises KeyError."""
+        return self._columns([name])[name]
 
-    def part(self, numbers: range) -> Trials:
-        """Those with some consecutive numbers; trials are in order of number."""
-        first, end = (int(np.searchsorted(self.trial, number)) for number in (numbers.start, numbers.stop))
-        rows = slice(first, end)
-        return Trials(
-            statuses=list(self.statuses[rows]),
-            success=self.success[rows],
-            metrics={name: values[rows] for name, values in self.metrics.items()},
-            trial=self.trial[rows],
-            end_time=self.end_time[rows],
-            messages={trial: text for trial, text in self.messages.items() if trial in numbers},
-            final={name: values[rows] for name, values in self.final.items()},
-            traces={trial: traces for trial, traces in self.traces.items() if trial in numbers},
-            draws={name: values[rows] for name, values in self.draws.items()},
-        )
+    def _columns(self, names: Sequence[str]) -> dict[str, np.ndarray]:
+        first, *others = self.parts(*names)
+        if not others:
+            return first
+        return {name: np.concatenate([values, *(part[name] for part in others)]) for name, values in first.items()}
+
+    def in_memory(self, names: Sequence[str], most: int) -> TrialTable:
+        """These columns read once, if they have no more than ``most`` numbers in all; otherwise the table itself."""
+        tables: list[pyarrow.Table] = []
+        size = 0
+        for table in self.tables(names):
+            size += table.num_rows * sum(not pyarrow.types.is_string(column.type) for column in table.itercolumns())
+            if size > most:
+                return self
+            tables.append(table)
+        return TrialTable(pyarrow.concat_tables(tables).combine_chunks())
+
+    def part(self, numbers: range) -> TrialTable:
+        """Those with some consecutive numbers."""
+        first, end = np.searchsorted(self.trial, [numbers.start, numbers.stop]).tolist()
+        traces = {trial: trace for trial, trace in self._traces.items() if trial in numbers}
+        return TrialTable(self._table.slice(first, end - first), traces)
+
+    def renumber(self, first: int) -> TrialTable:
+        """The same with other numbers, as many higher."""
+        numbers = numbers_of(self.trial + first)
+        table = self._table.set_column(self.names.index("trial"), "trial", numbers)
+        return TrialTable(table, {trial + first: trace for trial, trace in self._traces.items()})
+
+    @property
+    def trial(self) -> np.ndarray:
+        """Numbers of the trials (trials,)."""
+        return self.column("trial")
+
+    @property
+    def statuses(self) -> list[str]:
+        """How each flight ended, and the worst status that components had."""
+        return list(self.column("status").tolist())
+
+    @property
+    def success(self) -> np.ndarray:
+        """Which trials are successes (trials,)."""
+        return np.asarray(self.column("success"), dtype=bool)
+
+    @property
+    def end_time(self) -> np.ndarray:
+        """Times of the last rows (trials,), s."""
+        return self.column("end_time")
+
+    @property
+    def messages(self) -> dict[int, str]:
+        """Why flights failed, by trial."""
+        columns = self._columns(["trial", "message"])
+        numbers, texts = columns.values()
+        return {int(numbers[row]): texts[row] for row in np.flatnonzero(texts != "")}
 
     @property
     def flown(self) -> np.ndarray:
         """Which flights came to their end (trials,)."""
-        return np.array([int(trial) not in self.messages for trial in self.trial])
+        return np.asarray(self.column("message") == "", dtype=bool)
 
-    def renumber(self, first: int) -> Trials:
-        """The same with other numbers, as many higher."""
-        return replace(
-            self,
-            trial=self.trial + first,
-            messages={trial + first: text for trial, text in self.messages.items()},
-            traces={trial + first: traces for trial, traces in self.traces.items()},
-        )
+    @property
+    def traces(self) -> dict[int, Trace]:
+        """All traces, by trial."""
+        return self._traces
+
+    @property
+    def metrics(self) -> dict[str, np.ndarray]:
+        """All metrics by name, each (trials,)."""
+        return self._kind("metric.")
+
+    @property
+    def draws(self) -> dict[str, np.ndarray]:
+        """All drawn and derived values by name, each (trials,)."""
+        return self._kind("draw.")
+
+    @property
+    def final(self) -> dict[str, np.ndarray]:
+        """Last values of the signals of which they are recorded, by name, each (trials,)."""
+        return self._kind("final.")
+
+    def _kind(self, prefix: str) -> dict[str, np.ndarray]:
+        names = [name for name in self.names if name.startswith(prefix)]
+        return {name.removeprefix(prefix): values for name, values in self._columns(names).items()}
 
 
-def join_trials(parts: Iterable[Trials]) -> Trials:
+def join_trials(parts: Iterable[TrialTable]) -> TrialTable:
     """Parts of one variant, in any order, as one in order of trial."""
     ordered = sorted(parts, key=lambda part: int(part.trial[0]))
-    first = ordered[0]
-    return Trials(
-        statuses=[status for part in ordered for status in part.statuses],
-        success=np.concatenate([part.success for part in ordered]),
-        metrics={name: np.concatenate([part.metrics[name] for part in ordered]) for name in first.metrics},
-        trial=np.concatenate([part.trial for part in ordered]),
-        end_time=np.concatenate([part.end_time for part in ordered]),
-        messages={trial: text for part in ordered for trial, text in part.messages.items()},
-        final={name: np.concatenate([part.final[name] for part in ordered]) for name in first.final},
-        traces={trial: traces for part in ordered for trial, traces in part.traces.items()},
-        draws={name: np.concatenate([part.draws[name] for part in ordered]) for name in first.draws},
-    )
+    traces = {trial: trace for part in ordered for trial, trace in part.traces.items()}
+    if len(ordered) == 1:
+        return ordered[0]
+    tables = [part.table for part in ordered]
+    return TrialTable(pyarrow.concat_tables(tables, promote_options="permissive").combine_chunks(), traces)

@@ -20,7 +20,7 @@ from ..campaigns.execute.metadata import Provenance, provenance
 from ..campaigns.execute.shards.flights import task_size
 from ..campaigns.execute.workers import FlyerPool, worker_count
 from ..campaigns.lost_trials import count_lost
-from ..campaigns.trials import Trials, join_trials
+from ..campaigns.trials import TrialTable, join_trials
 from ..runtime.system.prepared import PreparedSystem
 from .noise import make_samples, noise_of
 
@@ -51,7 +51,7 @@ class SampleFlights:
         self._pool = FlyerPool(self.plan, self._count, self.prepared.flies_in_threads)
         self._progress = progress_bar(unit="flight")
 
-    def fly(self, columns: Columns, streams: Streams) -> tuple[Trials, Mapping[str, np.ndarray]]:
+    def fly(self, columns: Columns, streams: Streams) -> tuple[TrialTable, Mapping[str, np.ndarray]]:
         """The trials of given draws and random streams, in their order, with the drawn and derived values.
 
         ``streams`` are those of all sources of the noise, by component. Raises InputError.
@@ -61,7 +61,7 @@ class SampleFlights:
         trials = plan.campaign.trials
         size = task_size(trials, self._count, self.prepared.flies_in_threads)
         pieces = [range(first, min(first + size, trials)) for first in range(0, trials, size)]
-        parts: dict[int, Trials] = {}
+        parts: dict[int, TrialTable] = {}
         for place, flown in self._pool.work(_fly, [(self.variant, plan.of_part(piece)) for piece in pieces]):
             if flown is None:
                 raise KeyboardInterrupt
@@ -81,7 +81,7 @@ class SampleFlights:
         self._pool.__exit__(*error)
 
 
-def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> Trials | None:  # of a module: workers import it
+def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> TrialTable | None:  # of a module: workers import it
     return flyer.fly_others(variant, plan)
 
 

@@ -18,7 +18,6 @@ from ..campaigns.execute.runner import fly_campaign
 from ..campaigns.summary import CONFIDENCE, summary_rows
 from ..campaigns.summary_text import select_metrics
 from ..campaigns.tables import requirement_rows, who_cells, who_heads
-from ..campaigns.trials import whole_column
 from ..options.declared.campaigns import BATCH, BatchOptions
 from ..options.option import FilePath
 from ..options.verb import verb
@@ -75,8 +74,8 @@ class BatchResult(results.BatchResult):
         """
         rows = next(iter(self.rows.values())) if variant is None else self.rows[variant]
         campaign = self.plan.campaign
-        draws = {name: whole_column(rows, f"draw.{name}") for name in campaign.input_names()}
-        metrics = {metric.name: whole_column(rows, f"metric.{metric.name}") for metric in campaign.metrics}
+        draws = {name: rows.column(f"draw.{name}") for name in campaign.input_names()}
+        metrics = {metric.name: rows.column(f"metric.{metric.name}") for metric in campaign.metrics}
         return rank_correlations(draws, metrics)
 
     def write(self, folder: FilePath) -> None:

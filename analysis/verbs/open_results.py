@@ -17,7 +17,6 @@ from ..campaigns.definition.expressions import Expression
 from ..campaigns.execute.results import BatchResult
 from ..campaigns.folder.folder import read_folder
 from ..campaigns.folder.opened import OpenedResults
-from ..campaigns.trials import whole_column
 from ..options.option import FilePath
 from ..reports.campaign.distributions import distribution_plot
 from ..reports.common.colours import look
@@ -91,7 +90,7 @@ def _of_one_unit(name: str, declared: Mapping[str, Mapping[str, Metric]]) -> Met
 def _lines(label: str, results: Results, metric: str) -> list[tuple[str, np.ndarray]]:
     """The values of a metric by what their lines are called: the label, the variant, or both."""
     if isinstance(results, BatchResult):
-        lines = {variant: whole_column(rows, f"metric.{metric}") for variant, rows in results.rows.items()}
+        lines = {variant: rows.column(f"metric.{metric}") for variant, rows in results.rows.items()}
     else:
         table = results.arrow(["variant", f"metric.{metric}"])
         column = table.column(1).to_numpy().astype(np.float64)

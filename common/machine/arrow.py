@@ -30,21 +30,23 @@ def texts_of(values: Iterable[str]) -> pyarrow.Array:
     )
 
 
-def table_of(columns: Mapping[str, np.ndarray | pyarrow.Array]) -> pyarrow.Table:
+def table_of(columns: Mapping[str, np.ndarray | pyarrow.Array | pyarrow.ChunkedArray]) -> pyarrow.Table:
     """A table of columns by name, numbers as they are in numpy."""
-    arrays = [column if isinstance(column, pyarrow.Array) else numbers_of(column) for column in columns.values()]
+    arrays = [numbers_of(column) if isinstance(column, np.ndarray) else column for column in columns.values()]
     return pyarrow.Table.from_arrays(arrays, names=list(columns))
 
 
 def numpy_of(column: pyarrow.ChunkedArray) -> np.ndarray:
     """Numbers, truths or texts (n,), none of which is missing; texts as objects.
 
-    Numbers that are one piece in Arrow are shared, and not to be written.
+    Numbers that are one chunk in Arrow are shared, and not to be written.
     """
-    piece = column.chunk(0) if column.num_chunks == 1 else column.combine_chunks()
-    if pyarrow.types.is_string(piece.type):
-        coded = piece.dictionary_encode()
+    chunk = column.chunk(0) if column.num_chunks == 1 else column.combine_chunks()
+    if pyarrow.types.is_dictionary(chunk.type):
+        chunk = chunk.cast(chunk.type.value_type)
+    if pyarrow.types.is_string(chunk.type) or pyarrow.types.is_large_string(chunk.type):
+        coded = chunk.dictionary_encode()
         return np.array(coded.dictionary.to_pylist(), dtype=object)[np.from_dlpack(coded.indices)]
-    if pyarrow.types.is_boolean(piece.type):
-        return np.from_dlpack(piece.cast(pyarrow.uint8())).astype(np.bool_)
-    return np.from_dlpack(piece)
+    if pyarrow.types.is_boolean(chunk.type):
+        return np.from_dlpack(chunk.cast(pyarrow.uint8())).astype(np.bool_)
+    return np.from_dlpack(chunk)

@@ -11,12 +11,13 @@ from perilune.analysis.campaigns import summary as summaries
 from perilune.analysis.campaigns.definition.campaign import Group, Metric
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.summary import requirement_values, success_interval, summarise
-from perilune.analysis.campaigns.trials import TrialColumns
+from perilune.analysis.campaigns.trials import TrialTable
 from perilune.common.to_json import to_json
+from tests.support.campaigns.trial_tables import trial_table
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
-GOOD = TrialColumns(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})
-BAD = TrialColumns(["nonfinite", "finished"], np.array([False, False]), {"miss": np.array([math.nan, 900.0])})
+GOOD = trial_table(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})
+BAD = trial_table(["nonfinite", "finished"], np.array([False, False]), {"miss": np.array([math.nan, 900.0])})
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +68,7 @@ def test_requirements_reach_every_number(summary):
 
 def test_requirements_see_what_is_infinite():
     """A trial that never settles: the quantile is infinite, so a bound on it is not met, and not 0 either."""
-    late = TrialColumns(["finished"] * 2, np.array([True, True]), {"miss": np.array([1.0, math.inf])})
+    late = trial_table(["finished"] * 2, np.array([True, True]), {"miss": np.array([1.0, math.inf])})
     summary = summarise({"late": late}, METRICS)
     assert summary["late"].metrics["miss"].p95 == math.inf
     assert requirement_values(summary)["late.metrics.miss.p95"] == math.inf
@@ -77,7 +78,7 @@ def test_requirements_see_what_is_infinite():
 
 CASES = np.array([0.5, 2.0, 2.0, 0.5])
 GROUPS = [Group("0.5", 0.5), Group("2", 2.0)]
-PARTED = replace(GOOD, draws={"case": CASES})
+PARTED = trial_table(GOOD.statuses, GOOD.success, GOOD.metrics, {"case": CASES})
 
 
 def test_groups_are_summed_up_as_the_whole():
@@ -87,7 +88,7 @@ def test_groups_are_summed_up_as_the_whole():
     assert list(groups) == ["0.5", "2"]
     for group in GROUPS:
         members = [trial for trial, case in enumerate(CASES) if case == group.value]
-        alone = TrialColumns(["finished"] * 2, GOOD.success[members], {"miss": GOOD.metrics["miss"][members]})
+        alone = trial_table(["finished"] * 2, GOOD.success[members], {"miss": GOOD.metrics["miss"][members]})
         assert groups[group.label] == replace(summarise({"x": alone}, METRICS)["x"], value=group.value)
 
 
@@ -99,22 +100,21 @@ def test_requirements_reach_groups_by_their_value():
     assert values['good.groups["0.5"].success_interval[1]'] == success_interval(1, 2)[0]
 
 
-class InParts:
+class InParts(TrialTable):
     """Trials in two parts, which count how often they are read."""
 
-    def __init__(self, trials):
-        self.trials, self.readings = trials, 0
+    readings = 0
 
-    def parts(self, *names):
+    def tables(self, names):
         self.readings += 1
-        for rows in (slice(0, 3), slice(3, 4)):
-            yield {name: self.trials.column(name)[rows] for name in names}
+        for first, count in ((0, 3), (3, 1)):
+            yield self.table.select(names).slice(first, count)
 
 
 @pytest.mark.parametrize("held", [12, 11])
 def test_few_trials_are_read_once_and_many_come_to_the_same(monkeypatch, held):
-    """Three columns of four trials are held, statuses are read for the whole and both groups; or no column is held."""
+    """Three columns of four trials are held, and their statuses with them; or no column is held."""
     monkeypatch.setattr(summaries, "IN_MEMORY", held)
-    trials = InParts(PARTED)
+    trials = InParts(PARTED.table)
     assert summarise({"x": trials}, METRICS, GROUPS, "case") == summarise({"x": PARTED}, METRICS, GROUPS, "case")
-    assert (trials.readings <= 4) == (held >= 12)
+    assert (trials.readings == 1) == (held >= 12)

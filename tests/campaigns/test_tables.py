@@ -1,7 +1,6 @@
 """perilune.analysis.campaigns.tables: summaries on a terminal."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,13 +11,14 @@ from perilune.analysis.campaigns.definition.requirements import Requirement
 from perilune.analysis.campaigns.statistics import STATISTICS
 from perilune.analysis.campaigns.summary import summarise
 from perilune.analysis.campaigns.summary_text import WIDTH, rate_lines, select_metrics, summary_text
-from perilune.analysis.campaigns.trials import TrialColumns
+from perilune.analysis.campaigns.trials import TrialTable
 from perilune.common.errors import InputError
+from tests.support.campaigns.trial_tables import trial_table
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
-GOOD = TrialColumns(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})
-BAD = TrialColumns(["nonfinite", "finished"], np.array([False, False]), {"miss": np.array([math.nan, 900.0])})
-LATE = TrialColumns(["finished"] * 3, np.array([True] * 3), {"miss": np.array([1.0, -2.0, math.inf])})
+GOOD = trial_table(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})
+BAD = trial_table(["nonfinite", "finished"], np.array([False, False]), {"miss": np.array([math.nan, 900.0])})
+LATE = trial_table(["finished"] * 3, np.array([True] * 3), {"miss": np.array([1.0, -2.0, math.inf])})
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +48,7 @@ def test_without_metrics():
 
 def test_a_line_per_group_beside_the_whole():
     groups = [Group("1", 1.0), Group("2.5", 2.5)]
-    good = replace(GOOD, draws={"case": np.array([1.0, 2.5, 2.5, 1.0])})
+    good = trial_table(GOOD.statuses, GOOD.success, GOOD.metrics, {"case": np.array([1.0, 2.5, 2.5, 1.0])})
     lines = summary_text(summarise({"good": good}, METRICS, groups, "case"), "case").splitlines()
     assert lines[0].split()[:3] == ["variant", "case", "trials"]
     assert [line.split()[:4] for line in lines[1:4]] == [
@@ -63,10 +63,10 @@ def test_a_line_per_group_beside_the_whole():
     ]
 
 
-def columns(**metrics: list[float]) -> TrialColumns:
+def columns(**metrics: list[float]) -> TrialTable:
     count = len(next(iter(metrics.values())))
     arrays = {name: np.array(values) for name, values in metrics.items()}
-    return TrialColumns(["finished"] * count, np.ones(count, dtype=bool), arrays)
+    return trial_table(["finished"] * count, np.ones(count, dtype=bool), arrays)
 
 
 def test_lines_fit_and_say_which_columns_are_left_out():

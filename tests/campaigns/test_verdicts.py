@@ -25,9 +25,9 @@ from perilune.analysis.campaigns.requirement_verdicts import (
 from perilune.analysis.campaigns.summary import requirement_values, summarise
 from perilune.analysis.campaigns.summary_text import summary_text
 from perilune.analysis.campaigns.tables import ordinal, unmet_lines
-from perilune.analysis.campaigns.trials import TrialColumns
 from perilune.analysis.campaigns.verdicts.stopping import stopping_rule
 from perilune.common.to_json import to_json
+from tests.support.campaigns.trial_tables import trial_table
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m"), Metric("mass", Expression("p.m"), "final", unit="kg")]
 NEAR = Requirement("near", Expression("miss < 1"), 0.9987, 0.9, "miss", "upper")
@@ -40,7 +40,7 @@ def columns(miss, mass=None, success=None):
     miss = np.asarray(miss, dtype=float)
     mass = np.full(miss.size, 6.0) if mass is None else np.asarray(mass, dtype=float)
     success = np.full(miss.size, True) if success is None else np.asarray(success)
-    return TrialColumns(["finished"] * miss.size, success, {"miss": miss, "mass": mass})
+    return trial_table(["finished"] * miss.size, success, {"miss": miss, "mass": mass})
 
 
 def flights(count, failures):

@@ -16,7 +16,6 @@ from scipy import stats
 from scipy.integrate import solve_ivp
 
 import perilune
-from perilune.analysis.campaigns.trials import whole_column
 from tests.support.documented import page_text, saved_files
 from tests.support.lengths import LONG
 
@@ -157,7 +156,7 @@ def test_the_campaign(folder):
     assert np.argmax(trials.metrics["error"]) == WORST
     for name, unit in (("calm_time", "s"), ("error", "deg")):
         assert f"| met | {np.sort(trials.metrics[name])[-2]:.4g} {unit} |" in PAGE
-    draws = [whole_column(trials, f"draw.satellite.residual_dipole[{k}]") for k in (1, 2, 3)]
+    draws = [trials.column(f"draw.satellite.residual_dipole[{k}]") for k in (1, 2, 3)]
     dipole = np.linalg.norm(draws, axis=0)
     assert np.argmax(dipole) == WORST
     assert f"{dipole[WORST]:.4f} A m2" in PAGE

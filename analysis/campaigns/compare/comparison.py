@@ -16,7 +16,7 @@ from ..folder.stored import StoredBatch
 from ..summary import CONFIDENCE, Rate, Summary, VariantSummary, success_rate, summarise, summary_rows
 from ..summary_text import metric_lines, rate_lines, select_metrics
 from ..tables import faults_line, who_cells, who_heads
-from ..trials import TrialColumns, Trials
+from ..trials import TrialTable
 from .paired import PairedRates, PairedValues, compare_rates, compare_values
 
 SUCCESS = "success"
@@ -34,7 +34,7 @@ class Contender:
     variant: int
 
     @property
-    def trials(self) -> Trials:
+    def trials(self) -> TrialTable:
         return self.stored.variants[self.name]
 
 
@@ -106,7 +106,7 @@ class Comparison:
     def values(self, label: str, metric: str) -> np.ndarray:
         """A metric in every trial of a contender; nan where its batch does not have that metric."""
         trials = self.contenders[label].trials
-        return np.asarray(trials.metrics.get(metric, np.full(len(trials.trial), np.nan)), dtype=float)
+        return np.asarray(trials.metrics.get(metric, np.full(len(trials), np.nan)), dtype=float)
 
     def outcomes(self, label: str, rate: Metric | None) -> np.ndarray:
         """Whether each trial of a contender is a yes; one whose metric is not finite is a no."""
@@ -121,11 +121,13 @@ class Comparison:
         grouping = self._grouping
         by = {} if grouping is None or grouping.group is None else {grouping.group: grouping.draws[grouping.group]}
         columns = {
-            label: TrialColumns(
-                contender.trials.statuses,
-                contender.trials.success,
-                {metric.name: self.values(label, metric.name) for metric in self.metrics},
-                draws=by,
+            label: TrialTable.of(
+                {
+                    "status": contender.trials.statuses,
+                    "success": contender.trials.success,
+                    **{f"metric.{metric.name}": self.values(label, metric.name) for metric in self.metrics},
+                    **{f"draw.{name}": values for name, values in by.items()},
+                }
             )
             for label, contender in self.contenders.items()
         }

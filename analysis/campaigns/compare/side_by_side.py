@@ -69,7 +69,7 @@ def _label(folder: str, variant: str, *, several: bool, single: bool) -> str:
 
 def _check_draws(first: StoredBatch, other: StoredBatch) -> None:
     """Refuse batches of which a trial is not the same trial: other numbers of trials, other draws."""
-    count, other_count = (len(next(iter(batch.variants.values())).trial) for batch in (first, other))
+    count, other_count = (len(next(iter(batch.variants.values()))) for batch in (first, other))
     problem = ""
     if count != other_count:
         problem = f"{other_count} trials, {count} in {first.folder}"

@@ -29,7 +29,7 @@ from .sweeps import with_sweeps
 
 
 @dataclass(frozen=True)
-class DrawnTrials:
+class TrialSamples:
     """The samples of the trials ``numbers`` of a plan with its campaign, ``given`` samples and ``user_faults``."""
 
     campaign: Campaign
@@ -129,14 +129,14 @@ class BatchPlan:
         for part in split_trials(self.campaign.trials, size):
             yield self.draws.of_part(part)
 
-    def values_of(self, trials: range) -> DrawnTrials:
+    def values_of(self, trials: range) -> TrialSamples:
         """All that is drawn for trials in a row. Raises InputError."""
         return self.values_from(self.draws.of_part(trials), trials)
 
-    def values_from(self, table: DrawTable, trials: range) -> DrawnTrials:
+    def values_from(self, table: DrawTable, trials: range) -> TrialSamples:
         """The same from their table of draws. Raises InputError."""
         faults = [fault_of_trials(fault, table.columns, trials) for fault in self.campaign.faults]
-        return DrawnTrials(self.campaign, self.given, self.faults, trials, table, faults)
+        return TrialSamples(self.campaign, self.given, self.faults, trials, table, faults)
 
     def of_first(self, trials: int) -> BatchPlan:
         """A plan of the first ``trials`` trials, with the draws that they have in this one."""

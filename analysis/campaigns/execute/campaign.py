@@ -17,6 +17,7 @@ from ...runtime.system.prepared import PreparedSystem
 from ..definition.checks import check_plan, prepare_variants
 from ..definition.plan import BatchPlan
 from ..lost_trials import lost_status
+from ..trials import TrialTable
 from .folder import begin, cut, resume_folder
 from .folder_lock import lock_folder
 from .identity import campaign_key
@@ -25,7 +26,7 @@ from .metadata import Provenance, batch_digest, provenance
 from .plan_manifest import gather, restore
 from .shards.files import is_flown, shard_path
 from .shards.numbering import Numbering
-from .store import FlownRows, HeldShards, StoredShards
+from .store import ShardStore
 from .workers import in_threads, needs_children, worker_count
 
 
@@ -70,14 +71,14 @@ class Campaign:
         """What tells its files from those of others."""
         return batch_digest(self.provenance)
 
-    def store(self) -> HeldShards | StoredShards:
-        return HeldShards(self.plan) if self.folder is None else StoredShards(self.flown, self.folder, self.batch)
+    def store(self) -> ShardStore:
+        return ShardStore(self.plan if self.folder is None else self.flown, self.folder, self.batch)
 
-    def shard_rows(self, shard: int) -> Mapping[str, FlownRows]:
+    def shard_rows(self, shard: int) -> Mapping[str, TrialTable]:
         """The trials of one shard that its folder holds, by variant."""
         if self.folder is None:
             raise ValueError("a campaign without a folder holds no shards")
-        return StoredShards(self.flown, self.folder, self.batch).rows(self.numbering, range(shard, shard + 1))
+        return self.store().rows(self.numbering, range(shard, shard + 1))
 
     def missing(self) -> list[int]:
         """The shards that its folder does not hold."""

@@ -8,8 +8,7 @@ place.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -17,11 +16,12 @@ from ...runtime.flight.group import FlightGroup
 from ..definition.campaign import Campaign
 from ..definition.checks import VariantNames
 from ..definition.metrics import TIME, evaluate_metric, is_of_the_end, successes
-from ..definition.plan import DrawnTrials
+from ..definition.plan import TrialSamples
 from ..definition.reductions import largest
-from ..trials import Trials
+from ..trials import TrialTable
 
-Traces = dict[str, np.ndarray]
+Columns = Mapping[str, np.ndarray]  # of flights, an entry for each: named as in tables of trials
+COMPLETE = "complete"  # true of a flight that came to its end
 
 
 class Judge:
@@ -41,40 +41,42 @@ class Judge:
         self._begin()
 
     def _begin(self) -> None:
-        self._seen: list[_Seen] = []
-        self._statuses: list[str] = []
-        self._messages: dict[int, str] = {}
-        self._traces: dict[int, Traces] = {}
+        self._groups: list[Columns] = []
+        self._texts: dict[str, list[str]] = {"status": [], "message": []}
+        self._traces: dict[int, dict[str, np.ndarray]] = {}
 
-    def add(self, group: FlightGroup, trials: range, sampled: DrawnTrials) -> None:
+    def add(self, group: FlightGroup, trials: range, sampled: TrialSamples) -> None:
         """Look at flights of these trials; nothing of them is needed afterwards."""
         signals, draws = group.signals, sampled.columns_of(trials)
         lengths = group.ends - group.starts
         rows = {name: np.repeat(draws[name], lengths) for name in self._draws_over_time}
         values: Mapping[str, np.ndarray | float] = {**self._names.constants, **rows, **signals, TIME: group.time}
-        seen = _Seen(
-            trial=np.arange(trials.start, trials.stop),
-            complete=group.complete,
-            end_time=group.last(group.time),
-            last={name: group.last(signals[name]) for name in self._last_of},
-            draws={name: draws[name] for name in self._draws_at_end},
-            metrics={
-                metric.name: evaluate_metric(metric, group.time, values, group.ends) for metric in self._over_time
+        columns = {
+            "trial": np.arange(trials.start, trials.stop),
+            COMPLETE: group.complete,
+            "end_time": group.last(group.time),
+            **{f"final.{name}": group.last(signals[name]) for name in self._last_of},
+            **{f"draw.{name}": draws[name] for name in self._draws_at_end},
+            **{
+                f"metric.{metric.name}": evaluate_metric(metric, group.time, values, group.ends)
+                for metric in self._over_time
             },
-        )
-        self._seen.append(seen)
-        self._statuses += trial_statuses(group, self._names.statuses)
-        for flight in np.flatnonzero(~group.complete).tolist():
-            self._messages[trials[flight]] = group.messages[flight]
-        self._keep_signals(group, trials, seen)
+        }
+        self._groups.append(columns)
+        self._texts["status"] += trial_statuses(group, self._names.statuses)
+        texts = zip(group.messages, group.complete.tolist(), strict=True)
+        self._texts["message"] += ["" if complete else message for message, complete in texts]
+        self._keep_signals(group, trials, columns)
 
-    def _keep_signals(self, group: FlightGroup, trials: range, seen: _Seen) -> None:
+    def _keep_signals(self, group: FlightGroup, trials: range, columns: Columns) -> None:
         """Copies of what the campaign keeps of flights over time: sampled signals, or everything of some trials."""
         record = self._campaign.record
         if record.traces == "none" and record.every is None:
             return
-        sampled = record.every is not None and (record.trials is None or seen.trial < record.trials)
-        everything = ~self._success(seen) if record.traces == "failures" else record.traces == "all"
+        sampled = record.every is not None and (record.trials is None or columns["trial"] < record.trials)
+        everything = (
+            ~self._success(columns, self._metrics(columns)) if record.traces == "failures" else record.traces == "all"
+        )
         everything, sampled = (np.broadcast_to(which, len(trials)) for which in (everything, sampled))
         for flight in np.flatnonzero(everything | sampled).tolist():
             rows = group.rows(flight)
@@ -85,62 +87,45 @@ class Judge:
                 name: group.signals[name][rows].copy() for name in names
             }
 
-    def trials(self) -> Trials:
+    def trials(self) -> TrialTable:
         """What the flights since the last call have come to; there is one or more."""
-        seen = _join(self._seen)
-        trials = Trials(
-            statuses=self._statuses,
-            success=self._success(seen),
-            metrics=self._columns(seen),
-            trial=seen.trial,
-            end_time=seen.end_time,
-            messages=self._messages,
-            final={name: seen.last[name] for name in self._campaign.record.final},
-            traces=self._traces,
+        columns = {name: np.concatenate([group[name] for group in self._groups]) for name in self._groups[0]}
+        metrics = self._metrics(columns)
+        trials = TrialTable.of(
+            {
+                "trial": columns["trial"],
+                "status": self._texts["status"],
+                "success": self._success(columns, metrics),
+                "message": self._texts["message"],
+                "end_time": columns["end_time"],
+                **{f"final.{name}": columns[f"final.{name}"] for name in self._campaign.record.final},
+                **{f"metric.{name}": values for name, values in metrics.items()},
+            },
+            self._traces,
         )
         self._begin()
         return trials
 
-    def _columns(self, seen: _Seen) -> dict[str, np.ndarray]:
-        """All metrics of flights, in the campaign's order."""
-        values = {**self._names.constants, **seen.draws, **seen.last, TIME: seen.end_time}
-        columns = dict(seen.metrics)
-        for metric in self._at_end:
-            columns[metric.name] = np.broadcast_to(metric.expression.evaluate(values), seen.complete.shape)
-        return {metric.name: np.where(seen.complete, columns[metric.name], np.nan) for metric in self._campaign.metrics}
+    def _metrics(self, columns: Columns) -> dict[str, np.ndarray]:
+        """All metrics of flights, in the campaign's order; nan where a flight did not come to its end."""
+        values = {
+            **self._names.constants,
+            **{name: columns[f"draw.{name}"] for name in self._draws_at_end},
+            **{name: columns[f"final.{name}"] for name in self._last_of},
+            TIME: columns["end_time"],
+        }
+        complete, metrics = columns[COMPLETE], dict[str, np.ndarray]()
+        for metric in self._campaign.metrics:
+            column = columns.get(f"metric.{metric.name}")
+            if column is None:
+                column = np.broadcast_to(metric.expression.evaluate(values), complete.shape)
+            metrics[metric.name] = np.where(complete, column, np.nan)
+        return metrics
 
-    def _success(self, seen: _Seen) -> np.ndarray:
+    def _success(self, columns: Columns, metrics: Mapping[str, np.ndarray]) -> np.ndarray:
         """Which of these flights are successes."""
-        return successes(self._campaign.success, self._columns(seen), seen.complete.size) & seen.complete
-
-
-@dataclass
-class _Seen:
-    """What is needed of flights once their rows are gone, an entry for each in all columns."""
-
-    trial: np.ndarray
-    complete: np.ndarray
-    end_time: np.ndarray
-    last: dict[str, np.ndarray]  # last values of signals
-    draws: dict[str, np.ndarray]
-    metrics: dict[str, np.ndarray]  # over time
-
-
-def _join(groups: Sequence[_Seen]) -> _Seen:
-    if len(groups) == 1:
-        return groups[0]
-
-    def columns(tables: Sequence[dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
-        return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
-
-    return _Seen(
-        trial=np.concatenate([group.trial for group in groups]),
-        complete=np.concatenate([group.complete for group in groups]),
-        end_time=np.concatenate([group.end_time for group in groups]),
-        last=columns([group.last for group in groups]),
-        draws=columns([group.draws for group in groups]),
-        metrics=columns([group.metrics for group in groups]),
-    )
+        complete = columns[COMPLETE]
+        return successes(self._campaign.success, metrics, complete.size) & complete
 
 
 WORST = re.compile(r"([^\s(),]+) (-?\d+)[,)]")

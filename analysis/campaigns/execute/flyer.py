@@ -17,8 +17,8 @@ from ...runtime.process.opening import may_load_here, open_simulation
 from ...runtime.ssp.given_values import ParameterValue
 from ...runtime.system.prepared import PreparedSystem
 from ..definition.checks import VariantNames, variant_names
-from ..definition.plan import BatchPlan, DrawnTrials
-from ..trials import Trials
+from ..definition.plan import BatchPlan, TrialSamples
+from ..trials import TrialTable
 from .evaluation import Judge
 from .fusing import Fusing
 
@@ -44,7 +44,7 @@ class Flyer:
     def __init__(self, plan: BatchPlan, *, in_child: bool = False, trials: int | None = None, workers: int = 1) -> None:
         self.plan = plan
         self._in_child = in_child
-        self._drawn: DrawnTrials | None = None
+        self._drawn: TrialSamples | None = None
         self.variants = {variant.name: variant for variant in plan.campaign.variants()}
         self._ready: dict[str, tuple[BaseSimulation, VariantNames]] = {}
         self._logs: dict[str, Log] = {}
@@ -84,14 +84,14 @@ class Flyer:
         self._logs[variant].place = f"{variant}: "
         return self._logs[variant]
 
-    def values_for(self, trial: int) -> DrawnTrials:
+    def values_for(self, trial: int) -> TrialSamples:
         """What is drawn for a trial and those around it."""
         if self._drawn is None or trial not in self._drawn.numbers:
             first = trial - trial % AROUND
             self._drawn = self.plan.values_of(range(first, min(first + AROUND, self.plan.campaign.trials)))
         return self._drawn
 
-    def fly_others(self, variant: str, plan: BatchPlan) -> Trials:
+    def fly_others(self, variant: str, plan: BatchPlan) -> TrialTable:
         """Fly all trials of another plan for the same system. Raises KeyboardInterrupt after an `interrupt`."""
         trials = range(plan.campaign.trials)
         self._drawn = plan.values_of(trials)
@@ -111,7 +111,7 @@ class Flyer:
         for simulation, _ in list(self._ready.values()):
             simulation.give_up("was interrupted")
 
-    def fly(self, variant: str, trials: range) -> Trials:
+    def fly(self, variant: str, trials: range) -> TrialTable:
         """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
         simulation, names = self.simulation(variant)
         judge = Judge(self.plan.campaign, names)
@@ -187,7 +187,7 @@ class Flyer:
     def _look_at(self, flight: Flight, trial: int, names: VariantNames) -> TrialResult:
         judge = Judge(self.plan.campaign, names)
         judge.add(FlightGroup.of(flight), range(trial, trial + 1), self.values_for(trial))
-        return _result(judge.trials())
+        return result_of(judge.trials(), 0)
 
     def _flight(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> Flight:
         simulation, _ = self.simulation(variant)
@@ -233,11 +233,15 @@ class Flyer:
         self._ready = {}
 
 
-def _result(trials: Trials) -> TrialResult:
+def result_of(trials: TrialTable, row: int) -> TrialResult:
+    """One of some trials in memory, by its row."""
+    entries = trials.table.slice(row, 1).to_pylist()[0]
     return TrialResult(
-        status=trials.statuses[0],
-        message=next(iter(trials.messages.values()), ""),
-        success=bool(trials.success[0]),
-        end_time=float(trials.end_time[0]),
-        metrics={name: float(column[0]) for name, column in trials.metrics.items()},
+        status=entries["status"],
+        message=entries["message"],
+        success=bool(entries["success"]),
+        end_time=float(entries["end_time"]),
+        metrics={
+            name.removeprefix("metric."): float(value) for name, value in entries.items() if name.startswith("metric.")
+        },
     )

@@ -13,12 +13,12 @@ from ...runtime.system.prepared import PreparedSystem
 from ..definition.campaign import Variant
 from ..definition.checks import check_plan
 from ..definition.plan import BatchPlan
+from ..trials import TrialTable
 from .campaign import Campaign, open_folder
-from .flyer import Flyer, TrialResult
+from .flyer import Flyer, TrialResult, result_of
 from .manifest import read_manifest
 from .plan_manifest import restore
 from .shards.files import is_flown
-from .store import ShardRows
 
 CUT_OFF = ("interrupted", TIMED_OUT)
 
@@ -119,17 +119,10 @@ def _read_stored(campaign: Campaign, variant: Variant, trial: int) -> TrialResul
     shard = trial // numbering.size
     if folder is None or not is_flown(folder, campaign.batch, shard, numbering.of(shard)):
         return None
-    metrics = [metric.name for metric in campaign.plan.campaign.metrics]
-    rows = ShardRows(folder, campaign.batch, campaign.plan, variant.name, numbering, range(shard, shard + 1))
-    (part,) = rows.parts("status", "success", "message", "end_time", *(f"metric.{name}" for name in metrics))
-    row = trial - numbering.of(shard).start
-    return TrialResult(
-        status=str(part["status"][row]),
-        message=str(part["message"][row]),
-        success=bool(part["success"][row]),
-        end_time=float(part["end_time"][row]),
-        metrics={name: float(part[f"metric.{name}"][row]) for name in metrics},
-    )
+    metrics = [f"metric.{metric.name}" for metric in campaign.plan.campaign.metrics]
+    trials = campaign.shard_rows(shard)[variant.name]
+    (table,) = trials.tables(["status", "success", "message", "end_time", *metrics])
+    return result_of(TrialTable(table), trial - numbering.of(shard).start)
 
 
 def _differences(stored: TrialResult, flown: TrialResult) -> tuple[str, ...]:

@@ -18,14 +18,13 @@ from ..plotted_sample import PlottedSample, select_trials
 from ..summary import Summary, summarise
 from ..summary_text import select_metrics, summary_text
 from ..tables import assumption_lines, faults_line
-from ..trials import Trials
+from ..trials import TrialTable
 from .campaign import Campaign
 from .folder import tidy
 from .folder_lock import lock_folder
 from .metadata import Provenance, batch_digest
 from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
 from .shards.numbering import Numbering, shard_size
-from .store import FlownRows
 
 
 @dataclass
@@ -36,12 +35,12 @@ class BatchResult:
     """
 
     plan: BatchPlan
-    rows: Mapping[str, FlownRows]
+    rows: Mapping[str, TrialTable]
     provenance: Provenance
     folder: Path | None = None
 
     @classmethod
-    def finish(cls, campaign: Campaign, rows: Mapping[str, FlownRows], **more: Any) -> Self:
+    def finish(cls, campaign: Campaign, rows: Mapping[str, TrialTable], **more: Any) -> Self:
         """The result of a campaign's first trials, by variant; its summary completes the campaign's folder.
 
         ``more`` are further fields of a derived class.
@@ -68,7 +67,7 @@ class BatchResult:
         )
 
     @cached_property
-    def trials(self) -> dict[str, Trials]:
+    def trials(self) -> dict[str, TrialTable]:
         """All of them in memory, traces too."""
         return {variant: rows.whole() for variant, rows in self.rows.items()}
 

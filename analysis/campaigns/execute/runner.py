@@ -13,17 +13,17 @@ from ....common.errors import InputError
 from ....common.progress import progress_bar
 from ..definition.plan import BatchPlan
 from ..requirement_verdicts import satisfies, trials_to_decision
-from ..trials import TrialRows, Trials
+from ..trials import TrialTable
 from .campaign import Campaign, open_campaign
 from .folder_lock import lock_folder
 from .results import BatchResult
 from .shards.flights import fly_shards, task_size
 from .shards.numbering import spans
-from .store import FlownRows, HeldShards, StoredShards
+from .store import ShardStore
 from .workers import FlyerPool, in_threads, worker_count
 
 # What flies shards of a campaign: each one's trials by variant, as soon as all are there, in any order of shards.
-Elsewhere = Callable[[Campaign, Sequence[int]], Generator[tuple[int, dict[str, Trials]]]]
+Elsewhere = Callable[[Campaign, Sequence[int]], Generator[tuple[int, dict[str, TrialTable]]]]
 
 
 def run_batch(
@@ -47,7 +47,7 @@ def run_batch(
     return BatchResult.finish(campaign, rows)
 
 
-def merge_rows(campaign: Campaign) -> Mapping[str, FlownRows]:
+def merge_rows(campaign: Campaign) -> Mapping[str, TrialTable]:
     """The trials by variant of a campaign whose shards are in its folder. Raises InputError where some are missing."""
     missing = campaign.missing()
     decision = _decision(campaign, missing)
@@ -65,7 +65,7 @@ def fly_campaign(
     workers: int | None = None,
     engine: str | None = None,
     elsewhere: Elsewhere | None = None,
-) -> Mapping[str, FlownRows]:
+) -> Mapping[str, TrialTable]:
     """Fly some shards of a campaign, and write them where it has a folder; all of its trials by variant then.
 
     Where the campaign ends as soon as it is decided, those behind the shard at whose end it was are missing, however
@@ -83,7 +83,7 @@ def fly_campaign(
         for shard, trials in () if decision.is_decided else flown:
             store.add(shard, trials)
             decision.add(shard, trials)
-            failed += sum(len(rows.messages) for rows in trials.values())
+            failed += sum(int(np.count_nonzero(~rows.flown)) for rows in trials.values())
             bar.set_postfix_str(f"{failed} failed", refresh=False)
             bar.update(sum(map(len, trials.values())))
             if decision.is_decided:
@@ -94,13 +94,13 @@ def fly_campaign(
 def _decision(campaign: Campaign, missing: Collection[int]) -> Decision:
     """What the shards decide that lie in a campaign's folder."""
     decision, store, numbering = Decision(campaign.plan), campaign.store(), campaign.numbering
-    if campaign.plan.until_decided and isinstance(store, StoredShards):
+    if campaign.plan.until_decided and campaign.folder is not None:
         for shard in sorted(set(range(numbering.count)) - set(missing)):
             decision.add(shard, store.rows(numbering, range(shard, shard + 1)))
     return decision
 
 
-def _rows(campaign: Campaign, store: HeldShards | StoredShards, decision: Decision) -> dict[str, FlownRows]:
+def _rows(campaign: Campaign, store: ShardStore, decision: Decision) -> dict[str, TrialTable]:
     """The trials of the shards that decide a campaign, or else of all, by variant."""
     numbering = campaign.numbering
     if decision.shards is not None:
@@ -110,7 +110,7 @@ def _rows(campaign: Campaign, store: HeldShards | StoredShards, decision: Decisi
 
 def _fly_here(
     campaign: Campaign, shards: Sequence[int], workers: int | None, engine: str | None
-) -> Generator[tuple[int, dict[str, Trials]]]:
+) -> Generator[tuple[int, dict[str, TrialTable]]]:
     count = worker_count(workers)
     threads = in_threads(campaign.systems.values(), engine)
     trials = sum(len(campaign.numbering.of(shard)) for shard in shards)
@@ -144,7 +144,7 @@ class Decision:
     def is_decided(self) -> bool:
         return self.shards is not None
 
-    def add(self, shard: int, variants: Mapping[str, TrialRows]) -> None:
+    def add(self, shard: int, variants: Mapping[str, TrialTable]) -> None:
         """Look at the trials of a shard by variant, as soon as all before it are there."""
         if not self._plan.until_decided:
             return

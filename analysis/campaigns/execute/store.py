@@ -1,21 +1,17 @@
-"""Where flown shards go, into a campaign's folder or into memory, and the trials of a variant in them."""
+"""Where the shards of a campaign go, into its folder or into memory, and the trials of a variant in them."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Protocol
 
-import numpy as np
 import pyarrow
 import pyarrow.parquet
 
 from ....common.errors import InputError
-from ....common.machine.arrow import numpy_of
 from ....common.regular import check_regular
 from ..definition.plan import BatchPlan
-from ..trials import Part, TrialRows, Trials, join_trials
+from ..trials import Trace, TrialTable, join_trials
 from .shards.files import (
     IDENTITY,
     NEW_FOLDER,
@@ -25,129 +21,110 @@ from .shards.files import (
     shard_path,
     trace_files,
     trace_path,
-    trials_of,
     unreadable,
+    with_draws,
     write_shard,
 )
 from .shards.numbering import Numbering
 
 
-@dataclass(frozen=True)
-class ShardRows:
-    """The trials of one variant in ``shards`` that all lie in a folder, read anew whenever they are asked for.
+class ShardTable(TrialTable):
+    """The trials of one variant in ``shards`` that all lie in a folder, read whenever they are needed.
 
     ``batch`` is the digest that tells the campaign from others.
     """
 
-    folder: Path
-    batch: str
-    plan: BatchPlan
-    variant: str
-    numbering: Numbering
-    shards: range
+    def __init__(
+        self, folder: Path, batch: str, plan: BatchPlan, variant: str, numbering: Numbering, shards: range
+    ) -> None:
+        self._folder, self._batch, self._variant = folder, batch, variant
+        self._group = [each.name for each in plan.campaign.variants()].index(variant)
+        self._metrics = [f"metric.{metric.name}" for metric in plan.campaign.metrics]
+        self._numbering, self._shards = numbering, shards
 
     def __len__(self) -> int:
-        return sum(len(self.numbering.of(shard)) for shard in self.shards)
+        return sum(len(self._numbering.of(shard)) for shard in self._shards)
 
-    def parts(self, *names: str) -> Iterator[Part]:
+    @property
+    def names(self) -> list[str]:
+        return [name for name in self._read(self._shards.start, None).column_names if name != "variant"]
+
+    @property
+    def table(self) -> pyarrow.Table:
+        """All columns in memory. Raises InputError for a shard that is damaged, or has other columns than the first."""
+        tables: list[pyarrow.Table] = []
+        for shard in self._shards:
+            table = self._read(shard, None).drop_columns(["variant"])
+            expected = {*self._metrics, *(tables[0].column_names if tables else ())}
+            for name in sorted(expected - set(table.column_names)):
+                raise InputError(shard_path(self._folder, shard), name, "no such column", NEW_FOLDER)
+            for name in sorted(set(table.column_names) - expected if tables else ()):
+                raise InputError(shard_path(self._folder, shard), name, "not a column of all shards", NEW_FOLDER)
+            tables.append(table)
+        return pyarrow.concat_tables(tables, promote_options="permissive").combine_chunks()
+
+    def tables(self, names: Sequence[str]) -> Iterator[pyarrow.Table]:
         """Some columns, a shard at a time. Raises InputError for a shard that is damaged."""
-        for shard in self.shards:
-            table = self._table(shard, list(names))
-            yield {name: numpy_of(table[name]) for name in names}
-
-    def whole(self) -> Trials:
-        flown: list[Trials] = []
-        for shard in self.shards:
-            part = self._trials(shard)
-            different = set(part.final) ^ set(flown[0].final) if flown else ()
-            if different:
-                path, name = shard_path(self.folder, shard), f"final.{min(different)}"
-                raise InputError(path, name, "not a column of all shards", NEW_FOLDER)
-            flown.append(part)
-        return join_trials(flown)
+        for shard in self._shards:
+            yield self._read(shard, names).select(names)
 
     def traced(self) -> list[int]:
-        flown = range(self.numbering.of(self.shards.start).start, self.numbering.of(self.shards.stop - 1).stop)
-        return [trial for trial in trace_files(self.folder, self.variant) if trial in flown]
+        first, last = (self._numbering.of(shard) for shard in (self._shards.start, self._shards.stop - 1))
+        flown = range(first.start, last.stop)
+        return [trial for trial in trace_files(self._folder, self._variant) if trial in flown]
 
-    def trace(self, trial: int, names: Collection[str] | None = None) -> dict[str, np.ndarray] | None:
-        path = trace_path(self.folder, self.variant, trial)
-        is_own = describe_columns(path) == {"batch": self.batch, "variant": self.variant, "trial": trial}
+    @property
+    def traces(self) -> dict[int, Trace]:
+        read = {trial: self.trace(trial) for trial in self.traced()}
+        return {trial: trace for trial, trace in read.items() if trace is not None}
+
+    def trace(self, trial: int, names: Collection[str] | None = None) -> Trace | None:
+        path = trace_path(self._folder, self._variant, trial)
+        is_own = describe_columns(path) == {"batch": self._batch, "variant": self._variant, "trial": trial}
         return read_trace(path, names) if is_own else None
 
-    def _table(self, shard: int, names: list[str] | None = None) -> pyarrow.Table:
-        path = shard_path(self.folder, shard)
-        group = [variant.name for variant in self.plan.campaign.variants()].index(self.variant)
+    def whole(self) -> TrialTable:
+        return TrialTable(self.table, self.traces)
+
+    def _read(self, shard: int, names: Sequence[str] | None) -> pyarrow.Table:
+        """Some columns of a shard, or all, and those that identify trials, its rows checked."""
+        path = shard_path(self._folder, shard)
         check_regular(path, NEW_FOLDER)
+        needed = None if names is None else list(dict.fromkeys([*names, *IDENTITY]))
         try:
             with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
-                table = file.read_row_group(group, None if names is None else list(dict.fromkeys([*names, *IDENTITY])))
+                table = file.read_row_group(self._group, needed)
         except (OSError, ValueError, IndexError, pyarrow.ArrowException) as error:
             raise unreadable(path, error) from error
-        check_rows(table, self.variant, self.numbering.of(shard), names, path)
+        check_rows(table, self._variant, self._numbering.of(shard), names, path)
         return table
 
-    def _trials(self, shard: int) -> Trials:
-        path = shard_path(self.folder, shard)
-        metrics = [metric.name for metric in self.plan.campaign.metrics]
-        trials = trials_of(self._table(shard), metrics, path)[self.variant]
-        for trial in trials.trial.tolist():
-            if (trace := self.trace(trial)) is not None:
-                trials.traces[trial] = trace
-        return trials
 
+class ShardStore:
+    """The shards of a campaign, in memory where ``folder`` is None, else there as soon as they are added.
 
-class FlownRows(TrialRows, Protocol):
-    """All trials of one variant that have flown."""
+    ``batch`` tells the campaign from others.
+    """
 
-    def __len__(self) -> int: ...
+    def __init__(self, plan: BatchPlan, folder: Path | None, batch: str) -> None:
+        self._plan, self._folder, self._batch = plan, folder, batch
+        self._flown: dict[int, Mapping[str, TrialTable]] = {}
 
-    def whole(self) -> Trials:
-        """All of them in memory, with their traces."""
-        ...
+    def add(self, shard: int, trials: Mapping[str, TrialTable]) -> None:
+        """Keep the trials of a shard by variant."""
+        if self._folder is None:
+            self._flown[shard] = trials
+        else:
+            write_shard(self._folder, self._batch, shard, self._plan, trials)
 
-    def traced(self) -> list[int]:
-        """The trials with the file of a trace, in order, which may be another batch's."""
-        ...
-
-    def trace(self, trial: int, names: Collection[str]) -> dict[str, np.ndarray] | None:
-        """What a trial has recorded of these signals, and ``time`` (s); None without a trace of this batch.
-
-        Raises InputError for one that is damaged.
-        """
-        ...
-
-
-class HeldShards:
-    """Shards in memory."""
-
-    def __init__(self, plan: BatchPlan) -> None:
-        self._plan = plan
-        self._parts: dict[int, Mapping[str, Trials]] = {}
-
-    def add(self, shard: int, trials: Mapping[str, Trials]) -> None:
-        self._parts[shard] = trials
-
-    def rows(self, numbering: Numbering) -> dict[str, FlownRows]:
-        """The trials of shards that are all there, by variant."""
-        parts = [self._parts[shard] for shard in range(numbering.count)]
-        sampled = self._plan.values_of(range(numbering.trials)).table.columns
-        return {name: replace(join_trials(part[name] for part in parts), draws=sampled) for name in parts[0]}
-
-
-class StoredShards:
-    """Shards in a folder, each there as soon as it is added; ``batch`` tells the campaign from others."""
-
-    def __init__(self, plan: BatchPlan, folder: Path, batch: str) -> None:
-        self._plan = plan
-        self._folder = folder
-        self._batch = batch
-
-    def add(self, shard: int, trials: Mapping[str, Trials]) -> None:
-        write_shard(self._folder, self._batch, shard, self._plan, trials)
-
-    def rows(self, numbering: Numbering, shards: range | None = None) -> dict[str, FlownRows]:
-        """The trials of shards that lie there, of all or of some, by variant; they are read when they are asked for."""
-        names = [variant.name for variant in self._plan.campaign.variants()]
+    def rows(self, numbering: Numbering, shards: range | None = None) -> dict[str, TrialTable]:
+        """The trials of shards that are all there, of all or of some, by variant."""
         some = range(numbering.count) if shards is None else shards
-        return {name: ShardRows(self._folder, self._batch, self._plan, name, numbering, some) for name in names}
+        names = [variant.name for variant in self._plan.campaign.variants()]
+        if self._folder is not None:
+            folder, batch, plan = self._folder, self._batch, self._plan
+            return {name: ShardTable(folder, batch, plan, name, numbering, some) for name in names}
+        flown = {name: join_trials(self._flown[shard][name] for shard in some) for name in names}
+        numbers = range(numbering.of(some.start).start, numbering.of(some.stop - 1).stop)
+        sampled = self._plan.values_of(numbers)
+        return {name: with_draws(trials, sampled) for name, trials in flown.items()}

@@ -16,6 +16,7 @@ import pyarrow.compute
 
 from ....common.bounds import INPUT_BYTES
 from ....common.errors import InputError
+from ....common.machine.arrow import numpy_of
 from ....common.regular import read_regular
 from ..definition.campaign import Group, Metric, groups_of
 from ..definition.expressions import Expression
@@ -23,11 +24,16 @@ from ..execute.manifest import FILE as MANIFEST
 from ..execute.manifest import WRITE
 from ..execute.metadata import Provenance, batch_digest
 from ..execute.shards.files import (
+    COLUMNS,
     DRAWS,
+    FLIGHT,
     FOLDER,
     NEW_FOLDER,
+    NUMBER_PREFIXES,
     SUMMARY,
+    TEXTS,
     about_of,
+    check_texts,
     list_traces,
     numbers,
     read_table,
@@ -35,9 +41,8 @@ from ..execute.shards.files import (
     shard_path,
     trace_path,
     trials_in,
-    trials_of,
 )
-from ..trials import Trials, join_trials
+from ..trials import TrialTable, join_trials
 
 RESUME = "resume it: the batch's command with `resume`"
 
@@ -67,7 +72,7 @@ class StoredBatch:
     document: SummaryDocument
     metrics: tuple[Metric, ...]
     draws: dict[str, np.ndarray]
-    variants: dict[str, Trials]
+    variants: dict[str, TrialTable]
     traced: dict[str, list[int]]
     strangers: int
 
@@ -214,26 +219,34 @@ def _metrics(document: SummaryDocument, path: Path) -> tuple[Metric, ...]:
 
 def _variants(
     shards: Mapping[Path, pyarrow.Table], total: int, metrics: tuple[Metric, ...], draws: Mapping[str, np.ndarray]
-) -> dict[str, Trials]:
+) -> dict[str, TrialTable]:
     """The trials by variant, ``total`` of each, with the draws that draws.parquet has of them."""
-    parts: dict[str, list[Trials]] = {}
+    parts: dict[str, list[TrialTable]] = {}
     rows_drawn = {len(column) for column in draws.values()}
     for path, table in shards.items():
         for name in draws:
             if _column(name) not in table.column_names:
                 raise InputError(path, _column(name), "no such column", NEW_FOLDER)
-        labels = np.array(table["variant"].to_pylist(), dtype=str)
-        columns = {name: numbers(table, _column(name), path) for name in draws}
-        for variant, trials in trials_of(table, [metric.name for metric in metrics], path).items():
-            rows = labels == variant
+        for name in (*COLUMNS, *(f"metric.{metric.name}" for metric in metrics)):
+            if name not in table.column_names:
+                raise InputError(path, name, "no such column", NEW_FOLDER)
+        retained = [
+            name for name in table.column_names if name in FLIGHT or name.startswith((*NUMBER_PREFIXES, "fault."))
+        ]
+        for name in ("variant", *retained):
+            (check_texts if name in TEXTS else numbers)(table, name, path)
+        labels = numpy_of(table["variant"])
+        for variant in dict.fromkeys(labels.tolist()):
+            mine = table.select(retained).filter(pyarrow.array(labels == variant))
+            trials = TrialTable(mine.combine_chunks())
             sampled = "trial" in draws and rows_drawn == {total}
             same = sampled and all(
-                np.array_equal(columns[name][rows], column[trials.trial]) for name, column in draws.items()
+                np.array_equal(trials.column(_column(name)), column[trials.trial]) for name, column in draws.items()
             )
             if not same:
                 raise InputError(path, variant, "its draws are not those of draws.parquet", NEW_FOLDER)
             parts.setdefault(variant, []).append(trials)
-    if len({sum(len(part.trial) for part in variants) for variants in parts.values()}) != 1:
+    if len({sum(map(len, variants)) for variants in parts.values()}) != 1:
         raise InputError(next(iter(shards)).parent, "variant", "not every variant has every trial", NEW_FOLDER)
     return {variant: join_trials(variants) for variant, variants in parts.items()}
 
@@ -243,7 +256,7 @@ def _column(draw: str) -> str:
     return "trial" if draw == "trial" else f"draw.{draw}"
 
 
-def _check_summary(document: SummaryDocument, variants: Mapping[str, Trials], path: Path) -> None:
+def _check_summary(document: SummaryDocument, variants: Mapping[str, TrialTable], path: Path) -> None:
     """Refuse a summary that does not count what the table holds."""
     if list(document["variants"]) != list(variants):
         raise InputError(path, "variants", "not those of trials/", NEW_FOLDER)

@@ -75,7 +75,7 @@ def trials_notes(batch: BatchResult) -> list[str]:
         'with an extreme metric are exact; others are rounded, which "about" states.'
     ]
     for variant, plotted in batch.plotted.items():
-        rows = min(_row_limit(batch), len(plotted.numbers))
+        rows = min(_row_limit(batch), len(plotted.dots.trial))
         if rows < plotted.trials:
             notes.append(f"{variant}: {number(rows)} of {number(plotted.trials)} trials can be selected.")
     return notes
@@ -101,7 +101,7 @@ def _variant(batch: BatchResult, variant: str, names: list[str], limit: int) -> 
     return {
         "name": variant,
         "command": _command_around(batch, variant),
-        "trial": np.asarray(plotted.numbers[rows], dtype=float),
+        "trial": np.asarray(plotted.dots.trial[rows], dtype=float),
         "success": dots.success[rows].astype(float),
         "statuses": statuses,
         "status": np.array([statuses.index(each) for each in dots.statuses[rows]], dtype=float),

@@ -71,4 +71,4 @@ def _thin(trace: dict[str, np.ndarray], stride: int) -> Flight:
 
 def _success_by_trial(batch: BatchResult, variant: str) -> dict[int, bool]:
     sample = batch.plotted[variant]
-    return dict(zip(sample.numbers.tolist(), sample.dots.success.tolist(), strict=True))
+    return dict(zip(sample.dots.trial.tolist(), sample.dots.success.tolist(), strict=True))

@@ -193,7 +193,7 @@ def _inputs(batch: BatchResult, variant: str, names: Sequence[str]) -> tuple[np.
     """Abscissas and ordinates of the trials over one or two inputs; over one the trial's number is the ordinate."""
     sample = batch.plotted[variant]
     draws = sample.dots.draws
-    return draws[names[0]], draws[names[1]] if len(names) > 1 else sample.numbers.astype(float)
+    return draws[names[0]], draws[names[1]] if len(names) > 1 else sample.dots.trial.astype(float)
 
 
 def failure_chart(batch: BatchResult, variant: str, names: Sequence[str]) -> Chart:

@@ -18,7 +18,7 @@ from ...campaigns.requirement_verdicts import RequirementVerdict
 from ...campaigns.statistics import QUANTILES, STATISTICS
 from ...campaigns.summary import Summary, SummaryRow, summary_rows
 from ...campaigns.tables import bound_text, requirement_rows, unevaluated_text
-from ...campaigns.trials import TrialRows
+from ...campaigns.trials import TrialTable
 from ...commands.campaigns import replay_command, replay_of_folder
 from ...studies.sobol import rank_correlations
 from ..common.page import exact
@@ -194,7 +194,7 @@ def _extremes(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
     return extremes
 
 
-def _maximum(rows: TrialRows, column: str) -> tuple[float, list[int]]:
+def _maximum(rows: TrialTable, column: str) -> tuple[float, list[int]]:
     """The maximum of a column, nan counting as minus infinity, and up to two of the trials that have it."""
     maximum, trials = -np.inf, list[int]()
     for part in rows.parts("trial", column):

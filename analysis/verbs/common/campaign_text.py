@@ -19,7 +19,7 @@ from ...campaigns.execute.results import BatchResult
 from ...campaigns.lost_trials import lost_of
 from ...campaigns.summary import requirement_values, summarise
 from ...campaigns.tables import align_columns, short, unmet_lines
-from ...campaigns.trials import TrialColumns, TrialRows
+from ...campaigns.trials import TrialTable
 from ...commands.campaigns import replay_of_folder
 from ...runtime.flight.results import TIMED_OUT, with_meaning
 from .arguments import read_requirements, requirement_problems
@@ -47,7 +47,7 @@ class Failures(NamedTuple):
     message: str
 
 
-def find_failed(parts: Iterable[Mapping[str, TrialRows]]) -> dict[str, Failures]:
+def find_failed(parts: Iterable[Mapping[str, TrialTable]]) -> dict[str, Failures]:
     """Of each variant that has any; ``parts`` are trials by variant, in order of trial."""
     failures: dict[str, Failures] = {}
     for rows in parts:
@@ -88,7 +88,7 @@ def worst_lines(batch: BatchResult) -> list[str]:
     return list(lines)
 
 
-def _worst(rows: TrialRows, metric: str, sign: float) -> tuple[int, float]:
+def _worst(rows: TrialTable, metric: str, sign: float) -> tuple[int, float]:
     """The first trial with the largest of a metric times ``sign``, and the metric there; nan is as bad as infinite."""
     column, trial, value, largest = f"metric.{metric}", 0, -sign * np.inf, -np.inf
     for part in rows.parts("trial", column):
@@ -126,8 +126,8 @@ def status_meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
 def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Expression]:
     """Requirements; those on numbers that the summary will not have are refused before anything flies."""
     nothing = np.full(1, np.nan)
-    metrics = {metric.name: nothing for metric in plan.campaign.metrics}
-    blank = TrialColumns([""], np.zeros(1, dtype=bool), metrics)
+    metrics = {f"metric.{metric.name}": nothing for metric in plan.campaign.metrics}
+    blank = TrialTable.of({"status": [""], "success": np.zeros(1, dtype=bool), **metrics})
     variants = [variant.name for variant in plan.campaign.variants()]
     columns = dict.fromkeys(variants, blank)
     summary = {

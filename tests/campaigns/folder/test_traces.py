@@ -10,6 +10,7 @@ import pytest
 
 import perilune
 from perilune.analysis.campaigns.execute.shards.files import write_draws
+from perilune.analysis.campaigns.trials import TrialTable
 from tests.support.pages.comparison_samples import SIGNALS, sample_batch, write_sample
 
 LENGTHS = {0: 21, 1: 13, 2: 5, 3: 21}  # rows of the first flights; END is 20 s
@@ -25,7 +26,7 @@ def written():
         for trial, actual in beta.traces.items()
     }
     traces[2]["time"][-1] += 0.25
-    return replace(sample, rows=sample.trials | {"beta": replace(beta, traces=traces)})
+    return replace(sample, rows=sample.trials | {"beta": TrialTable(beta.table, traces)})
 
 
 @pytest.fixture(scope="module")

@@ -3,11 +3,10 @@
 Truth: the traces as the batch has them; counts by hand.
 """
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
+from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.reports.campaign.embedded_flights import embedded_flights
 from perilune.analysis.reports.campaign.recorded_flights import FLIGHT_LIMIT, ROW_LIMIT, choose_flights, read_flights
 from tests.support.pages.samples import batch_result
@@ -24,7 +23,7 @@ def traced_batch(success, rows, *, missing=()):
         | {name: trial + np.sqrt(np.arange(size) + k) for k, name in enumerate(NAMES) if name not in missing}
         for trial, size in rows.items()
     }
-    batch.rows = {variant: replace(trials, traces=traces) for variant, trials in batch.rows.items()}
+    batch.rows = {variant: TrialTable(trials.table, traces) for variant, trials in batch.rows.items()}
     types = {name: {"unit": "rad" if name == "ship.mass" else "m", "type": "Real"} for name in NAMES}
     batch.provenance |= {
         "record": {"every": 1, "signals": list(NAMES), "trials": None, "traces": "none"},

@@ -16,6 +16,7 @@ from matplotlib.path import Path
 from perilune.analysis.campaigns.compare.comparison import Contender
 from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.campaigns.folder.stored import read_batch
+from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.reports.campaign.recorded_names import names_of_record, vectors
 from perilune.analysis.reports.common.style import Look
 from perilune.analysis.reports.compare.bands import LEVELS, band_panels, bands_of
@@ -29,6 +30,7 @@ from perilune.analysis.reports.compare.recorded import (
     trials_with_traces,
 )
 from perilune.analysis.reports.compare.trajectories import bundle_of
+from tests.support.campaigns.trial_tables import changed
 from tests.support.pages.comparison_samples import DIRECTION, POSITION, SIGNALS, TARGET, VELOCITY, write_sample
 
 
@@ -82,8 +84,8 @@ def test_altitude_takes_the_place_of_height(tmp_path):
     assert bundle.height == "ship.altitude"
     assert bundle.paths[0].height[0] == pytest.approx(505.0)
     # without a final altitude a path ends with its last sample, and none is lost
-    for trials in result.trials.values():
-        trials.end_time[:] += 0.3
+    for variant, trials in result.trials.items():
+        result.trials[variant] = changed(trials, {"end_time": trials.end_time + 0.3})
     result.write(tmp_path / "out")
     contender = compare([tmp_path / "out"]).contenders["alpha"]
     flights = read_flights(contender, range(12), names_of_record(batch.document))
@@ -98,8 +100,8 @@ def test_downrange_over_a_round_body_is_along_its_ground(tmp_path):
     result.provenance["signals"]["ship.altitude"] = {"unit": "m", "type": "Real"}
     result.provenance["targets"] = {name: {} for name in result.trials}
     radius = 1e6
-    for trials in result.trials.values():
-        trials.final.clear()
+    for variant, trials in result.trials.items():
+        result.trials[variant] = changed(trials, {f"final.{name}": None for name in trials.final})
         for number, trace in enumerate(trials.traces.values()):
             angle = np.linspace(-0.4, 0.0, trace["time"].size) if number else np.zeros(trace["time"].size)
             altitude = 100.0 - 1e5 * angle  # the first flight stays over the target: it shows no curvature
@@ -197,10 +199,10 @@ def test_rows_are_thinned_by_powers_of_two(rows, most):
 
 def test_long_traces_are_thinned_and_keep_their_ends(tmp_path):
     result = write_sample(tmp_path / "out", traced=2)
-    for trials in result.trials.values():
-        for trial in trials.traces:
-            time = 0.01 * np.arange(2001 + 100 * trial)
-            trials.traces[trial] = {"time": time, **dict.fromkeys(SIGNALS, np.sin(time))}
+    for variant, trials in result.trials.items():
+        times = {trial: 0.01 * np.arange(2001 + 100 * trial) for trial in trials.traced()}
+        traces = {trial: {"time": time, **dict.fromkeys(SIGNALS, np.sin(time))} for trial, time in times.items()}
+        result.trials[variant] = TrialTable(trials.table, traces)
     result.write(tmp_path / "out")
     contender = compare([tmp_path / "out"]).contenders["beta"]
     for flight in read_flights(contender, [0, 1], ["ship.mass"]):

@@ -8,6 +8,7 @@ import numpy as np
 
 from perilune.analysis.campaigns.execute.metadata import batch_digest
 from perilune.analysis.campaigns.execute.shards.files import write_shard
+from tests.support.campaigns.trial_tables import changed
 from tests.support.pages.comparison_samples import sample_batch
 
 SIZE = 5000  # trials of a shard: a batch's shards have no more
@@ -23,6 +24,6 @@ def write_large(folder: Path, trials: int) -> None:
     for shard in range(-(-trials // SIZE)):
         numbers = np.arange(shard * SIZE, min((shard + 1) * SIZE, trials))
         part = alpha.part(range(numbers.size))
-        metrics = {**part.metrics, "miss": source.normal(size=numbers.size) ** 2}
-        write_shard(folder, digest, shard, plan, {"alpha": replace(part, trial=numbers, metrics=metrics)})
+        part = changed(part, {"trial": numbers, "metric.miss": source.normal(size=numbers.size) ** 2})
+        write_shard(folder, digest, shard, plan, {"alpha": part})
     (folder / "summary.json").write_text(json.dumps({**provenance, "variants": {"alpha": {}}}))

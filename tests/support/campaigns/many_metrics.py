@@ -11,8 +11,9 @@ from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.table import Table
 from perilune.analysis.campaigns.execute.metadata import batch_digest
 from perilune.analysis.campaigns.execute.shards.files import write_shard
+from perilune.analysis.campaigns.trials import TrialTable
+from tests.support.pages.comparison_samples import END, sample_batch
 from tests.support.pages.comparison_samples import facts as metadata_of
-from tests.support.pages.comparison_samples import sample_batch
 
 HEAD = """
 system = "ship"
@@ -71,13 +72,19 @@ def write_many(
     for shard in range(-(-trials // size)):
         numbers = np.arange(shard * size, min((shard + 1) * size, trials))
         rows = {}
-        for number, (name, part) in enumerate(sample.trials.items()):
+        for number, name in enumerate(variants):
             columns = metric_columns(source, numbers.size, metrics)
             columns["m0"] = columns["m0"] + 0.5 * number
             success = columns["m0"] <= 1.5
-            statuses = np.where(success, "finished", "stop_time").tolist()
-            rows[name] = replace(
-                part.part(range(numbers.size)), trial=numbers, metrics=columns, success=success, statuses=statuses
+            rows[name] = TrialTable.of(
+                {
+                    "trial": numbers,
+                    "status": np.where(success, "finished", "stop_time").tolist(),
+                    "success": success,
+                    "message": [""] * numbers.size,
+                    "end_time": np.full(numbers.size, END),
+                    **{f"metric.{metric}": values for metric, values in columns.items()},
+                }
             )
         write_shard(folder, digest, shard, plan, rows)
     (folder / "summary.json").write_text(json.dumps({**provenance, "variants": {name: {} for name in variants}}))

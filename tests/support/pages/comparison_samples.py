@@ -1,7 +1,6 @@
 """Batches made by hand, without flying, and written as `perilune batch` writes them: what a comparison is given."""
 
 import tomllib
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +9,8 @@ from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.plan import BatchPlan
 from perilune.analysis.campaigns.definition.table import Table
 from perilune.analysis.campaigns.execute.results import BatchResult
-from perilune.analysis.campaigns.execute.shards.files import write_draws
-from perilune.analysis.campaigns.trials import Trials
+from perilune.analysis.campaigns.execute.shards.files import with_draws, write_draws
+from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.runtime.system.options import SystemOptions
 
 DIGEST = "0123456789abcdef" * 4
@@ -155,15 +154,17 @@ def sample_batch(
             "x_error_over_sigma": source.normal(size=trials),
         }
         columns = np.concatenate([ends, speeds, mass[:, np.newaxis]], axis=1)
-        collected[variant] = Trials(
-            statuses=["finished" if value <= 3.0 else "stop_time (pilot.status 2)" for value in miss],
-            success=miss <= 3.0,
-            metrics={metric.name: metrics[metric.name] for metric in campaign.metrics},
-            trial=np.arange(trials),
-            end_time=np.full(trials, END),
-            messages={},
-            final={name: columns[:, k] for k, name in enumerate(names)},
-            traces={k: flight(source, ends[k], mass[k]) for k in range(min(traced, trials))},
+        collected[variant] = TrialTable.of(
+            {
+                "trial": np.arange(trials),
+                "status": ["finished" if value <= 3.0 else "stop_time (pilot.status 2)" for value in miss],
+                "success": miss <= 3.0,
+                "message": [""] * trials,
+                "end_time": np.full(trials, END),
+                **{f"final.{name}": columns[:, k] for k, name in enumerate(names)},
+                **{f"metric.{metric.name}": metrics[metric.name] for metric in campaign.metrics},
+            },
+            {k: flight(source, ends[k], mass[k]) for k in range(min(traced, trials))},
         )
     provenance = {
         "system": "ship", "system_sha256": DIGEST, "campaign": "test.toml", "campaign_sha256": plan.campaign_sha256,
@@ -171,8 +172,8 @@ def sample_batch(
         "seed": seed, "step": 0.5, "algorithm": "sequential", "perilune": "0.0.1",
         "fmus": {variant: {"ship": DIGEST, "pilot": variant.ljust(64, "0")} for variant in variants},
     } | facts(campaign, variants, targets)  # fmt: skip
-    sampled = plan.draws.columns
-    return BatchResult(plan, {name: replace(rows, draws=sampled) for name, rows in collected.items()}, provenance)
+    sampled = plan.values_of(range(trials))
+    return BatchResult(plan, {name: with_draws(rows, sampled) for name, rows in collected.items()}, provenance)
 
 
 def write_sample(folder: Path, **options) -> BatchResult:

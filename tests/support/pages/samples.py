@@ -9,7 +9,8 @@ from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.plan import BatchPlan
 from perilune.analysis.campaigns.definition.table import Table
 from perilune.analysis.campaigns.execute.results import BatchResult
-from perilune.analysis.campaigns.trials import Trials
+from perilune.analysis.campaigns.execute.shards.files import with_draws
+from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.system.options import SystemOptions
 
@@ -104,15 +105,15 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
         campaign = replace(campaign, compare={"guidance": tuple(outcomes)})
     names = [metric.name for metric in campaign.metrics]
     collected = {
-        variant: Trials(
-            statuses=["finished" if row[0] else "stop_time (ship.status 2)" for row in rows],
-            success=np.array([row[0] for row in rows]),
-            metrics={name: np.array([row[1 + k] for row in rows]) for k, name in enumerate(names)},
-            trial=np.arange(trials),
-            end_time=np.ones(trials),
-            messages={},
-            final={},
-            traces={},
+        variant: TrialTable.of(
+            {
+                "trial": np.arange(len(rows)),
+                "status": ["finished" if row[0] else "stop_time (ship.status 2)" for row in rows],
+                "success": np.array([row[0] for row in rows]),
+                "message": [""] * len(rows),
+                "end_time": np.ones(len(rows)),
+                **{f"metric.{name}": np.array([row[1 + k] for row in rows]) for k, name in enumerate(names)},
+            }
         )
         for variant, rows in outcomes.items()
     }
@@ -128,8 +129,8 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
         "perilune": "0.0.1",
     }
     plan = BatchPlan("ship", campaign, SystemOptions())
-    sampled = plan.draws.columns
-    return BatchResult(plan, {name: replace(rows, draws=sampled) for name, rows in collected.items()}, provenance)
+    rows = {name: with_draws(rows, plan.values_of(range(len(rows)))) for name, rows in collected.items()}
+    return BatchResult(plan, rows, provenance)
 
 
 def grouped_batch(trials: int = 60) -> BatchResult:

@@ -11,7 +11,7 @@ from typing import Any
 
 from .....common.errors import InputError
 from ....runtime.flight.interruptible import PATIENCE
-from ...trials import Trials
+from ...trials import TrialTable
 from ..campaign import Campaign
 from ..shards.flights import Parts
 from . import work
@@ -34,7 +34,7 @@ class Cluster:
         self._client = client
         self._address = address
 
-    def __call__(self, campaign: Campaign, shards: Sequence[int]) -> Generator[tuple[int, dict[str, Trials]]]:
+    def __call__(self, campaign: Campaign, shards: Sequence[int]) -> Generator[tuple[int, dict[str, TrialTable]]]:
         """Fly shards of a campaign: each one's trials by variant, as soon as all are there, in any order of shards.
 
         Raises WorkersDiedError, and what ends a flight's preparation in a worker.
@@ -117,7 +117,7 @@ class ShardTasks:
                 self.under_way[self._client.submit(work.fly, self._campaign, task, pure=False)] = task
         return bool(self.under_way)
 
-    def collect(self, future: Any) -> Iterator[tuple[int, dict[str, Trials]]]:
+    def collect(self, future: Any) -> Iterator[tuple[int, dict[str, TrialTable]]]:
         """Yield the shards that are complete with a finished task. Raises WorkersDiedError."""
         from distributed import KilledWorker
 

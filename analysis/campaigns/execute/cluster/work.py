@@ -14,7 +14,7 @@ from pathlib import Path
 
 from .....common.atomic import write_atomically
 from ...definition.plan import BatchPlan
-from ...trials import Trials
+from ...trials import TrialTable
 from ..flyer import Flyer
 from ..manifest import CONTENTS, store_contents
 from ..plan_manifest import restore
@@ -41,7 +41,7 @@ class _Held:
     busy: list[Flyer] = field(default_factory=list)
 
 
-def fly(sent: Sent, task: Sequence[Piece]) -> list[tuple[Trials, float]]:
+def fly(sent: Sent, task: Sequence[Piece]) -> list[tuple[TrialTable, float]]:
     """Fly some trials; those of each piece, and the seconds that they took without what comes before the first one.
 
     Raises InputError in a worker that has another perilune, which may come at any time.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -17,8 +17,8 @@ from .....common.bounds import TRIALS
 from .....common.errors import InputError
 from .....common.machine.arrow import numpy_of, table_of, texts_of
 from .....common.regular import check_regular
-from ...definition.plan import BatchPlan
-from ...trials import Trials
+from ...definition.plan import BatchPlan, TrialSamples
+from ...trials import TrialTable
 
 FOLDER = "trials"
 DRAWS = "draws.parquet"
@@ -34,7 +34,7 @@ def trace_path(folder: Path, variant: str, trial: int) -> Path:
     return folder / "traces" / variant.replace("/", "_") / f"{trial:06d}.parquet"
 
 
-def write_shard(folder: Path, batch: str, shard: int, plan: BatchPlan, trials: Mapping[str, Trials]) -> None:
+def write_shard(folder: Path, batch: str, shard: int, plan: BatchPlan, trials: Mapping[str, TrialTable]) -> None:
     """Write the traces of a shard, then its table, which is there only when all is.
 
     ``batch`` is the digest that tells the campaign from others, ``trials`` are those of the shard by variant.
@@ -86,35 +86,29 @@ def is_flown(folder: Path, batch: str, shard: int, trials: range) -> bool:
     }
 
 
-def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
+def trial_table(plan: BatchPlan, trials: Mapping[str, TrialTable]) -> pyarrow.Table:
     """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics.
 
     Every variant has the same trials, which are in a row.
     """
-    variants = list(trials.values())
-    numbers = variants[0].trial
+    numbers = next(iter(trials.values())).trial
     sampled = plan.values_of(range(int(numbers[0]), int(numbers[-1]) + 1))
-    columns: dict[str, np.ndarray | pyarrow.Array] = {
-        "variant": texts_of(name for name, part in trials.items() for _ in part.trial),
-        "trial": _join_tables(variants, lambda part: part.trial),
-        "status": texts_of(status for part in variants for status in part.statuses),
-        "success": _join_tables(variants, lambda part: part.success),
-        "message": texts_of(part.messages.get(int(trial), "") for part in variants for trial in part.trial),
-        "end_time": _join_tables(variants, lambda part: part.end_time),
-    }
-    for name, values in sampled.table.columns.items():
-        columns[f"draw.{name}"] = np.tile(values, len(variants))
+    tables = [
+        with_draws(part, sampled).table.add_column(0, "variant", texts_of([name] * len(part)))
+        for name, part in trials.items()
+    ]
+    return pyarrow.concat_tables(tables).combine_chunks()
+
+
+def with_draws(trials: TrialTable, sampled: TrialSamples) -> TrialTable:
+    """The trials with what is drawn for them and the campaign's faults, columns in the order of files."""
+    table = trials.table
+    sampled_columns = {f"draw.{name}": values for name, values in sampled.table.columns.items()}
     for fault in sampled.faults:
-        columns |= {name: np.tile(values, len(variants)) for name, values in fault.columns().items()}
-    for name in variants[0].final:
-        columns[f"final.{name}"] = _join_tables(variants, lambda part, name=name: part.final[name])
-    for name in variants[0].metrics:
-        columns[f"metric.{name}"] = _join_tables(variants, lambda part, name=name: part.metrics[name])
-    return table_of(columns)
-
-
-def _join_tables(tables: Sequence[Trials], column: Callable[..., np.ndarray]) -> np.ndarray:
-    return np.concatenate([column(part) for part in tables])
+        sampled_columns |= fault.columns()
+    recorded = [name for name in table.column_names if name.startswith(("final.", "metric."))]
+    columns = {name: table[name] for name in FLIGHT} | sampled_columns | {name: table[name] for name in recorded}
+    return TrialTable(table_of(columns), trials.traces)
 
 
 def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> None:
@@ -194,6 +188,7 @@ def about_of(schema: pyarrow.Schema) -> object:
 
 
 COLUMNS = ("variant", "trial", "status", "success", "end_time")
+FLIGHT = ("trial", "status", "success", "message", "end_time")
 
 
 IDENTITY = ("variant", "trial")  # the columns that say which simulation a row is of
@@ -212,12 +207,8 @@ def check_rows(table: pyarrow.Table, variant: str, trials: range, names: Collect
         if name not in table.column_names:
             raise InputError(path, name, "no such column", NEW_FOLDER)
     for name in table.column_names:
-        kind = table.schema.field(name).type
-        if pyarrow.types.is_dictionary(kind):
-            kind = kind.value_type
-        is_text = pyarrow.types.is_string(kind) or pyarrow.types.is_large_string(kind)
-        if name in TEXTS and not (is_text and not table[name].null_count):
-            raise InputError(path, name, "not a column of texts", NEW_FOLDER)
+        if name in TEXTS:
+            check_texts(table, name, path)
         if name in NUMBERS or name.startswith(NUMBER_PREFIXES):
             numbers(table, name, path)
     if not np.array_equal(numbers(table, "trial", path), np.arange(trials.start, trials.stop)):
@@ -225,6 +216,16 @@ def check_rows(table: pyarrow.Table, variant: str, trials: range, names: Collect
         raise InputError(path, "trial", problem, NEW_FOLDER)
     if set(table["variant"].unique().to_pylist()) != {variant}:
         raise InputError(path, "variant", f"not the rows of {variant}", NEW_FOLDER)
+
+
+def check_texts(table: pyarrow.Table, name: str, path: Path) -> None:
+    """Refuse a column that is not of texts. Raises InputError."""
+    kind = table.schema.field(name).type
+    if pyarrow.types.is_dictionary(kind):
+        kind = kind.value_type
+    is_text = pyarrow.types.is_string(kind) or pyarrow.types.is_large_string(kind)
+    if not is_text or table[name].null_count:
+        raise InputError(path, name, "not a column of texts", NEW_FOLDER)
 
 
 def read_table(path: Path, columns: Collection[str] | None = None) -> pyarrow.Table:
@@ -254,35 +255,6 @@ def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
     if column.null_count or not known:
         raise InputError(path, name, "not a column of numbers", NEW_FOLDER)
     return numpy_of(column)
-
-
-def trials_of(table: pyarrow.Table, metrics: Iterable[str], path: Path) -> dict[str, Trials]:
-    """The trials of a table by variant, without traces; ``path`` is what errors name. Raises InputError."""
-    metrics = list(metrics)
-    for name in (*COLUMNS, *(f"metric.{metric}" for metric in metrics)):
-        if name not in table.column_names:
-            raise InputError(path, name, "no such column", NEW_FOLDER)
-    labels = np.array(table["variant"].to_pylist(), dtype=str)
-    statuses = np.array(table["status"].to_pylist(), dtype=object)
-    messages = np.array(table["message"].to_pylist(), dtype=object) if "message" in table.column_names else None
-    retained = [name for name in table.column_names if name in COLUMNS[1:] or name.startswith(("metric.", "final."))]
-    columns = {name: numbers(table, name, path) for name in retained if name != "status"}
-    by_variant = {}
-    for variant in dict.fromkeys(labels.tolist()):
-        rows = labels == variant
-        mine = {name: column[rows] for name, column in columns.items()}
-        texts = [] if messages is None else zip(mine["trial"].tolist(), messages[rows], strict=True)
-        by_variant[variant] = Trials(
-            statuses=statuses[rows].tolist(),
-            success=mine["success"].astype(bool),
-            metrics={metric: mine[f"metric.{metric}"] for metric in metrics},
-            trial=mine["trial"],
-            end_time=mine["end_time"],
-            messages={trial: text for trial, text in texts if text},
-            final={name.removeprefix("final."): mine[name] for name in mine if name.startswith("final.")},
-            traces={},
-        )
-    return by_variant
 
 
 def trials_in(path: Path, about: object, batch: str, whose: str) -> range:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Generator, Iterator, Sequence
 
-from ...trials import Trials, join_trials
+from ...trials import TrialTable, join_trials
 from ..flyer import Flyer
 from ..workers import FlyerPool
 from .numbering import Numbering
@@ -16,7 +16,7 @@ TASKS = 16  # for each worker, at least: few trials at the end, when some have n
 
 def fly_shards(
     numbering: Numbering, shards: Sequence[int], pool: FlyerPool, size: int
-) -> Generator[tuple[int, dict[str, Trials]]]:
+) -> Generator[tuple[int, dict[str, TrialTable]]]:
     """Fly shards of the pool's plan, in tasks of ``size`` trials.
 
     Each one's trials come by variant, as soon as all are there, in any order of shards.
@@ -53,13 +53,13 @@ class Parts:
     def __init__(self, numbering: Numbering, variants: Sequence[str]) -> None:
         self._numbering = numbering
         self._variants = variants
-        self._pieces: dict[int, dict[str, list[Trials]]] = {}
+        self._pieces: dict[int, dict[str, list[TrialTable]]] = {}
 
-    def add(self, shard: int, variant: str, trials: Trials) -> dict[str, Trials] | None:
+    def add(self, shard: int, variant: str, trials: TrialTable) -> dict[str, TrialTable] | None:
         """The trials of the shard by variant, if this was the last piece of it."""
         pieces = self._pieces.setdefault(shard, {name: [] for name in self._variants})
         pieces[variant].append(trials)
-        flown = sum(len(piece.trial) for parts in pieces.values() for piece in parts)
+        flown = sum(len(piece) for parts in pieces.values() for piece in parts)
         if flown < len(self._numbering.of(shard)) * len(self._variants):
             return None
         return {name: join_trials(parts) for name, parts in self._pieces.pop(shard).items()}

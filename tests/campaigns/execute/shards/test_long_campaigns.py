@@ -23,6 +23,7 @@ from perilune.analysis.campaigns.execute.campaign import open_folder
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.campaigns.plotted_sample import FIRST, select_trials
 from perilune.analysis.campaigns.summary import summarise
+from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.cli import main
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from tests.support.campaigns.folders import bytes_of
@@ -163,20 +164,20 @@ def test_the_page_of_a_long_campaign_says_what_it_shows(tmp_path, monkeypatch):
     assert tables[0][0] == tables[1][0]  # rates are of all trials
 
 
-class Made:
+class Made(TrialTable):
     """Trials made as they are read, as a folder of shards gives them."""
 
     def __init__(self, trials):
         self.trials = trials
 
-    def parts(self, *names):
+    def tables(self, names):
         for first in range(0, self.trials, 5000):
             source = np.random.default_rng(first)
             miss, case = source.standard_normal(5000), source.integers(0, 3, 5000).astype(float)
             columns = {"metric.miss": miss, "draw.case": case, "success": miss < 2.5}
             columns["trial"] = np.arange(first, first + 5000)
             columns["status"] = np.array(["finished", "stop_time"], dtype=object)[(miss > 3.0).astype(int)]
-            yield {name: columns[name] for name in names}
+            yield TrialTable.of(columns).table.select(names)
 
 
 def test_summing_up_takes_no_more_memory_for_more_trials(monkeypatch):

@@ -1,0 +1,16 @@
+"""Tables of trials for tests of what reads them."""
+
+from perilune.analysis.campaigns.trials import TrialTable
+
+
+def trial_table(statuses, success, metrics, draws=None):
+    """A variant's trials from their statuses, successes and metrics, each (trials,), and draws by name."""
+    columns = {f"metric.{name}": values for name, values in metrics.items()}
+    columns |= {f"draw.{name}": values for name, values in (draws or {}).items()}
+    return TrialTable.of({"status": statuses, "success": success, **columns})
+
+
+def changed(trials, columns):
+    """The trials with these columns in place of theirs; None removes one."""
+    columns = {name: trials.column(name) for name in trials.names} | columns
+    return TrialTable.of({name: values for name, values in columns.items() if values is not None}, trials.traces)
