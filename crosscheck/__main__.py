@@ -113,7 +113,7 @@ def print_row(texts: Iterable[str], begins: bool = False) -> None:
 
 
 def statements(names: Iterable[str]) -> list[str]:
-    """The rows of the page's table of cases: what each flight states of itself."""
+    """The rows of a table of cases: what each flight states of itself."""
     rows = ["| case | verifies | gravitation | environment | integrator | matched how |", f"|{' --- |' * 6}"]
     for name in names:
         case: Case = stated("cases", name)

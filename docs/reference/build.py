@@ -71,7 +71,8 @@ def build_site(output: Path, sources: Path) -> None:
 def site_settings() -> dict[str, Any]:
     """docs/site/site.toml with the reference in its navigation, and what depends on where things lie."""
     settings = tomllib.loads(SETTINGS.read_text(encoding="utf-8"))
-    (reference,) = [entry for entry in settings["nav"] if "Reference" in entry]
+    doors = [entries for door in settings["nav"] for entries in door.values()]
+    (reference,) = [entry for entries in doors for entry in entries if "Reference" in entry]
     reference["Reference"] = reference_navigation()
     settings["plugins"].append(
         {"mkdocstrings": {"handlers": {"python": {"paths": [str(PACKAGE.parent)], "options": PYTHON}}}}
